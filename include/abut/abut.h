@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_ABUT_H
+#define ABUT_ABUT_H
+
+/** @file
+ * Abut's C interface: contact search, constraint rows, contact laws and the
+ * methods that enforce them, over plain arrays.
+ */
+
+#include <abut/context.h>
+#include <abut/dense_model.h>
+#include <abut/law.h>
+#include <abut/rows.h>
+#include <abut/status.h>
+#include <abut/strategy.h>
+
+#endif

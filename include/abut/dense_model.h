@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_DENSE_MODEL_H
+#define ABUT_DENSE_MODEL_H
+
+/** @file
+ * The smallest host of the contact strategies: a quadratic program with a
+ * dense matrix,
+ *
+ *     minimise 1/2 u'Ku - f'u  subject to  g = g0 + B u >= 0 (or = 0),
+ *
+ * for a point mass on a spring, for examples, and for tests.
+ */
+
+#include <abut/rows.h>
+#include <abut/strategy.h>
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+  /** A dense model; arrays are owned by the caller and not changed. */
+  typedef struct abut_dense_model
+  {
+    size_t struct_size;      /**< sizeof(abut_dense_model) */
+    int32_t n;               /**< unknowns, at most a few hundred */
+    const double *stiffness; /**< [n*n] K, symmetric positive definite on
+                                  the null space of the constraints */
+    const double *force;     /**< [n] f */
+    const abut_rows *rows;   /**< constraints over unknowns 0..n-1 */
+  } abut_dense_model;
+
+  /** One line of the history of a solve. */
+  typedef void (*abut_dense_monitor)(void *user, const abut_progress *progress,
+                                     const double *displacement,
+                                     const double *pressure);
+
+  /** Solve the model with the method of @p options.
+   * @param displacement [n] in: start; out: solution
+   * @param pressure [n_rows] in: start (may be all 0); out: pressure
+   * @param state [n_rows] starting set on entry, final set on return; NULL to
+   *   start from the set that p and g call for
+   * @param monitor called after each outer step, may be NULL */
+  abut_status abut_dense_model_solve(abut_context *context,
+                                     const abut_dense_model *model,
+                                     const abut_strategy_options *options,
+                                     double *displacement, double *pressure,
+                                     uint8_t *state, abut_dense_monitor monitor,
+                                     void *user, abut_progress *progress,
+                                     abut_reason *reason);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_LAW_H
+#define ABUT_LAW_H
+
+/** @file
+ * Contact laws: the relation between pressure and gap of a constraint row.
+ *
+ * Conventions (everywhere in Abut): gap g > 0 is open, pressure p > 0 is
+ * compression. Every law is a member of one family,
+ *
+ *     0 <= p  _|_  g~ >= 0,   g~ = g + e + (p - pbar) / eps,
+ *
+ * (Lagrange multiplier: 1/eps = 0; penalty: pbar = 0; augmented Lagrangian:
+ * pbar = the last multiplier) or of its interior approximation p s = mu with
+ * s = g (barrier) or s = a slack z of its own (interior point). A law gives,
+ * for each row, the state and the linearisation
+ *
+ *     a dp + b dg = -c
+ *
+ * of its complementarity residual c (Hueber, Stadler and Wohlmuth, SIAM J.
+ * Sci. Comput. 30, 2008; Nocedal and Wright, Numerical Optimization, ch. 19).
+ * a = 0 is a constraint on the gap, b = 0 a prescribed pressure, and where a
+ * never vanishes the pressure can be condensed row by row.
+ */
+
+#include <abut/context.h>
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+  /** State of a row. */
+  typedef enum abut_state
+  {
+    ABUT_STATE_OPEN = 0,  /**< no contact, p = 0 */
+    ABUT_STATE_CLOSED = 1 /**< contact (with friction: stick) */
+  } abut_state;
+
+  /** What a law needs and what its linearisation looks like. */
+  typedef enum abut_law_flag
+  {
+    ABUT_LAW_HARD = 1,     /**< a vanishes on closed rows: a true constraint */
+    ABUT_LAW_INTERIOR = 2, /**< needs p > 0 and s > 0; the state is not used */
+    ABUT_LAW_SLACK = 4     /**< s is an unknown of its own (field slack) */
+  } abut_law_flag;
+
+  /** Outer iteration that a law asks for. */
+  typedef enum abut_outer
+  {
+    ABUT_OUTER_NONE,       /**< Newton (active set) only */
+    ABUT_OUTER_PENALTY,    /**< eps grows, warm-started */
+    ABUT_OUTER_MULTIPLIER, /**< pbar <- p (method of multipliers) */
+    ABUT_OUTER_BARRIER,    /**< mu -> 0 by continuation, feasible start */
+    ABUT_OUTER_PRIMAL_DUAL /**< mu -> 0, predictor-corrector, any start */
+  } abut_outer;
+
+  /** Rows at which a law is evaluated; arrays have n entries and are owned by
+   * the caller. */
+  typedef struct abut_law_points
+  {
+    size_t struct_size;               /**< sizeof(abut_law_points) */
+    int32_t n;                        /**< number of rows */
+    const double *gap;                /**< g, length */
+    const double *pressure;           /**< p, force per area */
+    const double *slack;              /**< z > 0, length; NULL if unused */
+    const double *reference_pressure; /**< pbar; NULL is 0 */
+    const double *compliance;         /**< 1/eps >= 0; NULL is 0 */
+    const double *scale;              /**< c > 0, pressure per length */
+    const uint8_t *bilateral;         /**< nonzero: g~ = 0 always; NULL: none */
+    double allowed_penetration;       /**< e >= 0, length */
+    double barrier;                   /**< mu >= 0, pressure times length */
+    const void *parameters;           /**< of a user's own law */
+  } abut_law_points;
+
+  /** Linearisation a dp + b dg = -c; arrays of n entries, owned by the caller.
+   */
+  typedef struct abut_law_linearisation
+  {
+    size_t struct_size; /**< sizeof(abut_law_linearisation) */
+    double *residual;   /**< c */
+    double *d_pressure; /**< a = dc/dp */
+    double *d_gap;      /**< b = dc/dg */
+  } abut_law_linearisation;
+
+  /** A law: a table of functions. Both functions work on all rows at once, do
+   * not allocate, and cost O(n). */
+  typedef struct abut_law
+  {
+    size_t struct_size; /**< sizeof(abut_law) */
+    const char *name;   /**< word in the parameter file */
+    uint32_t flags;     /**< sum of abut_law_flag */
+    abut_outer outer;   /**< outer iteration that belongs to it */
+    /** The state that the current p and g call for, sign of p - c g~. */
+    abut_status (*classify)(const abut_law_points *points, uint8_t *state);
+    /** Linearise in the given state (which need not be that of classify). */
+    abut_status (*linearise)(const abut_law_points *points,
+                             const uint8_t *state,
+                             abut_law_linearisation *result);
+  } abut_law;
+
+  /** Built-in law by its name ("lagrange", "penalty", "quadratic penalty",
+   * "augmented lagrangian", "barrier", "interior point"), or NULL. */
+  const abut_law *abut_law_find(const char *name);
+
+  /** Built-in law number @p i, counted from 0; NULL past the end. */
+  const abut_law *abut_law_get(int32_t i);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

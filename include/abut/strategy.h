@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_STRATEGY_H
+#define ABUT_STRATEGY_H
+
+/** @file
+ * The outer methods of contact as one state machine over arrays: active set
+ * with protection against cycling, penalty growth, method of multipliers,
+ * barrier continuation, primal-dual interior point.
+ *
+ * The strategy owns pressure, slack and state of each row; the host owns the
+ * displacement and the linear solver. The host calls abut_strategy_next() and
+ * does what the returned action says:
+ *
+ *     SOLVE        solve  K du - sum w dp B = -R,  a dp + b dg = -c
+ *                  with dg = B du for du; return dg and dp in the arrays of
+ *                  the request
+ *     SOLVE_AGAIN  the same matrix (a and b did not change), a new c
+ *     MOVE         u += step_length du; pressures were moved by the strategy;
+ *                  return the gap at the new u
+ *     STOP         done; see reason
+ *
+ * R = internal - external - sum w p B is the residual with the strategy's
+ * present pressure. abut_strategy_run() does this loop over callbacks. The
+ * core knows no MPI: sums over ranks go through the callback reduce.
+ */
+
+#include <abut/law.h>
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+  /** Opaque strategy. */
+  typedef struct abut_strategy abut_strategy;
+
+  /** What the host has to do next. */
+  typedef enum abut_action
+  {
+    ABUT_ACTION_SOLVE,
+    ABUT_ACTION_SOLVE_AGAIN,
+    ABUT_ACTION_MOVE,
+    ABUT_ACTION_STOP
+  } abut_action;
+
+  /** Why a strategy stopped. */
+  typedef enum abut_reason
+  {
+    ABUT_REASON_NONE,       /**< not stopped */
+    ABUT_REASON_CONVERGED,  /**< all tolerances met */
+    ABUT_REASON_STEP_LIMIT, /**< max_steps or max_outer reached */
+    ABUT_REASON_STAGNATION, /**< outer iteration does not contract */
+    ABUT_REASON_INFEASIBLE, /**< barrier: no start with all gaps open */
+    ABUT_REASON_NOT_FINITE  /**< NaN or infinity in a gap or increment */
+  } abut_reason;
+
+  /** English text of a reason, with what to try; never NULL. */
+  const char *abut_reason_text(abut_reason reason);
+
+  /** Reduction over ranks. */
+  typedef enum abut_reduction
+  {
+    ABUT_REDUCTION_SUM,
+    ABUT_REDUCTION_MAX
+  } abut_reduction;
+
+  /** Options; set by abut_strategy_defaults(). All are free of units: pressures
+   * are measured by pressure_scale, lengths by length_scale, stiffnesses by the
+   * rows' stiffness given to abut_strategy_start(). */
+  typedef struct abut_strategy_options
+  {
+    size_t struct_size;    /**< sizeof(abut_strategy_options) */
+    const abut_law *law;   /**< default: lagrange */
+    double length_scale;   /**< > 0, length; default 1 */
+    double pressure_scale; /**< > 0, force per area; default 1 */
+    /** eps = penalty * stiffness. Default 0 = the law's own: 50 for penalty
+     * and augmented lagrangian 20, quadratic penalty starts at 1. */
+    double penalty;
+    double penalty_growth; /**< factor of quadratic penalty; default 10 */
+    double penalty_cap;    /**< largest eps/stiffness; default 1e6 */
+    /** Augmented Lagrangian: grow eps by 5 (up to penalty_cap) where the
+     * penetration does not fall by 4 in an outer step; default true. */
+    bool adaptive_penalty;
+    double allowed_penetration; /**< e / length_scale of the penalty law; 0 */
+    /** c / stiffness of the complementarity function; default 1. The result
+     * does not depend on it. */
+    double complementarity;
+    double barrier_start; /**< mu/(pressure_scale length_scale); default 1e-2 */
+    double barrier_factor; /**< reduction per continuation step; default 0.1 */
+    double barrier_end;    /**< last mu, same unit; default 1e-8 */
+    double gap_tolerance;  /**< penetration / length_scale; default 1e-6 */
+    double pressure_tolerance; /**< weighted relative change; default 1e-3 */
+    /** Relative tolerance that SOLVE asks of the linear solver while the set
+     * still changes; default 1e-2. */
+    double linear_tolerance;
+    /** The same for the last solve; default 1e-10. */
+    double final_linear_tolerance;
+    int32_t max_steps; /**< linear systems in all; default 200 */
+    int32_t max_outer; /**< outer steps; default 60 */
+    /** Sums (or maximum) over ranks of n values in place; NULL in serial. */
+    abut_status (*reduce)(void *user, abut_reduction op, double *values,
+                          int32_t n);
+    void *user; /**< handed to reduce */
+  } abut_strategy_options;
+
+  /** Default options. */
+  abut_strategy_options abut_strategy_defaults(void);
+
+  /** What the host is to do, and with which numbers. */
+  typedef struct abut_request
+  {
+    abut_action action;
+    abut_reason reason; /**< at STOP */
+    /** SOLVE: relative tolerance for the linear system. */
+    double linear_tolerance;
+    /** SOLVE: nonzero when a or b changed on any rank since the last SOLVE. */
+    int matrix_changed;
+    /** SOLVE: nonzero for the confirming solve of a settled active set. */
+    int final_solve;
+    /** MOVE: factor of the displacement increment, in (0, 1]. */
+    double step_length;
+    const double *pressure;   /**< [n] p, present */
+    const uint8_t *state;     /**< [n] abut_state of the linearisation */
+    const double *residual;   /**< [n] c */
+    const double *d_pressure; /**< [n] a */
+    const double *d_gap;      /**< [n] b */
+    double *pressure_change;  /**< [n] out at SOLVE(_AGAIN): dp */
+    double *gap_change;       /**< [n] out at SOLVE(_AGAIN): dg = B du */
+  } abut_request;
+
+  /** Progress, for logs and tables; global over ranks. */
+  typedef struct abut_progress
+  {
+    int32_t step;           /**< linear systems solved so far */
+    int32_t outer;          /**< outer steps so far */
+    int64_t n_rows;         /**< rows */
+    int64_t n_active;       /**< rows in contact */
+    int64_t n_changes;      /**< rows that changed state in the last step */
+    double penalty;         /**< present eps/stiffness, 0 if none */
+    double barrier;         /**< present mu/(pressure_scale length_scale) */
+    double penetration;     /**< max of -g, length, >= 0 */
+    double complementarity; /**< max |p g| */
+    double pressure_change; /**< of the last outer step, relative */
+    int32_t
+        cycle_length; /**< of the last detected cycle of active sets, or 0 */
+    int32_t fallback_steps; /**< steps in which only one row was flipped */
+  } abut_progress;
+
+  /** Create a strategy. */
+  abut_status abut_strategy_create(abut_context *context,
+                                   const abut_strategy_options *options,
+                                   abut_strategy **strategy);
+
+  /** Destroy a strategy and set the handle to NULL. */
+  abut_status abut_strategy_destroy(abut_strategy **strategy);
+
+  /** Begin a solve with @p n rows on this rank. Collective if reduce is set.
+   * @param id [n] global number of each row, or NULL for 0..n-1 (serial)
+   * @param weight [n] w > 0
+   * @param stiffness [n] > 0, pressure per length: the local stiffness that
+   *   penalties and c are multiples of
+   * @param bilateral [n] or NULL
+   * @param gap [n] at the starting displacement
+   * @param pressure [n] starting pressure, or NULL for 0
+   * @param state [n] starting set, or NULL for the one that p and g call for
+   * Arrays are copied. O(n). */
+  abut_status abut_strategy_start(abut_strategy *strategy, int32_t n,
+                                  const int64_t *id, const double *weight,
+                                  const double *stiffness,
+                                  const uint8_t *bilateral, const double *gap,
+                                  const double *pressure, const uint8_t *state);
+
+  /** Go on: after SOLVE and SOLVE_AGAIN with the changes written into the last
+   * request's arrays (@p gap is ignored), after MOVE with the gap at the new
+   * displacement. The first call after start ignores @p gap. Collective. */
+  abut_status abut_strategy_next(abut_strategy *strategy, const double *gap,
+                                 abut_request *request);
+
+  /** Progress so far. */
+  abut_status abut_strategy_progress(const abut_strategy *strategy,
+                                     abut_progress *progress);
+
+  /** Functions of a host for abut_strategy_run(). */
+  typedef struct abut_host
+  {
+    size_t struct_size; /**< sizeof(abut_host) */
+    void *user;         /**< handed to all functions */
+    /** SOLVE and SOLVE_AGAIN: write pressure_change and gap_change. */
+    abut_status (*solve)(void *user, const abut_request *request);
+    /** MOVE: move the displacement and write the new gap. */
+    abut_status (*move)(void *user, const abut_request *request, double *gap);
+    /** Called after each outer step and at the end; may be NULL. */
+    void (*monitor)(void *user, const abut_progress *progress,
+                    const abut_request *request);
+  } abut_host;
+
+  /** Run a started strategy to its end. @p reason may be NULL. */
+  abut_status abut_strategy_run(abut_strategy *strategy, const abut_host *host,
+                                abut_reason *reason);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
