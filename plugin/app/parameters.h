@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_PARAMETERS_H
+#define ABUT_APP_PARAMETERS_H
+
+/** @file
+ * Scene files: deal.II's `.prm` syntax, read so that each value knows the
+ * file and line that it came from and each wrong word is answered with the
+ * nearest right one.
+ */
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace abut::app
+{
+  /** A declared parameter. */
+  struct DeclaredParameter
+  {
+    std::string path; /**< `Section/Subsection/Name` */
+    std::string default_value;
+    std::string documentation;
+    std::string pattern;              /**< legal values in words */
+    std::vector<std::string> choices; /**< words of a selection, else empty */
+  };
+
+  /** All parameters declared in @p prm, in order of declaration. */
+  std::vector<DeclaredParameter>
+  declared_parameters(const dealii::ParameterHandler &prm);
+
+  /** `set Name = value` of a scene file or of the command line. */
+  struct Assignment
+  {
+    std::string path;
+    std::string value;
+    std::string origin; /**< `file:line` or the option */
+  };
+
+  /** The assignments of a scene file and of the command line's `--set`. */
+  class ParameterFile
+  {
+  public:
+    /** Read @p file (subsection, set, end, include, comments, lines continued
+     * by a backslash); then append @p overrides, each `Section/Name=value`.
+     * Throws InputError when file or syntax are wrong. Not collective. */
+    ParameterFile(const std::string &file,
+                  const std::vector<std::string> &overrides);
+
+    /** The last value given for @p path, or @p otherwise. */
+    std::string get(const std::string &path,
+                    const std::string &otherwise) const;
+
+    /** Where the value of @p path came from: `file:line`, the `--set` option,
+     * or the file's name alone when the parameter kept its default. */
+    std::string origin(const std::string &path) const;
+
+    /** Set all values in @p prm. Throws InputError for a parameter or section
+     * that is not declared and for a value that its pattern refuses. */
+    void apply(dealii::ParameterHandler &prm) const;
+
+  private:
+    std::string file;
+    std::vector<Assignment> assignments;
+  };
+
+  /** The word of @p words nearest to @p word by edit distance (capitals and
+   * small letters alike), or "" when none is near. */
+  std::string nearest_word(const std::string &word,
+                           const std::vector<std::string> &words);
+
+  /** " Did you mean 'x'?" with the nearest word, or "". */
+  std::string did_you_mean(const std::string &word,
+                           const std::vector<std::string> &words);
+
+  /** Numbers separated by blanks or commas; throws InputError that names
+   * @p parameter. "1 2, 3" gives {1, 2, 3}. */
+  std::vector<double> parse_numbers(const std::string &text,
+                                    const std::string &parameter);
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_SECTION_TIMES_H
+#define ABUT_APP_SECTION_TIMES_H
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace abut::app
+{
+  /** Wall times of nested sections, on this rank. A section entered within
+   * another is named `outer/inner`; sections stand in the order of their first
+   * entry. Cost of a section: two readings of the clock. */
+  class SectionTimes
+  {
+  public:
+    /** One section. */
+    struct Section
+    {
+      std::string name;
+      double seconds = 0;
+      long calls = 0;
+      unsigned int depth = 0; /**< number of sections around it */
+    };
+
+    /** Times the section from construction to destruction. */
+    class Scope
+    {
+    public:
+      Scope(SectionTimes &times, const std::string &name);
+      ~Scope();
+      Scope(const Scope &) = delete;
+      Scope &operator=(const Scope &) = delete;
+
+    private:
+      SectionTimes &times;
+    };
+
+    /** Begin a section within the present one. */
+    void enter(const std::string &name);
+
+    /** End the present section. */
+    void leave();
+
+    /** All sections. */
+    const std::vector<Section> &sections() const
+    {
+      return all;
+    }
+
+    /** Seconds of the section with this full name, 0 if never entered. */
+    double seconds(const std::string &name) const;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    struct Open
+    {
+      std::size_t section;
+      Clock::time_point start;
+    };
+    std::vector<Section> all;
+    std::vector<Open> stack;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <abut/dealii/method_parameters.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <limits>
+#include <map>
+#include <string>
+
+namespace abut
+{
+  namespace
+  {
+    using dealii::ParameterHandler;
+    namespace Patterns = dealii::Patterns;
+
+    const double tiny = std::numeric_limits<double>::min();
+    const double huge = std::numeric_limits<double>::max();
+
+    /** Names of all built-in laws, separated by bars. */
+    std::string law_names()
+    {
+      std::string names;
+      for (std::int32_t i = 0; abut_law_get(i) != nullptr; ++i)
+        names += (i == 0 ? "" : "|") + std::string(abut_law_get(i)->name);
+      return names;
+    }
+
+    void declare_number(ParameterHandler &prm, const std::string &name,
+                        const double value, const double smallest,
+                        const double largest, const std::string &text)
+    {
+      prm.declare_entry(name, Patterns::Tools::to_string(value),
+                        Patterns::Double(smallest, largest), text);
+    }
+
+    void declare_penalty(ParameterHandler &prm, const abut_strategy_options &d)
+    {
+      declare_number(prm, "Penalty", d.penalty, 0, huge,
+                     "Stiffness of the contact as a multiple of the local "
+                     "stiffness of the contact surface. 0 takes the method's "
+                     "own: penalty 50, augmented lagrangian 20, quadratic "
+                     "penalty starts at 1.");
+      declare_number(prm, "Penalty growth", d.penalty_growth, 1, huge,
+                     "Factor by which `quadratic penalty` raises the penalty "
+                     "in each outer step.");
+      declare_number(prm, "Penalty cap", d.penalty_cap, tiny, huge,
+                     "Largest penalty that `quadratic penalty` and `augmented "
+                     "lagrangian` grow to, as a multiple of the local "
+                     "stiffness.");
+      prm.declare_entry("Adaptive penalty",
+                        d.adaptive_penalty ? "true" : "false", Patterns::Bool(),
+                        "Whether `augmented lagrangian` raises the penalty "
+                        "where the penetration falls too slowly.");
+      declare_number(prm, "Allowed penetration", d.allowed_penetration, 0, huge,
+                     "Penetration at which `penalty` begins to push, as a "
+                     "multiple of the scene's length scale.");
+      declare_number(prm, "Complementarity parameter", d.complementarity, tiny,
+                     huge,
+                     "Weight of the gap against the pressure when active rows "
+                     "are chosen, as a multiple of the local stiffness. The "
+                     "result does not depend on it.");
+    }
+
+    void declare_barrier(ParameterHandler &prm, const abut_strategy_options &d)
+    {
+      const std::string unit = ", as a multiple of the scene's pressure scale "
+                               "times its length scale.";
+      declare_number(prm, "Barrier start", d.barrier_start, tiny, huge,
+                     "First product of pressure and gap of `barrier` and "
+                     "`interior point`"
+                         + unit);
+      declare_number(prm, "Barrier factor", d.barrier_factor, tiny, 1,
+                     "Factor of the barrier in each step of the continuation.");
+      declare_number(prm, "Barrier end", d.barrier_end, tiny, huge,
+                     "Last product of pressure and gap" + unit);
+    }
+
+    void declare_stopping(ParameterHandler &prm, const abut_strategy_options &d)
+    {
+      declare_number(prm, "Gap tolerance", d.gap_tolerance, tiny, huge,
+                     "Largest penetration of a converged solution, as a "
+                     "multiple of the scene's length scale.");
+      declare_number(prm, "Pressure tolerance", d.pressure_tolerance, tiny,
+                     huge,
+                     "Largest relative change of the pressure in the last "
+                     "outer step.");
+      declare_number(prm, "Linear tolerance", d.linear_tolerance, tiny, 1,
+                     "Relative tolerance of the linear solver while the "
+                     "active set still changes.");
+      declare_number(prm, "Final linear tolerance", d.final_linear_tolerance,
+                     tiny, 1,
+                     "Relative tolerance of the linear solver in the last "
+                     "step.");
+      prm.declare_entry("Maximum steps", std::to_string(d.max_steps),
+                        Patterns::Integer(1),
+                        "Largest number of linear systems in one solve.");
+      prm.declare_entry("Maximum outer steps", std::to_string(d.max_outer),
+                        Patterns::Integer(1),
+                        "Largest number of outer steps (multiplier updates, "
+                        "penalties or barriers) in one solve.");
+    }
+
+    void parse_numbers(ParameterHandler &prm, abut_strategy_options &o)
+    {
+      const std::map<std::string, double *> fields = {
+          {"Penalty", &o.penalty},
+          {"Penalty growth", &o.penalty_growth},
+          {"Penalty cap", &o.penalty_cap},
+          {"Allowed penetration", &o.allowed_penetration},
+          {"Complementarity parameter", &o.complementarity},
+          {"Barrier start", &o.barrier_start},
+          {"Barrier factor", &o.barrier_factor},
+          {"Barrier end", &o.barrier_end},
+          {"Gap tolerance", &o.gap_tolerance},
+          {"Pressure tolerance", &o.pressure_tolerance},
+          {"Linear tolerance", &o.linear_tolerance},
+          {"Final linear tolerance", &o.final_linear_tolerance}};
+      for (const auto &[name, value] : fields)
+        *value = prm.get_double(name);
+      o.adaptive_penalty = prm.get_bool("Adaptive penalty");
+      o.max_steps = static_cast<std::int32_t>(prm.get_integer("Maximum steps"));
+      o.max_outer =
+          static_cast<std::int32_t>(prm.get_integer("Maximum outer steps"));
+    }
+  } // namespace
+
+  void MethodParameters::declare_parameters(ParameterHandler &prm)
+  {
+    const abut_strategy_options defaults = abut_strategy_defaults();
+    prm.enter_subsection("Method");
+    prm.declare_entry("Enforcement", "lagrange",
+                      Patterns::Selection(law_names()),
+                      "How contact is enforced. `lagrange`: exactly, by "
+                      "multipliers and an active set. `penalty`: by stiff "
+                      "springs, with an error that falls as one over the "
+                      "penalty. `quadratic penalty`: the same with a penalty "
+                      "that grows. `augmented lagrangian`: by springs and "
+                      "multiplier updates, exact in the limit at a moderate "
+                      "penalty. `barrier`: from inside the feasible set, with "
+                      "a barrier that goes to zero. `interior point`: the "
+                      "same with primal-dual steps from any start.");
+    declare_penalty(prm, defaults);
+    declare_barrier(prm, defaults);
+    declare_stopping(prm, defaults);
+    prm.declare_entry("System", "auto",
+                      Patterns::Selection("auto|condensed|saddle point"),
+                      "Linear system: `condensed` eliminates the pressures "
+                      "row by row, `saddle point` keeps them as unknowns, "
+                      "`auto` chooses and says which.");
+    prm.leave_subsection();
+  }
+
+  void MethodParameters::parse_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Method");
+    options.law = abut_law_find(prm.get("Enforcement").c_str());
+    parse_numbers(prm, options);
+    const std::string word = prm.get("System");
+    system = word == "condensed"      ? System::condensed
+             : word == "saddle point" ? System::saddle_point
+                                      : System::automatic;
+    prm.leave_subsection();
+    AssertThrow(options.barrier_end <= options.barrier_start,
+                dealii::ExcMessage("Method/Barrier end is larger than "
+                                   "Method/Barrier start."));
+  }
+} // namespace abut
