@@ -9,6 +9,7 @@
 
 #include <abut/context.h>
 #include <abut/dense_model.h>
+#include <abut/export.h>
 #include <abut/law.h>
 #include <abut/rows.h>
 #include <abut/status.h>

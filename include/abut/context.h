@@ -53,18 +53,18 @@ extern "C"
   } abut_memory_usage;
 
   /** Create a context in @p context; @p options may be NULL. */
-  abut_status abut_context_create(const abut_context_options *options,
-                                  abut_context **context);
+  ABUT_API abut_status abut_context_create(const abut_context_options *options,
+                                           abut_context **context);
 
   /** Destroy a context and set the handle to NULL. INVALID_ARGUMENT, and
    * nothing destroyed, while objects created from it are alive. */
-  abut_status abut_context_destroy(abut_context **context);
+  ABUT_API abut_status abut_context_destroy(abut_context **context);
 
   /** Text of the last failure with the name of the call that failed, or "". */
-  const char *abut_context_message(const abut_context *context);
+  ABUT_API const char *abut_context_message(const abut_context *context);
 
   /** Memory held by the objects of this context. */
-  abut_memory_usage abut_context_memory(const abut_context *context);
+  ABUT_API abut_memory_usage abut_context_memory(const abut_context *context);
 
 #ifdef __cplusplus
 }

@@ -41,13 +41,11 @@ extern "C"
    * @param state [n_rows] starting set on entry, final set on return; NULL to
    *   start from the set that p and g call for
    * @param monitor called after each outer step, may be NULL */
-  abut_status abut_dense_model_solve(abut_context *context,
-                                     const abut_dense_model *model,
-                                     const abut_strategy_options *options,
-                                     double *displacement, double *pressure,
-                                     uint8_t *state, abut_dense_monitor monitor,
-                                     void *user, abut_progress *progress,
-                                     abut_reason *reason);
+  ABUT_API abut_status abut_dense_model_solve(
+      abut_context *context, const abut_dense_model *model,
+      const abut_strategy_options *options, double *displacement,
+      double *pressure, uint8_t *state, abut_dense_monitor monitor, void *user,
+      abut_progress *progress, abut_reason *reason);
 
 #ifdef __cplusplus
 }

@@ -101,10 +101,10 @@ extern "C"
 
   /** Built-in law by its name ("lagrange", "penalty", "quadratic penalty",
    * "augmented lagrangian", "barrier", "interior point"), or NULL. */
-  const abut_law *abut_law_find(const char *name);
+  ABUT_API const abut_law *abut_law_find(const char *name);
 
   /** Built-in law number @p i, counted from 0; NULL past the end. */
-  const abut_law *abut_law_get(int32_t i);
+  ABUT_API const abut_law *abut_law_get(int32_t i);
 
 #ifdef __cplusplus
 }

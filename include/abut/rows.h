@@ -37,38 +37,43 @@ extern "C"
   } abut_rows_view;
 
   /** Create an empty set. */
-  abut_status abut_rows_create(abut_context *context, abut_rows **rows);
+  ABUT_API abut_status abut_rows_create(abut_context *context,
+                                        abut_rows **rows);
 
   /** Destroy a set and set the handle to NULL. */
-  abut_status abut_rows_destroy(abut_rows **rows);
+  ABUT_API abut_status abut_rows_destroy(abut_rows **rows);
 
   /** Remove all rows and keep the memory. */
-  abut_status abut_rows_clear(abut_rows *rows);
+  ABUT_API abut_status abut_rows_clear(abut_rows *rows);
 
   /** Make room for @p n_rows rows with @p n_entries entries in all. */
-  abut_status abut_rows_reserve(abut_rows *rows, int32_t n_rows,
-                                int64_t n_entries);
+  ABUT_API abut_status abut_rows_reserve(abut_rows *rows, int32_t n_rows,
+                                         int64_t n_entries);
 
   /** Append a row; @p id must be larger than that of the last row, weight > 0,
    * all numbers finite. Amortised O(n_entries). */
-  abut_status abut_rows_append(abut_rows *rows, int64_t id, double weight,
-                               double initial_gap, int bilateral,
-                               int32_t n_entries, const int64_t *column,
-                               const double *coefficient);
+  ABUT_API abut_status abut_rows_append(abut_rows *rows, int64_t id,
+                                        double weight, double initial_gap,
+                                        int bilateral, int32_t n_entries,
+                                        const int64_t *column,
+                                        const double *coefficient);
 
   /** View of the arrays. */
-  abut_status abut_rows_get(const abut_rows *rows, abut_rows_view *view);
+  ABUT_API abut_status abut_rows_get(const abut_rows *rows,
+                                     abut_rows_view *view);
 
   /** gap_i = g0_i + sum_k B_ik u[column_k - offset]; all columns must lie in
    * [offset, offset + n_unknowns). */
-  abut_status abut_rows_gap(const abut_rows *rows, const double *displacement,
-                            int64_t offset, int64_t n_unknowns, double *gap);
+  ABUT_API abut_status abut_rows_gap(const abut_rows *rows,
+                                     const double *displacement, int64_t offset,
+                                     int64_t n_unknowns, double *gap);
 
   /** force[column - offset] += w_i p_i B_i: the contact force on the unknowns.
    */
-  abut_status abut_rows_add_force(const abut_rows *rows, const double *pressure,
-                                  int64_t offset, int64_t n_unknowns,
-                                  double *force);
+  ABUT_API abut_status abut_rows_add_force(const abut_rows *rows,
+                                           const double *pressure,
+                                           int64_t offset, int64_t n_unknowns,
+                                           double *force);
 
 #ifdef __cplusplus
 }

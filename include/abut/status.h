@@ -12,6 +12,8 @@
  * (abut_context_message()).
  */
 
+#include <abut/export.h>
+
 #ifdef __cplusplus
 extern "C"
 {
@@ -38,7 +40,7 @@ extern "C"
   } abut_status;
 
   /** English text of a status code; never NULL. */
-  const char *abut_status_text(abut_status status);
+  ABUT_API const char *abut_status_text(abut_status status);
 
 #ifdef __cplusplus
 }

@@ -56,7 +56,7 @@ extern "C"
   } abut_reason;
 
   /** English text of a reason, with what to try; never NULL. */
-  const char *abut_reason_text(abut_reason reason);
+  ABUT_API const char *abut_reason_text(abut_reason reason);
 
   /** Reduction over ranks. */
   typedef enum abut_reduction
@@ -105,7 +105,7 @@ extern "C"
   } abut_strategy_options;
 
   /** Default options. */
-  abut_strategy_options abut_strategy_defaults(void);
+  ABUT_API abut_strategy_options abut_strategy_defaults(void);
 
   /** What the host is to do, and with which numbers. */
   typedef struct abut_request
@@ -148,12 +148,12 @@ extern "C"
   } abut_progress;
 
   /** Create a strategy. */
-  abut_status abut_strategy_create(abut_context *context,
-                                   const abut_strategy_options *options,
-                                   abut_strategy **strategy);
+  ABUT_API abut_status abut_strategy_create(
+      abut_context *context, const abut_strategy_options *options,
+      abut_strategy **strategy);
 
   /** Destroy a strategy and set the handle to NULL. */
-  abut_status abut_strategy_destroy(abut_strategy **strategy);
+  ABUT_API abut_status abut_strategy_destroy(abut_strategy **strategy);
 
   /** Begin a solve with @p n rows on this rank. Collective if reduce is set.
    * @param id [n] global number of each row, or NULL for 0..n-1 (serial)
@@ -165,21 +165,21 @@ extern "C"
    * @param pressure [n] starting pressure, or NULL for 0
    * @param state [n] starting set, or NULL for the one that p and g call for
    * Arrays are copied. O(n). */
-  abut_status abut_strategy_start(abut_strategy *strategy, int32_t n,
-                                  const int64_t *id, const double *weight,
-                                  const double *stiffness,
-                                  const uint8_t *bilateral, const double *gap,
-                                  const double *pressure, const uint8_t *state);
+  ABUT_API abut_status abut_strategy_start(
+      abut_strategy *strategy, int32_t n, const int64_t *id,
+      const double *weight, const double *stiffness, const uint8_t *bilateral,
+      const double *gap, const double *pressure, const uint8_t *state);
 
   /** Go on: after SOLVE and SOLVE_AGAIN with the changes written into the last
    * request's arrays (@p gap is ignored), after MOVE with the gap at the new
    * displacement. The first call after start ignores @p gap. Collective. */
-  abut_status abut_strategy_next(abut_strategy *strategy, const double *gap,
-                                 abut_request *request);
+  ABUT_API abut_status abut_strategy_next(abut_strategy *strategy,
+                                          const double *gap,
+                                          abut_request *request);
 
   /** Progress so far. */
-  abut_status abut_strategy_progress(const abut_strategy *strategy,
-                                     abut_progress *progress);
+  ABUT_API abut_status abut_strategy_progress(const abut_strategy *strategy,
+                                              abut_progress *progress);
 
   /** Functions of a host for abut_strategy_run(). */
   typedef struct abut_host
@@ -196,8 +196,9 @@ extern "C"
   } abut_host;
 
   /** Run a started strategy to its end. @p reason may be NULL. */
-  abut_status abut_strategy_run(abut_strategy *strategy, const abut_host *host,
-                                abut_reason *reason);
+  ABUT_API abut_status abut_strategy_run(abut_strategy *strategy,
+                                         const abut_host *host,
+                                         abut_reason *reason);
 
 #ifdef __cplusplus
 }
