@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_ERROR_NORMS_H
+#define ABUT_APP_ERROR_NORMS_H
+
+/** @file
+ * Errors against an exact solution, and the energy of a membrane.
+ */
+
+#include "expression.h"
+
+#include <deal.II/base/types.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace abut::app
+{
+  /** An exact scalar solution given by formulas. */
+  template <int dim> class ExactSolution : public dealii::Function<dim>
+  {
+  public:
+    /** @param value formula of u
+     * @param gradient formulas of du/dx; du/dy (; du/dz), or empty: symmetric
+     * differences of @p value
+     * @param value_parameter, gradient_parameter names for messages */
+    ExactSolution(const std::string &value, const std::string &value_parameter,
+                  const std::string &gradient,
+                  const std::string &gradient_parameter);
+
+    double value(const dealii::Point<dim> &point,
+                 unsigned int component = 0) const override;
+    dealii::Tensor<1, dim> gradient(const dealii::Point<dim> &point,
+                                    unsigned int component = 0) const override;
+    void set_time(double time) override;
+
+  private:
+    Expression<dim> value_expression;
+    std::unique_ptr<Expression<dim>> gradient_expression;
+  };
+
+  /** Errors of a finite element function. */
+  struct ErrorNorms
+  {
+    double l2;           /**< |u - u_h| in L2 */
+    double h1_seminorm;  /**< |grad(u - u_h)| in L2 */
+    double largest_node; /**< largest error at a node */
+  };
+
+  /** Integrate the error by Gauss' formula of degree+3 points per direction.
+   * @p solution is ghosted. Collective. */
+  template <int dim>
+  ErrorNorms error_norms(const dealii::Mapping<dim> &mapping,
+                         const dealii::DoFHandler<dim> &dof_handler,
+                         const dealii::TrilinosWrappers::MPI::Vector &solution,
+                         const dealii::Function<dim> &exact);
+
+  /** Energy 1/2 (k grad u, grad u) - (f, u) - <t_N, u> by Gauss' formula with
+   * degree+1 points (exact for constant data on parallelograms).
+   * @param coefficient k, null: 1. Collective. */
+  template <int dim>
+  double
+  membrane_energy(const dealii::Mapping<dim> &mapping,
+                  const dealii::DoFHandler<dim> &dof_handler,
+                  const dealii::TrilinosWrappers::MPI::Vector &solution,
+                  const dealii::Function<dim> &load,
+                  const dealii::Function<dim> *coefficient = nullptr,
+                  const std::map<dealii::types::boundary_id,
+                                 const dealii::Function<dim> *> &neumann = {});
+} // namespace abut::app
+
+#endif

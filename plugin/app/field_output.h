@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_FIELD_OUTPUT_H
+#define ABUT_APP_FIELD_OUTPUT_H
+
+/** @file
+ * Fields over the mesh as VTU/PVTU files and the PVD file that lists them.
+ */
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/trilinos_vector.h>
+#include <deal.II/lac/vector.h>
+
+#include <mpi.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace abut::app
+{
+  /** What one output file shows. */
+  template <int dim> struct Fields
+  {
+    const dealii::Mapping<dim> &mapping;
+    const dealii::DoFHandler<dim> &dof_handler;
+    /** Names and ghosted nodal values; a vector-valued element's components
+     * become one vector field. */
+    std::vector<
+        std::pair<std::string, const dealii::TrilinosWrappers::MPI::Vector *>>
+        nodal;
+    /** Names and values per active cell. */
+    std::vector<std::pair<std::string, const dealii::Vector<float> *>> cells;
+  };
+
+  /** A series of fields over time or mesh level. The PVD file is written anew
+   * with every step, so that a run that is killed leaves usable files. */
+  class FieldSeries
+  {
+  public:
+    /** Files are named `<name>_<step>.pvtu` and so on and `<name>.pvd`. */
+    FieldSeries(std::filesystem::path folder, std::string name,
+                MPI_Comm communicator);
+
+    /** Append a step. Degree 2 and higher is written as Lagrange cells, so
+     * that nothing of the solution is lost. Collective; an error of the file
+     * system is an exception on all ranks. */
+    template <int dim> void write(double time, const Fields<dim> &fields);
+
+  private:
+    std::filesystem::path folder;
+    std::string name;
+    MPI_Comm communicator;
+    std::vector<std::pair<double, std::string>> records;
+  };
+} // namespace abut::app
+
+#endif
