@@ -35,12 +35,17 @@ extern "C"
                                      const double *displacement,
                                      const double *pressure);
 
-  /** Solve the model with the method of @p options.
+  /** Solve the model with the method of @p options. Penalties are multiples of
+   * the row's stiffness sum_k B_k^2 K_kk / ((sum_k B_k^2)^2 w), which for one
+   * unknown is K B^-2 / w. Costs O((n + n_rows)^3) per linear system.
+   * CALLBACK_FAILED if K is singular with the rows that are closed in some
+   * step: then begin with a state that holds the body.
    * @param displacement [n] in: start; out: solution
    * @param pressure [n_rows] in: start (may be all 0); out: pressure
    * @param state [n_rows] starting set on entry, final set on return; NULL to
    *   start from the set that p and g call for
-   * @param monitor called after each outer step, may be NULL */
+   * @param monitor called after each step, may be NULL; progress->outer tells
+   *   outer steps apart */
   ABUT_API abut_status abut_dense_model_solve(
       abut_context *context, const abut_dense_model *model,
       const abut_strategy_options *options, double *displacement,

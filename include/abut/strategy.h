@@ -101,7 +101,9 @@ extern "C"
     /** Sums (or maximum) over ranks of n values in place; NULL in serial. */
     abut_status (*reduce)(void *user, abut_reduction op, double *values,
                           int32_t n);
-    void *user; /**< handed to reduce */
+    void *user;                 /**< handed to reduce */
+    const void *law_parameters; /**< handed to the law's functions; may be NULL,
+                                     the built-in laws have none */
   } abut_strategy_options;
 
   /** Default options. */
@@ -190,12 +192,16 @@ extern "C"
     abut_status (*solve)(void *user, const abut_request *request);
     /** MOVE: move the displacement and write the new gap. */
     abut_status (*move)(void *user, const abut_request *request, double *gap);
-    /** Called after each outer step and at the end; may be NULL. */
+    /** Called after each step, when its outcome is known; may be NULL. The
+     * request is the next one, and progress->outer tells outer steps apart. */
     void (*monitor)(void *user, const abut_progress *progress,
                     const abut_request *request);
   } abut_host;
 
-  /** Run a started strategy to its end. @p reason may be NULL. */
+  /** Run a started strategy to its end. @p reason may be NULL. Where a method
+   * ends without convergence, that is a reason and not a failure;
+   * abut_context_message() then tells what was seen. A failure of the host's
+   * functions is returned as CALLBACK_FAILED, on all ranks. */
   ABUT_API abut_status abut_strategy_run(abut_strategy *strategy,
                                          const abut_host *host,
                                          abut_reason *reason);

@@ -1,0 +1,274 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* A host with a dense matrix: each SOLVE factorises
+ *
+ *     [ K       -B'W ] [du]   [-R]
+ *     [ diag(b)B   a ] [dp] = [-c]
+ *
+ * as it stands, so that K may be singular as long as the active constraints
+ * hold the body. */
+#include "base/memory.h"
+#include "model/dense_lu.h"
+
+#include <abut/dense_model.h>
+#include <math.h>
+#include <string.h>
+
+static const char call[] = "abut_dense_model_solve";
+
+enum
+{
+  MAX_SIZE = 5000 /* unknowns and rows together: 200 MB */
+};
+
+typedef struct dense_host
+{
+  abut_context *context;
+  const abut_dense_model *model;
+  abut_rows_view rows;
+  int32_t n, m; /* unknowns, rows */
+  double *u;    /* [n] displacement, the caller's */
+  double *p;    /* [m] pressure, the caller's */
+  abut_dense_monitor monitor;
+  void *user;
+  abut_array block, pivots;
+  double *matrix, *scale, *x; /* [(n+m)^2], [n+m], [n+m] */
+  double *gap, *stiffness;    /* [m] */
+  int32_t *pivot;             /* [n+m] */
+  bool singular;
+} dense_host;
+
+static abut_status
+check_model(abut_context *context, const abut_dense_model *model)
+{
+  if (model == NULL || model->struct_size != sizeof(abut_dense_model)
+      || model->n < 1 || model->stiffness == NULL || model->force == NULL
+      || model->rows == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "the model is incomplete");
+  if (model->n > MAX_SIZE)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "the model is too large for a dense matrix");
+  double probe = 0;
+  for (int64_t k = 0; k < (int64_t)model->n * model->n; ++k)
+    probe += model->stiffness[k] * 0.0;
+  for (int32_t i = 0; i < model->n; ++i)
+    probe += model->force[i] * 0.0;
+  return probe == 0 ? ABUT_SUCCESS
+                    : abut_fail(context, ABUT_NOT_FINITE, call,
+                                "stiffness or force is not finite");
+}
+
+static abut_status
+place_arrays(dense_host *host)
+{
+  const int64_t size = (int64_t)host->n + host->m;
+  host->block.element = sizeof(double);
+  host->pivots.element = sizeof(int32_t);
+  abut_status status =
+      abut_array_reserve(host->context, &host->block, 0,
+                         size * size + 2 * size + 2 * (int64_t)host->m);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(host->context, &host->pivots, 0, size);
+  if (status != ABUT_SUCCESS)
+    return status;
+  host->matrix = host->block.data;
+  host->scale = host->matrix + size * size;
+  host->x = host->scale + size;
+  host->gap = host->x + size;
+  host->stiffness = host->gap + host->m;
+  host->pivot = host->pivots.data;
+  return ABUT_SUCCESS;
+}
+
+/* Stiffness that row i sees, as pressure per length: sum B^2 K_kk over
+ * (sum B^2)^2 w. Exact for one unknown, and of the right size and units for
+ * several. */
+static abut_status
+find_stiffness(dense_host *host)
+{
+  const abut_rows_view *rows = &host->rows;
+  const double *k = host->model->stiffness;
+  for (int32_t i = 0; i < host->m; ++i)
+  {
+    double squares = 0, stiffness = 0;
+    for (int64_t e = rows->row_start[i]; e < rows->row_start[i + 1]; ++e)
+    {
+      const double b = rows->coefficient[e];
+      squares += b * b;
+      stiffness += b * b * k[rows->column[e] * (host->n + (int64_t)1)];
+    }
+    host->stiffness[i] = stiffness / (squares * squares * rows->weight[i]);
+    if (!isfinite(host->stiffness[i]) || host->stiffness[i] <= 0)
+    {
+      abut_text text = abut_fail_begin(host->context, call);
+      abut_text_add(&text, "row ");
+      abut_text_add_integer(&text, rows->id[i]);
+      abut_text_add(&text, " acts on no unknown with positive stiffness");
+      return ABUT_INVALID_ARGUMENT;
+    }
+  }
+  return ABUT_SUCCESS;
+}
+
+/* The matrix of the head comment. */
+static void
+assemble(dense_host *host, const abut_request *request)
+{
+  const int64_t n = host->n, size = n + host->m;
+  const abut_rows_view *rows = &host->rows;
+  memset(host->matrix, 0, (size_t)(size * size) * sizeof(double));
+  for (int64_t i = 0; i < n; ++i)
+    memcpy(host->matrix + i * size, host->model->stiffness + i * n,
+           (size_t)n * sizeof(double));
+  for (int32_t i = 0; i < host->m; ++i)
+  {
+    double *row = host->matrix + (n + i) * size;
+    row[n + i] = request->d_pressure[i];
+    for (int64_t e = rows->row_start[i]; e < rows->row_start[i + 1]; ++e)
+    {
+      const int64_t k = rows->column[e];
+      const double b = rows->coefficient[e];
+      row[k] += request->d_gap[i] * b;
+      host->matrix[k * size + n + i] -= b * rows->weight[i];
+    }
+  }
+}
+
+/* x = (-R, -c) with R = K u - f - B'W p. */
+static abut_status
+right_hand_side(dense_host *host, const abut_request *request)
+{
+  const int64_t n = host->n;
+  memset(host->x, 0, (size_t)n * sizeof(double));
+  const abut_status status =
+      abut_rows_add_force(host->model->rows, request->pressure, 0, n, host->x);
+  for (int64_t i = 0; i < n; ++i)
+  {
+    host->x[i] += host->model->force[i];
+    for (int64_t j = 0; j < n; ++j)
+      host->x[i] -= host->model->stiffness[i * n + j] * host->u[j];
+  }
+  for (int32_t i = 0; i < host->m; ++i)
+    host->x[n + i] = -request->residual[i];
+  return status;
+}
+
+static abut_status
+solve(void *user, const abut_request *request)
+{
+  dense_host *host = user;
+  const int32_t size = host->n + host->m;
+  const abut_rows_view *rows = &host->rows;
+  if (request->action == ABUT_ACTION_SOLVE)
+  {
+    assemble(host, request);
+    if (!abut_dense_lu_factorise(size, host->matrix, host->pivot, host->scale))
+    {
+      host->singular = true;
+      return ABUT_INVALID_ARGUMENT;
+    }
+  }
+  const abut_status status = right_hand_side(host, request);
+  if (status != ABUT_SUCCESS)
+    return status;
+  abut_dense_lu_solve(size, host->matrix, host->pivot, host->scale, host->x);
+  for (int32_t i = 0; i < host->m; ++i)
+  {
+    double change = 0;
+    for (int64_t e = rows->row_start[i]; e < rows->row_start[i + 1]; ++e)
+      change += rows->coefficient[e] * host->x[rows->column[e]];
+    request->gap_change[i] = change;
+    request->pressure_change[i] = host->x[host->n + i];
+  }
+  return ABUT_SUCCESS;
+}
+
+static abut_status
+move(void *user, const abut_request *request, double *gap)
+{
+  dense_host *host = user;
+  for (int32_t i = 0; i < host->n; ++i)
+    host->u[i] += request->step_length * host->x[i];
+  return abut_rows_gap(host->model->rows, host->u, 0, host->n, gap);
+}
+
+static void
+watch(void *user, const abut_progress *progress, const abut_request *request)
+{
+  const dense_host *host = user;
+  if (host->monitor != NULL)
+    host->monitor(host->user, progress, host->u, request->pressure);
+}
+
+/* Run the strategy and read the last pressures and states. */
+static abut_status
+run(dense_host *host, abut_strategy *strategy, uint8_t *state,
+    abut_progress *progress, abut_reason *reason)
+{
+  const abut_host functions = {sizeof(abut_host), host, solve, move, watch};
+  abut_status status = abut_strategy_start(
+      strategy, host->m, host->rows.id, host->rows.weight, host->stiffness,
+      host->rows.bilateral, host->gap, host->p, state);
+  if (status == ABUT_SUCCESS)
+    status = abut_strategy_run(strategy, &functions, reason);
+  abut_request last;
+  if (status == ABUT_SUCCESS)
+    status = abut_strategy_next(strategy, NULL, &last);
+  if (status != ABUT_SUCCESS)
+    return status;
+  if (host->m > 0)
+    memcpy(host->p, last.pressure, (size_t)host->m * sizeof(double));
+  if (host->m > 0 && state != NULL)
+    memcpy(state, last.state, (size_t)host->m);
+  return progress != NULL ? abut_strategy_progress(strategy, progress)
+                          : ABUT_SUCCESS;
+}
+
+abut_status
+abut_dense_model_solve(abut_context *context, const abut_dense_model *model,
+                       const abut_strategy_options *options,
+                       double *displacement, double *pressure, uint8_t *state,
+                       abut_dense_monitor monitor, void *user,
+                       abut_progress *progress, abut_reason *reason)
+{
+  if (context == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_status status = check_model(context, model);
+  if (status != ABUT_SUCCESS)
+    return status;
+  dense_host host = {.context = context,
+                     .model = model,
+                     .n = model->n,
+                     .u = displacement,
+                     .p = pressure,
+                     .monitor = monitor,
+                     .user = user};
+  status = abut_rows_get(model->rows, &host.rows);
+  if (status != ABUT_SUCCESS)
+    return status;
+  host.m = host.rows.n_rows;
+  if (displacement == NULL || (host.m > 0 && pressure == NULL))
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "displacement or pressure is NULL");
+  if (host.m > MAX_SIZE - host.n)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "the model is too large for a dense matrix");
+  abut_strategy *strategy = NULL;
+  status = place_arrays(&host);
+  if (status == ABUT_SUCCESS)
+    status = abut_rows_gap(model->rows, displacement, 0, host.n, host.gap);
+  if (status == ABUT_SUCCESS)
+    status = find_stiffness(&host);
+  if (status == ABUT_SUCCESS)
+    status = abut_strategy_create(context, options, &strategy);
+  if (status == ABUT_SUCCESS)
+    status = run(&host, strategy, state, progress, reason);
+  if (host.singular)
+    abut_fail(context, status, call,
+              "the stiffness is singular with these rows closed: give a start "
+              "state that holds the body");
+  abut_strategy_destroy(&strategy);
+  abut_array_release(context, &host.block);
+  abut_array_release(context, &host.pivots);
+  return status;
+}

@@ -1,0 +1,358 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* See active_set.h for the method. */
+#include "strategy/active_set.h"
+#include "strategy/strategy.h"
+
+#include <math.h>
+#include <string.h>
+
+enum
+{
+  FULL_STEP_BUDGET = 5, /* full steps without progress before Murty's rule */
+  MAX_DEFECT_SOLVES = 3 /* tight solves in vain before giving up */
+};
+
+/* Pressures and gaps this close to zero, relative to the largest pressure and
+ * to the length scale, do not contradict a state. */
+static const double pressure_noise = 1e-10, gap_noise = 1e-12;
+
+/* What the rows of all ranks say after a step. */
+typedef struct findings
+{
+  double max_pressure, max_gap_change, defect;    /* maxima */
+  double n_bad, bad_weight, all_weight, n_active; /* sums */
+  double n_closing;                               /* sum: bad and open */
+  double signature[ABUT_SET_PARTS];               /* sums */
+  double last_bad; /* largest number of a bad row, -1 if none */
+  bool seen;       /* this set has been seen before */
+} findings;
+
+void
+abut_active_set_reset(abut_active_set *set)
+{
+  memset(set, 0, sizeof(*set));
+  set->best = INFINITY;
+  set->budget = FULL_STEP_BUDGET;
+}
+
+void
+abut_active_set_sign(int64_t id, double signature[ABUT_SET_PARTS])
+{
+  /* The finaliser of SplitMix64 scatters neighbouring numbers. */
+  uint64_t x = (uint64_t)id + UINT64_C(0x9e3779b97f4a7c15);
+  x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+  x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+  x ^= x >> 31;
+  for (int part = 0; part < ABUT_SET_PARTS; ++part)
+    signature[part] += (double)((x >> (21 * part)) & 0x1fffff);
+}
+
+/* Remember the signature; 0 if it is new, else how many steps ago it was
+ * there. */
+static int32_t
+remember(abut_active_set *set, const double signature[ABUT_SET_PARTS])
+{
+  const int32_t known =
+      set->n_sets < ABUT_SET_HISTORY ? set->n_sets : ABUT_SET_HISTORY;
+  int32_t age = 0;
+  for (int32_t back = 1; back <= known && age == 0; ++back)
+    if (memcmp(set->signature[(set->n_sets - back) % ABUT_SET_HISTORY],
+               signature, sizeof(set->signature[0]))
+        == 0)
+      age = back;
+  memcpy(set->signature[set->n_sets % ABUT_SET_HISTORY], signature,
+         sizeof(set->signature[0]));
+  set->n_sets += 1;
+  return age;
+}
+
+/* Largest values over all rows, and the progress that follows from them. */
+static abut_status
+find_maxima(abut_strategy *s, findings *found)
+{
+  enum
+  {
+    PRESSURE,
+    GAP_CHANGE,
+    DEFECT,
+    PENETRATION,
+    COMPLEMENTARITY,
+    N_MAXIMA
+  };
+  double max[N_MAXIMA] = {0};
+  for (int32_t i = 0; i < s->n; ++i)
+  {
+    /* Of a length, whatever the units in which the law measures c. */
+    const double slope =
+        fabs(s->d_gap[i]) + fabs(s->d_pressure[i]) * s->stiffness[i];
+    max[PRESSURE] = fmax(max[PRESSURE], fabs(s->pressure[i]));
+    max[GAP_CHANGE] = fmax(max[GAP_CHANGE], fabs(s->dg[i]));
+    if (slope > 0)
+      max[DEFECT] = fmax(max[DEFECT], fabs(s->residual[i]) / slope);
+    max[PENETRATION] = fmax(max[PENETRATION], abut_strategy_penetration(s, i));
+    max[COMPLEMENTARITY] =
+        fmax(max[COMPLEMENTARITY], fabs(s->pressure[i] * s->gap[i]));
+  }
+  const abut_status status =
+      abut_strategy_reduce(s, ABUT_REDUCTION_MAX, max, N_MAXIMA);
+  found->max_pressure = max[PRESSURE];
+  found->max_gap_change = max[GAP_CHANGE];
+  found->defect = max[DEFECT];
+  s->progress.penetration = max[PENETRATION];
+  s->progress.complementarity = max[COMPLEMENTARITY];
+  return status;
+}
+
+/* The states that pressure and gap call for, into trial_state. On closed rows
+ * the shifted gap is zero but for the error of the linear solver, and on open
+ * rows the pressure is zero: a small c makes the answer one of the pressure
+ * alone and of the gap alone, and free of the option complementarity. */
+static abut_status
+classify(abut_strategy *s, const findings *found)
+{
+  const double p_noise = pressure_noise * found->max_pressure;
+  const double g_noise =
+      gap_noise * s->options.length_scale
+      + 0.1 * s->options.final_linear_tolerance * found->max_gap_change;
+  for (int32_t i = 0; i < s->n; ++i)
+  {
+    const bool closed = s->state[i] != ABUT_STATE_OPEN;
+    s->trial_pressure[i] = s->pressure[i] + (closed ? p_noise : 0);
+    s->trial_gap[i] = s->gap[i] + (closed ? 0 : g_noise);
+    s->trial_scale[i] = 1e-6 * s->stiffness[i];
+  }
+  abut_law_points points = abut_strategy_points(s);
+  points.gap = s->trial_gap;
+  points.pressure = s->trial_pressure;
+  points.scale = s->trial_scale;
+  return s->options.law->classify(&points, s->trial_state);
+}
+
+/* Count the bad rows of all ranks. */
+static abut_status
+count_bad(abut_strategy *s, findings *found)
+{
+  enum
+  {
+    N_BAD,
+    BAD_WEIGHT,
+    ALL_WEIGHT,
+    N_ACTIVE,
+    N_CLOSING,
+    SIGNATURE,
+    N_SUMS = SIGNATURE + ABUT_SET_PARTS
+  };
+  double sum[N_SUMS] = {0};
+  found->last_bad = -1;
+  for (int32_t i = 0; i < s->n; ++i)
+  {
+    const bool closed = s->state[i] != ABUT_STATE_OPEN;
+    sum[ALL_WEIGHT] += s->weight[i] * fabs(s->pressure[i]);
+    if (closed)
+    {
+      sum[N_ACTIVE] += 1;
+      abut_active_set_sign(s->id[i], sum + SIGNATURE);
+    }
+    if (s->trial_state[i] == s->state[i])
+      continue;
+    sum[N_BAD] += 1;
+    sum[N_CLOSING] += closed ? 0 : 1;
+    sum[BAD_WEIGHT] +=
+        s->weight[i]
+        * (fabs(s->pressure[i]) + s->stiffness[i] * fabs(s->gap[i]));
+    found->last_bad = fmax(found->last_bad, (double)s->id[i]);
+  }
+  abut_status status = abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, N_SUMS);
+  if (status == ABUT_SUCCESS)
+    status = abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &found->last_bad, 1);
+  found->n_bad = sum[N_BAD];
+  found->bad_weight = sum[BAD_WEIGHT];
+  found->all_weight = sum[ALL_WEIGHT];
+  found->n_active = sum[N_ACTIVE];
+  found->n_closing = sum[N_CLOSING];
+  memcpy(found->signature, sum + SIGNATURE, sizeof(found->signature));
+  return status;
+}
+
+static abut_status
+inspect(abut_strategy *s, findings *found)
+{
+  abut_status status = abut_strategy_linearise(s);
+  status = abut_strategy_agree(s, status);
+  if (status == ABUT_SUCCESS)
+    status = find_maxima(s, found);
+  if (status == ABUT_SUCCESS)
+    status = abut_strategy_agree(s, classify(s, found));
+  if (status == ABUT_SUCCESS)
+    status = count_bad(s, found);
+  if (status != ABUT_SUCCESS)
+    return status;
+  const int32_t age = remember(&s->active_set, found->signature);
+  found->seen = age > 0 && found->n_bad > 0;
+  if (found->seen)
+    s->progress.cycle_length = age;
+  return ABUT_SUCCESS;
+}
+
+/* Flip all bad rows, or only the one with the largest number. */
+static void
+flip(abut_strategy *s, const findings *found, bool all)
+{
+  bool closes = false;
+  for (int32_t i = 0; i < s->n; ++i)
+    if (s->trial_state[i] != s->state[i]
+        && (all || (double)s->id[i] == found->last_bad))
+    {
+      closes = s->state[i] == ABUT_STATE_OPEN;
+      s->state[i] = s->trial_state[i];
+    }
+  s->matrix_changed = true;
+  if (all)
+  {
+    s->progress.n_changes = (int64_t)found->n_bad;
+    s->progress.n_active =
+        (int64_t)(found->n_active + 2 * found->n_closing - found->n_bad);
+    return;
+  }
+  s->progress.n_changes = 1;
+  s->progress.fallback_steps += 1;
+  s->progress.n_active = (int64_t)found->n_active + (closes ? 1 : -1);
+}
+
+/* Change the set according to the rules in active_set.h. */
+static void
+change_set(abut_strategy *s, const findings *found)
+{
+  abut_active_set *set = &s->active_set;
+  const bool can_tighten =
+      !set->tight
+      && s->options.final_linear_tolerance < s->options.linear_tolerance;
+  bool all = true;
+  if (found->n_bad < set->best)
+  {
+    set->best = found->n_bad;
+    set->budget = FULL_STEP_BUDGET;
+  }
+  else if ((found->seen || set->budget == 0) && can_tighten)
+  {
+    set->tight = true;
+    set->budget = FULL_STEP_BUDGET;
+    set->n_sets = 0;
+  }
+  else if (found->seen || set->budget == 0)
+  {
+    set->budget = 0;
+    all = false;
+  }
+  else
+    set->budget -= 1;
+  flip(s, found, all);
+}
+
+/* Rows that flicker between the states because both p and g vanish there must
+ * not keep the method from stopping. */
+static bool
+only_flickers(const abut_strategy *s, const findings *found)
+{
+  return (found->seen || s->active_set.budget == 0)
+         && found->bad_weight
+                <= 1e-3 * s->options.gap_tolerance * found->all_weight;
+}
+
+static double
+tolerance_of(const abut_strategy *s)
+{
+  const abut_strategy_options *options = &s->options;
+  return s->active_set.tight || s->progress.n_rows == 0
+             ? fmin(options->linear_tolerance, options->final_linear_tolerance)
+             : options->linear_tolerance;
+}
+
+static abut_status
+begin(abut_strategy *s)
+{
+  abut_active_set_reset(&s->active_set);
+  return abut_strategy_ask_solve(s, tolerance_of(s), false);
+}
+
+static abut_status
+solved(abut_strategy *s)
+{
+  for (int32_t i = 0; i < s->n; ++i)
+    /* A prescribed pressure is met exactly, whatever the linear solver did. */
+    s->pressure[i] += s->d_gap[i] == 0 && s->d_pressure[i] != 0
+                          ? -s->residual[i] / s->d_pressure[i]
+                          : s->dp[i];
+  return abut_strategy_ask_move(s, 1);
+}
+
+/* The law must hold, too, when the set has settled: a user's law need not be
+ * linear within a state, and the linear solver may have failed its promise. */
+static abut_status
+finish(abut_strategy *s, const findings *found, abut_reason reason)
+{
+  abut_active_set *set = &s->active_set;
+  const double final = s->options.final_linear_tolerance;
+  const double limit = s->options.gap_tolerance * s->options.length_scale;
+  if (s->request.linear_tolerance > final)
+  {
+    set->defect = INFINITY;
+    return abut_strategy_ask_solve(s, final, true);
+  }
+  if (found->defect <= limit)
+    return abut_strategy_stop(s, reason);
+  set->n_defect = found->defect > 0.5 * set->defect ? set->n_defect + 1 : 0;
+  set->defect = found->defect;
+  if (set->n_defect < MAX_DEFECT_SOLVES)
+    return abut_strategy_ask_solve(s, fmin(final, s->options.linear_tolerance),
+                                   s->request.final_solve);
+  abut_text text = abut_strategy_remark(s);
+  abut_text_add(&text, "the contact law is violated by a length of ");
+  abut_text_add_number(&text, found->defect);
+  abut_text_add(&text, " which further solves do not lower");
+  return abut_strategy_stop(s, ABUT_REASON_STAGNATION);
+}
+
+/* The set has settled: ask the outer iteration, if any. */
+static abut_status
+settled(abut_strategy *s, const findings *found)
+{
+  abut_verdict verdict = {false, ABUT_REASON_CONVERGED};
+  abut_status status = ABUT_SUCCESS;
+  s->progress.n_changes = 0;
+  s->progress.n_active = (int64_t)found->n_active;
+  s->progress.outer += 1;
+  if (s->options.law->outer == ABUT_OUTER_PENALTY)
+    status = abut_penalty_settled(s, &verdict);
+  else if (s->options.law->outer == ABUT_OUTER_MULTIPLIER)
+    status = abut_multiplier_settled(s, &verdict);
+  if (status != ABUT_SUCCESS)
+    return status;
+  if (!verdict.go_on)
+    return finish(s, found, verdict.reason);
+  if (s->progress.outer >= s->options.max_outer)
+  {
+    abut_text text = abut_strategy_remark(s);
+    abut_text_add(&text, "not converged after ");
+    abut_text_add_integer(&text, s->progress.outer);
+    abut_text_add(&text, " outer steps (max_outer)");
+    return abut_strategy_stop(s, ABUT_REASON_STEP_LIMIT);
+  }
+  abut_active_set_reset(&s->active_set);
+  return abut_strategy_ask_solve(s, tolerance_of(s), false);
+}
+
+static abut_status
+moved(abut_strategy *s)
+{
+  findings found;
+  const abut_status status = inspect(s, &found);
+  if (status != ABUT_SUCCESS)
+    return status;
+  if (found.n_bad == 0 || only_flickers(s, &found))
+    return settled(s, &found);
+  change_set(s, &found);
+  return abut_strategy_ask_solve(s, tolerance_of(s), false);
+}
+
+const abut_method abut_method_active_set = {begin, solved, moved};

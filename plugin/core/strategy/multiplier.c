@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Method of multipliers (Hestenes 1969, Powell 1969; Bertsekas, Constrained
+ * Optimization and Lagrange Multiplier Methods, 1982): solve with
+ * p = pbar - eps g, then pbar <- max(p, 0). The error falls by about
+ * k / (k + eps) per outer step, k the stiffness that the contact surface sees.
+ * With adaptive_penalty, eps grows where that is too slow. */
+#include "strategy/strategy.h"
+
+#include <math.h>
+
+/* Wanted reduction of the gap error, growth of eps where it is missed, and
+ * what counts as no contraction at all. */
+static const double wanted_rate = 0.25, growth = 5, stagnant_rate = 0.9;
+
+enum
+{
+  MAX_STAGNANT = 4 /* outer steps without contraction before giving up */
+};
+
+void
+abut_multiplier_update(abut_strategy *s)
+{
+  for (int32_t i = 0; i < s->n; ++i)
+    s->reference[i] =
+        s->bilateral[i] != 0 ? s->pressure[i] : fmax(s->pressure[i], 0);
+}
+
+/* Gap error (violated, or open under pressure) relative to the length scale,
+ * and the weighted relative change of the pressures against pbar. */
+static abut_status
+measure(abut_strategy *s, double *gap_error)
+{
+  double max = 0, sum[2] = {0, 0};
+  for (int32_t i = 0; i < s->n; ++i)
+  {
+    const bool closed = s->state[i] != ABUT_STATE_OPEN;
+    max = fmax(max, closed ? fabs(s->gap[i]) : fmax(-s->gap[i], 0));
+    sum[0] += s->weight[i] * fabs(s->pressure[i] - s->reference[i]);
+    sum[1] += s->weight[i] * fabs(s->pressure[i]);
+  }
+  abut_status status = abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &max, 1);
+  if (status == ABUT_SUCCESS)
+    status = abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, 2);
+  *gap_error = max / s->options.length_scale;
+  /* All pressure gone is a change of 100 %, none at all is none. */
+  s->progress.pressure_change = sum[1] > 0 ? sum[0] / sum[1] : sum[0] > 0;
+  return status;
+}
+
+static void
+remark_stagnation(abut_strategy *s, double gap_error)
+{
+  abut_text text = abut_strategy_remark(s);
+  abut_text_add(&text, "the method of multipliers does not contract: relative "
+                       "gap error ");
+  abut_text_add_number(&text, gap_error);
+  abut_text_add(&text, " after ");
+  abut_text_add_integer(&text, s->progress.outer);
+  abut_text_add(&text, " outer steps with penalty ");
+  abut_text_add_number(&text, s->progress.penalty);
+}
+
+abut_status
+abut_multiplier_settled(abut_strategy *s, abut_verdict *verdict)
+{
+  const abut_strategy_options *options = &s->options;
+  abut_outer_memory *last = &s->outer;
+  double gap_error = 0;
+  const abut_status status = measure(s, &gap_error);
+  if (status != ABUT_SUCCESS)
+    return status;
+  const double merit =
+      fmax(gap_error / options->gap_tolerance,
+           s->progress.pressure_change / options->pressure_tolerance);
+  const bool first = s->progress.outer == 1;
+  const bool slow = !first && gap_error > options->gap_tolerance
+                    && gap_error > wanted_rate * last->gap_error;
+  const bool stagnant = !first && merit > stagnant_rate * last->merit;
+  last->n_stagnant = stagnant ? last->n_stagnant + 1 : 0;
+  last->gap_error = gap_error;
+  last->merit = merit;
+  abut_multiplier_update(s);
+
+  verdict->go_on = false;
+  verdict->reason = ABUT_REASON_CONVERGED;
+  if (merit <= 1)
+    return ABUT_SUCCESS;
+  verdict->go_on = true;
+  const double penalty =
+      fmin(growth * s->progress.penalty, options->penalty_cap);
+  if (options->adaptive_penalty && slow && penalty > s->progress.penalty)
+  {
+    abut_strategy_set_penalty(s, penalty);
+    last->n_stagnant = 0;
+  }
+  else if (last->n_stagnant >= MAX_STAGNANT)
+  {
+    remark_stagnation(s, gap_error);
+    verdict->go_on = false;
+    verdict->reason = ABUT_REASON_STAGNATION;
+  }
+  return ABUT_SUCCESS;
+}

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Options of a strategy: defaults and legal ranges. */
+#include "strategy/options.h"
+
+#include <math.h>
+
+abut_strategy_options
+abut_strategy_defaults(void)
+{
+  const abut_strategy_options options = {
+      .struct_size = sizeof(abut_strategy_options),
+      .law = abut_law_find("lagrange"),
+      .length_scale = 1,
+      .pressure_scale = 1,
+      .penalty = 0,
+      .penalty_growth = 10,
+      .penalty_cap = 1e6,
+      .adaptive_penalty = true,
+      .allowed_penetration = 0,
+      .complementarity = 1,
+      .barrier_start = 1e-2,
+      .barrier_factor = 0.1,
+      .barrier_end = 1e-8,
+      .gap_tolerance = 1e-6,
+      .pressure_tolerance = 1e-3,
+      .linear_tolerance = 1e-2,
+      .final_linear_tolerance = 1e-10,
+      .max_steps = 200,
+      .max_outer = 60,
+  };
+  return options;
+}
+
+/* A number of the options and its legal range, ends included. */
+typedef struct range
+{
+  const char *name;
+  double value, low, high;
+} range;
+
+static abut_status
+check_law(abut_context *context, const abut_law *law, const char *call)
+{
+  if (law == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "law is NULL");
+  if (law->struct_size != sizeof(abut_law) || law->name == NULL
+      || law->classify == NULL || law->linearise == NULL
+      || law->outer < ABUT_OUTER_NONE || law->outer > ABUT_OUTER_PRIMAL_DUAL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "the law's table is incomplete or of another version");
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_strategy_check_options(abut_context *context,
+                            const abut_strategy_options *options,
+                            const char *call)
+{
+  if (options->struct_size != sizeof(abut_strategy_options))
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "struct_size of the options is not that of this library");
+  const double tiny = 1e-300, huge = 1e300;
+  const range ranges[] = {
+      {"length_scale", options->length_scale, tiny, huge},
+      {"pressure_scale", options->pressure_scale, tiny, huge},
+      {"penalty", options->penalty, 0, huge},
+      {"penalty_growth", options->penalty_growth, 1.01, huge},
+      {"penalty_cap", options->penalty_cap, tiny, huge},
+      {"allowed_penetration", options->allowed_penetration, 0, huge},
+      {"complementarity", options->complementarity, tiny, huge},
+      {"barrier_start", options->barrier_start, tiny, huge},
+      {"barrier_factor", options->barrier_factor, tiny, 0.99},
+      {"barrier_end", options->barrier_end, tiny, options->barrier_start},
+      {"gap_tolerance", options->gap_tolerance, tiny, huge},
+      {"pressure_tolerance", options->pressure_tolerance, tiny, huge},
+      {"linear_tolerance", options->linear_tolerance, tiny, 0.99},
+      {"final_linear_tolerance", options->final_linear_tolerance, tiny, 0.99},
+      {"max_steps", options->max_steps, 1, INT32_MAX},
+      {"max_outer", options->max_outer, 1, INT32_MAX},
+  };
+  for (size_t i = 0; i < sizeof(ranges) / sizeof(ranges[0]); ++i)
+  {
+    const range *r = &ranges[i];
+    if (r->value >= r->low && r->value <= r->high)
+      continue;
+    abut_text text = abut_fail_begin(context, call);
+    abut_text_add(&text, r->name);
+    abut_text_add(&text, " = ");
+    abut_text_add_number(&text, r->value);
+    abut_text_add(&text, " is not between ");
+    abut_text_add_number(&text, r->low);
+    abut_text_add(&text, " and ");
+    abut_text_add_number(&text, r->high);
+    return isfinite(r->value) ? ABUT_INVALID_ARGUMENT : ABUT_NOT_FINITE;
+  }
+  return check_law(context, options->law, call);
+}
+
+double
+abut_strategy_first_penalty(const abut_strategy_options *options)
+{
+  if ((options->law->flags & (ABUT_LAW_HARD | ABUT_LAW_INTERIOR)) != 0)
+    return 0;
+  if (options->penalty > 0)
+    return options->penalty;
+  switch (options->law->outer)
+  {
+  case ABUT_OUTER_PENALTY:
+    return 1;
+  case ABUT_OUTER_MULTIPLIER:
+    return 20;
+  default:
+    return 50;
+  }
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_STRATEGY_OUTER_H
+#define ABUT_STRATEGY_OUTER_H
+
+/* Outer iterations around the active set: what to do when it has settled. */
+
+#include <abut/strategy.h>
+
+/* What an outer iteration remembers between its steps. */
+typedef struct abut_outer_memory
+{
+  double gap_error;   /* of the last outer step, length */
+  double merit;       /* worst error over its tolerance, last outer step */
+  int32_t n_stagnant; /* outer steps in a row without contraction */
+} abut_outer_memory;
+
+/* Answer of an outer iteration. */
+typedef struct abut_verdict
+{
+  bool go_on;         /* the problem was changed: solve again */
+  abut_reason reason; /* else: why to stop */
+} abut_verdict;
+
+/* Quadratic penalty: eps grows until the penetration is small. */
+abut_status abut_penalty_settled(abut_strategy *s, abut_verdict *verdict);
+
+/* Method of multipliers: pbar <- p. */
+abut_status abut_multiplier_settled(abut_strategy *s, abut_verdict *verdict);
+
+/* pbar <- max(p, 0), without the clipping for bilateral rows. */
+void abut_multiplier_update(abut_strategy *s);
+
+#endif

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* The start of a solve: checks, memory, copies, first state. */
+#include "strategy/options.h"
+#include "strategy/strategy.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char call[] = "abut_strategy_start";
+
+/* Numbers of rows go through double in reductions. */
+static const int64_t max_id = INT64_C(1) << 53;
+
+typedef struct inputs
+{
+  int32_t n;
+  const int64_t *id;
+  const double *weight, *stiffness, *gap, *pressure;
+  const uint8_t *bilateral, *state;
+} inputs;
+
+static abut_status
+reject(abut_strategy *s, abut_status status, int32_t i, const char *what)
+{
+  abut_text text = abut_fail_begin(s->context, call);
+  abut_text_add(&text, "row ");
+  abut_text_add_integer(&text, i);
+  abut_text_add(&text, ": ");
+  abut_text_add(&text, what);
+  return status;
+}
+
+static abut_status
+check_row(abut_strategy *s, const inputs *in, int32_t i)
+{
+  if (!isfinite(in->weight[i]) || !isfinite(in->stiffness[i]))
+    return reject(s, ABUT_NOT_FINITE, i, "weight or stiffness is not finite");
+  if (in->weight[i] <= 0 || in->stiffness[i] <= 0)
+    return reject(s, ABUT_INVALID_ARGUMENT, i,
+                  "weight or stiffness is not positive");
+  if (!isfinite(in->gap[i])
+      || (in->pressure != NULL && !isfinite(in->pressure[i])))
+    return reject(s, ABUT_NOT_FINITE, i, "gap or pressure is not finite");
+  if (in->id != NULL && (in->id[i] < 0 || in->id[i] >= max_id))
+    return reject(s, ABUT_INVALID_ARGUMENT, i,
+                  "its number is negative or 2^53 or more");
+  if (in->state != NULL && in->state[i] > ABUT_STATE_CLOSED)
+    return reject(s, ABUT_INVALID_ARGUMENT, i, "its state is not a state");
+  if (in->bilateral != NULL && in->bilateral[i] != 0
+      && (s->options.law->flags & ABUT_LAW_INTERIOR) != 0)
+    return reject(s, ABUT_UNSUPPORTED, i,
+                  "an equality has no interior: use another law");
+  return ABUT_SUCCESS;
+}
+
+static abut_status
+check_inputs(abut_strategy *s, const inputs *in)
+{
+  if (in->n < 0)
+    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, call, "n is negative");
+  if (in->n > 0
+      && (in->weight == NULL || in->stiffness == NULL || in->gap == NULL))
+    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, call,
+                     "weight, stiffness or gap is NULL");
+  abut_status status = ABUT_SUCCESS;
+  for (int32_t i = 0; i < in->n && status == ABUT_SUCCESS; ++i)
+    status = check_row(s, in, i);
+  return status;
+}
+
+/* Room for all arrays in three blocks. */
+static abut_status
+place_arrays(abut_strategy *s, int32_t n)
+{
+  double **numbers[] = {
+      &s->gap,        &s->pressure,   &s->slack,     &s->reference,
+      &s->compliance, &s->scale,      &s->weight,    &s->stiffness,
+      &s->residual,   &s->d_pressure, &s->d_gap,     &s->dp,
+      &s->dg,         &s->dz,         &s->trial_gap, &s->trial_pressure,
+      &s->trial_scale};
+  uint8_t **bytes[] = {&s->state, &s->trial_state, &s->bilateral};
+  const int64_t n_numbers = sizeof(numbers) / sizeof(numbers[0]);
+  const int64_t n_bytes = sizeof(bytes) / sizeof(bytes[0]);
+  abut_status status =
+      abut_array_reserve(s->context, &s->numbers, 0, n_numbers * n);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(s->context, &s->bytes, 0, n_bytes * n);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(s->context, &s->ids, 0, n);
+  if (status != ABUT_SUCCESS)
+    return status;
+  s->n = n;
+  s->id = s->ids.data;
+  /* Without rows there are no blocks to point into. */
+  for (int64_t k = 0; k < n_numbers; ++k)
+    *numbers[k] = n > 0 ? (double *)s->numbers.data + k * n : NULL;
+  for (int64_t k = 0; k < n_bytes; ++k)
+    *bytes[k] = n > 0 ? (uint8_t *)s->bytes.data + k * n : NULL;
+  return ABUT_SUCCESS;
+}
+
+static void
+copy_inputs(abut_strategy *s, const inputs *in)
+{
+  const double complementarity = s->options.complementarity;
+  for (int32_t i = 0; i < in->n; ++i)
+  {
+    s->id[i] = in->id != NULL ? in->id[i] : i;
+    s->weight[i] = in->weight[i];
+    s->stiffness[i] = in->stiffness[i];
+    s->gap[i] = in->gap[i];
+    s->pressure[i] = in->pressure != NULL ? in->pressure[i] : 0;
+    s->bilateral[i] = in->bilateral != NULL && in->bilateral[i] != 0;
+    s->scale[i] = complementarity * in->stiffness[i];
+    s->slack[i] = s->compliance[i] = 0;
+    s->dp[i] = s->dg[i] = s->dz[i] = 0;
+  }
+}
+
+static abut_status
+first_state(abut_strategy *s, const uint8_t *state)
+{
+  if (state == NULL)
+  {
+    const abut_law_points points = abut_strategy_points(s);
+    return s->options.law->classify(&points, s->state);
+  }
+  for (int32_t i = 0; i < s->n; ++i)
+    s->state[i] = s->bilateral[i] != 0 ? ABUT_STATE_CLOSED : state[i];
+  return ABUT_SUCCESS;
+}
+
+/* Totals over ranks for the first progress report. */
+static abut_status
+count_rows(abut_strategy *s)
+{
+  double sum[2] = {s->n, 0}, penetration = 0;
+  for (int32_t i = 0; i < s->n; ++i)
+  {
+    sum[1] += s->state[i] != ABUT_STATE_OPEN;
+    penetration = fmax(penetration, abut_strategy_penetration(s, i));
+  }
+  abut_status status = abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, 2);
+  if (status == ABUT_SUCCESS)
+    status = abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &penetration, 1);
+  s->progress.n_rows = (int64_t)sum[0];
+  s->progress.n_active = (int64_t)sum[1];
+  s->progress.penetration = penetration;
+  return status;
+}
+
+static void
+reset(abut_strategy *s)
+{
+  memset(&s->progress, 0, sizeof(s->progress));
+  memset(&s->outer, 0, sizeof(s->outer));
+  memset(&s->interior, 0, sizeof(s->interior));
+  memset(&s->request, 0, sizeof(s->request));
+  s->request.pressure = s->pressure;
+  s->request.state = s->state;
+  s->request.residual = s->residual;
+  s->request.d_pressure = s->d_pressure;
+  s->request.d_gap = s->d_gap;
+  s->request.pressure_change = s->dp;
+  s->request.gap_change = s->dg;
+  s->mu = 0;
+  s->matrix_changed = true;
+  const double penalty = abut_strategy_first_penalty(&s->options);
+  if (penalty > 0)
+    abut_strategy_set_penalty(s, penalty);
+  abut_multiplier_update(s);
+}
+
+abut_status
+abut_strategy_start(abut_strategy *strategy, int32_t n, const int64_t *id,
+                    const double *weight, const double *stiffness,
+                    const uint8_t *bilateral, const double *gap,
+                    const double *pressure, const uint8_t *state)
+{
+  if (strategy == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_strategy *s = strategy;
+  const inputs in = {n, id, weight, stiffness, gap, pressure, bilateral, state};
+  abut_status status = abut_strategy_agree(s, check_inputs(s, &in));
+  if (status != ABUT_SUCCESS)
+    return status;
+  s->phase = ABUT_PHASE_CREATED;
+  status = place_arrays(s, n);
+  if (status == ABUT_SUCCESS)
+  {
+    copy_inputs(s, &in);
+    reset(s);
+    if ((s->options.law->flags & ABUT_LAW_INTERIOR) == 0)
+      status = first_state(s, state);
+  }
+  status = abut_strategy_agree(s, status);
+  if (status == ABUT_SUCCESS)
+    status = count_rows(s);
+  if (status == ABUT_SUCCESS)
+    s->phase = ABUT_PHASE_STARTED;
+  return status;
+}

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* The front of all methods: life cycle, checks at the boundary, and handing
+ * the host's reports to the method. */
+#include "strategy/strategy.h"
+#include "strategy/options.h"
+
+#include <math.h>
+#include <string.h>
+
+const char *
+abut_reason_text(abut_reason reason)
+{
+  switch (reason)
+  {
+  case ABUT_REASON_NONE:
+    return "not stopped";
+  case ABUT_REASON_CONVERGED:
+    return "converged";
+  case ABUT_REASON_STEP_LIMIT:
+    return "a limit was reached: allow more steps or a larger penalty, start "
+           "closer to the solution, or use another method";
+  case ABUT_REASON_STAGNATION:
+    return "the iteration does not contract: use a larger or adaptive penalty, "
+           "or tighter linear solves";
+  case ABUT_REASON_INFEASIBLE:
+    return "the barrier needs a start with all gaps open: move the bodies "
+           "apart, or use 'interior point', which needs none";
+  case ABUT_REASON_NOT_FINITE:
+    return "a gap or an increment is NaN or infinite: the linear system is "
+           "probably singular, look for a body without support";
+  }
+  return "unknown reason";
+}
+
+static const abut_method *
+method_of(const abut_law *law)
+{
+  switch (law->outer)
+  {
+  case ABUT_OUTER_NONE:
+  case ABUT_OUTER_PENALTY:
+  case ABUT_OUTER_MULTIPLIER:
+    return &abut_method_active_set;
+  case ABUT_OUTER_BARRIER:
+    return &abut_method_barrier;
+  case ABUT_OUTER_PRIMAL_DUAL:
+    return &abut_method_interior_point;
+  }
+  return NULL;
+}
+
+abut_status
+abut_strategy_create(abut_context *context,
+                     const abut_strategy_options *options,
+                     abut_strategy **strategy)
+{
+  if (context == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  if (options == NULL || strategy == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_strategy_create",
+                     "an argument is NULL");
+  const abut_status status =
+      abut_strategy_check_options(context, options, "abut_strategy_create");
+  if (status != ABUT_SUCCESS)
+    return status;
+  abut_strategy *s = abut_object_create(context, sizeof(abut_strategy));
+  if (s == NULL)
+    return abut_fail(context, ABUT_OUT_OF_MEMORY, "abut_strategy_create",
+                     "no memory");
+  s->context = context;
+  s->options = *options;
+  s->method = method_of(options->law);
+  s->numbers.element = sizeof(double);
+  s->bytes.element = sizeof(uint8_t);
+  s->ids.element = sizeof(int64_t);
+  *strategy = s;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_strategy_destroy(abut_strategy **strategy)
+{
+  if (strategy == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_strategy *s = *strategy;
+  if (s == NULL)
+    return ABUT_SUCCESS;
+  abut_array_release(s->context, &s->numbers);
+  abut_array_release(s->context, &s->bytes);
+  abut_array_release(s->context, &s->ids);
+  abut_object_destroy(s->context, s, sizeof(*s));
+  *strategy = NULL;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_strategy_progress(const abut_strategy *strategy, abut_progress *progress)
+{
+  if (strategy == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  if (progress == NULL)
+    return abut_fail(strategy->context, ABUT_INVALID_ARGUMENT,
+                     "abut_strategy_progress", "progress is NULL");
+  if (strategy->phase == ABUT_PHASE_CREATED)
+    return abut_fail(strategy->context, ABUT_WRONG_ORDER,
+                     "abut_strategy_progress", "the strategy is not started");
+  *progress = strategy->progress;
+  return ABUT_SUCCESS;
+}
+
+/* Whether all ranks' values are finite: one sum instead of a test per value. */
+static abut_status
+all_finite(abut_strategy *s, const double *x, const double *y, bool *finite)
+{
+  double probe = 0;
+  for (int32_t i = 0; i < s->n; ++i)
+    probe += (x[i] + y[i]) * 0.0;
+  double bad = probe == 0 ? 0 : 1;
+  const abut_status status =
+      abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &bad, 1);
+  *finite = bad == 0;
+  return status;
+}
+
+static abut_status
+stop_not_finite(abut_strategy *s, const char *what)
+{
+  abut_text text = abut_strategy_remark(s);
+  abut_text_add(&text, what);
+  abut_text_add(&text, " is NaN or infinite");
+  return abut_strategy_stop(s, ABUT_REASON_NOT_FINITE);
+}
+
+static abut_status
+take_changes(abut_strategy *s)
+{
+  bool finite = false;
+  const abut_status status = all_finite(s, s->dp, s->dg, &finite);
+  if (status != ABUT_SUCCESS)
+    return status;
+  return finite ? s->method->solved(s) : stop_not_finite(s, "an increment");
+}
+
+static abut_status
+take_gap(abut_strategy *s, const double *gap)
+{
+  bool finite = false;
+  if (s->n > 0)
+    memcpy(s->gap, gap, (size_t)s->n * sizeof(double));
+  const abut_status status = all_finite(s, s->gap, s->gap, &finite);
+  if (status != ABUT_SUCCESS)
+    return status;
+  return finite ? s->method->moved(s) : stop_not_finite(s, "a gap");
+}
+
+abut_status
+abut_strategy_next(abut_strategy *strategy, const double *gap,
+                   abut_request *request)
+{
+  if (strategy == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_strategy *s = strategy;
+  if (request == NULL)
+    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, "abut_strategy_next",
+                     "request is NULL");
+  if (s->phase == ABUT_PHASE_CREATED)
+    return abut_fail(s->context, ABUT_WRONG_ORDER, "abut_strategy_next",
+                     "the strategy is not started");
+  const bool running = s->phase == ABUT_PHASE_RUNNING;
+  const bool takes_gap = running && s->request.action == ABUT_ACTION_MOVE;
+  if (takes_gap && s->n > 0 && gap == NULL)
+    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, "abut_strategy_next",
+                     "gap is NULL after a move");
+  abut_status status = ABUT_SUCCESS;
+  if (s->phase == ABUT_PHASE_STARTED)
+  {
+    s->phase = ABUT_PHASE_RUNNING;
+    status = s->method->begin(s);
+  }
+  else if (takes_gap)
+    status = take_gap(s, gap);
+  else if (running)
+    status = take_changes(s);
+  /* After a failure the arrays may be half way: only a new start helps. */
+  if (status != ABUT_SUCCESS)
+    s->phase = ABUT_PHASE_CREATED;
+  else
+    *request = s->request;
+  return status;
+}

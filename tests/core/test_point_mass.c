@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* The textbook's scalar examples: a mass on a spring above a floor, and two
+ * unknowns with an equality. All expected numbers are closed forms. */
+#include "fixture.h"
+
+#include <math.h>
+
+/* min 1/2 k u^2 - m g u subject to u <= h, that is g = h - u. */
+static const double k = 1, h = 1, weight = 3;
+
+typedef struct history
+{
+  int32_t outer, n;
+  double u[16], p[16];
+} history;
+
+static void
+record(void *user, const abut_progress *progress, const double *displacement,
+       const double *pressure)
+{
+  history *past = user;
+  if (progress->outer == past->outer || past->n == 16)
+    return;
+  past->outer = progress->outer;
+  past->u[past->n] = displacement[0];
+  past->p[past->n] = pressure[0];
+  past->n += 1;
+}
+
+typedef struct outcome
+{
+  double u, p;
+  abut_progress progress;
+  abut_reason reason;
+  history past;
+} outcome;
+
+static outcome
+point_mass(abut_strategy_options options, const char *law)
+{
+  abut_context *context = fixture_context();
+  const int64_t column = 0;
+  const double minus_one = -1;
+  abut_rows *rows = NULL;
+  assert_ok(abut_rows_create(context, &rows));
+  assert_ok(abut_rows_append(rows, 0, 1, h, 0, 1, &column, &minus_one));
+  const abut_dense_model model = {sizeof(model), 1, &k, &weight, rows};
+  outcome out = {0};
+  options.law = abut_law_find(law);
+  assert_ok(abut_dense_model_solve(context, &model, &options, &out.u, &out.p,
+                                   NULL, record, &out.past, &out.progress,
+                                   &out.reason));
+  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_context_destroy(&context));
+  return out;
+}
+
+static void
+lagrange_multiplier(void **unused)
+{
+  (void)unused;
+  const outcome out = point_mass(exact_options(), "lagrange");
+  assert_int_equal(out.reason, ABUT_REASON_CONVERGED);
+  assert_close(out.u, h, 1e-12);
+  assert_close(out.p, weight - k * h, 1e-12);
+  /* One solve finds the contact, the next the answer. */
+  assert_int_equal(out.progress.step, 2);
+  assert_int_equal(out.progress.n_active, 1);
+}
+
+static void
+penalty(void **unused)
+{
+  (void)unused;
+  const double values[] = {1, 10, 1e3, 1e6};
+  for (int i = 0; i < 4; ++i)
+  {
+    const double eps = values[i];
+    abut_strategy_options options = exact_options();
+    options.penalty = eps;
+    const outcome out = point_mass(options, "penalty");
+    assert_int_equal(out.reason, ABUT_REASON_CONVERGED);
+    assert_close(out.u, (weight + eps * h) / (k + eps), 1e-12);
+    assert_close(out.p, eps * (weight - k * h) / (k + eps), 1e-12);
+  }
+}
+
+static void
+penalty_with_allowed_penetration(void **unused)
+{
+  (void)unused;
+  const double eps = 10, e = 0.25;
+  abut_strategy_options options = exact_options();
+  options.penalty = eps;
+  options.allowed_penetration = e;
+  const outcome out = point_mass(options, "penalty");
+  /* The floor is e lower. */
+  assert_close(out.u, (weight + eps * (h + e)) / (k + eps), 1e-12);
+}
+
+static void
+quadratic_penalty(void **unused)
+{
+  (void)unused;
+  abut_strategy_options options = exact_options();
+  options.gap_tolerance = 2.5e-4;
+  const outcome out = point_mass(options, "quadratic penalty");
+  assert_int_equal(out.reason, ABUT_REASON_CONVERGED);
+  /* Penetration (m g - k h)/(k + eps): 2/11, 2/101, 2/1001, 2/10001. */
+  assert_close(out.progress.penalty, 1e4, 1e-12);
+  assert_int_equal(out.progress.outer, 5);
+  assert_int_equal(out.past.n, 5);
+  for (int i = 0; i < 5; ++i)
+  {
+    const double eps = pow(10, i);
+    assert_close(out.past.u[i], (weight + eps * h) / (k + eps), 1e-12);
+  }
+}
+
+static void
+quadratic_penalty_reports_its_cap(void **unused)
+{
+  (void)unused;
+  abut_strategy_options options = exact_options();
+  options.penalty_cap = 500;
+  const outcome out = point_mass(options, "quadratic penalty");
+  assert_int_equal(out.reason, ABUT_REASON_STEP_LIMIT);
+  assert_close(out.progress.penalty, 500, 1e-12);
+  assert_close(out.u, (weight + 500 * h) / (k + 500), 1e-12);
+}
+
+static void
+augmented_lagrangian(void **unused)
+{
+  (void)unused;
+  const double eps = 10;
+  abut_strategy_options options = exact_options();
+  options.penalty = eps;
+  options.adaptive_penalty = false;
+  options.gap_tolerance = 1e-13;
+  const outcome out = point_mass(options, "augmented lagrangian");
+  assert_int_equal(out.reason, ABUT_REASON_CONVERGED);
+  assert_true(out.past.n >= 4);
+  /* p_n = p* (1 - q^n) with p* = m g - k h and q = k/(k + eps). */
+  for (int n = 1; n <= out.past.n; ++n)
+  {
+    const double p = (weight - k * h) * (1 - pow(k / (k + eps), n));
+    assert_close(out.past.p[n - 1], p, 1e-12);
+    assert_close(out.past.u[n - 1], (weight - p) / k, 1e-12);
+  }
+}
+
+static void
+barrier(void **unused)
+{
+  (void)unused;
+  const double values[] = {1, 0.1, 1e-4};
+  for (int i = 0; i < 3; ++i)
+  {
+    const double mu = values[i];
+    abut_strategy_options options = exact_options();
+    options.barrier_start = options.barrier_end = mu;
+    const outcome out = point_mass(options, "barrier");
+    assert_int_equal(out.reason, ABUT_REASON_CONVERGED);
+    /* k (h - s) + mu / s = m g: k s^2 + (m g - k h) s - mu = 0. */
+    const double excess = weight - k * h;
+    const double s = 2 * mu / (excess + sqrt(excess * excess + 4 * k * mu));
+    assert_close(out.p, mu / s, 1e-12);
+    assert_close(out.u, h - s, 1e-12);
+    assert_int_equal(out.progress.outer, 1);
+  }
+}
+
+static void
+interior_point(void **unused)
+{
+  (void)unused;
+  const outcome out = point_mass(exact_options(), "interior point");
+  assert_int_equal(out.reason, ABUT_REASON_CONVERGED);
+  /* p g <= 1e-8 at the end. */
+  assert_close(out.u, h, 1e-8);
+  assert_close(out.p, weight - k * h, 1e-7);
+  assert_true(out.progress.step <= 12);
+}
+
+/* min x1^2 + x2^2 with x1 + x2 = 1 by the method of multipliers. */
+static history
+two_unknowns(double c)
+{
+  abut_context *context = fixture_context();
+  const double stiffness[] = {2, 0, 0, 2}, force[] = {0, 0};
+  const int64_t columns[] = {0, 1};
+  const double ones[] = {1, 1};
+  abut_rows *rows = NULL;
+  assert_ok(abut_rows_create(context, &rows));
+  assert_ok(abut_rows_append(rows, 0, 1, -1, 1, 2, columns, ones));
+  const abut_dense_model model = {sizeof(model), 2, stiffness, force, rows};
+  abut_strategy_options options = exact_options();
+  options.law = abut_law_find("augmented lagrangian");
+  options.penalty = c;
+  options.adaptive_penalty = false;
+  options.gap_tolerance = 1e-10;
+  double x[2] = {0, 0}, p = 0;
+  history past = {0};
+  abut_reason reason;
+  assert_ok(abut_dense_model_solve(context, &model, &options, x, &p, NULL,
+                                   record, &past, NULL, &reason));
+  assert_int_equal(reason, ABUT_REASON_CONVERGED);
+  assert_close(x[0], 0.5, 1e-9);
+  assert_close(x[1], x[0], 1e-12);
+  assert_close(p, 1, 1e-9);
+  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_context_destroy(&context));
+  return past;
+}
+
+static void
+method_of_multipliers(void **unused)
+{
+  (void)unused;
+  const double values[] = {1, 10};
+  for (int i = 0; i < 2; ++i)
+  {
+    const double c = values[i];
+    const history past = two_unknowns(c);
+    assert_true(past.n >= 5);
+    for (int n = 1; n <= past.n; ++n)
+    {
+      /* The textbook's lambda is minus the pressure: -1 (1 - (1/(1+c))^n). */
+      const double p = 1 - pow(1 / (1 + c), n);
+      assert_close(past.p[n - 1], p, 1e-12);
+      assert_close(past.u[n - 1], p / 2, 1e-12);
+    }
+  }
+}
+
+int
+main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(lagrange_multiplier),
+      cmocka_unit_test(penalty),
+      cmocka_unit_test(penalty_with_allowed_penetration),
+      cmocka_unit_test(quadratic_penalty),
+      cmocka_unit_test(quadratic_penalty_reports_its_cap),
+      cmocka_unit_test(augmented_lagrangian),
+      cmocka_unit_test(barrier),
+      cmocka_unit_test(interior_point),
+      cmocka_unit_test(method_of_multipliers),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
