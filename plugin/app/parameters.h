@@ -8,6 +8,8 @@
  * nearest right one.
  */
 
+#include "nearest_word.h"
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
@@ -60,18 +62,12 @@ namespace abut::app
     void apply(dealii::ParameterHandler &prm) const;
 
   private:
+    void read(const std::string &name, unsigned int depth);
+    void override_with(const std::string &argument);
+
     std::string file;
     std::vector<Assignment> assignments;
   };
-
-  /** The word of @p words nearest to @p word by edit distance (capitals and
-   * small letters alike), or "" when none is near. */
-  std::string nearest_word(const std::string &word,
-                           const std::vector<std::string> &words);
-
-  /** " Did you mean 'x'?" with the nearest word, or "". */
-  std::string did_you_mean(const std::string &word,
-                           const std::vector<std::string> &words);
 
   /** Numbers separated by blanks or commas; throws InputError that names
    * @p parameter. "1 2, 3" gives {1, 2, 3}. */

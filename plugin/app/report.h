@@ -17,6 +17,8 @@
 #include <iosfwd>
 #include <map>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -40,13 +42,18 @@ namespace abut::app
     Report(MPI_Comm communicator, bool quiet);
 
     /** @name Summary @{ */
-    void set(const std::string &key, Value value);
-    void set(const std::string &key, const char *text);
-    void set(const std::string &key, int value);
-    void set(const std::string &key, unsigned int value);
-    void set(const std::string &key, long long value);
-    void set(const std::string &key, unsigned long long value);
-    void set(const std::string &key, std::size_t value);
+    /** Any number, truth value, text or vector of numbers. */
+    template <typename T> void set(const std::string &key, const T &value)
+    {
+      if constexpr (std::is_same_v<T, Value>)
+        set_value(key, value);
+      else if constexpr (std::is_convertible_v<const T &, std::string>)
+        set_value(key, std::string(value));
+      else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+        set_value(key, static_cast<std::int64_t>(value));
+      else
+        set_value(key, value);
+    }
 
     /** Add to a count (nonlinear_iterations, matvecs, ...); null counts as 0.
      */
@@ -108,6 +115,8 @@ namespace abut::app
       bool on;
       std::string why;
     };
+
+    void set_value(const std::string &key, Value value);
 
     bool prints() const;
 

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "command_line.h"
+
+#include "input_error.h"
+#include "nearest_word.h"
+
+#include <map>
+
+namespace abut::app
+{
+  namespace
+  {
+    using Command = CommandLine::Command;
+
+    const std::map<std::string, Command> commands = {
+        {"run", Command::run},
+        {"check", Command::check},
+        {"parameters", Command::parameters},
+        {"help", Command::help},
+        {"--help", Command::help},
+        {"-h", Command::help},
+        {"--version", Command::version}};
+
+    const char *const general_help =
+        R"(abut - contact mechanics with deal.II
+
+  abut run SCENE.prm      solve a scene
+  abut check SCENE.prm    read a scene, check its data and stop before solving
+  abut parameters         print the reference of all parameters (Markdown)
+  abut help COMMAND       explain a command
+  abut --version          print the versions of abut, deal.II and Trilinos
+
+In parallel: mpirun -n 4 abut run SCENE.prm
+)";
+
+    const std::map<std::string, std::string> topics = {
+        {"run", R"(abut run SCENE.prm [options]
+
+Solve the scene and write its results.
+
+  --set "Section/Name=value"  override a parameter of the file; may be repeated
+  --output DIR                folder of the results
+                              (default: output/<name of the scene file>)
+  --quiet                     print warnings and errors only
+
+Results: summary.json (the figures of the run), levels.csv (a row per mesh
+level or outer step), and what the section Output of the scene asks for.
+
+Exit code: 0 solved, 2 wrong input, 3 no answer to rely on (what there is was
+written), 1 internal error.
+)"},
+        {"check", R"(abut check SCENE.prm [--set "Section/Name=value"]...
+
+Read the scene, check everything that can be found out without solving, and
+print what would be solved. Exit code 0 when all is well, 2 when not.
+)"},
+        {"parameters", R"(abut parameters
+
+Print all parameters of all scenes with their defaults, legal values and
+meaning, as Markdown.
+)"},
+        {"help", R"(abut help [COMMAND]
+
+Print the commands, or explain one.
+)"}};
+
+    std::vector<std::string> names(const std::map<std::string, Command> &map)
+    {
+      std::vector<std::string> result;
+      for (const auto &entry : map)
+        result.push_back(entry.first);
+      return result;
+    }
+
+    /** The value of option @p words[i], which the next word must be. */
+    const std::string &value_of(const std::vector<std::string> &words,
+                                std::size_t &i)
+    {
+      if (i + 1 == words.size())
+        throw InputError("", "option '" + words[i] + "' needs a value.");
+      return words[++i];
+    }
+
+    void parse_scene_command(const std::vector<std::string> &words,
+                             CommandLine &result)
+    {
+      for (std::size_t i = 1; i < words.size(); ++i)
+        if (words[i] == "--set")
+          result.overrides.push_back(value_of(words, i));
+        else if (words[i] == "--output" && result.command == Command::run)
+          result.output = value_of(words, i);
+        else if (words[i] == "--quiet")
+          result.quiet = true;
+        else if (words[i].size() > 1 && words[i][0] == '-')
+          throw InputError(
+              "",
+              "'" + words[0] + "' has no option '" + words[i] + "'."
+                  + did_you_mean(words[i], {"--set", "--output", "--quiet"}));
+        else if (!result.scene_file.empty())
+          throw InputError("", "one scene file at a time: '" + result.scene_file
+                                   + "' and '" + words[i] + "' were given.");
+        else
+          result.scene_file = words[i];
+      if (result.scene_file.empty())
+        throw InputError("", "'" + words[0] + "' needs a scene file: abut "
+                                 + words[0] + " SCENE.prm");
+    }
+  } // namespace
+
+  CommandLine parse_command_line(const std::vector<std::string> &words)
+  {
+    CommandLine result;
+    if (words.empty())
+      return result;
+    const auto command = commands.find(words[0]);
+    if (command == commands.end())
+      throw InputError("", "there is no command '" + words[0] + "'."
+                               + did_you_mean(words[0], names(commands))
+                               + " 'abut --help' lists the commands.");
+    result.command = command->second;
+    if (result.command == Command::run || result.command == Command::check)
+      parse_scene_command(words, result);
+    else if (result.command == Command::help && words.size() == 2)
+      result.topic = words[1];
+    else if (words.size() > 1)
+      throw InputError("", "'" + words[0] + "' takes no '" + words[1] + "'.");
+    return result;
+  }
+
+  std::string help_text(const std::string &topic)
+  {
+    if (topic.empty())
+      return general_help;
+    const auto found = topics.find(topic);
+    if (found == topics.end())
+    {
+      std::vector<std::string> words;
+      for (const auto &entry : topics)
+        words.push_back(entry.first);
+      throw InputError("", "there is no help on '" + topic + "'."
+                               + did_you_mean(topic, words));
+    }
+    return found->second;
+  }
+} // namespace abut::app

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_COMMAND_LINE_H
+#define ABUT_APP_COMMAND_LINE_H
+
+#include <string>
+#include <vector>
+
+namespace abut::app
+{
+  /** What the user asked for. */
+  struct CommandLine
+  {
+    enum class Command
+    {
+      run,
+      check,
+      parameters,
+      version,
+      help
+    };
+
+    Command command = Command::help;
+    std::string scene_file;
+    std::string topic; /**< of `abut help TOPIC` */
+    std::vector<std::string> overrides;
+    std::string output; /**< empty: output/<name of the scene file> */
+    bool quiet = false;
+  };
+
+  /** Read the words after the program's name; throws InputError. */
+  CommandLine parse_command_line(const std::vector<std::string> &words);
+
+  /** Text of `abut help TOPIC`; "" is `abut --help`. Throws InputError for a
+   * topic that does not exist. */
+  std::string help_text(const std::string &topic);
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_COMMON_PARAMETERS_H
+#define ABUT_APP_COMMON_PARAMETERS_H
+
+#include "parameters.h"
+#include "scene.h"
+
+#include <iosfwd>
+
+namespace abut::app
+{
+  /** The kind of scene that a file asks for by `set Scene`. */
+  const SceneKind &scene_kind(const ParameterFile &file);
+
+  /** The dimension that a file asks for by `set Dimension`. */
+  unsigned int scene_dimension(const ParameterFile &file,
+                               const SceneKind &kind);
+
+  /** Declare what all scenes have in common, then the parameters of
+   * @p scene. */
+  void declare_all(dealii::ParameterHandler &prm, const SceneKind &kind,
+                   const Scene &scene);
+
+  /** The reference of all scenes' parameters as Markdown. */
+  void write_reference(std::ostream &out);
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+/* Nearest word by the edit distance of Damerau and Levenshtein (insertions,
+ * deletions, replacements and exchanges of neighbours; optimal string
+ * alignment), by dynamic programming over two words, O(length^2) each. */
+#include "nearest_word.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace abut::app
+{
+  namespace
+  {
+    std::string lower_case(std::string text)
+    {
+      for (char &c : text)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      return text;
+    }
+
+    std::size_t edit_distance(const std::string &a, const std::string &b)
+    {
+      std::vector<std::vector<std::size_t>> d(
+          a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+      for (std::size_t i = 0; i <= a.size(); ++i)
+        for (std::size_t j = 0; j <= b.size(); ++j)
+        {
+          if (i == 0 || j == 0)
+          {
+            d[i][j] = i + j;
+            continue;
+          }
+          d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1,
+                              d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+          if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+            d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+      return d[a.size()][b.size()];
+    }
+  } // namespace
+
+  std::string nearest_word(const std::string &word,
+                           const std::vector<std::string> &words)
+  {
+    const std::string wanted = lower_case(word);
+    std::string nearest;
+    std::size_t smallest = 0;
+    for (const std::string &candidate : words)
+    {
+      const std::string lower = lower_case(candidate);
+      std::size_t distance = edit_distance(wanted, lower);
+      // "lagrange multiplier" for "lagrange": one begins with the other.
+      if (wanted.size() > 2
+          && (lower.compare(0, wanted.size(), wanted) == 0
+              || wanted.compare(0, lower.size(), lower) == 0))
+        distance = std::min<std::size_t>(distance, 1);
+      if (distance <= 1 + std::max(wanted.size(), lower.size()) / 3
+          && (nearest.empty() || distance < smallest))
+      {
+        nearest = candidate;
+        smallest = distance;
+      }
+    }
+    return nearest;
+  }
+
+  std::string did_you_mean(const std::string &word,
+                           const std::vector<std::string> &words)
+  {
+    const std::string nearest = nearest_word(word, words);
+    return nearest.empty() ? "" : " Did you mean '" + nearest + "'?";
+  }
+} // namespace abut::app

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "parameters.h"
+
+#include "input_error.h"
+
+#include <deal.II/base/exceptions.h>
+
+#include <boost/property_tree/json_parser.hpp>
+#include <boost/property_tree/ptree.hpp>
+
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace abut::app
+{
+  namespace
+  {
+    using dealii::ParameterHandler;
+    namespace Utilities = dealii::Utilities;
+
+    /** ParameterHandler writes each character of a name other than letters and
+     * digits as an underscore and two hexadecimal digits. */
+    std::string demangle(const std::string &name)
+    {
+      std::string result;
+      for (std::size_t i = 0; i < name.size(); ++i)
+        if (name[i] == '_' && i + 2 < name.size())
+        {
+          const std::string digits = name.substr(i + 1, 2);
+          result += static_cast<char>(std::stoi(digits, nullptr, 16));
+          i += 2;
+        }
+        else
+          result += name[i];
+      return result;
+    }
+
+    /** Words of "[Selection a|b|c ]". */
+    std::vector<std::string> selection_words(const std::string &pattern)
+    {
+      const std::string begin = "[Selection ";
+      if (pattern.compare(0, begin.size(), begin) != 0)
+        return {};
+      return Utilities::split_string_list(
+          pattern.substr(begin.size(), pattern.size() - begin.size() - 1), '|');
+    }
+
+    /** deal.II's description of a pattern in words. */
+    std::string pattern_words(std::string pattern)
+    {
+      const std::vector<std::string> choices = selection_words(pattern);
+      if (!choices.empty())
+      {
+        std::string words = "one of ";
+        for (std::size_t i = 0; i < choices.size(); ++i)
+          words += (i == 0 ? "" : ", ") + choices[i];
+        return words;
+      }
+      if (pattern == "[Bool]")
+        return "true or false";
+      if (pattern == "[Anything]")
+        return "text";
+      std::istringstream in(pattern);
+      std::string kind, range;
+      in >> kind >> range;
+      if (kind != "[Double" && kind != "[Integer")
+        return pattern;
+      std::string words = kind == "[Double" ? "a number" : "a whole number";
+      const std::size_t dots = range.find("...");
+      if (dots == std::string::npos)
+        return words;
+      const std::string low = range.substr(0, dots),
+                        high = range.substr(dots + 3);
+      const bool bounded_below =
+          low.find("MAX") == std::string::npos && low != "-2147483648";
+      const bool bounded_above =
+          high.find("MAX") == std::string::npos && high != "2147483647";
+      if (bounded_below && std::atof(low.c_str()) > 0
+          && std::atof(low.c_str()) < 1e-300)
+        words += bounded_above ? " above 0 and up to " + high : " above 0";
+      else if (bounded_below && bounded_above)
+        words += " from " + low + " to " + high;
+      else if (bounded_below)
+        words += " of at least " + low;
+      else if (bounded_above)
+        words += " of at most " + high;
+      return words;
+    }
+
+    void collect(const boost::property_tree::ptree &tree,
+                 const std::string &path,
+                 std::vector<DeclaredParameter> &result)
+    {
+      for (const auto &[mangled, node] : tree)
+      {
+        const std::string name = path + demangle(mangled);
+        if (const auto value = node.get_optional<std::string>("default_value"))
+        {
+          const std::string pattern =
+              node.get<std::string>("pattern_description", "");
+          result.push_back({name, *value,
+                            node.get<std::string>("documentation", ""),
+                            pattern_words(pattern), selection_words(pattern)});
+        }
+        else if (!node.get_optional<std::string>("alias"))
+          collect(node, name + "/", result);
+      }
+    }
+
+    /** Text without blanks at both ends and with single blanks within. */
+    std::string squeezed(const std::string &text)
+    {
+      std::istringstream in(text);
+      std::string word, result;
+      while (in >> word)
+        result += (result.empty() ? "" : " ") + word;
+      return result;
+    }
+
+    std::string lower_case(std::string word)
+    {
+      for (char &c : word)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      return word;
+    }
+
+    std::string join(const std::vector<std::string> &sections,
+                     const std::string &name)
+    {
+      std::string path;
+      for (const std::string &section : sections)
+        path += section + "/";
+      return path + name;
+    }
+
+    /** Complain about @p path, which is not declared: name the section when
+     * that is wrong, else the parameter. */
+    [[noreturn]] void
+    throw_undeclared(const std::string &path,
+                     const std::vector<DeclaredParameter> &declared)
+    {
+      const std::size_t slash = path.rfind('/');
+      const std::string section =
+          slash == std::string::npos ? "" : path.substr(0, slash);
+      const std::string name = path.substr(section.empty() ? 0 : slash + 1);
+      std::set<std::string> sections;
+      std::vector<std::string> names, same_name;
+      for (const DeclaredParameter &parameter : declared)
+      {
+        const std::size_t end = parameter.path.rfind('/');
+        const std::string where =
+            end == std::string::npos ? "" : parameter.path.substr(0, end);
+        const std::string last =
+            where.empty() ? parameter.path : parameter.path.substr(end + 1);
+        sections.insert(where);
+        if (where == section)
+          names.push_back(last);
+        if (last == name)
+          same_name.push_back(parameter.path);
+      }
+      if (!section.empty() && names.empty())
+        throw InputError(path, "there is no section '" + section + "'."
+                                   + did_you_mean(section, {sections.begin(),
+                                                            sections.end()}));
+      std::string advice = did_you_mean(name, names);
+      if (advice.empty() && !same_name.empty())
+        advice = " There is a parameter '" + same_name.front() + "'.";
+      throw InputError(path, "there is no such parameter." + advice);
+    }
+
+    void set_value(ParameterHandler &prm, const DeclaredParameter &parameter,
+                   const std::string &value)
+    {
+      std::vector<std::string> sections =
+          Utilities::split_string_list(parameter.path, '/');
+      const std::string name = sections.back();
+      sections.pop_back();
+      for (const std::string &section : sections)
+        prm.enter_subsection(section);
+      bool legal = true;
+      try
+      {
+        prm.set(name, value);
+      }
+      catch (const dealii::ExceptionBase &)
+      {
+        legal = false;
+      }
+      for (std::size_t i = 0; i < sections.size(); ++i)
+        prm.leave_subsection();
+      if (!legal)
+        throw InputError(parameter.path,
+                         "'" + value + "' is not " + parameter.pattern + "."
+                             + did_you_mean(value, parameter.choices));
+    }
+  } // namespace
+
+  std::vector<DeclaredParameter>
+  declared_parameters(const ParameterHandler &prm)
+  {
+    std::stringstream json;
+    prm.print_parameters(json, ParameterHandler::JSON
+                                   | ParameterHandler::KeepDeclarationOrder);
+    boost::property_tree::ptree tree;
+    boost::property_tree::read_json(json, tree);
+    std::vector<DeclaredParameter> result;
+    collect(tree, "", result);
+    return result;
+  }
+
+  ParameterFile::ParameterFile(const std::string &file,
+                               const std::vector<std::string> &overrides)
+      : file(file)
+  {
+    read(file, 0);
+    for (const std::string &argument : overrides)
+      override_with(argument);
+  }
+
+  void ParameterFile::read(const std::string &name, const unsigned int depth)
+  {
+    std::ifstream in(name);
+    if (!in || std::filesystem::is_directory(name))
+      throw InputError("", "cannot read the scene file '" + name + "'.");
+    if (depth > 10)
+      throw InputError("", name + ": files include each other without end.");
+
+    std::vector<std::string> sections;
+    std::string line, continued;
+    unsigned int number = 0;
+    const auto complain = [&](const std::string &message) {
+      throw InputError("",
+                       name + ":" + std::to_string(number) + ": " + message);
+    };
+    while (std::getline(in, line))
+    {
+      ++number;
+      line = Utilities::trim(continued + line.substr(0, line.find('#')));
+      continued.clear();
+      if (!line.empty() && line.back() == '\\')
+      {
+        line.pop_back();
+        continued = line;
+        continue;
+      }
+      if (line.empty())
+        continue;
+      std::istringstream words(line);
+      std::string keyword, rest;
+      words >> keyword;
+      std::getline(words, rest);
+      const std::string command = lower_case(keyword);
+      if (command == "subsection")
+        sections.push_back(squeezed(rest));
+      else if (command == "end" && sections.empty())
+        complain("'end' without 'subsection'.");
+      else if (command == "end")
+        sections.pop_back();
+      else if (command == "include")
+        read((std::filesystem::path(name).parent_path() / squeezed(rest))
+                 .string(),
+             depth + 1);
+      else if (command == "set" && rest.find('=') != std::string::npos)
+      {
+        const std::size_t sign = rest.find('=');
+        assignments.push_back({join(sections, squeezed(rest.substr(0, sign))),
+                               Utilities::trim(rest.substr(sign + 1)),
+                               name + ":" + std::to_string(number)});
+      }
+      else if (command == "set")
+        complain("'set' without '=': " + line);
+      else
+        complain(
+            "'" + keyword + "' is not a word of a scene file."
+            + did_you_mean(keyword, {"set", "subsection", "end", "include"}));
+    }
+    if (!sections.empty())
+      complain("the file ends within subsection '" + sections.back()
+               + "': an 'end' is missing.");
+  }
+
+  void ParameterFile::override_with(const std::string &argument)
+  {
+    const std::size_t sign = argument.find('=');
+    if (sign == std::string::npos)
+      throw InputError("", "--set \"" + argument
+                               + "\": write --set \"Section/Name=value\".");
+    std::vector<std::string> words;
+    for (const std::string &word :
+         Utilities::split_string_list(argument.substr(0, sign), '/'))
+      words.push_back(squeezed(word));
+    const std::string name = words.empty() ? "" : words.back();
+    if (!words.empty())
+      words.pop_back();
+    assignments.push_back({join(words, name),
+                           Utilities::trim(argument.substr(sign + 1)),
+                           "--set \"" + argument + "\""});
+  }
+
+  std::string ParameterFile::get(const std::string &path,
+                                 const std::string &otherwise) const
+  {
+    std::string value = otherwise;
+    for (const Assignment &assignment : assignments)
+      if (assignment.path == path)
+        value = assignment.value;
+    return value;
+  }
+
+  std::string ParameterFile::origin(const std::string &path) const
+  {
+    std::string result = file;
+    for (const Assignment &assignment : assignments)
+      if (assignment.path == path)
+        result = assignment.origin;
+    return result;
+  }
+
+  void ParameterFile::apply(ParameterHandler &prm) const
+  {
+    const std::vector<DeclaredParameter> declared = declared_parameters(prm);
+    for (const Assignment &assignment : assignments)
+    {
+      const DeclaredParameter *found = nullptr;
+      for (const DeclaredParameter &parameter : declared)
+        if (parameter.path == assignment.path)
+          found = &parameter;
+      if (found == nullptr)
+        throw_undeclared(assignment.path, declared);
+      // The last assignment counts; the others are not looked at.
+      set_value(prm, *found, get(assignment.path, ""));
+    }
+  }
+
+  std::vector<double> parse_numbers(const std::string &text,
+                                    const std::string &parameter)
+  {
+    std::string blanks = text;
+    for (char &c : blanks)
+      if (c == ',')
+        c = ' ';
+    std::istringstream in(blanks);
+    std::vector<double> numbers;
+    std::string word;
+    while (in >> word)
+    {
+      char *end = nullptr;
+      const double value = std::strtod(word.c_str(), &end);
+      if (*end != '\0' || !std::isfinite(value))
+        throw InputError(parameter, "'" + word + "' is not a finite number.");
+      numbers.push_back(value);
+    }
+    return numbers;
+  }
+} // namespace abut::app

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "point_mass_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+namespace abut::app
+{
+  namespace
+  {
+    struct Destroy
+    {
+      void operator()(abut_context *context) const
+      {
+        abut_context_destroy(&context);
+      }
+      void operator()(abut_rows *rows) const
+      {
+        abut_rows_destroy(&rows);
+      }
+    };
+
+    using Context = std::unique_ptr<abut_context, Destroy>;
+    using Rows = std::unique_ptr<abut_rows, Destroy>;
+
+    void throw_if_failed(const abut_status status, const abut_context *context)
+    {
+      if (status != ABUT_SUCCESS)
+        throw std::runtime_error(context != nullptr
+                                     ? abut_context_message(context)
+                                     : abut_status_text(status));
+    }
+
+    Context make_context()
+    {
+      abut_context *context = nullptr;
+      throw_if_failed(abut_context_create(nullptr, &context), nullptr);
+      return Context(context);
+    }
+
+    Rows make_rows(const PointMassModel &model, abut_context *context)
+    {
+      abut_rows *created = nullptr;
+      throw_if_failed(abut_rows_create(context, &created), context);
+      Rows rows(created);
+      std::vector<std::int64_t> columns(model.n());
+      for (std::size_t j = 0; j < columns.size(); ++j)
+        columns[j] = static_cast<std::int64_t>(j);
+      for (std::size_t i = 0; i < model.rows.size(); ++i)
+        throw_if_failed(
+            abut_rows_append(rows.get(), static_cast<std::int64_t>(i), 1.,
+                             model.initial_gap[i], model.equality[i],
+                             static_cast<std::int32_t>(model.n()),
+                             columns.data(), model.rows[i].data()),
+            context);
+      return rows;
+    }
+
+    void record(void *user, const abut_progress *progress,
+                const double *displacement, const double *pressure)
+    {
+      auto &solution = *static_cast<PointMassSolution *>(user);
+      solution.history.push_back(
+          {*progress,
+           {displacement, displacement + solution.displacement.size()},
+           {pressure, pressure + solution.pressure.size()}});
+    }
+  } // namespace
+
+  double PointMassModel::energy(const std::vector<double> &u) const
+  {
+    double sum = 0;
+    for (std::size_t i = 0; i < n(); ++i)
+    {
+      for (std::size_t j = 0; j < n(); ++j)
+        sum += 0.5 * u[i] * stiffness[i * n() + j] * u[j];
+      sum -= force[i] * u[i];
+    }
+    return sum;
+  }
+
+  double PointMassModel::gap(const std::size_t row,
+                             const std::vector<double> &u) const
+  {
+    double g = initial_gap[row];
+    for (std::size_t j = 0; j < n(); ++j)
+      g += rows[row][j] * u[j];
+    return g;
+  }
+
+  double PointMassModel::row_stiffness(const std::size_t row) const
+  {
+    double sum = 0;
+    for (std::size_t j = 0; j < n(); ++j)
+      sum += rows[row][j] * rows[row][j] * stiffness[j * n() + j];
+    return sum;
+  }
+
+  double PointMassModel::length_scale() const
+  {
+    double scale = 0;
+    for (std::size_t j = 0; j < n(); ++j)
+      if (stiffness[j * n() + j] > 0)
+        scale = std::max(scale, std::abs(force[j]) / stiffness[j * n() + j]);
+    for (const double gap : initial_gap)
+      scale = std::max(scale, std::abs(gap));
+    return scale;
+  }
+
+  double PointMassModel::pressure_scale() const
+  {
+    double scale = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      double largest = 0;
+      for (std::size_t j = 0; j < n(); ++j)
+        largest = std::max(largest, std::abs(rows[i][j]));
+      for (std::size_t j = 0; j < n(); ++j)
+        scale = std::max(scale, std::abs(force[j]) / largest);
+      // A gap g0 is closed by the force k g0 / |B|^2 with k / |B|^2 of the
+      // order of the stiffness of one mass; the row's own is near enough.
+      scale = std::max(scale, std::abs(initial_gap[i]) * row_stiffness(i));
+    }
+    return scale;
+  }
+
+  PointMassSolution solve(const PointMassModel &model,
+                          abut_strategy_options options)
+  {
+    options.length_scale = model.length_scale();
+    options.pressure_scale = model.pressure_scale();
+
+    const Context context = make_context();
+    const Rows rows = make_rows(model, context.get());
+    abut_dense_model dense = {};
+    dense.struct_size = sizeof(dense);
+    dense.n = static_cast<std::int32_t>(model.n());
+    dense.stiffness = model.stiffness.data();
+    dense.force = model.force.data();
+    dense.rows = rows.get();
+
+    PointMassSolution solution = {};
+    solution.displacement = model.start;
+    solution.pressure.assign(model.rows.size(), 0.);
+    throw_if_failed(
+        abut_dense_model_solve(context.get(), &dense, &options,
+                               solution.displacement.data(),
+                               solution.pressure.data(), nullptr, record,
+                               &solution, &solution.progress, &solution.reason),
+        context.get());
+    return solution;
+  }
+} // namespace abut::app

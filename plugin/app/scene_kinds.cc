@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+/* The list of scenes: one line each, in the order of the reference. */
+#include "point_mass.h"
+#include "scene.h"
+
+namespace abut::app
+{
+  std::filesystem::path RunOptions::input_file(const std::string &name) const
+  {
+    const std::filesystem::path beside = scene_file.parent_path() / name;
+    return std::filesystem::exists(beside) ? beside
+                                           : std::filesystem::path(name);
+  }
+
+  const std::vector<SceneKind> &scene_kinds()
+  {
+    static const std::vector<SceneKind> kinds = {
+        {"point mass",
+         "point masses on springs with constraints: small dense problems",
+         {0},
+         make_point_mass}};
+    return kinds;
+  }
+} // namespace abut::app
