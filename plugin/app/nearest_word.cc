@@ -18,6 +18,11 @@ namespace abut::app
       return text;
     }
 
+    std::string first_word(const std::string &text)
+    {
+      return text.substr(0, text.find(' '));
+    }
+
     std::size_t edit_distance(const std::string &a, const std::string &b)
     {
       std::vector<std::vector<std::size_t>> d(
@@ -49,7 +54,11 @@ namespace abut::app
     {
       const std::string lower = lower_case(candidate);
       std::size_t distance = edit_distance(wanted, lower);
-      // "lagrange multiplier" for "lagrange": one begins with the other.
+      // "lagrang multiplier" for "lagrange": the first words are near.
+      if (wanted.find(' ') != std::string::npos)
+        distance = std::min(
+            distance, 1 + edit_distance(first_word(wanted), first_word(lower)));
+      // "interior" for "interior point": one begins with the other.
       if (wanted.size() > 2
           && (lower.compare(0, wanted.size(), wanted) == 0
               || wanted.compare(0, lower.size(), lower) == 0))

@@ -60,19 +60,19 @@ namespace abut::app
       return numbers;
     }
 
-    void check_stiffness(const PointMassModel &model)
+    void check_stiffness(const std::vector<std::vector<double>> &stiffness)
     {
-      const std::size_t n = model.n();
+      const std::size_t n = stiffness.size();
       if (n == 0 || n > 300)
         throw InputError(stiffness_name, "from 1 to 300 masses are possible.");
       for (std::size_t i = 0; i < n; ++i)
       {
-        if (model.stiffness[i * n + i] < 0)
-          throw InputError(stiffness_name, "the diagonal has a negative "
-                                           "entry: the masses would not be "
-                                           "in stable balance.");
+        if (stiffness[i][i] < 0)
+          throw InputError(stiffness_name, "the diagonal has a negative entry: "
+                                           "the masses would not be in stable "
+                                           "balance.");
         for (std::size_t j = 0; j < i; ++j)
-          if (model.stiffness[i * n + j] != model.stiffness[j * n + i])
+          if (stiffness[i][j] != stiffness[j][i])
             throw InputError(stiffness_name, "the matrix is not symmetric.");
       }
     }
@@ -156,9 +156,8 @@ namespace abut::app
       prm.enter_subsection("Method");
       prm.declare_entry("Barrier parameter", "0", Patterns::Double(0),
                         "Product of contact force and gap in the units of the "
-                        "scene at which `barrier` and `interior point` stay, "
-                        "instead of going to zero; 0 uses `Barrier start`, "
-                        "`factor` and `end`.");
+                        "scene at which `barrier` stays instead of going to "
+                        "zero; 0 uses `Barrier start`, `factor` and `end`.");
       prm.leave_subsection();
       prm.enter_subsection("Sweep");
       prm.declare_entry("Penalties", "", Patterns::Anything(),
@@ -174,6 +173,7 @@ namespace abut::app
       prm.enter_subsection("Masses");
       const auto stiffness =
           parse_rows(prm.get("Stiffness"), stiffness_name, 0);
+      check_stiffness(stiffness);
       for (const std::vector<double> &row : stiffness)
         model.stiffness.insert(model.stiffness.end(), row.begin(), row.end());
       const std::size_t n = stiffness.size();
@@ -182,7 +182,6 @@ namespace abut::app
                         ? std::vector<double>(n, 0.)
                         : parse_vector(prm.get("Start"), "Masses/Start", n);
       prm.leave_subsection();
-      check_stiffness(model);
 
       prm.enter_subsection("Constraints");
       model.rows = parse_rows(prm.get("B"), rows_name, n);

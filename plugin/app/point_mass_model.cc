@@ -62,10 +62,16 @@ namespace abut::app
                 const double *displacement, const double *pressure)
     {
       auto &solution = *static_cast<PointMassSolution *>(user);
-      solution.history.push_back(
-          {*progress,
-           {displacement, displacement + solution.displacement.size()},
-           {pressure, pressure + solution.pressure.size()}});
+      PointMassStep step = {
+          *progress,
+          {displacement, displacement + solution.displacement.size()},
+          {pressure, pressure + solution.pressure.size()}};
+      // The end of a solve is reported even if nothing moved any more.
+      if (!solution.history.empty()
+          && solution.history.back().displacement == step.displacement
+          && solution.history.back().pressure == step.pressure)
+        solution.history.pop_back();
+      solution.history.push_back(std::move(step));
     }
   } // namespace
 
@@ -92,10 +98,14 @@ namespace abut::app
 
   double PointMassModel::row_stiffness(const std::size_t row) const
   {
-    double sum = 0;
+    double sum = 0, squares = 0;
     for (std::size_t j = 0; j < n(); ++j)
-      sum += rows[row][j] * rows[row][j] * stiffness[j * n() + j];
-    return sum;
+    {
+      const double square = rows[row][j] * rows[row][j];
+      sum += square * stiffness[j * n() + j];
+      squares += square;
+    }
+    return sum / (squares * squares);
   }
 
   double PointMassModel::length_scale() const
@@ -119,8 +129,6 @@ namespace abut::app
         largest = std::max(largest, std::abs(rows[i][j]));
       for (std::size_t j = 0; j < n(); ++j)
         scale = std::max(scale, std::abs(force[j]) / largest);
-      // A gap g0 is closed by the force k g0 / |B|^2 with k / |B|^2 of the
-      // order of the stiffness of one mass; the row's own is near enough.
       scale = std::max(scale, std::abs(initial_gap[i]) * row_stiffness(i));
     }
     return scale;

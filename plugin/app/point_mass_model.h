@@ -31,8 +31,8 @@ namespace abut::app
     /** g0 + B u of a row. */
     double gap(std::size_t row, const std::vector<double> &u) const;
 
-    /** Stiffness of the masses seen by a row, sum_j B_j^2 K_jj; what penalties
-     * are multiples of. */
+    /** Stiffness of the masses seen by a row, sum_j B_j^2 K_jj / |B|^4; what
+     * penalties are multiples of (see abut_dense_model_solve()). */
     double row_stiffness(std::size_t row) const;
 
     /** A displacement to expect, from the data: the largest of |f| / K_jj and
@@ -40,7 +40,7 @@ namespace abut::app
     double length_scale() const;
 
     /** A contact force to expect, likewise: the largest of |f| / |B| and of
-     * initial gap times stiffness. */
+     * initial gap times stiffness of the row. */
     double pressure_scale() const;
   };
 

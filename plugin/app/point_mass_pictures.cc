@@ -39,6 +39,18 @@ namespace abut::app
       double k, f, b, g0, row_stiffness, free, wall, low, high;
     };
 
+    /** 1000 and 1e6 rather than 1000000. */
+    std::string short_number(const double value)
+    {
+      const double exponent = std::round(std::log10(value));
+      std::ostringstream out;
+      if (exponent > 3 && std::pow(10., exponent) == value)
+        out << "10^{" << exponent << "}";
+      else
+        out << value;
+      return out.str();
+    }
+
     std::string functions(const OneMass &m)
     {
       std::ostringstream out;
@@ -94,7 +106,8 @@ namespace abut::app
           << "plot E(x) lt 8 dt 2 title 'no obstacle'";
       for (std::size_t i = 0; i < penalties.size(); ++i)
         out << ", \\\n  P(x, " << penalties[i] * m.row_stiffness << ") lt "
-            << i % 6 + 1 << " title 'penalty " << penalties[i] << "'";
+            << i % 6 + 1 << " title 'penalty " << short_number(penalties[i])
+            << "'";
       out << ", \\\n  $minima using 1:(P($1, $3)) with points pt 7 ps 0.8 lc "
              "rgb 'black' title 'minima'\n";
       return out.str();
@@ -133,7 +146,7 @@ namespace abut::app
           << "set ylabel 'displacement u, contact force p'\n"
           << "set title 'A penalty approaches the obstacle and its force'\n"
           << "set yrange [" << 1.12 * bottom << ":" << top << "]\n"
-          << "set key right center\nset xrange [" << std::pow(10., first) << ":"
+          << "set key right top\nset xrange [" << std::pow(10., first) << ":"
           << *high << "]\n"
           << "plot " << m.wall << " lt 1 dt 2 lw 1 title 'u at the obstacle', "
           << m.wall_force()
@@ -145,42 +158,49 @@ namespace abut::app
       return out.str();
     }
 
+    /** Contours in colour, because an image in an SVG is scaled differently by
+     * different viewers. */
     std::string lagrangian_script(const OneMass &m)
     {
       const double lambda = -m.wall_force(),
-                   span = std::max(std::abs(lambda), std::abs(m.f)) + 1e-300;
+                   span = std::max(std::abs(lambda), std::abs(m.f)),
+                   bottom = lambda - span, top = lambda + span;
       std::ostringstream out;
       out.precision(12);
       out << gnuplot_header("lagrangian", 700, 520) << functions(m)
           << "L(u, lambda) = E(u) + lambda * g(u)\n"
-          << "bottom = " << lambda - 1.1 * span
-          << "\ntop = " << lambda + 1.1 * span << "\n"
+          << "bottom = " << bottom << "\ntop = " << top
+          << "\nlambda = " << lambda << "\nsaddle = L(wall, lambda)\n"
+          << "max(a, b) = a > b ? a : b\n"
+          << "reach = max(max(abs(L(high, bottom) - saddle), "
+             "abs(L(high, top) - saddle)), max(abs(L(low, bottom) - saddle), "
+             "abs(L(low, top) - saddle)))\n"
           << "set xrange [low:high]\nset yrange [bottom:top]\n"
-          << "set isosamples 121\nset samples 121\n"
-          << "set contour base\nunset surface\nset cntrparam levels 24\n"
-          << "set cntrparam bspline\nset table $contours\n"
-          << "splot L(x, y)\nunset table\nunset contour\nset surface\n"
-          << "set palette defined (0 '#2c5f8a', 0.35 '#a9c8de', 0.5 '#f7f7f7', "
-             "0.65 '#f3c9a5', 1 '#b5541c')\n"
-          << "saddle = L(wall, " << lambda << ")\n"
-          << "reach = 1.6 * (L(high, bottom) > L(low, top) ? "
-             "abs(L(high, bottom) - saddle) : abs(L(low, top) - saddle)) / 2\n"
-          << "set cbrange [saddle - reach:saddle + reach]\n"
-          << "set cblabel 'Lagrangian'\nset colorbox noborder\n"
+          << "set isosamples 161\nset samples 161\n"
+          << "set contour base\nunset surface\nset cntrparam levels "
+             "incremental saddle - reach, reach / 28, saddle + reach\n"
+          << "set table $contours\nsplot L(x, y)\nunset table\n"
+          << "set palette defined (0 '#08306b', 0.3 '#4a90c4', 0.5 '#909090', "
+             "0.7 '#e08030', 1 '#7f2704')\n"
+          << "set cbrange [saddle - reach / 2:saddle + reach / 2]\n"
+          << "set cblabel 'Lagrangian L(u, \316\273)'\n"
+          << "set colorbox noborder\n"
           << "set xlabel 'displacement u'\n"
-          << "set ylabel 'multiplier {/Symbol l} = - contact force'\n"
+          << "set ylabel 'multiplier \316\273 = - contact force p'\n"
           << "set title 'The Lagrangian and its saddle point'\n"
-          << "set border 15\nunset grid\nset key off\n"
-          << "set label 1 sprintf('saddle: u = %.4g, {/Symbol l} = %.4g', "
-             "wall, "
-          << lambda << ") at wall, " << lambda << " offset 1,1 boxed front\n"
-          << "plot '++' using 1:2:(L($1, $2)) with image, \\\n"
-          << "  $contours using 1:2 with lines lc rgb '#505050' lw 0.6, \\\n"
-          << "  '+' using (wall):($1 * 0 + bottom + (top - bottom) * "
-             "($0 / 120.)) with lines dt 2 lw 1.2 lc rgb 'black', \\\n"
-          << "  '+' using 1:((" << m.k << " * $1 - (" << m.f << ")) / (" << -m.b
-          << ")) with lines dt 2 lw 1.2 lc rgb 'black', \\\n"
-          << "  '-' using 1:2 with points pt 7 ps 1.2 lc rgb 'black'\n"
+          << "set border 15\nunset grid\nset key below\n"
+          << "set label 1 sprintf('saddle: u = %.4g, \316\273 = %.4g', wall, "
+             "lambda) at wall, lambda offset 1.5,-1 boxed front\n"
+          << "set arrow 1 from wall, bottom to wall, top nohead dt 2 lw 1.2 lc "
+             "rgb 'black'\n"
+          << "plot $contours using 1:2:3 with lines lc palette lw 1 notitle, "
+             "\\\n  ("
+          << m.k << " * x - (" << m.f << ")) / (" << -m.b
+          << ") with lines dt 3 lw 1.4 lc rgb 'black' title "
+             "'{/:Italic dL/du} = 0', \\\n"
+          << "  NaN with lines dt 2 lw 1.2 lc rgb 'black' title "
+             "'{/:Italic dL/d}\316\273 = 0 (gap closed)', \\\n"
+          << "  '-' using 1:2 with points pt 7 ps 1.2 lc rgb 'black' notitle\n"
           << m.wall << " " << lambda << "\ne\n";
       return out.str();
     }
@@ -220,7 +240,7 @@ namespace abut::app
           << "set table $contours\nsplot E(x, y)\nunset table\n"
           << "set xlabel 'u_1'\nset ylabel 'u_2'\n"
           << "set title 'Outer steps on the contours of the energy'\n"
-          << "set key top right box lc rgb '#c0c0c0'\n";
+          << "set key bottom left box lc rgb '#c0c0c0'\n";
       std::string constraints;
       for (std::size_t i = 0; i < model.rows.size(); ++i)
       {

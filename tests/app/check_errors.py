@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Wrong input of every kind gives one error that names place and cure, and
+exit code 2."""
+import os
+
+from program import Program
+
+p = Program()
+scene = p.source / "prm/point-mass.prm"
+
+# Command line.
+p.expect_error(p.call("rum"), "'rum'", "'run'")
+p.expect_error(p.call("run"), "scene file")
+p.expect_error(p.call("run", scene, "--outptu", "x"), "'--output'")
+p.expect_error(p.call("run", scene, "--set"), "'--set' needs a value")
+p.expect_error(p.call("run", scene, "--set", "Title"), "Section/Name=value")
+p.expect_error(p.call("run", scene, scene), "one scene file")
+p.expect_error(p.call("help", "rnu"), "'run'")
+
+# Files.
+p.expect_error(p.call("run", "nowhere.prm"), "nowhere.prm")
+p.expect_error(p.call("run", "."), "cannot read")
+
+
+def wrong(text, *words):
+    p.expect_error(p.call("run", p.write("wrong.prm", text)), *words)
+
+
+POINT = "set Scene = point mass\n"
+wrong("", "'set Scene'", "point mass")
+wrong("set Scene = ponit mass\n", "wrong.prm:1", "Did you mean 'point mass'?")
+wrong(POINT + "sett Title = x\n", "wrong.prm:2", "'sett'", "'set'")
+wrong(POINT + "set Title\n", "wrong.prm:2", "'='")
+wrong(POINT + "subsection Masses\n", "wrong.prm:2", "'Masses'", "'end'")
+wrong(POINT + "end\n", "wrong.prm:2", "'subsection'")
+wrong(POINT + "include missing.prm\n", "missing.prm")
+wrong(POINT + "include wrong.prm\n", "include each other")
+wrong(POINT + "set Titel = x\n", "wrong.prm:2", "Titel", "'Title'")
+wrong(POINT + "subsection Massses\nset Force = 1\nend\n", "wrong.prm:3",
+      "section 'Massses'", "'Masses'")
+wrong(POINT + "subsection Masses\n# a comment\n\nset Stifness = 1\nend\n",
+      "wrong.prm:5", "Masses/Stifness", "'Stiffness'")
+wrong(POINT + "set Penalty = 5\n", "wrong.prm:2", "'Method/Penalty'")
+
+# Values.
+
+
+def wrong_value(parameter, value, *words):
+    p.expect_error(p.call("run", scene, "--set", f"{parameter}={value}"),
+                   parameter + ":", *words)
+
+
+wrong_value("Method/Enforcement", "lagrang multiplier", "'lagrange'")
+wrong_value("Method/Enforcement", "interior", "'interior point'")
+wrong_value("Method/Gap tolerance", "-1", "'-1'", "above 0")
+wrong_value("Method/Gap tolerance", "nan", "'nan'")
+wrong_value("Method/Maximum steps", "1.5", "whole number")
+wrong_value("Method/System", "sadle point", "'saddle point'")
+wrong_value("Masses/Force", "nan", "'nan' is not a finite number")
+wrong_value("Masses/Force", "1e400", "'1e400'")
+wrong_value("Masses/Force", "1 2", "2 numbers where 1")
+wrong_value("Masses/Stiffness", "1 2; 3 4", "not symmetric")
+wrong_value("Masses/Stiffness", "1 2; 3", "a row has")
+wrong_value("Masses/Stiffness", "-1", "negative")
+wrong_value("Constraints/B", "0", "a row is zero")
+wrong_value("Constraints/Kind", "inequalty", "'inequality'")
+wrong_value("Sweep/Penalties", "1, 0", "above 0")
+wrong_value("Output/Pictures", "maybe", "true or false")
+p.expect_error(p.call("run", scene, "--set", "Method/Barrier end=1"),
+               "Method/Barrier end", "Method/Barrier start")
+
+# Output folders.
+p.write("file", "")
+p.expect_error(p.call("run", scene, "--output", "file/x"), "file/x")
+p.expect_error(p.call("run", scene, "--output", "file"), "'file'")
+if os.geteuid() != 0:
+    os.mkdir(p.folder / "locked", 0o500)
+    p.expect_error(p.call("run", scene, "--output", "locked"), "'locked'")
+
+p.finish()

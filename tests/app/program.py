@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the tests of the program share: calling it and comparing results."""
+import argparse
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import tempfile
+
+
+class Program:
+    """The program under test with a folder of its own to work in."""
+
+    def __init__(self):
+        parser = argparse.ArgumentParser()
+        parser.add_argument("--abut", required=True)
+        parser.add_argument("--source", required=True)
+        arguments = parser.parse_args()
+        self.abut = arguments.abut
+        self.source = pathlib.Path(arguments.source)
+        self._folder = tempfile.TemporaryDirectory(prefix="abut-test-")
+        self.folder = pathlib.Path(self._folder.name)
+        self.failures = 0
+
+    def call(self, *words, ranks=0):
+        """Run `abut words`; ranks > 0: under mpirun."""
+        command = [self.abut, *map(str, words)]
+        if ranks > 0:
+            command = ["mpirun", "--oversubscribe", "-n", str(ranks)] + command
+        return subprocess.run(command, cwd=self.folder, text=True,
+                              capture_output=True, timeout=120)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+        return name
+
+    def expect(self, condition, message):
+        if not condition:
+            self.failures += 1
+            print("FAILED:", message)
+
+    def close(self, value, expected, tolerance, message):
+        good = (value is not None and math.isfinite(value)
+                and abs(value - expected) <= tolerance * max(1, abs(expected)))
+        self.expect(good, f"{message}: {value} is not {expected}")
+
+    def expect_error(self, result, *texts, code=2):
+        """One error with this exit code that contains the texts."""
+        lines = [line for line in result.stderr.splitlines()
+                 if line.startswith("abut: error:")]
+        what = " ".join(map(str, result.args[1:]))
+        self.expect(result.returncode == code,
+                    f"{what}: exit code {result.returncode}, not {code}")
+        self.expect(len(lines) == 1,
+                    f"{what}: {len(lines)} errors instead of one:\n"
+                    + result.stderr)
+        for text in texts:
+            self.expect(any(text in line for line in lines),
+                        f"{what}: no '{text}' in: {result.stderr}")
+
+    def solve(self, scene, *words, ranks=0):
+        """Run a shipped scene; returns summary and rows of levels.csv."""
+        result = self.call("run", self.source / "prm" / scene, "--output",
+                           "out", "--quiet", *words, ranks=ranks)
+        self.expect(result.returncode == 0,
+                    f"{scene} {words}: exit code {result.returncode}\n"
+                    + result.stderr)
+        return self.results()
+
+    def results(self):
+        summary = json.loads((self.folder / "out/summary.json").read_text())
+        return summary, self.table("levels.csv")
+
+    def table(self, name):
+        with open(self.folder / "out" / name) as file:
+            return [{key: float(value) if value else None
+                     for key, value in row.items()}
+                    for row in csv.DictReader(file)]
+
+    def finish(self):
+        if self.failures:
+            raise SystemExit(f"{self.failures} failures")
+        print("ok")
