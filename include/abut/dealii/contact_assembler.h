@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_DEALII_CONTACT_ASSEMBLER_H
+#define ABUT_DEALII_CONTACT_ASSEMBLER_H
+
+/** @file
+ * Contact for a deal.II application that keeps its own mesh, material and
+ * Newton loop.
+ *
+ *     contact.reinit(mapping, dof_handler, constraints);
+ *     contact.detect(u);
+ *     do
+ *     {
+ *       // assemble K = dR/du and R = internal - external forces at u
+ *       contact.solve(K, R, du);
+ *       u += du;
+ *     } while (contact.update(u));
+ *
+ * Signs: gap > 0 is open, pressure > 0 is compression. R holds no contact
+ * force; rows of R and K that the constraints eliminate must be zero and
+ * diagonal, as AffineConstraints::distribute_local_to_global() leaves them.
+ * All functions are collective over the communicator unless they say
+ * otherwise, and errors are thrown on all ranks.
+ */
+
+#include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/method_parameters.h>
+#include <abut/dealii/solver_parameters.h>
+#include <abut/strategy.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <memory>
+#include <set>
+
+namespace abut
+{
+  /** A membrane's obstacles: lower <= u <= upper at the support points of the
+   * whole domain, or of the given boundary ids only. */
+  template <int dim> struct Obstacle
+  {
+    /** psi in u >= psi, or null. */
+    std::shared_ptr<const dealii::Function<dim>> lower;
+    /** psi2 in u <= psi2, or null. */
+    std::shared_ptr<const dealii::Function<dim>> upper;
+    /** Where contact is possible; empty: in the whole domain. */
+    std::set<dealii::types::boundary_id> boundary_ids;
+  };
+
+  /** Assembles and solves contact for one DoFHandler. */
+  template <int dim> class ContactAssembler
+  {
+  public:
+    /** @p communicator must be that of the triangulation. */
+    explicit ContactAssembler(MPI_Comm communicator);
+    ~ContactAssembler();
+
+    /** Declare the sections `Method` and `Solver`. Not collective. */
+    static void declare_parameters(dealii::ParameterHandler &prm);
+
+    /** Read them. Not collective. */
+    void parse_parameters(dealii::ParameterHandler &prm);
+
+    /** The same without a parameter file. Not collective. */
+    void set_parameters(const MethodParameters &method,
+                        const SolverParameters &solver);
+
+    /** What the field may not penetrate. Takes effect at detect(). Not
+     * collective. */
+    void set_obstacle(const Obstacle<dim> &obstacle);
+
+    /** Say that the matrix given to solve() is the same until the next
+     * reinit(): preconditioners are then kept. Default: false. Not
+     * collective. */
+    void assume_constant_matrix(bool constant);
+
+    /** Take a mesh with its unknowns and constraints (closed; hanging nodes
+     * and prescribed values). All three must outlive the next reinit().
+     * Forgets pressures; see set_pressure(). One pass over the cells. */
+    void reinit(const dealii::Mapping<dim> &mapping,
+                const dealii::DoFHandler<dim> &dof_handler,
+                const dealii::AffineConstraints<double> &constraints);
+
+    /** Find the constraint rows and begin a new solve at @p displacement
+     * (owned entries). Throws if a prescribed value violates an obstacle, if
+     * obstacles cross each other or have a value that is not finite.
+     * Pressures of the last solve, or those of set_pressure(), are its
+     * start. */
+    void detect(const la::Vector &displacement);
+
+    /** Nodal pressure to start from, for example interpolated from a coarser
+     * mesh: positive on the lower obstacle, negative on the upper. Call
+     * between reinit() and detect(). */
+    void set_pressure(const la::Vector &pressure);
+
+    /** Add the couplings that add() needs. Rows on single unknowns, as those
+     * of obstacles, need none. */
+    void add_to_sparsity(dealii::DynamicSparsityPattern &pattern) const;
+
+    /** Improve the start by @p n_sweeps symmetric projected Gauss-Seidel
+     * sweeps, and take the set of active rows from them: nested iteration
+     * needs a third of the steps then. Only between detect() and the first
+     * solve(), for symmetric positive definite @p matrix. Changes
+     * @p displacement; its residual must be computed again. */
+    void relax(const la::Matrix &matrix, const la::Vector &residual,
+               unsigned int n_sweeps, la::Vector &displacement);
+
+    /** One linearised step with contact: returns the increment of the
+     * displacement, already damped where the method asks for it. @p matrix is
+     * not changed. Throws when the linear solver fails. */
+    LinearReport solve(const la::Matrix &matrix, const la::Vector &residual,
+                       la::Vector &increment);
+
+    /** For hosts with a linear solver of their own: add the condensed contact
+     * terms to @p matrix and @p residual, so that matrix increment =
+     * -residual is the step with contact; then call update(). Throws for laws
+     * with true constraints (lagrange) and for interior point, which need
+     * solve(). */
+    void add(la::Matrix &matrix, la::Vector &residual);
+
+    /** Tell the displacement after the step; advances active set, multipliers
+     * and parameters. Returns whether another step is needed; if not,
+     * reason() tells why. */
+    bool update(const la::Vector &displacement);
+
+    /** Why the iteration stopped. Not collective. */
+    abut_reason reason() const;
+
+    /** State of the iteration. Not collective. */
+    abut_progress progress() const;
+
+    /** Number of rows on all ranks. */
+    dealii::types::global_dof_index n_rows() const;
+
+    /** Number of rows in contact on all ranks: in the present active set, or
+     * for interior methods those with pressure / stiffness > gap. */
+    dealii::types::global_dof_index n_active() const;
+
+    /** Sum of w p B over rows: the contact force on the lower obstacle minus
+     * that on the upper. */
+    double contact_force() const;
+
+    /** sum w |p g| / sum w |p|: mean gap under pressure, length. */
+    double complementarity() const;
+
+    /** Largest penetration max(0, -g), length. */
+    double penetration() const;
+
+    /** Nodal pressure, signed as in set_pressure(), 0 where there is no row
+     * (hanging nodes: distribute your hanging-node constraints). No ghosts. */
+    la::Vector pressure() const;
+
+    /** Nodal gap to the nearer obstacle, 0 where there is no row. */
+    la::Vector gap() const;
+
+    /** 1 on the lower, 2 on the upper obstacle, 0 open, -1 without a row. */
+    la::Vector status() const;
+
+    /** Cost of all linear solves since the last reinit(). */
+    const LinearReport &linear_report() const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation;
+  };
+} // namespace abut
+
+#endif

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_DEALII_LINEAR_ALGEBRA_H
+#define ABUT_DEALII_LINEAR_ALGEBRA_H
+
+/** @file
+ * The one place that names linear-algebra types. Everything else says
+ * la::Matrix and la::Vector, so that another Trilinos stack can take the
+ * place of Epetra without touching the rest.
+ */
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <vector>
+
+/** Linear-algebra types and the little that depends on their inside. */
+namespace abut::la
+{
+  /** Distributed sparse matrix, rows by owned unknowns. */
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+  /** Distributed vector, with or without ghost entries. */
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  /** The rows of a matrix on this rank as compressed rows. Columns are
+   * local: column < n_rows is the owned unknown of that number, larger
+   * ones are ghosts in the order of gather(). Valid while the matrix lives
+   * and its pattern does not change. */
+  struct LocalRows
+  {
+    int n_rows = 0;              /**< rows on this rank */
+    int n_columns = 0;           /**< rows and ghosts */
+    const int *start = nullptr;  /**< [n_rows + 1] */
+    const int *column = nullptr; /**< [start[n_rows]] */
+    double *value = nullptr;     /**< [start[n_rows]] */
+  };
+
+  /** View of the rows on this rank; the matrix must have been compressed.
+   * O(n_rows) because the order of columns is checked. */
+  LocalRows local_rows(const Matrix &matrix);
+
+  /** Copy of the owned entries and the ghosts that the rows of @p matrix
+   * on this rank touch, in the order of LocalRows. Collective. */
+  std::vector<double> gather(const Matrix &matrix, const Vector &owned);
+
+  /** Global number of a local column. */
+  dealii::types::global_dof_index global_column(const Matrix &matrix,
+                                                int column);
+
+  /** Diagonal of the rows on this rank, [n_rows]. */
+  std::vector<double> diagonal(const LocalRows &rows);
+
+  /** The owned entries of a vector without ghosts. */
+  inline double *data(Vector &vector)
+  {
+    return vector.begin();
+  }
+
+  /** The owned entries of a vector without ghosts. */
+  inline const double *data(const Vector &vector)
+  {
+    return vector.begin();
+  }
+
+  /** Number of owned entries. */
+  inline int n_owned(const Vector &vector)
+  {
+    return static_cast<int>(vector.locally_owned_size());
+  }
+} // namespace abut::la
+
+#endif

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_DEALII_SOLVER_PARAMETERS_H
+#define ABUT_DEALII_SOLVER_PARAMETERS_H
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace abut
+{
+  /** How linear systems are solved: section `Solver` of a parameter file. */
+  struct SolverParameters
+  {
+    /** Kind of linear solver. */
+    enum class Linear
+    {
+      automatic, /**< direct for small systems, else iterative */
+      iterative, /**< CG (or FGMRES for saddle points) with ML */
+      direct     /**< Amesos: MUMPS where it is built in, else KLU */
+    };
+
+    Linear linear = Linear::automatic;
+    /** Iterations after which an iterative solve is given up. */
+    unsigned int max_iterations = 1000;
+    /** Unknowns up to which `auto` takes the direct solver. */
+    unsigned int direct_limit = 500;
+    /** ML: connections weaker than this are dropped in coarsening. */
+    double aggregation_threshold = 1e-3;
+    /** ML: degree of the Chebyshev smoother. */
+    unsigned int smoother_sweeps = 2;
+    /** Saddle point: augmentation of the leading block as a multiple of the
+     * local stiffness. */
+    double augmentation = 1.;
+
+    /** Declare the parameters of section `Solver`. */
+    static void declare_parameters(dealii::ParameterHandler &prm);
+
+    /** Read them. */
+    void parse_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /** A linear system could not be solved: the message says what was seen and
+   * what to try. Thrown on all ranks. */
+  class SolverFailure : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /** What linear solves have cost. */
+  struct LinearReport
+  {
+    unsigned int n_iterations = 0; /**< of the Krylov method */
+    unsigned int n_matvecs = 0;    /**< products with the matrix */
+    unsigned int n_setups = 0;     /**< preconditioners or factorisations */
+    double setup_seconds = 0.;     /**< time for these */
+    double solve_seconds = 0.;     /**< time for the rest */
+
+    /** Add the cost of another solve. */
+    LinearReport &operator+=(const LinearReport &other)
+    {
+      n_iterations += other.n_iterations;
+      n_matvecs += other.n_matvecs;
+      n_setups += other.n_setups;
+      setup_seconds += other.setup_seconds;
+      solve_seconds += other.solve_seconds;
+      return *this;
+    }
+  };
+} // namespace abut
+
+#endif

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#include "nodal_candidates.h"
+
+#include <abut/dealii/linear_algebra.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <limits>
+
+namespace abut::shim
+{
+  namespace
+  {
+    using dealii::Point;
+    using dealii::types::global_dof_index;
+
+    /** Support points and weights by relevant unknown, before constraints. */
+    template <int dim> struct Collection
+    {
+      dealii::IndexSet relevant;
+      std::vector<Point<dim>> points;
+      std::vector<double> weights; ///< NaN: not a candidate
+
+      void add(const global_dof_index dof, const Point<dim> &point,
+               const double weight)
+      {
+        const auto i = relevant.index_within_set(dof);
+        points[i] = point;
+        weights[i] = std::isnan(weights[i]) ? weight : weights[i] + weight;
+      }
+    };
+
+    /** Nodes of a cell with the integrals of their shape functions: the
+     * quadrature rule that has the support points as points. */
+    template <int dim>
+    dealii::Quadrature<dim>
+    support_quadrature(const dealii::FiniteElement<dim> &fe)
+    {
+      const dealii::QGauss<dim> exact(fe.degree + 1);
+      std::vector<double> weights(fe.n_dofs_per_cell(), 0.);
+      for (unsigned int i = 0; i < weights.size(); ++i)
+        for (unsigned int q = 0; q < exact.size(); ++q)
+          weights[i] += fe.shape_value(i, exact.point(q)) * exact.weight(q);
+      return dealii::Quadrature<dim>(fe.get_unit_support_points(), weights);
+    }
+
+    template <int dim>
+    void collect_in_domain(const dealii::Mapping<dim> &mapping,
+                           const dealii::DoFHandler<dim> &dof_handler,
+                           Collection<dim> &collection)
+    {
+      const auto &fe = dof_handler.get_fe();
+      dealii::FEValues<dim> values(mapping, fe, support_quadrature(fe),
+                                   dealii::update_JxW_values
+                                       | dealii::update_quadrature_points);
+      std::vector<global_dof_index> dofs(fe.n_dofs_per_cell());
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+        {
+          values.reinit(cell);
+          cell->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            collection.add(dofs[i], values.quadrature_point(i), values.JxW(i));
+        }
+    }
+
+    template <int dim>
+    void collect_on_boundary(const dealii::Mapping<dim> &mapping,
+                             const dealii::DoFHandler<dim> &dof_handler,
+                             const std::set<dealii::types::boundary_id> &ids,
+                             Collection<dim> &collection)
+    {
+      const auto &fe = dof_handler.get_fe();
+      // The points of this rule are the support points on a face, and it
+      // integrates shape functions exactly on parallelograms.
+      const dealii::QGaussLobatto<dim - 1> quadrature(fe.degree + 1);
+      dealii::FEFaceValues<dim> values(mapping, fe, quadrature,
+                                       dealii::update_values
+                                           | dealii::update_JxW_values
+                                           | dealii::update_quadrature_points);
+      std::vector<global_dof_index> dofs(fe.n_dofs_per_cell());
+      // A node of this rank may lie on boundary faces of ghost cells only: its
+      // place is taken from there, its weight from the owner of the cell.
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (!cell->is_artificial())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary() && ids.count(face->boundary_id()) != 0)
+            {
+              values.reinit(cell, face);
+              cell->get_dof_indices(dofs);
+              for (unsigned int q = 0; q < quadrature.size(); ++q)
+                for (unsigned int i = 0; i < dofs.size(); ++i)
+                  if (values.shape_value(i, q) > 0.5)
+                    collection.add(dofs[i], values.quadrature_point(q),
+                                   cell->is_locally_owned() ? values.JxW(q)
+                                                            : 0.);
+            }
+    }
+
+    /** Sum weights over ranks and hand those of hanging nodes on. */
+    template <int dim>
+    la::Vector
+    condense_weights(const dealii::DoFHandler<dim> &dof_handler,
+                     const dealii::AffineConstraints<double> &constraints,
+                     const Collection<dim> &collection)
+    {
+      la::Vector result(dof_handler.locally_owned_dofs(),
+                        dof_handler.get_communicator());
+      for (std::size_t i = 0; i < collection.weights.size(); ++i)
+      {
+        if (std::isnan(collection.weights[i]))
+          continue;
+        const global_dof_index dof = collection.relevant.nth_index_in_set(i);
+        const double weight = collection.weights[i];
+        const auto *parents = constraints.get_constraint_entries(dof);
+        if (parents == nullptr || parents->empty())
+          result(dof) += weight;
+        else
+          for (const auto &parent : *parents)
+            result(parent.first) += weight * parent.second;
+      }
+      result.compress(dealii::VectorOperation::add);
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  NodalCandidates<dim> collect_nodal_candidates(
+      const dealii::Mapping<dim> &mapping,
+      const dealii::DoFHandler<dim> &dof_handler,
+      const dealii::AffineConstraints<double> &constraints,
+      const std::set<dealii::types::boundary_id> &boundary_ids)
+  {
+    Collection<dim> collection;
+    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler,
+                                                    collection.relevant);
+    collection.points.resize(collection.relevant.n_elements());
+    collection.weights.assign(collection.relevant.n_elements(),
+                              std::numeric_limits<double>::quiet_NaN());
+    if (boundary_ids.empty())
+      collect_in_domain(mapping, dof_handler, collection);
+    else
+      collect_on_boundary(mapping, dof_handler, boundary_ids, collection);
+    const la::Vector weights =
+        condense_weights(dof_handler, constraints, collection);
+
+    NodalCandidates<dim> candidates;
+    const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+    for (std::size_t i = 0; i < collection.weights.size(); ++i)
+    {
+      const global_dof_index dof = collection.relevant.nth_index_in_set(i);
+      if (std::isnan(collection.weights[i]) || !owned.is_element(dof))
+        continue;
+      if (!constraints.is_constrained(dof))
+        candidates.free.push_back({dof, collection.points[i], weights(dof)});
+      else if (constraints.get_constraint_entries(dof)->empty())
+        candidates.prescribed.push_back(
+            {dof, collection.points[i], collection.weights[i]});
+    }
+    return candidates;
+  }
+
+  template NodalCandidates<2>
+  collect_nodal_candidates(const dealii::Mapping<2> &,
+                           const dealii::DoFHandler<2> &,
+                           const dealii::AffineConstraints<double> &,
+                           const std::set<dealii::types::boundary_id> &);
+  template NodalCandidates<3>
+  collect_nodal_candidates(const dealii::Mapping<3> &,
+                           const dealii::DoFHandler<3> &,
+                           const dealii::AffineConstraints<double> &,
+                           const std::set<dealii::types::boundary_id> &);
+} // namespace abut::shim

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#include "masked_solver.h"
+
+#include <deal.II/base/timer.h>
+#include <deal.II/lac/solver_cg.h>
+
+#include <Amesos.h>
+
+#include <cmath>
+
+namespace abut::solve
+{
+  namespace
+  {
+    /** Fraction of entries that may change before a preconditioner is
+     * built anew, and the factor that counts as a change. */
+    constexpr double rebuild_fraction = 0.08;
+    constexpr double rebuild_factor = 3.;
+
+    void zero_held(const Mask &mask, la::Vector &vector)
+    {
+      double *values = la::data(vector);
+      for (std::size_t i = 0; i < mask.held.size(); ++i)
+        if (mask.held[i])
+          values[i] = 0.;
+    }
+
+    double added(const Mask &mask, const std::size_t i)
+    {
+      return mask.diagonal.empty() ? 0. : mask.diagonal[i];
+    }
+  } // namespace
+
+  void throw_failure(const std::string &method,
+                     const dealii::SolverControl::NoConvergence &failure,
+                     const double tolerance)
+  {
+    std::ostringstream text;
+    text << method << " ended after " << failure.last_step
+         << " iterations with a residual of " << failure.last_residual
+         << " where " << tolerance << " was asked for. ";
+    if (std::isfinite(failure.last_residual))
+      text << "The matrix is badly conditioned or nearly singular: try "
+              "Solver/Linear solver = direct, a smaller Method/Penalty, or "
+              "more Solver/Maximum iterations; a body without supports needs "
+              "some.";
+    else
+      text << "A value is not a number: look for infinite data, or for a "
+              "matrix that is singular because nothing holds a body.";
+    throw SolverFailure(text.str());
+  }
+
+  std::string direct_solver_name()
+  {
+    Amesos factory;
+    return factory.Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
+  }
+
+  MaskedSolver::MaskedSolver(const SolverParameters &parameters)
+      : parameters_(parameters)
+  {
+  }
+
+  void MaskedSolver::reinit(const la::Matrix &matrix)
+  {
+    matrix_ = &matrix;
+    diagonal_ = la::diagonal(la::local_rows(matrix));
+    is_built_ = false;
+    amg_.reset();
+    direct_.reset();
+  }
+
+  bool MaskedSolver::is_direct() const
+  {
+    switch (parameters_.linear)
+    {
+    case SolverParameters::Linear::direct:
+      return true;
+    case SolverParameters::Linear::iterative:
+      return false;
+    default:
+      return matrix_->m() <= parameters_.direct_limit;
+    }
+  }
+
+  bool MaskedSolver::is_outdated(const Mask &mask) const
+  {
+    if (!is_built_ || is_slow_)
+      return true;
+    double counts[2] = {0., static_cast<double>(mask.held.size())};
+    for (std::size_t i = 0; i < mask.held.size(); ++i)
+    {
+      if (mask.held[i] || built_mask_.held[i])
+      {
+        counts[0] += mask.held[i] != built_mask_.held[i];
+        continue;
+      }
+      const double ratio = (diagonal_[i] + added(mask, i))
+                           / (diagonal_[i] + added(built_mask_, i));
+      if (ratio > rebuild_factor || ratio * rebuild_factor < 1.)
+        counts[0] += 1.;
+    }
+    dealii::Utilities::MPI::sum(counts, matrix_->get_mpi_communicator(),
+                                counts);
+    // A factorisation is exact or nothing.
+    return is_direct() ? counts[0] > 0. || !mask.diagonal.empty()
+                       : counts[0] > rebuild_fraction * counts[1];
+  }
+
+  void MaskedSolver::build_truncated_matrix(const Mask &mask)
+  {
+    la::Vector flags(matrix_->locally_owned_range_indices(),
+                     matrix_->get_mpi_communicator());
+    double *flag = la::data(flags);
+    for (std::size_t i = 0; i < mask.held.size(); ++i)
+      flag[i] = mask.held[i];
+    const std::vector<double> held = la::gather(*matrix_, flags);
+
+    truncated_.copy_from(*matrix_);
+    const la::LocalRows rows = la::local_rows(truncated_);
+    for (int i = 0; i < rows.n_rows; ++i)
+      for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+      {
+        const int j = rows.column[k];
+        if (j == i)
+          rows.value[k] += added(mask, i);
+        else if (held[i] != 0. || held[j] != 0.)
+          rows.value[k] = 0.;
+      }
+  }
+
+  void MaskedSolver::build(const Mask &mask)
+  {
+    build_truncated_matrix(mask);
+    if (is_direct())
+    {
+      direct_control_ = std::make_unique<dealii::SolverControl>();
+      direct_ = std::make_unique<dealii::TrilinosWrappers::SolverDirect>(
+          *direct_control_,
+          dealii::TrilinosWrappers::SolverDirect::AdditionalData(
+              false, direct_solver_name()));
+      direct_->initialize(truncated_);
+    }
+    else
+    {
+      dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
+      data.elliptic = true;
+      data.aggregation_threshold = parameters_.aggregation_threshold;
+      data.smoother_sweeps = parameters_.smoother_sweeps;
+      amg_ = std::make_unique<dealii::TrilinosWrappers::PreconditionAMG>();
+      amg_->initialize(truncated_, data);
+    }
+    built_mask_ = mask;
+    is_built_ = true;
+    is_slow_ = false;
+    speed_when_built_ = 0.;
+  }
+
+  void MaskedSolver::solve_direct(const la::Vector &residual,
+                                  la::Vector &correction)
+  {
+    direct_->solve(correction, residual);
+  }
+
+  ScaledPreconditioner
+  MaskedSolver::preconditioner(const Mask &mask, const la::Vector &model) const
+  {
+    std::vector<double> scaling(mask.held.size());
+    for (std::size_t i = 0; i < scaling.size(); ++i)
+      scaling[i] = mask.held[i]
+                       ? 0.
+                       : std::sqrt((diagonal_[i] + added(built_mask_, i))
+                                   / (diagonal_[i] + added(mask, i)));
+    return ScaledPreconditioner(*amg_, std::move(scaling), model);
+  }
+
+  unsigned int MaskedSolver::solve_iteratively(const Mask &mask,
+                                               const la::Vector &residual,
+                                               const double tolerance,
+                                               la::Vector &correction)
+  {
+    const MaskedOperator matrix(*matrix_, mask);
+    dealii::SolverControl control(parameters_.max_iterations, tolerance, false,
+                                  false);
+    dealii::SolverCG<la::Vector> cg(control);
+    try
+    {
+      cg.solve(matrix, correction, residual, preconditioner(mask, residual));
+    }
+    catch (const dealii::SolverControl::NoConvergence &failure)
+    {
+      throw_failure("Conjugate gradients", failure, tolerance);
+    }
+    return control.last_step();
+  }
+
+  void MaskedSolver::note_speed(const double digits_per_iteration)
+  {
+    if (speed_when_built_ == 0.)
+      speed_when_built_ = digits_per_iteration;
+    is_slow_ = digits_per_iteration < speed_when_built_ / 3.;
+  }
+
+  LinearReport MaskedSolver::prepare(const Mask &mask)
+  {
+    LinearReport report;
+    if (is_outdated(mask))
+    {
+      const dealii::Timer timer;
+      build(mask);
+      ++report.n_setups;
+      report.setup_seconds = timer.wall_time();
+    }
+    return report;
+  }
+
+  LinearReport MaskedSolver::solve(const Mask &mask, const la::Vector &rhs,
+                                   const double tolerance, la::Vector &x,
+                                   const bool start_is_zero)
+  {
+    LinearReport report = prepare(mask);
+    const dealii::Timer timer;
+    la::Vector residual(rhs);
+    if (!start_is_zero)
+    {
+      matrix_->vmult(residual, x);
+      const double *in = la::data(x);
+      double *out = la::data(residual);
+      for (std::size_t i = 0; i < mask.diagonal.size(); ++i)
+        out[i] += mask.diagonal[i] * in[i];
+      residual.sadd(-1., 1., rhs);
+      ++report.n_matvecs;
+    }
+    zero_held(mask, residual);
+
+    la::Vector correction(residual);
+    correction = 0.;
+    if (residual.l2_norm() > tolerance)
+    {
+      if (is_direct())
+        solve_direct(residual, correction);
+      else
+      {
+        const double digits = std::log10(residual.l2_norm() / tolerance);
+        report.n_iterations =
+            solve_iteratively(mask, residual, tolerance, correction);
+        report.n_matvecs += report.n_iterations;
+        note_speed(digits / std::max(1u, report.n_iterations));
+      }
+      zero_held(mask, correction);
+      x.add(1., correction);
+    }
+    report.solve_seconds = timer.wall_time();
+    return report;
+  }
+} // namespace abut::solve

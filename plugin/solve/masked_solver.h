@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_SOLVE_MASKED_SOLVER_H
+#define ABUT_SOLVE_MASKED_SOLVER_H
+
+#include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/solver_parameters.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_solver.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace abut::solve
+{
+  /** What distinguishes the system to be solved from the matrix K. */
+  struct Mask
+  {
+    /** [owned] nonzero where the unknown is held at its given value. */
+    std::vector<std::uint8_t> held;
+    /** [owned] added to the diagonal of K, >= 0; empty: nothing. */
+    std::vector<double> diagonal;
+  };
+
+  /** P K P + D, and the identity on held unknowns, which stay 0. */
+  class MaskedOperator
+  {
+  public:
+    MaskedOperator(const la::Matrix &matrix, const Mask &mask)
+        : matrix_(matrix), mask_(mask)
+    {
+    }
+
+    void vmult(la::Vector &dst, const la::Vector &src) const
+    {
+      matrix_.vmult(dst, src);
+      double *out = la::data(dst);
+      const double *in = la::data(src);
+      const std::size_t n = mask_.held.size();
+      if (!mask_.diagonal.empty())
+        for (std::size_t i = 0; i < n; ++i)
+          out[i] += mask_.diagonal[i] * in[i];
+      for (std::size_t i = 0; i < n; ++i)
+        out[i] = mask_.held[i] ? 0. : out[i];
+    }
+
+  private:
+    const la::Matrix &matrix_;
+    const Mask &mask_;
+  };
+
+  /** S M S with the scaling of MaskedSolver. */
+  class ScaledPreconditioner
+  {
+  public:
+    ScaledPreconditioner(
+        const dealii::TrilinosWrappers::PreconditionBase &inner,
+        std::vector<double> scaling, const la::Vector &model)
+        : inner_(inner), scaling_(std::move(scaling)), scaled_(model)
+    {
+    }
+
+    void vmult(la::Vector &dst, const la::Vector &src) const
+    {
+      const double *in = la::data(src);
+      double *middle = la::data(scaled_);
+      for (std::size_t i = 0; i < scaling_.size(); ++i)
+        middle[i] = scaling_[i] * in[i];
+      inner_.vmult(dst, scaled_);
+      double *out = la::data(dst);
+      for (std::size_t i = 0; i < scaling_.size(); ++i)
+        out[i] *= scaling_[i];
+    }
+
+  private:
+    const dealii::TrilinosWrappers::PreconditionBase &inner_;
+    std::vector<double> scaling_;
+    mutable la::Vector scaled_;
+  };
+
+  /** Solves (K + D) x = b with some unknowns held, without changing K:
+   * symmetric positive definite on the free unknowns.
+   *
+   * Held unknowns are projected out of the Krylov iteration instead of out
+   * of the matrix. Only the preconditioner is built on a copy of K whose
+   * held rows and columns are cut off. It is kept while the mask changes
+   * little, corrected by the diagonal scaling
+   *     M -> S M S,  s = sqrt(d_old / d_new),
+   * where d is the diagonal of K + D (s = 0 on held unknowns, which is the
+   * limit d -> infinity), and built anew when too many entries changed or
+   * the iteration slows down. */
+  class MaskedSolver
+  {
+  public:
+    explicit MaskedSolver(const SolverParameters &parameters = {});
+
+    /** Take a new matrix, which must outlive this object or the next call.
+     */
+    void reinit(const la::Matrix &matrix);
+
+    /** Solve with the Euclidean norm of the residual on the free unknowns
+     * at most @p tolerance. @p x holds the values of held unknowns and a
+     * start for the free ones; @p start_is_zero says that all of it is 0.
+     * Throws if the iteration does not converge. Collective. */
+    LinearReport solve(const Mask &mask, const la::Vector &rhs,
+                       double tolerance, la::Vector &x,
+                       bool start_is_zero = false);
+
+    /** Make the preconditioner (or factorisation) fit the mask. Collective. */
+    LinearReport prepare(const Mask &mask);
+
+    /** One V-cycle for the mask given, which must be that of prepare(). */
+    ScaledPreconditioner preconditioner(const Mask &mask,
+                                        const la::Vector &model) const;
+
+    /** Whether systems are factorised. */
+    bool is_direct() const;
+
+    /** Diagonal of K, [owned]. */
+    const std::vector<double> &diagonal() const
+    {
+      return diagonal_;
+    }
+
+  private:
+    bool is_outdated(const Mask &mask) const;
+    void build_truncated_matrix(const Mask &mask);
+    void build(const Mask &mask);
+    void solve_direct(const la::Vector &residual, la::Vector &correction);
+    unsigned int solve_iteratively(const Mask &mask, const la::Vector &residual,
+                                   double tolerance, la::Vector &correction);
+    void note_speed(double digits_per_iteration);
+
+    SolverParameters parameters_;
+    const la::Matrix *matrix_ = nullptr;
+    std::vector<double> diagonal_;
+
+    /** K with the mask of the last build cut off. */
+    la::Matrix truncated_;
+    Mask built_mask_;
+    bool is_built_ = false;
+    double speed_when_built_ = 0.;
+    bool is_slow_ = false;
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg_;
+    std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> direct_;
+    std::unique_ptr<dealii::SolverControl> direct_control_;
+  };
+
+  /** Throw a SolverFailure that says what was seen. */
+  [[noreturn]] void
+  throw_failure(const std::string &method,
+                const dealii::SolverControl::NoConvergence &failure,
+                double tolerance);
+
+  /** Name of the best direct solver that Amesos has: MUMPS, else KLU. */
+  std::string direct_solver_name();
+} // namespace abut::solve
+
+#endif

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_SOLVE_ROW_SOLVER_H
+#define ABUT_SOLVE_ROW_SOLVER_H
+
+#include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/solver_parameters.h>
+#include <abut/rows.h>
+#include <abut/strategy.h>
+
+namespace abut::solve
+{
+  /** One linearised step of a contact problem: find du and dp with
+   *
+   *     K du - sum_i w_i dp_i B_i^T = -R + sum_i w_i p_i B_i^T
+   *     a_i dp_i + b_i B_i du       = -c_i
+   *
+   * for constraint rows (w, B), a residual R = internal - external forces
+   * and the linearised law (a, b, c) of a request of the core. Knows
+   * matrices, no geometry and no method. */
+  class RowSolver
+  {
+  public:
+    virtual ~RowSolver() = default;
+
+    /** Take a matrix and the rows that go with it. Both must outlive the
+     * calls to solve(). Collective. */
+    virtual void reinit(const la::Matrix &stiffness,
+                        const abut_rows_view &rows) = 0;
+
+    /** Solve with relative tolerance request.linear_tolerance for the
+     * residual on the free unknowns, but not below
+     * @p smallest_residual. Writes dp and dg into the request's arrays.
+     * Throws when the iteration fails. Collective. */
+    virtual LinearReport solve(const la::Vector &residual,
+                               const abut_request &request,
+                               double smallest_residual,
+                               la::Vector &increment) = 0;
+  };
+
+  /** The local stiffness sum_j B_ij^2 K_jj / w_i of each row, pressure per
+   * length: what penalties are multiples of. All columns must be owned. */
+  std::vector<double> row_stiffness(const la::Matrix &stiffness,
+                                    const abut_rows_view &rows);
+} // namespace abut::solve
+
+#endif

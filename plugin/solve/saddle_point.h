@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_SADDLE_POINT_H
+#define ABUT_SOLVE_SADDLE_POINT_H
+
+#include "masked_solver.h"
+#include "row_solver.h"
+
+namespace abut::solve
+{
+  /** The pressures of rows in contact are unknowns of the linear system,
+   *
+   *     [ K + D   -C^T ] [du]   [ f ]
+   *     [  -C      0   ] [dp] = [ h ],      C = W B on constraints (a = 0);
+   *
+   * rows whose pressure follows from the gap (a != 0) are condensed into D.
+   * Iteratively: FGMRES with the block-triangular preconditioner of the
+   * augmented system, one ML cycle for K + D + gamma s W B^T B and the
+   * diagonal w / ((1 + gamma) s) for the Schur complement, s being the local
+   * stiffness. Directly: a factorisation of the whole by Amesos. */
+  class SaddlePoint : public RowSolver
+  {
+  public:
+    explicit SaddlePoint(const SolverParameters &parameters);
+
+    void reinit(const la::Matrix &stiffness,
+                const abut_rows_view &rows) override;
+
+    LinearReport solve(const la::Vector &residual, const abut_request &request,
+                       double smallest_residual,
+                       la::Vector &increment) override;
+
+  private:
+    struct System;
+
+    System assemble(const la::Vector &residual,
+                    const abut_request &request) const;
+    unsigned int solve_iteratively(const System &system, double tolerance,
+                                   la::Vector &increment,
+                                   std::vector<double> &multiplier) const;
+    void solve_directly(const System &system, la::Vector &increment,
+                        std::vector<double> &multiplier) const;
+    void recover(const abut_request &request, const System &system,
+                 const std::vector<double> &multiplier,
+                 const la::Vector &increment) const;
+
+    SolverParameters parameters_;
+    MaskedSolver leading_;
+    const la::Matrix *stiffness_ = nullptr;
+    abut_rows_view rows_ = {};
+    std::vector<double> row_stiffness_;
+  };
+} // namespace abut::solve
+
+#endif

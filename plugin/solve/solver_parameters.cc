@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#include <abut/dealii/solver_parameters.h>
+
+namespace abut
+{
+  void SolverParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using dealii::Patterns::Double;
+    using dealii::Patterns::Integer;
+    using dealii::Patterns::Selection;
+    const SolverParameters standard;
+    prm.enter_subsection("Solver");
+    prm.declare_entry(
+        "Linear solver", "auto", Selection("auto|iterative|direct"),
+        "iterative: conjugate gradients with ML's smoothed aggregation "
+        "(FGMRES for saddle points); direct: a factorisation by Amesos (MUMPS "
+        "where it is built in, else KLU); auto: direct up to `Direct limit` "
+        "unknowns, else iterative.");
+    prm.declare_entry("Maximum iterations",
+                      std::to_string(standard.max_iterations), Integer(1),
+                      "Iterations after which a linear solve is given up.");
+    prm.declare_entry("Direct limit", std::to_string(standard.direct_limit),
+                      Integer(0),
+                      "Unknowns up to which auto takes the direct solver.");
+    prm.declare_entry("Aggregation threshold",
+                      std::to_string(standard.aggregation_threshold),
+                      Double(0., 1.),
+                      "ML: connections weaker than this fraction are dropped "
+                      "when aggregates are formed.");
+    prm.declare_entry("Smoother sweeps",
+                      std::to_string(standard.smoother_sweeps), Integer(1),
+                      "ML: degree of the Chebyshev smoother.");
+    prm.declare_entry("Saddle point augmentation",
+                      std::to_string(standard.augmentation), Double(0.),
+                      "Saddle-point systems: the leading block is augmented "
+                      "by this multiple of the local stiffness on rows in "
+                      "contact, which changes the condition number and not "
+                      "the solution.");
+    prm.leave_subsection();
+  }
+
+  void SolverParameters::parse_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Solver");
+    const std::string word = prm.get("Linear solver");
+    linear = word == "direct"      ? Linear::direct
+             : word == "iterative" ? Linear::iterative
+                                   : Linear::automatic;
+    max_iterations = prm.get_integer("Maximum iterations");
+    direct_limit = prm.get_integer("Direct limit");
+    aggregation_threshold = prm.get_double("Aggregation threshold");
+    smoother_sweeps = prm.get_integer("Smoother sweeps");
+    augmentation = prm.get_double("Saddle point augmentation");
+    prm.leave_subsection();
+  }
+} // namespace abut
