@@ -79,12 +79,15 @@ extern "C"
     double penalty;
     double penalty_growth; /**< factor of quadratic penalty; default 10 */
     double penalty_cap;    /**< largest eps/stiffness; default 1e6 */
-    /** Augmented Lagrangian: grow eps by 5 (up to penalty_cap) where the
-     * penetration does not fall by 4 in an outer step; default true. */
+    /** Augmented Lagrangian: grow eps by 5 (up to penalty_cap) where the gap
+     * error does not fall by 10 in an outer step, and let the multipliers
+     * follow while the set still changes. False: the textbook's method, each
+     * outer step solved to its end with the same eps. Default true. */
     bool adaptive_penalty;
     double allowed_penetration; /**< e / length_scale of the penalty law; 0 */
-    /** c / stiffness of the complementarity function; default 1. The result
-     * does not depend on it. */
+    /** c / stiffness of the complementarity function; default 1. It only acts
+     * on the first set, where abut_strategy_start() is given none: afterwards
+     * closed rows are judged by their pressure and open ones by their gap. */
     double complementarity;
     double barrier_start; /**< mu/(pressure_scale length_scale); default 1e-2 */
     double barrier_factor; /**< reduction per continuation step; default 0.1 */
@@ -92,9 +95,10 @@ extern "C"
     double gap_tolerance;  /**< penetration / length_scale; default 1e-6 */
     double pressure_tolerance; /**< weighted relative change; default 1e-3 */
     /** Relative tolerance that SOLVE asks of the linear solver while the set
-     * still changes; default 1e-2. */
+     * still changes; default 1e-2. The interior point tightens it with mu. */
     double linear_tolerance;
-    /** The same for the last solve; default 1e-10. */
+    /** The same for the last solve; default 1e-10. If it is not below
+     * linear_tolerance there is no last solve of its own. */
     double final_linear_tolerance;
     int32_t max_steps; /**< linear systems in all; default 200 */
     int32_t max_outer; /**< outer steps; default 60 */
@@ -114,7 +118,8 @@ extern "C"
   {
     abut_action action;
     abut_reason reason; /**< at STOP */
-    /** SOLVE: relative tolerance for the linear system. */
+    /** SOLVE, and the SOLVE_AGAIN after it: relative tolerance for the linear
+     * system. */
     double linear_tolerance;
     /** SOLVE: nonzero when a or b changed on any rank since the last SOLVE. */
     int matrix_changed;
@@ -134,8 +139,10 @@ extern "C"
   /** Progress, for logs and tables; global over ranks. */
   typedef struct abut_progress
   {
-    int32_t step;           /**< linear systems solved so far */
-    int32_t outer;          /**< outer steps so far */
+    int32_t step;           /**< linear systems (SOLVE) asked for so far */
+    int32_t outer;          /**< outer steps so far: times that the set
+                                 settled, values of mu done, or interior point
+                                 iterations */
     int64_t n_rows;         /**< rows */
     int64_t n_active;       /**< rows in contact */
     int64_t n_changes;      /**< rows that changed state in the last step */
@@ -158,15 +165,19 @@ extern "C"
   ABUT_API abut_status abut_strategy_destroy(abut_strategy **strategy);
 
   /** Begin a solve with @p n rows on this rank. Collective if reduce is set.
-   * @param id [n] global number of each row, or NULL for 0..n-1 (serial)
+   * @param id [n] global number of each row, 0 <= id < 2^53 and used once over
+   *   all ranks, or NULL for 0..n-1 (serial)
    * @param weight [n] w > 0
    * @param stiffness [n] > 0, pressure per length: the local stiffness that
    *   penalties and c are multiples of
    * @param bilateral [n] or NULL
    * @param gap [n] at the starting displacement
-   * @param pressure [n] starting pressure, or NULL for 0
+   * @param pressure [n] starting pressure, or NULL for 0. Augmented
+   *   Lagrangian takes it as the first multiplier; interior point makes a
+   *   warm start of it if some pressure is positive
    * @param state [n] starting set, or NULL for the one that p and g call for
-   * Arrays are copied. O(n). */
+   * Arrays are copied. O(n). A rank whose arguments are wrong makes all ranks
+   * return a failure. UNSUPPORTED for bilateral rows under an interior law. */
   ABUT_API abut_status abut_strategy_start(
       abut_strategy *strategy, int32_t n, const int64_t *id,
       const double *weight, const double *stiffness, const uint8_t *bilateral,
@@ -174,7 +185,11 @@ extern "C"
 
   /** Go on: after SOLVE and SOLVE_AGAIN with the changes written into the last
    * request's arrays (@p gap is ignored), after MOVE with the gap at the new
-   * displacement. The first call after start ignores @p gap. Collective. */
+   * displacement. The first call after start ignores @p gap; after STOP the
+   * same answer is given again. Collective. O(n) and no memory; about five
+   * reductions of a few numbers per linear system. After a failure only a new
+   * start is legal. Where the reason is not CONVERGED, abut_context_message()
+   * says what was seen. */
   ABUT_API abut_status abut_strategy_next(abut_strategy *strategy,
                                           const double *gap,
                                           abut_request *request);

@@ -351,6 +351,9 @@ moved(abut_strategy *s)
     return status;
   if (found.n_bad == 0 || only_flickers(s, &found))
     return settled(s, &found);
+  if (s->options.law->outer == ABUT_OUTER_MULTIPLIER
+      && s->options.adaptive_penalty)
+    abut_multiplier_update(s);
   change_set(s, &found);
   return abut_strategy_ask_solve(s, tolerance_of(s), false);
 }

@@ -19,6 +19,7 @@ typedef struct abut_interior
                        host is linear */
   double alpha;     /* last step length */
   int32_t n_short;  /* very short steps in a row */
+  bool cold;        /* the first predictor only serves to find a start */
   bool corrector;   /* the corrector's solve is under way */
 } abut_interior;
 

@@ -8,8 +8,9 @@
 
 #include <math.h>
 
-/* Start values of slack and pressure, relative to their scales. */
-static const double start_floor = 1e-3;
+/* Least start values of slack and pressure relative to their scales: with
+ * pressures to begin with, and without. */
+static const double warm_floor = 1e-3, cold_slack = 0.03, cold_pressure = 0.1;
 
 /* Part of the residual that may be left at the end, and a step that is no
  * progress. */
@@ -62,16 +63,55 @@ report_barrier(abut_strategy *s)
                         / (s->options.pressure_scale * s->options.length_scale);
 }
 
+/* Without any pressure to begin with, the predictor's changes only serve to
+ * find a better start (restart()). */
+static abut_status
+look_for_pressure(abut_strategy *s)
+{
+  double largest = 0;
+  for (int32_t i = 0; i < s->n; ++i)
+    largest = fmax(largest, s->pressure[i]);
+  const abut_status status =
+      abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &largest, 1);
+  s->interior.cold = s->progress.n_rows > 0 && largest <= 0;
+  return status;
+}
+
 static abut_status
 begin(abut_strategy *s)
 {
+  abut_status status = look_for_pressure(s);
+  const double pressure =
+      s->options.pressure_scale * (s->interior.cold ? 1 : warm_floor);
   for (int32_t i = 0; i < s->n; ++i)
   {
-    s->slack[i] = fmax(s->gap[i], start_floor * s->options.length_scale);
-    s->pressure[i] =
-        fmax(s->pressure[i], start_floor * s->options.pressure_scale);
+    s->slack[i] = fmax(s->gap[i], warm_floor * s->options.length_scale);
+    s->pressure[i] = fmax(s->pressure[i], pressure);
   }
   s->interior.imbalance = 1;
+  if (status == ABUT_SUCCESS)
+    status = average_product(s, 0, &s->interior.average);
+  if (status != ABUT_SUCCESS)
+    return status;
+  s->interior.start = s->interior.average;
+  report_barrier(s);
+  return predict(s);
+}
+
+/* Start again from the sizes that pressure and slack would have after the
+ * first predictor (Nocedal and Wright, end of section 16.6); the displacement
+ * stays. One linear system that saves two or three. */
+static abut_status
+restart(abut_strategy *s)
+{
+  const double slack = cold_slack * s->options.length_scale;
+  const double pressure = cold_pressure * s->options.pressure_scale;
+  for (int32_t i = 0; i < s->n; ++i)
+  {
+    s->slack[i] = fmax(slack, fabs(s->slack[i] + s->dz[i]));
+    s->pressure[i] = fmax(pressure, fabs(s->pressure[i] + s->dp[i]));
+  }
+  s->interior.cold = false;
   const abut_status status = average_product(s, 0, &s->interior.average);
   if (status != ABUT_SUCCESS)
     return status;
@@ -107,6 +147,8 @@ solved(abut_strategy *s)
 {
   for (int32_t i = 0; i < s->n; ++i)
     s->dz[i] = s->dg[i] + s->gap[i] - s->slack[i];
+  if (s->interior.cold)
+    return restart(s);
   if (!s->interior.corrector)
     return correct(s);
   const abut_interior *interior = &s->interior;

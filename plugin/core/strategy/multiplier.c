@@ -10,7 +10,7 @@
 
 /* Wanted reduction of the gap error, growth of eps where it is missed, and
  * what counts as no contraction at all. */
-static const double wanted_rate = 0.25, growth = 5, stagnant_rate = 0.9;
+static const double wanted_rate = 0.1, growth = 5, stagnant_rate = 0.9;
 
 enum
 {
