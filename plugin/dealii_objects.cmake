@@ -2,9 +2,11 @@
 
 # An object library of the C++ sources of this folder, compiled with deal.II's
 # flags and with the precompiled header of plugin/pch.h, which is built once.
+# Further arguments are sources of the folder that do not belong to it.
 function(abut_dealii_objects target)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS
     ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  list(REMOVE_ITEM sources ${ARGN} "")
   add_library(${target} OBJECT ${sources})
   deal_ii_setup_target(${target})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include)

@@ -227,8 +227,8 @@ namespace abut::app
       report.model("search", false, "the constraints are given");
       report.model("friction", false, "not part of this scene");
       report.model("linear solver", true,
-                   "dense factorisation of " + std::to_string(model.n())
-                       + " unknowns");
+                   "dense factorisation, unknowns: "
+                       + std::to_string(model.n()));
     }
 
     void PointMass::check(const RunOptions &, Report &report)
@@ -279,7 +279,7 @@ namespace abut::app
         for (const auto &names : {u, lambda})
           for (const std::string &name : names)
             if (names.size() <= 4)
-              line += "  " + name + " = " + json_number(row[name]);
+              line += "  " + name + " = " + short_number(row[name]);
         report.progress(line);
       }
     }

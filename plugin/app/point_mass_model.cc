@@ -1,50 +1,32 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "point_mass_model.h"
 
+#include "input_error.h"
+#include "shim/handles.h"
+
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 namespace abut::app
 {
   namespace
   {
-    struct Destroy
-    {
-      void operator()(abut_context *context) const
-      {
-        abut_context_destroy(&context);
-      }
-      void operator()(abut_rows *rows) const
-      {
-        abut_rows_destroy(&rows);
-      }
-    };
-
-    using Context = std::unique_ptr<abut_context, Destroy>;
-    using Rows = std::unique_ptr<abut_rows, Destroy>;
-
+    /** A positive status is the fault of the data. */
     void throw_if_failed(const abut_status status, const abut_context *context)
     {
-      if (status != ABUT_SUCCESS)
-        throw std::runtime_error(context != nullptr
-                                     ? abut_context_message(context)
-                                     : abut_status_text(status));
+      if (status == ABUT_SUCCESS)
+        return;
+      const std::string text = abut_context_message(context);
+      if (status > 0)
+        throw InputError("Masses/Stiffness", text);
+      throw std::runtime_error(text);
     }
 
-    Context make_context()
+    shim::Handle<abut_rows> make_rows(const PointMassModel &model,
+                                      abut_context *context)
     {
-      abut_context *context = nullptr;
-      throw_if_failed(abut_context_create(nullptr, &context), nullptr);
-      return Context(context);
-    }
-
-    Rows make_rows(const PointMassModel &model, abut_context *context)
-    {
-      abut_rows *created = nullptr;
-      throw_if_failed(abut_rows_create(context, &created), context);
-      Rows rows(created);
+      shim::Handle<abut_rows> rows = shim::create_rows(context);
       std::vector<std::int64_t> columns(model.n());
       for (std::size_t j = 0; j < columns.size(); ++j)
         columns[j] = static_cast<std::int64_t>(j);
@@ -140,8 +122,8 @@ namespace abut::app
     options.length_scale = model.length_scale();
     options.pressure_scale = model.pressure_scale();
 
-    const Context context = make_context();
-    const Rows rows = make_rows(model, context.get());
+    const auto context = shim::create_context();
+    const auto rows = make_rows(model, context.get());
     abut_dense_model dense = {};
     dense.struct_size = sizeof(dense);
     dense.n = static_cast<std::int32_t>(model.n());

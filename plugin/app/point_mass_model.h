@@ -63,7 +63,8 @@ namespace abut::app
   };
 
   /** Solve by the method of @p options, whose scales are set from the model.
-   * Throws std::runtime_error with the core's text when it refuses. */
+   * Throws InputError with the core's text when it refuses the data, such as
+   * a stiffness that leaves the masses free to fly away. */
   PointMassSolution solve(const PointMassModel &model,
                           abut_strategy_options options);
 } // namespace abut::app

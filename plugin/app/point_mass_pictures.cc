@@ -40,7 +40,7 @@ namespace abut::app
     };
 
     /** 1000 and 1e6 rather than 1000000. */
-    std::string short_number(const double value)
+    std::string penalty_text(const double value)
     {
       const double exponent = std::round(std::log10(value));
       std::ostringstream out;
@@ -92,7 +92,7 @@ namespace abut::app
       const double at_wall = 0.5 * m.k * m.wall * m.wall - m.f * m.wall,
                    lowest = 0.5 * m.k * m.free * m.free - m.f * m.free,
                    height = std::max(std::abs(at_wall), at_wall - lowest);
-      out << "set samples 2000\nset xrange [low:high]\nset yrange ["
+      out << "set samples 900\nset xrange [low:high]\nset yrange ["
           << lowest - 0.4 * height << ":" << at_wall + 1.6 * height << "]\n"
           << "set xlabel 'displacement u'\nset ylabel 'energy'\n"
           << "set title 'Energy of a mass on a spring, with springs for an "
@@ -106,7 +106,7 @@ namespace abut::app
           << "plot E(x) lt 8 dt 2 title 'no obstacle'";
       for (std::size_t i = 0; i < penalties.size(); ++i)
         out << ", \\\n  P(x, " << penalties[i] * m.row_stiffness << ") lt "
-            << i % 6 + 1 << " title 'penalty " << short_number(penalties[i])
+            << i % 6 + 1 << " title 'penalty " << penalty_text(penalties[i])
             << "'";
       out << ", \\\n  $minima using 1:(P($1, $3)) with points pt 7 ps 0.8 lc "
              "rgb 'black' title 'minima'\n";
@@ -176,7 +176,7 @@ namespace abut::app
              "abs(L(high, top) - saddle)), max(abs(L(low, bottom) - saddle), "
              "abs(L(low, top) - saddle)))\n"
           << "set xrange [low:high]\nset yrange [bottom:top]\n"
-          << "set isosamples 161\nset samples 161\n"
+          << "set isosamples 81\nset samples 81\n"
           << "set contour base\nunset surface\nset cntrparam levels "
              "incremental saddle - reach, reach / 28, saddle + reach\n"
           << "set table $contours\nsplot L(x, y)\nunset table\n"
@@ -188,7 +188,8 @@ namespace abut::app
           << "set xlabel 'displacement u'\n"
           << "set ylabel 'multiplier \316\273 = - contact force p'\n"
           << "set title 'The Lagrangian and its saddle point'\n"
-          << "set border 15\nunset grid\nset key below\n"
+          << "set border 15\nunset grid\nset bmargin 6\nset key below "
+             "noopaque\n"
           << "set label 1 sprintf('saddle: u = %.4g, \316\273 = %.4g', wall, "
              "lambda) at wall, lambda offset 1.5,-1 boxed front\n"
           << "set arrow 1 from wall, bottom to wall, top nohead dt 2 lw 1.2 lc "

@@ -52,13 +52,6 @@ namespace abut::app
       return static_cast<double>(stats.VmHWM) / 1024.;
     }
 
-    std::string short_number(const double value)
-    {
-      char text[32];
-      std::snprintf(text, sizeof(text), "%.10g", value);
-      return text;
-    }
-
     std::string text_of(const Report::Value &value)
     {
       struct Visitor
@@ -99,6 +92,13 @@ namespace abut::app
       return text + std::string(width - std::min(width, text.size()), ' ');
     }
   } // namespace
+
+  std::string short_number(const double value, const int digits)
+  {
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.*g", digits, value);
+    return text;
+  }
 
   Report::Report(MPI_Comm communicator, const bool quiet)
       : communicator(communicator),

@@ -24,6 +24,9 @@
 
 namespace abut::app
 {
+  /** A number for tables and lines of progress, with @p digits digits. */
+  std::string short_number(double value, int digits = 10);
+
   /** Collects the results of one run. All ranks hold the same values and call
    * the same functions; only rank 0 prints and writes.
    *

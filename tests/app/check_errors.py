@@ -62,6 +62,8 @@ wrong_value("Masses/Force", "1 2", "2 numbers where 1")
 wrong_value("Masses/Stiffness", "1 2; 3 4", "not symmetric")
 wrong_value("Masses/Stiffness", "1 2; 3", "a row has")
 wrong_value("Masses/Stiffness", "-1", "negative")
+p.expect_error(p.call("run", scene, "--set", "Masses/Stiffness=0"),
+               "Masses/Stiffness:")  # nothing holds the mass
 wrong_value("Constraints/B", "0", "a row is zero")
 wrong_value("Constraints/Kind", "inequalty", "'inequality'")
 wrong_value("Sweep/Penalties", "1, 0", "above 0")
