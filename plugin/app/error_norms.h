@@ -8,10 +8,10 @@
 
 #include "expression.h"
 
+#include <abut/dealii/linear_algebra.h>
 #include <deal.II/base/types.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
-#include <deal.II/lac/trilinos_vector.h>
 
 #include <map>
 #include <memory>
@@ -55,7 +55,7 @@ namespace abut::app
   template <int dim>
   ErrorNorms error_norms(const dealii::Mapping<dim> &mapping,
                          const dealii::DoFHandler<dim> &dof_handler,
-                         const dealii::TrilinosWrappers::MPI::Vector &solution,
+                         const la::Vector &solution,
                          const dealii::Function<dim> &exact);
 
   /** Energy 1/2 (k grad u, grad u) - (f, u) - <t_N, u> by Gauss' formula with
@@ -65,8 +65,7 @@ namespace abut::app
   double
   membrane_energy(const dealii::Mapping<dim> &mapping,
                   const dealii::DoFHandler<dim> &dof_handler,
-                  const dealii::TrilinosWrappers::MPI::Vector &solution,
-                  const dealii::Function<dim> &load,
+                  const la::Vector &solution, const dealii::Function<dim> &load,
                   const dealii::Function<dim> *coefficient = nullptr,
                   const std::map<dealii::types::boundary_id,
                                  const dealii::Function<dim> *> &neumann = {});

@@ -6,11 +6,11 @@
  * Residual error estimator of -div(k grad u) = f + contact pressure.
  */
 
+#include <abut/dealii/linear_algebra.h>
 #include <deal.II/base/function.h>
 #include <deal.II/base/types.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
-#include <deal.II/lac/trilinos_vector.h>
 #include <deal.II/lac/vector.h>
 
 #include <map>
@@ -24,7 +24,7 @@ namespace abut::app
   {
     const dealii::Mapping<dim> &mapping;
     const dealii::DoFHandler<dim> &dof_handler; /**< scalar Q1 or Q2 */
-    const dealii::TrilinosWrappers::MPI::Vector &solution;
+    const la::Vector &solution;
     const dealii::Function<dim> &load; /**< f */
     /** k > 0; null: 1. */
     const dealii::Function<dim> *coefficient = nullptr;
@@ -36,11 +36,11 @@ namespace abut::app
     /** Nonzero where a degree of freedom is in contact in the volume; null:
      * nowhere. A cell is held when all its nodes are. Hanging nodes must be
      * given the status of their parents. */
-    const dealii::TrilinosWrappers::MPI::Vector *active = nullptr;
+    const la::Vector *active = nullptr;
     /** Ids on which contact acts on the boundary alone, and its nodal pressure
      * (force per area, positive pushes along +u); null: no such contact. */
     std::set<dealii::types::boundary_id> contact = {};
-    const dealii::TrilinosWrappers::MPI::Vector *pressure = nullptr;
+    const la::Vector *pressure = nullptr;
   };
 
   /** Estimate the error in the energy norm (sum of k |grad(u - u_h)|^2)^(1/2).

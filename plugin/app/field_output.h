@@ -6,9 +6,9 @@
  * Fields over the mesh as VTU/PVTU files and the PVD file that lists them.
  */
 
+#include <abut/dealii/linear_algebra.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
-#include <deal.II/lac/trilinos_vector.h>
 #include <deal.II/lac/vector.h>
 
 #include <mpi.h>
@@ -27,9 +27,7 @@ namespace abut::app
     const dealii::DoFHandler<dim> &dof_handler;
     /** Names and ghosted nodal values; a vector-valued element's components
      * become one vector field. */
-    std::vector<
-        std::pair<std::string, const dealii::TrilinosWrappers::MPI::Vector *>>
-        nodal;
+    std::vector<std::pair<std::string, const la::Vector *>> nodal;
     /** Names and values per active cell. */
     std::vector<std::pair<std::string, const dealii::Vector<float> *>> cells;
   };

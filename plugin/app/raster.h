@@ -6,9 +6,9 @@
  * Finite element fields sampled on a regular raster, for pictures.
  */
 
+#include <abut/dealii/linear_algebra.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
-#include <deal.II/lac/trilinos_vector.h>
 
 #include <cstddef>
 #include <limits>
@@ -43,7 +43,7 @@ namespace abut::app
   /** A field to be sampled. */
   struct RasterField
   {
-    const dealii::TrilinosWrappers::MPI::Vector *values; /**< ghosted */
+    const la::Vector *values; /**< ghosted */
     /** Take the value of the nearest node instead of interpolating: for what
      * is a number of a kind, such as a contact status. */
     bool nearest = false;

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include "memory_check.h"
+
+#include "input_error.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** MemAvailable of this machine in bytes; infinity if not told. */
+    double available_here()
+    {
+      std::ifstream in("/proc/meminfo");
+      std::string name;
+      double kilobytes = 0;
+      for (std::string unit; in >> name >> kilobytes; std::getline(in, unit))
+        if (name == "MemAvailable:")
+          return 1024 * kilobytes;
+      return std::numeric_limits<double>::infinity();
+    }
+
+    std::string in_gib(const double bytes)
+    {
+      char text[64];
+      std::snprintf(text, sizeof text, "%.3g GiB", bytes / 1073741824.);
+      return text;
+    }
+
+    double n_dofs(const unsigned int dim, const double n_cells,
+                  const unsigned int degree, const unsigned int n_components)
+    {
+      return n_cells * std::pow(degree, dim) * n_components;
+    }
+  } // namespace
+
+  double estimated_bytes(const unsigned int dim, const double n_cells,
+                         const unsigned int degree,
+                         const unsigned int n_components)
+  {
+    const double dofs = n_dofs(dim, n_cells, degree, n_components);
+    // A row of degree 1 has 3^dim entries, of degree 2 on average 4^dim; an
+    // entry takes 12 bytes in the matrix, as much in its condensed copy, in
+    // the pattern it is made from, and in the multigrid hierarchy with its
+    // products.
+    const double entries = dofs * std::pow(degree + 2., dim) * n_components;
+    const double mesh = n_cells * (dim == 2 ? 350. : 900.);
+    return mesh + 60. * entries + 400. * dofs;
+  }
+
+  double available_bytes(MPI_Comm communicator)
+  {
+    // Ranks of one machine share its memory: only their first one counts.
+    MPI_Comm machine = MPI_COMM_NULL;
+    MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL,
+                        &machine);
+    const bool first = dealii::Utilities::MPI::this_mpi_process(machine) == 0;
+    MPI_Comm_free(&machine);
+    return dealii::Utilities::MPI::sum(first ? available_here() : 0.,
+                                       communicator);
+  }
+
+  void check_memory(const unsigned int dim, const double n_cells,
+                    const unsigned int degree, MPI_Comm communicator,
+                    const std::string &parameter,
+                    const unsigned int n_components)
+  {
+    char size[128];
+    std::snprintf(size, sizeof size, "%.3g cells with %.3g unknowns", n_cells,
+                  n_dofs(dim, n_cells, degree, n_components));
+    if (n_dofs(dim, n_cells, degree, n_components)
+        > double(std::numeric_limits<std::int32_t>::max()))
+      throw InputError(parameter, std::string("the mesh would have ") + size
+                                      + ", more than the 2^31 that can be "
+                                        "numbered.");
+    const double needed = estimated_bytes(dim, n_cells, degree, n_components);
+    const double available = available_bytes(communicator);
+    if (needed > available)
+      throw InputError(parameter, std::string("the mesh would have ") + size
+                                      + ", which take about " + in_gib(needed)
+                                      + " of memory; " + in_gib(available)
+                                      + " are available.");
+  }
+} // namespace abut::app

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include "pictures.h"
+
+#include "gnuplot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Viridis: evenly bright steps that every kind of colour vision tells
+     * apart, and that survive a grey print. */
+    constexpr const char *palette =
+        "set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', "
+        "3 '#2c728e', 4 '#21918c', 5 '#28ae80', 6 '#5ec962', 7 '#addc30', "
+        "8 '#fde725')\n";
+
+    std::string quoted(const std::string &text)
+    {
+      std::string result = "'";
+      for (const char c : text)
+        result += c == '\'' ? "''" : std::string(1, c);
+      return result + "'";
+    }
+
+    double smallest(const std::vector<double> &values)
+    {
+      double result = std::numeric_limits<double>::infinity();
+      for (const double value : values)
+        result = std::isnan(value) ? result : std::min(result, value);
+      return result;
+    }
+
+    double largest(const std::vector<double> &values)
+    {
+      double result = -std::numeric_limits<double>::infinity();
+      for (const double value : values)
+        result = std::isnan(value) ? result : std::max(result, value);
+      return result;
+    }
+
+    /** Data block of lines "x y value", an empty line after each row; every
+     * @p stride -th point, the outermost included. */
+    std::string grid_block(const std::string &name, const Raster &raster,
+                           const std::vector<double> &values,
+                           const std::size_t stride)
+    {
+      const auto indices = [stride](const std::size_t n)
+      {
+        std::vector<std::size_t> result;
+        for (std::size_t i = 0; i < n; i += stride)
+          result.push_back(i);
+        if (result.back() != n - 1)
+          result.push_back(n - 1);
+        return result;
+      };
+      std::ostringstream out;
+      out.precision(5);
+      out << '$' << name << " << EOD\n";
+      for (const std::size_t j : indices(raster.ny))
+      {
+        for (const std::size_t i : indices(raster.nx))
+        {
+          const double value = values[j * raster.nx + i];
+          out << raster.x(i) << ' ' << raster.y(j) << ' ';
+          if (std::isnan(value))
+            out << "NaN\n";
+          else
+            out << value << '\n';
+        }
+        out << '\n';
+      }
+      out << "EOD\n";
+      return out.str();
+    }
+
+    std::string ranges(const Raster &raster)
+    {
+      std::ostringstream out;
+      out.precision(12);
+      out << "set xrange [" << raster.x_min << ':' << raster.x_max
+          << "]\nset yrange [" << raster.y_min << ':' << raster.y_max << "]\n";
+      return out.str();
+    }
+
+    /** Picture height for a map of the raster's aspect in a given width. */
+    unsigned int map_height(const Raster &raster, const unsigned int map_width,
+                            const unsigned int rest)
+    {
+      const double aspect =
+          (raster.y_max - raster.y_min) / (raster.x_max - raster.x_min);
+      return rest
+             + static_cast<unsigned int>(map_width
+                                         * std::clamp(aspect, 0.15, 1.6));
+    }
+
+    /** Gap between level lines: a tenth of the range, rounded to 1, 2, 5. */
+    double level_step(const double range)
+    {
+      const double raw = range / 10;
+      const double power = std::pow(10., std::floor(std::log10(raw)));
+      for (const double digit : {1., 2., 5.})
+        if (raw <= digit * power)
+          return digit * power;
+      return 10 * power;
+    }
+  } // namespace
+
+  bool draw_solution(Report &report, const std::filesystem::path &folder,
+                     const std::string &name, const Raster &raster,
+                     const std::size_t field, const std::string &title)
+  {
+    const std::vector<double> &values = raster.fields.at(field);
+    const double low = smallest(values);
+    const double high = largest(values);
+    if (!(low <= high))
+      return false;
+    const double range = high > low ? high - low : 1.;
+    const std::size_t stride =
+        std::max<std::size_t>(1, std::max(raster.nx, raster.ny) / 40);
+
+    std::ostringstream script;
+    script << gnuplot_header(name, 960, map_height(raster, 340, 150));
+    script << "set datafile missing 'NaN'\n"
+           << grid_block("fine", raster, values, 1)
+           << grid_block("coarse", raster, values, stride);
+    script << palette << "set multiplot layout 1,2 title " << quoted(title)
+           << " font ',15'\n"
+           << "unset key\nunset grid\n"
+           << ranges(raster) << "set cbrange [" << low << ':' << low + range
+           << "]\n"
+           << "set xlabel 'x'\nset ylabel 'y'\n";
+    // Seen from the side. Few faces: each is a polygon in the file.
+    script << "set lmargin at screen 0.02\nset rmargin at screen 0.46\n"
+           << "set view 58, 322, 1.12, 1.0\nset view equal xy\n"
+           << "set xyplane relative 0.05\nset border 31 lw 0.6\n"
+           << "set pm3d depthorder border lc rgb '#30ffffff' lw 0.2\n"
+           << "set ticslevel 0\nset zrange [" << low << ':' << low + range
+           << "]\nset ztics " << level_step(2.5 * range) << "\nunset colorbox\n"
+           << "splot $coarse using 1:2:3 with pm3d\n";
+    script << "unset pm3d\nunset view\nset zrange [*:*]\nunset ztics\n"
+           << "set border 15 lw 0.6\nset colorbox\n"
+           << "set lmargin at screen 0.56\nset rmargin at screen 0.88\n"
+           << "set size ratio -1\n"
+           << "set contour base\nset cntrparam levels incremental "
+           << std::ceil(low / level_step(range)) * level_step(range) << ", "
+           << level_step(range) << ", " << high << "\n"
+           << "unset surface\nset table $lines\nsplot $fine using 1:2:3\n"
+           << "unset table\nunset contour\nset surface\n"
+           << "plot $fine using 1:2:3 with image pixels, "
+           << "$lines using 1:2 with lines lc rgb '#90ffffff' lw 0.8\n"
+           << "unset multiplot\n";
+    return draw_picture(report, folder, name, script.str());
+  }
+
+  bool draw_status(Report &report, const std::filesystem::path &folder,
+                   const std::string &name, const Raster &raster,
+                   const std::size_t field,
+                   const std::vector<StatusWord> &words,
+                   const std::string &title)
+  {
+    // Okabe and Ito's colours, the first a quiet grey for what is open.
+    static const std::array<const char *, 7> colours = {
+        "#e8e8e8", "#d55e00", "#0072b2", "#009e73",
+        "#f0e442", "#cc79a7", "#56b4e9"};
+    const std::vector<double> &values = raster.fields.at(field);
+    std::vector<double> kinds(values.size(),
+                              std::numeric_limits<double>::quiet_NaN());
+    std::vector<bool> occurs(words.size(), false);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      for (std::size_t w = 0; w < words.size(); ++w)
+        if (std::lround(values[i]) == words[w].value && !std::isnan(values[i]))
+        {
+          kinds[i] = double(w);
+          occurs[w] = true;
+        }
+
+    std::ostringstream script;
+    script << gnuplot_header(name, 640, map_height(raster, 500, 130))
+           << "set datafile missing 'NaN'\n"
+           << grid_block("kinds", raster, kinds, 1) << "set title "
+           << quoted(title) << " font ',15'\n"
+           << ranges(raster)
+           << "set size ratio -1\nunset grid\nunset colorbox\n"
+           << "set xlabel 'x'\nset ylabel 'y'\n"
+           << "set key below horizontal samplen 1.5\n"
+           << "set cbrange [-0.5:" << double(words.size()) - 0.5
+           << "]\nset palette maxcolors " << words.size() << "\n"
+           << "set palette defined (";
+    for (std::size_t w = 0; w < words.size(); ++w)
+      script << (w > 0 ? ", " : "") << double(w) - 0.5 << " '"
+             << colours[w % colours.size()] << "', " << double(w) + 0.5 << " '"
+             << colours[w % colours.size()] << '\'';
+    script << ")\nplot $kinds using 1:2:3 with image pixels notitle";
+    for (std::size_t w = 0; w < words.size(); ++w)
+      if (occurs[w])
+        script << ", NaN with points pt 5 ps 1.6 lc rgb '"
+               << colours[w % colours.size()] << "' title "
+               << quoted(words[w].word);
+    script << '\n';
+    return draw_picture(report, folder, name, script.str());
+  }
+
+  namespace
+  {
+    /** The points that a logarithmic picture can show. */
+    std::vector<std::pair<double, double>> shown(const Curve &curve)
+    {
+      std::vector<std::pair<double, double>> points;
+      for (const auto &point : curve.points)
+        if (point.first > 0 && point.second > 0 && std::isfinite(point.second))
+          points.push_back(point);
+      return points;
+    }
+
+    /** Slope of the last half of a curve (at least two points) by least
+     * squares in logarithms, as " (slope -0.50)". */
+    std::string slope_text(const std::vector<std::pair<double, double>> &points)
+    {
+      const std::size_t n = points.size() / 2 + 1;
+      if (points.size() < 3)
+        return "";
+      double sx = 0;
+      double sy = 0;
+      double sxx = 0;
+      double sxy = 0;
+      for (std::size_t i = points.size() - n; i < points.size(); ++i)
+      {
+        const double x = std::log(points[i].first);
+        const double y = std::log(points[i].second);
+        sx += x;
+        sy += y;
+        sxx += x * x;
+        sxy += x * y;
+      }
+      const double m = double(n);
+      const double below = m * sxx - sx * sx;
+      if (!(below > 0))
+        return "";
+      std::ostringstream text;
+      text.precision(2);
+      text << std::fixed << " (slope " << (m * sxy - sx * sy) / below << ')';
+      return text.str();
+    }
+
+    std::string curves(const std::vector<Curve> &all, const std::string &prefix,
+                       const bool slopes, std::ostringstream &blocks)
+    {
+      std::string plot;
+      std::size_t number = 0;
+      for (const Curve &curve : all)
+      {
+        const auto points = shown(curve);
+        if (points.empty())
+          continue;
+        ++number;
+        std::vector<std::vector<double>> rows;
+        for (const auto &point : points)
+          rows.push_back({point.first, point.second});
+        const std::string block = prefix + std::to_string(number);
+        blocks << gnuplot_data(block, rows);
+        plot += (plot.empty() ? "plot $" : ", $") + block
+                + " using 1:2 with linespoints ls "
+                + std::to_string((number - 1) % 8 + 1) + " title "
+                + quoted(curve.label + (slopes ? slope_text(points) : ""));
+      }
+      return plot;
+    }
+  } // namespace
+
+  bool draw_convergence(Report &report, const std::filesystem::path &folder,
+                        const std::string &name,
+                        const std::vector<Curve> &errors,
+                        const std::vector<Curve> &counts,
+                        const std::string &title)
+  {
+    std::ostringstream blocks;
+    const std::string above = curves(errors, "error", true, blocks);
+    const std::string below = curves(counts, "count", false, blocks);
+    const unsigned int n_plots =
+        (above.empty() ? 0U : 1U) + (below.empty() ? 0U : 1U);
+    if (n_plots == 0)
+      return false;
+
+    std::ostringstream script;
+    script << gnuplot_header(name, 760, 100 + 340 * n_plots) << blocks.str()
+           << "set multiplot layout " << n_plots << ",1 title " << quoted(title)
+           << " font ',15'\n"
+           << "set lmargin 11\nset rmargin 3\nset logscale x\n"
+           << "set format x '10^{%T}'\n";
+    if (!above.empty())
+      script << "set logscale y\nset format y '10^{%T}'\n"
+             << "set ylabel 'error'\n"
+             << (below.empty() ? "set xlabel 'degrees of freedom'\n" : "")
+             << "set key bottom left\n"
+             << above << '\n';
+    if (!below.empty())
+      script << "unset logscale y\nset format y '%g'\nset yrange [0:*]\n"
+             << "set ylabel 'number'\nset xlabel 'degrees of freedom'\n"
+             << "set key top left\n"
+             << below << '\n';
+    script << "unset multiplot\n";
+    return draw_picture(report, folder, name, script.str());
+  }
+} // namespace abut::app
