@@ -165,7 +165,7 @@ namespace abut::app
                    const std::string &title)
   {
     // Okabe and Ito's colours, the first a quiet grey for what is open.
-    static const std::array<const char *, 7> colours = {
+    static const std::vector<const char *> colours = {
         "#e8e8e8", "#d55e00", "#0072b2", "#009e73",
         "#f0e442", "#cc79a7", "#56b4e9"};
     const std::vector<double> &values = raster.fields.at(field);
