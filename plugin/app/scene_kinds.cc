@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 /* The list of scenes: one line each, in the order of the reference. */
+#include "obstacle_scene.h"
 #include "point_mass.h"
 #include "scene.h"
 
@@ -15,6 +16,10 @@ namespace abut::app
   const std::vector<SceneKind> &scene_kinds()
   {
     static const std::vector<SceneKind> kinds = {
+        {"obstacle",
+         "a membrane over obstacles, in the volume or on its boundary",
+         {2, 3},
+         create_obstacle_scene},
         {"point mass",
          "point masses on springs with constraints: small dense problems",
          {0},

@@ -31,6 +31,7 @@ namespace abut
 
     /** Throw @p message on all ranks if it is not empty on one: that of the
      * lowest such rank. Collective. */
+    template <typename Error>
     void throw_everywhere(const MPI_Comm communicator,
                           const std::string &message)
     {
@@ -39,8 +40,7 @@ namespace abut
       const unsigned int rank =
           MPI::min(message.empty() ? none : me, communicator);
       if (rank != none)
-        AssertThrow(false,
-                    ExcMessage(MPI::broadcast(communicator, message, rank)));
+        throw Error(MPI::broadcast(communicator, message, rank));
     }
 
     abut_status reduce_over_ranks(void *user, const abut_reduction operation,
@@ -154,7 +154,7 @@ namespace abut
       if (message.empty())
         message = abut_status_text(status);
     }
-    throw_everywhere(communicator, message);
+    throw_everywhere<std::runtime_error>(communicator, message);
   }
 
   template <int dim>
@@ -192,18 +192,18 @@ namespace abut
     std::string message;
     for (std::size_t i = 0; i < lower.size() && message.empty(); ++i)
     {
-      const std::string place = at(candidates.free[i].point);
       if (std::isnan(lower[i]) || lower[i] == INFINITY)
-        message = "The obstacle is not a number or is infinite" + place + ".";
+        message = "The obstacle is not a number or is infinite";
       else if (std::isnan(upper[i]) || upper[i] == -INFINITY)
-        message =
-            "The upper obstacle is not a number or is infinite" + place + ".";
+        message = "The upper obstacle is not a number or is infinite";
       else if (upper[i] < lower[i])
-        message = "The upper obstacle lies below the obstacle" + place + ": "
-                  + std::to_string(upper[i]) + " < " + std::to_string(lower[i])
-                  + ". No displacement can satisfy both.";
+        message = "No displacement can lie between the upper obstacle, "
+                  + std::to_string(upper[i]) + ", and the obstacle, "
+                  + std::to_string(lower[i]) + ",";
+      if (!message.empty())
+        message += at(candidates.free[i].point) + ".";
     }
-    throw_everywhere(communicator, message);
+    throw_everywhere<ObstacleError>(communicator, message);
   }
 
   template <int dim>
@@ -233,7 +233,7 @@ namespace abut
                   + std::to_string(value) + ")" + at(node.point)
                   + ". Raise the obstacle there or lower the Dirichlet value.";
     }
-    throw_everywhere(communicator, message);
+    throw_everywhere<ObstacleError>(communicator, message);
   }
 
   template <int dim>

@@ -35,6 +35,7 @@
 
 #include <memory>
 #include <set>
+#include <stdexcept>
 
 namespace abut
 {
@@ -48,6 +49,14 @@ namespace abut
     std::shared_ptr<const dealii::Function<dim>> upper;
     /** Where contact is possible; empty: in the whole domain. */
     std::set<dealii::types::boundary_id> boundary_ids;
+  };
+
+  /** An obstacle that no displacement can respect, or that is not a number:
+   * the message says where. Thrown on all ranks. */
+  class ObstacleError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
   };
 
   /** Assembles and solves contact for one DoFHandler. */
@@ -85,8 +94,8 @@ namespace abut
                 const dealii::AffineConstraints<double> &constraints);
 
     /** Find the constraint rows and begin a new solve at @p displacement
-     * (owned entries). Throws if a prescribed value violates an obstacle, if
-     * obstacles cross each other or have a value that is not finite.
+     * (owned entries). Throws ObstacleError if a prescribed value violates
+     * an obstacle, if obstacles cross or have a value that is not a number.
      * Pressures of the last solve, or those of set_pressure(), are its
      * start. */
     void detect(const la::Vector &displacement);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_OBSTACLE_PARAMETERS_H
+#define ABUT_APP_OBSTACLE_PARAMETERS_H
+
+#include "height_map.h"
+#include "mesh.h"
+
+#include <abut/dealii/contact_assembler.h>
+
+namespace abut::app
+{
+  /** All parameters of the scene `obstacle` but those of the methods. */
+  struct ObstacleParameters
+  {
+    MeshParameters mesh;
+
+    // Membrane
+    unsigned int degree = 1;
+    std::string conductivity, load, dirichlet, neumann;
+
+    // Contact
+    std::string obstacle, upper_obstacle, boundary_ids;
+    HeightMapParameters height_map;
+
+    // Refinement
+    unsigned int level = 0;
+    unsigned int coarsest_level = 0;
+    bool nested = true;
+    unsigned int relaxation_sweeps = 3;
+    unsigned int adaptive_cycles = 0;
+    double refine_fraction = 0.6;
+    double coarsen_fraction = 0.02;
+
+    // Exact solution
+    std::string exact_displacement, exact_gradient;
+    double exact_energy = 0., exact_force = 0.;
+
+    // Output
+    bool fields = true;
+    bool all_levels = false;
+    bool nodal_values = false;
+    unsigned int linear_solves = 0;
+
+    static void declare(dealii::ParameterHandler &prm);
+    void parse(dealii::ParameterHandler &prm);
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "obstacle_run.h"
+
+#include "collective.h"
+#include "estimator.h"
+#include "input_error.h"
+#include "memory_check.h"
+
+#include <deal.II/distributed/grid_refinement.h>
+#include <deal.II/distributed/solution_transfer.h>
+
+#include <cmath>
+
+namespace abut::app
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  template <int dim>
+  ObstacleRun<dim>::ObstacleRun(const ObstacleParameters &parameters,
+                                const MethodParameters &method,
+                                const SolverParameters &solver,
+                                const RunOptions &options, Report &report)
+      : parameters(parameters),
+        method(method),
+        options(options),
+        report(report),
+        communicator(options.communicator),
+        triangulation(communicator),
+        membrane(triangulation, parameters.degree),
+        contact(communicator),
+        series(options.output_folder, "fields", communicator)
+  {
+    contact.set_parameters(method, solver);
+    contact.assume_constant_matrix(true);
+  }
+
+  template <int dim> void ObstacleRun<dim>::create_coarse_mesh()
+  {
+    SectionTimes::Scope scope(report.times, "mesh");
+    create_mesh(parameters.mesh, options, triangulation);
+    const double factor = std::pow(2., dim * double(parameters.level));
+    check_memory(dim, factor * triangulation.n_global_active_cells(),
+                 parameters.degree, communicator, "Refinement/Level");
+    triangulation.refine_global(parameters.nested ? parameters.coarsest_level
+                                                  : parameters.level);
+  }
+
+  template <int dim> void ObstacleRun<dim>::create_functions()
+  {
+    conductivity = std::make_unique<Expression<dim>>(parameters.conductivity,
+                                                     "Membrane/Conductivity");
+    load = std::make_unique<Expression<dim>>(parameters.load, "Membrane/Load");
+    dirichlet = std::make_unique<BoundaryExpressions<dim>>(
+        parameters.dirichlet, "Membrane/Dirichlet");
+    neumann = std::make_unique<BoundaryExpressions<dim>>(parameters.neumann,
+                                                         "Membrane/Neumann");
+    if (!parameters.exact_displacement.empty())
+      exact = std::make_unique<ExactSolution<dim>>(
+          parameters.exact_displacement, "Exact solution/Displacement",
+          parameters.exact_gradient, "Exact solution/Gradient");
+  }
+
+  template <int dim> void ObstacleRun<dim>::set_obstacle()
+  {
+    if (!parameters.boundary_ids.empty())
+      contact_ids = parse_boundary_ids<dim>(
+          parameters.boundary_ids, "Contact/Boundary ids", triangulation);
+
+    Obstacle<dim> obstacle;
+    obstacle.boundary_ids = contact_ids;
+    if (!parameters.height_map.file.empty())
+      obstacle.lower = std::make_shared<HeightMap<dim>>(
+          parameters.height_map,
+          options.input_file(parameters.height_map.file));
+    else if (!parameters.obstacle.empty())
+      obstacle.lower = std::make_shared<Expression<dim>>(parameters.obstacle,
+                                                         "Contact/Obstacle");
+    if (!parameters.upper_obstacle.empty())
+      obstacle.upper = std::make_shared<Expression<dim>>(
+          parameters.upper_obstacle, "Contact/Upper obstacle");
+    contact.set_obstacle(obstacle);
+
+    data.conductivity = conductivity.get();
+    data.load = load.get();
+    data.constant_conductivity = conductivity->is_constant();
+    data.constant_load = load->is_constant();
+    data.neumann = neumann->functions(triangulation);
+    std::set<dealii::types::boundary_id> taken = contact_ids;
+    for (const auto &entry : data.neumann)
+      taken.insert(entry.first);
+    data.dirichlet = dirichlet->functions(triangulation, taken);
+  }
+
+  template <int dim> void ObstacleRun<dim>::check()
+  {
+    collective(communicator, [&] { create_functions(); });
+    create_coarse_mesh();
+    collective(communicator, [&] { set_obstacle(); });
+    setup_level();
+    contact.reinit(membrane.mapping, membrane.dof_handler,
+                   membrane.constraints);
+    u = membrane.vector();
+    membrane.constraints.distribute(u);
+    try
+    {
+      contact.detect(u);
+    }
+    catch (const ObstacleError &error)
+    {
+      throw InputError("Contact/Obstacle", error.what());
+    }
+    report.set("dofs", membrane.dof_handler.n_dofs());
+    report.set("constraints", contact.n_rows());
+  }
+
+  template <int dim> void ObstacleRun<dim>::setup_level()
+  {
+    SectionTimes::Scope scope(report.times, "unknowns and pattern");
+    membrane.setup(data);
+  }
+
+  template <int dim> void ObstacleRun<dim>::assemble()
+  {
+    SectionTimes::Scope scope(report.times, "assembly");
+    membrane.assemble(data);
+  }
+
+  template <int dim> void ObstacleRun<dim>::estimate()
+  {
+    SectionTimes::Scope scope(report.times, "error estimate");
+    la::Vector active = membrane.ghosted_field(contact.status());
+    {
+      // Held are nodes in contact, and hanging nodes between two of them.
+      la::Vector flags = contact.status();
+      double *value = la::data(flags);
+      for (int i = 0; i < la::n_owned(flags); ++i)
+        value[i] = value[i] > 0. ? 1. : 0.;
+      flags.compress(dealii::VectorOperation::insert);
+      membrane.hanging.distribute(flags);
+      value = la::data(flags);
+      for (int i = 0; i < la::n_owned(flags); ++i)
+        value[i] = value[i] > 0.999 ? 1. : 0.;
+      flags.compress(dealii::VectorOperation::insert);
+      active = flags;
+    }
+    const la::Vector solution = membrane.ghosted(u);
+    const la::Vector p = membrane.ghosted_field(contact.pressure());
+    EstimatorInput<dim> input{membrane.mapping, membrane.dof_handler, solution,
+                              *load};
+    input.coefficient = conductivity.get();
+    input.neumann = data.neumann;
+    for (const auto &entry : data.dirichlet)
+      input.dirichlet.insert(entry.first);
+    input.contact = contact_ids;
+    if (contact_ids.empty())
+      input.active = &active;
+    else
+      input.pressure = &p;
+    present.estimate = estimate_error(input, squared_estimate);
+  }
+
+  template <int dim> void ObstacleRun<dim>::refine(const bool adaptive)
+  {
+    using Transfer =
+        dealii::parallel::distributed::SolutionTransfer<dim, la::Vector>;
+    const la::Vector u_old = membrane.ghosted(u);
+    const la::Vector p_old = membrane.ghosted_field(contact.pressure());
+    Transfer transfer(membrane.dof_handler);
+    {
+      SectionTimes::Scope scope(report.times, "mesh");
+      if (adaptive)
+        dealii::parallel::distributed::GridRefinement::
+            refine_and_coarsen_fixed_fraction(triangulation, squared_estimate,
+                                              parameters.refine_fraction,
+                                              parameters.coarsen_fraction);
+      else
+        for (const auto &cell : triangulation.active_cell_iterators())
+          if (cell->is_locally_owned())
+            cell->set_refine_flag();
+      triangulation.prepare_coarsening_and_refinement();
+      transfer.prepare_for_coarsening_and_refinement(
+          std::vector<const la::Vector *>{&u_old, &p_old});
+      triangulation.execute_coarsening_and_refinement();
+    }
+    setup_level();
+    {
+      SectionTimes::Scope scope(report.times, "transfer");
+      u = membrane.vector();
+      pressure = membrane.vector();
+      std::vector<la::Vector *> result = {&u, &pressure};
+      transfer.interpolate(result);
+      membrane.constraints.distribute(u);
+    }
+  }
+
+  template <int dim>
+  void ObstacleRun<dim>::prepare_start(const bool warm, la::Vector &residual)
+  {
+    SectionTimes::Scope scope(report.times, "contact rows and start");
+    if (!warm)
+    {
+      u = membrane.vector();
+      membrane.constraints.distribute(u);
+    }
+    contact.reinit(membrane.mapping, membrane.dof_handler,
+                   membrane.constraints);
+    if (warm)
+      contact.set_pressure(pressure);
+    try
+    {
+      contact.detect(u);
+    }
+    catch (const ObstacleError &error)
+    {
+      throw InputError("Contact/Obstacle", error.what());
+    }
+    const bool feasible = method.options.law->outer == ABUT_OUTER_BARRIER;
+    if (feasible || (warm && parameters.relaxation_sweeps > 0))
+    {
+      membrane.residual(u, residual);
+      contact.relax(membrane.stiffness, residual, parameters.relaxation_sweeps,
+                    u);
+    }
+  }
+
+  template <int dim>
+  void ObstacleRun<dim>::record_step(const LinearReport &linear)
+  {
+    const abut_progress progress = contact.progress();
+    present.linear += linear;
+    ++present.steps;
+    steps.push_back({double(present.level), double(present.steps),
+                     double(progress.n_active), double(progress.n_changes),
+                     double(linear.n_iterations), double(linear.n_setups),
+                     progress.penalty, progress.barrier, progress.penetration,
+                     double(progress.outer)});
+    std::string line = "  step " + std::to_string(present.steps) + ": "
+                       + std::to_string(progress.n_active) + " in contact, "
+                       + std::to_string(progress.n_changes) + " changed, "
+                       + std::to_string(linear.n_iterations)
+                       + " linear iterations";
+    report.progress(line);
+  }
+
+  template <int dim> void ObstacleRun<dim>::iterate(la::Vector &residual)
+  {
+    SectionTimes::Scope scope(report.times, "solve");
+    la::Vector increment = membrane.vector();
+    bool go_on = true;
+    while (go_on)
+    {
+      membrane.residual(u, residual);
+      const LinearReport linear =
+          contact.solve(membrane.stiffness, residual, increment);
+      u += increment;
+      go_on = contact.update(u);
+      record_step(linear);
+    }
+    membrane.constraints.distribute(u);
+  }
+
+  template <int dim> bool ObstacleRun<dim>::solve_level(const bool warm)
+  {
+    assemble();
+    la::Vector residual = membrane.vector();
+    prepare_start(warm, residual);
+    try
+    {
+      iterate(residual);
+    }
+    catch (const SolverFailure &failure)
+    {
+      report.warn(failure.what());
+      return false;
+    }
+    present.reason = contact.reason();
+    if (present.reason != ABUT_REASON_CONVERGED)
+      report.warn("The contact iteration ended without an answer after "
+                  + std::to_string(present.steps)
+                  + " steps: " + abut_reason_text(present.reason));
+    return present.reason == ABUT_REASON_CONVERGED;
+  }
+
+  template <int dim> double ObstacleRun<dim>::energy() const
+  {
+    if (membrane.constraints.has_inhomogeneities())
+      return membrane_energy(membrane.mapping, membrane.dof_handler,
+                             membrane.ghosted(u), *load, conductivity.get(),
+                             data.neumann);
+    // Without prescribed values the assembled system has it.
+    la::Vector free(u), internal(u);
+    membrane.constraints.set_zero(free);
+    membrane.stiffness.vmult(internal, free);
+    internal.sadd(0.5, -1., membrane.load);
+    return internal * free;
+  }
+
+  template <int dim> double ObstacleRun<dim>::counted_seconds() const
+  {
+    return report.times.seconds("assembly") + report.times.seconds("transfer")
+           + report.times.seconds("contact rows and start")
+           + report.times.seconds("solve");
+  }
+
+  template <int dim>
+  void ObstacleRun<dim>::finish_level(const unsigned int number)
+  {
+    const double counted = counted_seconds();
+    present.seconds = counted - counted_before;
+    counted_before = counted;
+    SectionTimes::Scope scope(report.times, "results");
+    present.cells = triangulation.n_global_active_cells();
+    present.dofs = membrane.dof_handler.n_dofs();
+    present.rows = contact.n_rows();
+    present.active = contact.n_active();
+    present.progress = contact.progress();
+    present.energy = energy();
+    present.force = contact.contact_force();
+    if (exact)
+      present.errors = error_norms(membrane.mapping, membrane.dof_handler,
+                                   membrane.ghosted(u), *exact);
+    std::map<std::string, double> row = {
+        {"level", number},
+        {"cells", double(present.cells)},
+        {"dofs", double(present.dofs)},
+        {"constraints", double(present.rows)},
+        {"active", double(present.active)},
+        {"steps", present.steps},
+        {"linear_iterations", present.linear.n_iterations},
+        {"matvecs", present.linear.n_matvecs},
+        {"setups", present.linear.n_setups},
+        {"energy", present.energy},
+        {"contact_force", present.force},
+        {"penetration", contact.penetration()},
+        {"seconds", present.seconds}};
+    if (present.errors)
+    {
+      row["l2_error"] = present.errors->l2;
+      row["h1_error"] = present.errors->h1_seminorm;
+    }
+    if (present.estimate)
+      row["estimate"] = *present.estimate;
+    report.add_row(row);
+    levels.push_back(present);
+    report.add("nonlinear_iterations", present.steps);
+    report.add("linear_iterations", present.linear.n_iterations);
+    report.add("matvecs", present.linear.n_matvecs);
+    report.progress(
+        "level " + std::to_string(number) + ": " + std::to_string(present.dofs)
+        + " unknowns, " + std::to_string(present.active) + " in contact, "
+        + std::to_string(present.steps) + " steps, "
+        + std::to_string(present.linear.n_iterations)
+        + " linear iterations, energy " + std::to_string(present.energy));
+  }
+
+  template <int dim> Outcome ObstacleRun<dim>::run()
+  {
+    collective(communicator, [&] { create_functions(); });
+    create_coarse_mesh();
+    collective(communicator, [&] { set_obstacle(); });
+    declare_tables();
+    setup_level();
+
+    const unsigned int first =
+        parameters.nested ? parameters.coarsest_level : parameters.level;
+    const unsigned int last = parameters.level + parameters.adaptive_cycles;
+    bool converged = true;
+    for (unsigned int number = first; number <= last && converged; ++number)
+    {
+      if (number > first)
+        refine(number > parameters.level);
+      present = ObstacleLevel();
+      present.level = number;
+      converged = solve_level(number > first);
+      if (number >= parameters.level && parameters.adaptive_cycles > 0)
+        estimate();
+      finish_level(number);
+      if (parameters.all_levels || number == last || !converged)
+        write_fields();
+    }
+    write_steps();
+    if (parameters.nodal_values)
+      write_nodal_values();
+    if (parameters.linear_solves > 0)
+      compare_with_linear_solves();
+    if (options.pictures)
+      draw();
+    report_result(levels.back(), converged);
+    report_model();
+    return converged ? Outcome::converged : Outcome::unusable;
+  }
+
+  template class ObstacleRun<2>;
+  template class ObstacleRun<3>;
+} // namespace abut::app
