@@ -286,15 +286,21 @@ namespace abut::app
       out << "  " << padded(line.what, width)
           << (line.on ? "  on   " : "  off  ") << line.why << "\n";
 
+    double wall = elapsed();
+    if (const Value value = get("wall_seconds");
+        std::holds_alternative<double>(value))
+      wall = std::get<double>(value);
     if (!sections.empty())
       out << "\n  What it cost" << std::string(22, ' ')
-          << "seconds     calls\n";
+          << "seconds   share     calls\n";
     for (const SectionTimes::Section &section : sections)
     {
       const std::string name = section.name.substr(section.name.rfind('/') + 1);
       out << "  " << padded(std::string(2 * section.depth, ' ') + name, 28)
           << std::fixed << std::setprecision(4) << std::setw(13)
-          << section.seconds << std::setw(10) << section.calls << "\n";
+          << section.seconds << std::setprecision(0) << std::setw(6)
+          << 100 * section.seconds / wall << " %" << std::setw(10)
+          << section.calls << "\n";
     }
     for (const std::string &line : warnings)
       out << "\n  warning: " << line << "\n";
