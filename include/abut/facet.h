@@ -108,7 +108,7 @@ extern "C"
   X(NONE, "no fault")                                                          \
   X(KIND, "the facet's kind is not known")                                     \
   X(NOT_FINITE, "a coordinate is NaN, infinite or out of range")               \
-  X(COINCIDENT, "all nodes of the facet are at one place")                     \
+  X(COINCIDENT, "two nodes of the facet are at one place")                     \
   X(ZERO_AREA, "the facet has no area (or length)")                            \
   X(FOLDED, "the facet is folded or inverted: its normal turns by more than "  \
             "90 degrees within it")
@@ -156,8 +156,7 @@ extern "C"
   /** Measure a facet. A facet with the faults COINCIDENT, ZERO_AREA or FOLDED
    * is measured, too. NOT_FINITE if a coordinate is. Cost: some 100
    * operations for the linear kinds, 10 times that for the quadratic ones,
-   * whose area is integrated by a product Gauss rule of 4 x 4 points (tri6:
-   * 12-point rule of degree 6; line3: 5 points). */
+   * whose area is integrated by a Gauss rule of 4 x 4 points (line3: 5). */
   ABUT_API abut_status abut_facet_measure(abut_facet_kind kind,
                                           const double *nodes,
                                           abut_facet_measures *measures);

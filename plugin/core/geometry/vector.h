@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_GEOMETRY_VECTOR_H
+#define ABUT_GEOMETRY_VECTOR_H
+
+/* Vectors of three numbers. */
+
+#include <math.h>
+#include <stdint.h>
+
+static inline double
+dot3(const double *a, const double *b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void
+cross3(const double *a, const double *b, double *c)
+{
+  c[0] = a[1] * b[2] - a[2] * b[1];
+  c[1] = a[2] * b[0] - a[0] * b[2];
+  c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static inline void
+sub3(const double *a, const double *b, double *c)
+{
+  c[0] = a[0] - b[0];
+  c[1] = a[1] - b[1];
+  c[2] = a[2] - b[2];
+}
+
+/* c = a + s b */
+static inline void
+axpy3(const double *a, double s, const double *b, double *c)
+{
+  c[0] = a[0] + s * b[0];
+  c[1] = a[1] + s * b[1];
+  c[2] = a[2] + s * b[2];
+}
+
+static inline double
+norm3(const double *a)
+{
+  return sqrt(dot3(a, a));
+}
+
+/* Scale to unit length; a vector whose square is not above tiny becomes zero.
+ * Returns the length. */
+static inline double
+unit3(double *a, double tiny)
+{
+  const double s = dot3(a, a), length = sqrt(s),
+               f = s > tiny ? 1. / length : 0.;
+  a[0] *= f;
+  a[1] *= f;
+  a[2] *= f;
+  return length;
+}
+
+static inline double
+clamp(double x, double lower, double upper)
+{
+  return x < lower ? lower : x > upper ? upper : x;
+}
+
+static inline double
+max2(double a, double b)
+{
+  return a > b ? a : b;
+}
+
+static inline double
+min2(double a, double b)
+{
+  return a < b ? a : b;
+}
+
+#endif
