@@ -8,8 +8,8 @@
 
 enum
 {
-  FULL_STEP_BUDGET = 5, /* full steps without progress before Murty's rule */
-  MAX_DEFECT_SOLVES = 3 /* tight solves in vain before giving up */
+  FULL_STEP_BUDGET = 5,  /* full steps without progress before Murty's rule */
+  MAX_DEFECT_SOLVES = 20 /* tight solves in vain before giving up */
 };
 
 /* Pressures and gaps this close to zero, relative to the largest pressure and
