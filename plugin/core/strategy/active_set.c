@@ -189,7 +189,8 @@ inspect(abut_strategy *s, findings *found)
     return status;
   const int32_t age = remember(&s->active_set, found->signature);
   found->seen = age > 0 && found->n_bad > 0;
-  if (found->seen)
+  /* Under Murty's rule sets may return without that being a cycle. */
+  if (found->seen && s->active_set.budget > 0)
     s->progress.cycle_length = age;
   return ABUT_SUCCESS;
 }
@@ -230,6 +231,8 @@ change_set(abut_strategy *s, const findings *found)
   bool all = true;
   if (found->n_bad < set->best)
   {
+    if (set->budget == 0)
+      set->n_sets = 0;
     set->best = found->n_bad;
     set->budget = FULL_STEP_BUDGET;
   }
