@@ -223,12 +223,19 @@ watch(void *user, const abut_progress *progress, const abut_request *r)
   memcpy(s->state, r->state, (size_t)s->n);
 }
 
+abut_host
+membrane_host(membrane *s)
+{
+  const abut_host host = {sizeof(abut_host), s, solve, move, watch};
+  return host;
+}
+
 abut_reason
 membrane_run(abut_context *context, membrane *s,
              const abut_strategy_options *options, bool use_state,
              abut_progress *progress)
 {
-  const abut_host host = {sizeof(abut_host), s, solve, move, watch};
+  const abut_host host = membrane_host(s);
   abut_strategy *strategy = NULL;
   abut_reason reason = ABUT_REASON_NONE;
   s->n_sets = 0;

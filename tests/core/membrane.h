@@ -39,6 +39,9 @@ abut_reason membrane_run(abut_context *context, membrane *scene,
                          const abut_strategy_options *options, bool use_state,
                          abut_progress *progress);
 
+/* The functions that serve a strategy's requests. */
+abut_host membrane_host(membrane *scene);
+
 /* Options with the scene's scales and exact linear solves. */
 abut_strategy_options membrane_options(const membrane *scene, const char *law);
 

@@ -224,6 +224,24 @@ run(dense_host *host, abut_strategy *strategy, uint8_t *state,
                           : ABUT_SUCCESS;
 }
 
+/* Arrays of the caller for host->n unknowns and host->m rows. */
+static abut_status
+check_arrays(const dense_host *host)
+{
+  if (host->u == NULL || (host->m > 0 && host->p == NULL))
+    return abut_fail(host->context, ABUT_INVALID_ARGUMENT, call,
+                     "displacement or pressure is NULL");
+  if (host->m > MAX_SIZE - host->n)
+    return abut_fail(host->context, ABUT_INVALID_ARGUMENT, call,
+                     "the model is too large for a dense matrix");
+  double probe = 0;
+  for (int32_t i = 0; i < host->n; ++i)
+    probe += host->u[i] * 0.0;
+  return probe == 0 ? ABUT_SUCCESS
+                    : abut_fail(host->context, ABUT_NOT_FINITE, call,
+                                "a displacement is not finite");
+}
+
 abut_status
 abut_dense_model_solve(abut_context *context, const abut_dense_model *model,
                        const abut_strategy_options *options,
@@ -247,12 +265,9 @@ abut_dense_model_solve(abut_context *context, const abut_dense_model *model,
   if (status != ABUT_SUCCESS)
     return status;
   host.m = host.rows.n_rows;
-  if (displacement == NULL || (host.m > 0 && pressure == NULL))
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
-                     "displacement or pressure is NULL");
-  if (host.m > MAX_SIZE - host.n)
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
-                     "the model is too large for a dense matrix");
+  status = check_arrays(&host);
+  if (status != ABUT_SUCCESS)
+    return status;
   abut_strategy *strategy = NULL;
   status = place_arrays(&host);
   if (status == ABUT_SUCCESS)
