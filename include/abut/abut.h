@@ -9,12 +9,15 @@
 
 #include <abut/context.h>
 #include <abut/dense_model.h>
+#include <abut/detect.h>
 #include <abut/export.h>
 #include <abut/facet.h>
 #include <abut/law.h>
 #include <abut/projection.h>
 #include <abut/rows.h>
+#include <abut/search.h>
 #include <abut/status.h>
 #include <abut/strategy.h>
+#include <abut/surface.h>
 
 #endif

@@ -1,0 +1,362 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Creation of a search, and keeping it up to date with its surface. */
+#include "search/search.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const names[ABUT_SEARCH_N_ALGORITHMS] = {
+    "all pairs", "uniform buckets", "adaptive buckets"};
+
+const char *
+abut_search_name(abut_search_algorithm algorithm)
+{
+  const int i = (int)algorithm;
+  return i >= 0 && i < ABUT_SEARCH_N_ALGORITHMS ? names[i] : "";
+}
+
+abut_status
+abut_search_find(const char *name, abut_search_algorithm *algorithm)
+{
+  if (name == NULL || algorithm == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  for (int i = 0; i < ABUT_SEARCH_N_ALGORITHMS; ++i)
+    if (strcmp(name, names[i]) == 0)
+    {
+      *algorithm = (abut_search_algorithm)i;
+      return ABUT_SUCCESS;
+    }
+  return ABUT_INVALID_ARGUMENT;
+}
+
+static bool
+is_length(double v)
+{
+  return v >= 0 && v <= ABUT_FACET_LIMIT;
+}
+
+static const char *
+fault_of(const abut_search_options *o)
+{
+  if (o->struct_size != sizeof(*o))
+    return "options of another version";
+  if ((int)o->algorithm < 0 || o->algorithm >= ABUT_SEARCH_N_ALGORITHMS)
+    return "unknown algorithm";
+  if (!is_length(o->bucket_size))
+    return "bucket_size is negative or not finite";
+  if (o->capacity < 0 || o->capacity > 4096)
+    return "capacity is not in 0 .. 4096";
+  if (!is_length(o->reach) || !is_length(o->relative_reach)
+      || !is_length(o->skin))
+    return "reach, relative_reach or skin is negative or not finite";
+  return NULL;
+}
+
+static void
+prepare(abut_search *s)
+{
+  struct
+  {
+    abut_array *array;
+    size_t element;
+  } const list[] = {{&s->records, sizeof(abut_record)},
+                    {&s->sites, sizeof(abut_site)},
+                    {&s->items, sizeof(abut_keyed)},
+                    {&s->room, sizeof(abut_keyed)},
+                    {&s->runs, sizeof(abut_run)},
+                    {&s->tree.groups, sizeof(abut_tree_group)},
+                    {&s->grid.cell_key, sizeof(uint64_t)},
+                    {&s->grid.cell_start, sizeof(int32_t)},
+                    {&s->grid.table, sizeof(int32_t)},
+                    {&s->query_box, sizeof(double)},
+                    {&s->block.box, sizeof(float)},
+                    {&s->block.slot, sizeof(int32_t)},
+                    {&s->block.hit, sizeof(uint8_t)}};
+  for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
+    list[i].array->element = list[i].element;
+  abut_list_prepare(&s->list);
+}
+
+abut_status
+abut_search_create(abut_context *context, abut_surface *surface,
+                   const abut_search_options *options, abut_search **search)
+{
+  if (context == NULL || surface == NULL || search == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_search_create",
+                     "context, surface or result is NULL");
+  const abut_search_options chosen =
+      options != NULL ? *options : abut_search_defaults();
+  const char *fault = fault_of(&chosen);
+  if (fault != NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_search_create",
+                     fault);
+  abut_search *s = abut_object_create(context, sizeof(*s));
+  if (s == NULL)
+    return abut_fail(context, ABUT_OUT_OF_MEMORY, "abut_search_create",
+                     "no memory");
+  s->context = context;
+  s->surface = surface;
+  s->options = chosen;
+  s->reach.absolute = chosen.reach;
+  s->reach.relative = chosen.relative_reach;
+  s->skin = chosen.skin;
+  prepare(s);
+  *search = s;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_search_destroy(abut_search **search)
+{
+  if (search == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_search *s = *search;
+  if (s == NULL)
+    return ABUT_SUCCESS;
+  abut_array *arrays[] = {
+      &s->records,   &s->sites,      &s->items,           &s->room,
+      &s->runs,      &s->query_box,  &s->tree.groups,     &s->grid.cell_key,
+      &s->block.box, &s->grid.table, &s->grid.cell_start, &s->block.hit,
+      &s->block.slot};
+  for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); ++i)
+    abut_array_release(s->context, arrays[i]);
+  abut_list_release(s->context, &s->list);
+  abut_object_destroy(s->context, s, sizeof(*s));
+  *search = NULL;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_search_set_reach(abut_search *search, double reach, double relative_reach,
+                      double skin)
+{
+  if (search == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_search *s = search;
+  if (!is_length(reach) || !is_length(relative_reach) || !is_length(skin))
+    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, "abut_search_set_reach",
+                     "reach, relative_reach or skin is negative or not finite");
+  s->reach_changed |=
+      reach != s->reach.absolute || relative_reach != s->reach.relative;
+  s->reach.absolute = reach;
+  s->reach.relative = relative_reach;
+  s->skin = skin;
+  return ABUT_SUCCESS;
+}
+
+/* Median size of at most 1023 facets evenly spread over the numbering: the
+ * bucket size changes the cost only, not the result. */
+static double
+median_size(const abut_search *s)
+{
+  double size[1023], lower[3], upper[3];
+  const int32_t n = s->n < 1023 ? s->n : 1023;
+  for (int32_t i = 0; i < n; ++i)
+  {
+    const int32_t f = (int32_t)((int64_t)i * s->n / n);
+    double v;
+    abut_record_extent(s->surface, f, lower, upper, &v);
+    int32_t j = i;
+    for (; j > 0 && size[j - 1] > v; --j)
+      size[j] = size[j - 1];
+    size[j] = v;
+  }
+  return n > 0 ? size[n / 2] : 0;
+}
+
+static int32_t
+choose_capacity(const abut_search *s)
+{
+  const double b = s->options.bucket_size;
+  if (s->options.capacity > 0)
+    return s->options.capacity;
+  if (!(b > 0))
+    return 8;
+  const double facets = s->surface->view.dimension == 3 ? b * b : b;
+  return (int32_t)(facets < 1 ? 1 : facets > 4096 ? 4096 : round(facets));
+}
+
+static void
+compute_sites(abut_search *s)
+{
+  abut_site *sites = s->sites.data;
+  for (int32_t f = 0; f < s->n; ++f)
+  {
+    double lower[3], upper[3], size, half = 0;
+    abut_record_extent(s->surface, f, lower, upper, &size);
+    for (int d = 0; d < 3; ++d)
+    {
+      sites[f].centre[d] = 0.5 * (lower[d] + upper[d]);
+      const double h = 0.5 * (upper[d] - lower[d]);
+      half = h > half ? h : half;
+    }
+    sites[f].half = half + abut_reach_of(&s->reach, size);
+  }
+}
+
+/* Box of all inflated facets and the smallest inflated half-extent. */
+static void
+bound_records(abut_search *s)
+{
+  const abut_record *r = s->records.data;
+  s->smallest = s->n > 0 ? INFINITY : 0;
+  for (int d = 0; d < 3; ++d)
+  {
+    s->lower[d] = INFINITY;
+    s->upper[d] = -INFINITY;
+  }
+  for (int32_t i = 0; i < s->n; ++i)
+  {
+    double half = 0;
+    for (int d = 0; d < 3; ++d)
+    {
+      const double l = r[i].lower[d] - r[i].reach;
+      const double u = r[i].upper[d] + r[i].reach;
+      s->lower[d] = l < s->lower[d] ? l : s->lower[d];
+      s->upper[d] = u > s->upper[d] ? u : s->upper[d];
+      half = 0.5 * (u - l) > half ? 0.5 * (u - l) : half;
+    }
+    s->smallest = half < s->smallest ? half : s->smallest;
+  }
+}
+
+static abut_status
+reserve(abut_search *s)
+{
+  const int64_t n = s->n;
+  struct
+  {
+    abut_array *array;
+    int64_t n;
+  } const list[] = {{&s->records, n},
+                    {&s->sites, n},
+                    {&s->items, n},
+                    {&s->room, n},
+                    {&s->runs, n}};
+  for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
+  {
+    const abut_status status =
+        abut_array_reserve(s->context, list[i].array, 0, list[i].n);
+    if (status != ABUT_SUCCESS)
+      return status;
+  }
+  return ABUT_SUCCESS;
+}
+
+/* Compute the records of all facets in the order of the sorted items. */
+static void
+compute_records(abut_search *s)
+{
+  abut_record *records = s->records.data;
+  const abut_keyed *items = s->items.data;
+  for (int32_t i = 0; i < s->n; ++i)
+    abut_record_compute(s->surface, items[i].index, &s->reach, records + i);
+}
+
+static abut_status
+sort_facets(abut_search *s)
+{
+  s->n = s->surface->view.n_facets;
+  abut_status status = reserve(s);
+  if (status != ABUT_SUCCESS)
+    return status;
+  abut_search_statistics *z = &s->statistics;
+  z->n_levels = 1;
+  z->n_buckets = 1;
+  if (s->options.algorithm == ABUT_SEARCH_ALL_PAIRS)
+  {
+    abut_record_compute_all(s->surface, s->n, NULL, &s->reach, s->records.data);
+    return ABUT_SUCCESS;
+  }
+  compute_sites(s);
+  if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
+  {
+    const double edge = s->options.bucket_size > 0
+                            ? s->options.bucket_size * median_size(s)
+                            : 0;
+    status = abut_grid_build(s->context, &s->grid, s->sites.data, s->n, edge,
+                             s->items.data, s->room.data);
+    compute_records(s);
+    z->n_buckets = s->grid.n_cells;
+    z->bucket_edge = s->grid.edge;
+    z->bucket_raised = s->grid.raised;
+    return status;
+  }
+  status = abut_tree_reserve(s->context, &s->tree, s->n, choose_capacity(s));
+  if (status != ABUT_SUCCESS)
+    return status;
+  abut_tree_order(&s->tree, s->sites.data, s->n, s->items.data, s->room.data);
+  compute_records(s);
+  s->tree.extent_built = abut_tree_fit(&s->tree, s->records.data);
+  z->n_buckets = s->tree.n_buckets;
+  z->n_levels = s->tree.n_classes;
+  z->capacity = s->tree.capacity;
+  return ABUT_SUCCESS;
+}
+
+/* New positions in the old order; false if the buckets do not serve any more.
+ */
+static bool
+refit(abut_search *s)
+{
+  abut_record *records = s->records.data;
+  for (int32_t i = 0; i < s->n; ++i)
+    abut_record_compute(s->surface, records[i].facet, &s->reach, records + i);
+  if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
+    return abut_grid_refit(&s->grid, records);
+  if (s->options.algorithm == ABUT_SEARCH_ADAPTIVE_BUCKETS)
+    return abut_tree_fit(&s->tree, records) <= 1.5 * s->tree.extent_built;
+  return true;
+}
+
+abut_status
+abut_search_update(abut_search *search)
+{
+  if (search == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_search *s = search;
+  if (s->revision == s->surface->revision && !s->reach_changed)
+    return ABUT_SUCCESS;
+  if (s->revision != 0 && refit(s))
+    ++s->statistics.n_refits;
+  else
+  {
+    s->revision = 0;
+    const abut_status status = sort_facets(s);
+    if (status != ABUT_SUCCESS)
+      return status;
+    ++s->statistics.n_builds;
+    ++s->serial;
+  }
+  bound_records(s);
+  s->revision = s->surface->revision;
+  s->reach_changed = false;
+  return ABUT_SUCCESS;
+}
+
+static int64_t
+bytes_of(const abut_array *a)
+{
+  return a->capacity * (int64_t)a->element;
+}
+
+abut_status
+abut_search_get_statistics(const abut_search *search,
+                           abut_search_statistics *statistics)
+{
+  if (search == NULL || statistics == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  const abut_search *s = search;
+  *statistics = s->statistics;
+  statistics->n_facets = s->n;
+  statistics->structure_bytes =
+      bytes_of(&s->items) + bytes_of(&s->room) + bytes_of(&s->runs)
+      + bytes_of(&s->tree.groups) + bytes_of(&s->grid.cell_key)
+      + bytes_of(&s->grid.cell_start) + bytes_of(&s->grid.table);
+  statistics->record_bytes = bytes_of(&s->records) + bytes_of(&s->sites);
+  statistics->query_bytes = bytes_of(&s->list.order) + bytes_of(&s->list.start)
+                            + bytes_of(&s->list.slot) + bytes_of(&s->query_box)
+                            + bytes_of(&s->block.box) + bytes_of(&s->block.slot)
+                            + bytes_of(&s->block.hit);
+  return ABUT_SUCCESS;
+}

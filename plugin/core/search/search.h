@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_SEARCH_SEARCH_H
+#define ABUT_SEARCH_SEARCH_H
+
+/* The inside of a search and of its lists. */
+
+#include "search/grid.h"
+#include "search/tree.h"
+
+#include <abut/search.h>
+
+/* Pairs in the order in which queries were answered: query order[k] has the
+ * records slot[start[k]] .. slot[start[k + 1] - 1]. Queries without pairs may
+ * be missing. */
+typedef struct abut_list
+{
+  int32_t n;
+  abut_array order; /* int32_t */
+  abut_array start; /* int64_t, [n + 1] */
+  abut_array slot;  /* int32_t */
+} abut_list;
+
+/* Facets near a block of queries, boxes as single-precision numbers relative
+ * to the block, rounded outwards. */
+typedef struct abut_block
+{
+  double origin[3];
+  int32_t n;
+  abut_array box;  /* float, [6][capacity]: lower x, y, z, upper x, y, z */
+  abut_array slot; /* int32_t */
+  abut_array hit;  /* uint8_t */
+} abut_block;
+
+struct abut_search
+{
+  abut_context *context;
+  abut_surface *surface;
+  abut_search_options options;
+  abut_reach reach;
+  double skin;
+  uint64_t revision; /* of the surface when last fitted; 0: never */
+  uint64_t serial;   /* counts sorts: slots keep their facet in between */
+  bool reach_changed;
+  int32_t n;
+  double lower[3], upper[3]; /* box of all inflated facets, without skin */
+  double smallest;           /* inflated half-extent */
+  abut_array records;        /* abut_record, in search order */
+  abut_array sites;          /* abut_site, in facet order */
+  abut_array items;          /* abut_keyed */
+  abut_array room;           /* abut_keyed */
+  abut_array runs;           /* abut_run */
+  abut_tree tree;
+  abut_grid grid;
+  abut_list list;       /* of the last query */
+  abut_array query_box; /* double, boxes of queries in query order */
+  abut_block block;
+  abut_search_statistics statistics;
+};
+
+/* What is asked: n points, or n boxes. */
+typedef struct abut_query
+{
+  int32_t n;
+  int32_t dimension;    /* of points */
+  const double *points; /* [n * dimension], or NULL: boxes */
+  const double *boxes;  /* [6 * n] lower, upper */
+} abut_query;
+
+/* Answer a query into list; the search must be up to date. */
+abut_status abut_search_list(abut_search *search, const abut_query *query,
+                             double skin, abut_list *list);
+
+void abut_list_prepare(abut_list *list);
+void abut_list_release(abut_context *context, abut_list *list);
+
+/* Point i of a query, padded to three dimensions. */
+static inline void
+abut_query_point(const abut_query *q, int32_t i, double *x)
+{
+  const double *p = q->points + (int64_t)q->dimension * i;
+  x[0] = p[0];
+  x[1] = p[1];
+  x[2] = q->dimension == 3 ? p[2] : 0;
+}
+
+#endif
