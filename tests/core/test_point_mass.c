@@ -234,6 +234,78 @@ method_of_multipliers(void **unused)
   }
 }
 
+/* The same two unknowns with x1 + x2 = sum, by other laws. */
+static void
+equality(void **unused)
+{
+  (void)unused;
+  const double stiffness[] = {2, 0, 0, 2}, force[] = {0, 0};
+  const int64_t columns[] = {0, 1};
+  const double ones[] = {1, 1}, sums[] = {1, -1}, eps = 10;
+  for (int i = 0; i < 4; ++i)
+  {
+    const bool hard = i < 2;
+    const double sum = sums[i % 2];
+    abut_context *context = fixture_context();
+    abut_rows *rows = NULL;
+    assert_ok(abut_rows_create(context, &rows));
+    assert_ok(abut_rows_append(rows, 0, 1, -sum, 1, 2, columns, ones));
+    const abut_dense_model model = {sizeof(model), 2, stiffness, force, rows};
+    abut_strategy_options options = exact_options();
+    options.law = abut_law_find(hard ? "lagrange" : "penalty");
+    options.penalty = eps;
+    options.allowed_penetration = 0.1; /* of unilateral rows only */
+    double x[2] = {0, 0}, p = 0;
+    abut_reason reason;
+    assert_ok(abut_dense_model_solve(context, &model, &options, x, &p, NULL,
+                                     NULL, NULL, NULL, &reason));
+    assert_int_equal(reason, ABUT_REASON_CONVERGED);
+    /* An equality may pull: p < 0 where the sum is negative. */
+    const double expected = hard ? sum / 2 : sum / 2 * eps / (1 + eps);
+    assert_close(x[0], expected, 1e-12);
+    assert_close(x[1], expected, 1e-12);
+    assert_close(p, 2 * expected, 1e-12);
+    assert_ok(abut_rows_destroy(&rows));
+    assert_ok(abut_context_destroy(&context));
+  }
+}
+
+/* A mass between a floor and a ceiling: two rows on one unknown. */
+static void
+channel(void **unused)
+{
+  (void)unused;
+  const double loads[] = {3, -3, 0.5}, eps = 10;
+  const int64_t column = 0;
+  const double up = 1, down = -1;
+  for (int i = 0; i < 6; ++i)
+  {
+    const bool hard = i < 3;
+    const double load = loads[i % 3];
+    abut_context *context = fixture_context();
+    abut_rows *rows = NULL;
+    assert_ok(abut_rows_create(context, &rows));
+    assert_ok(abut_rows_append(rows, 0, 1, h, 0, 1, &column, &down));
+    assert_ok(abut_rows_append(rows, 1, 1, h, 0, 1, &column, &up));
+    const abut_dense_model model = {sizeof(model), 1, &k, &load, rows};
+    abut_strategy_options options = exact_options();
+    options.law = abut_law_find(hard ? "lagrange" : "penalty");
+    options.penalty = eps;
+    double u = 0, p[2] = {0, 0};
+    abut_reason reason;
+    assert_ok(abut_dense_model_solve(context, &model, &options, &u, p, NULL,
+                                     NULL, NULL, NULL, &reason));
+    assert_int_equal(reason, ABUT_REASON_CONVERGED);
+    const double excess = fmax(fabs(load) - k * h, 0);
+    const double force = hard ? excess : excess * eps / (k + eps);
+    assert_close(p[0], load > 0 ? force : 0, 1e-12);
+    assert_close(p[1], load < 0 ? force : 0, 1e-12);
+    assert_close(k * u, load - p[0] + p[1], 1e-12);
+    assert_ok(abut_rows_destroy(&rows));
+    assert_ok(abut_context_destroy(&context));
+  }
+}
+
 int
 main(void)
 {
@@ -247,6 +319,8 @@ main(void)
       cmocka_unit_test(barrier),
       cmocka_unit_test(interior_point),
       cmocka_unit_test(method_of_multipliers),
+      cmocka_unit_test(equality),
+      cmocka_unit_test(channel),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
