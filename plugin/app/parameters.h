@@ -61,8 +61,17 @@ namespace abut::app
      * that is not declared and for a value that its pattern refuses. */
     void apply(dealii::ParameterHandler &prm) const;
 
+    /** A line of a file. */
+    struct Place
+    {
+      std::string file;
+      unsigned int line;
+    };
+
   private:
     void read(const std::string &name, unsigned int depth);
+    void read_line(const std::string &line, const Place &place,
+                   std::vector<std::string> &sections, unsigned int depth);
     void override_with(const std::string &argument);
 
     std::string file;

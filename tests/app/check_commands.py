@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the commands print, and what a run writes."""
+import os
 import re
 
 from program import Program
@@ -64,5 +65,18 @@ for name in ("energy", "penalty", "lagrangian"):
     p.expect((p.folder / f"out/{name}.svg").exists()
              or any(name in line for line in p.results()[0]["warnings"]),
              f"neither {name}.svg nor a warning")
+
+# Without a gnuplot that works: a warning, the scripts, and everything else.
+(p.folder / "bin").mkdir()
+for code, words in ((127, "gnuplot is not installed"), (1, "gnuplot failed")):
+    fake = p.folder / "bin/gnuplot"
+    fake.write_text(f"#!/bin/sh\nexit {code}\n")
+    fake.chmod(0o755)
+    result = p.call("run", scene, "--output", "bare", "--quiet", environment={
+        "PATH": f"{fake.parent}:{os.environ['PATH']}"})
+    p.expect(result.returncode == 0, "exit code " + result.stderr)
+    p.expect(words in result.stderr, f"no '{words}' in {result.stderr}")
+    p.expect((p.folder / "bare/energy.gp").exists()
+             and not (p.folder / "bare/energy.svg").exists(), "scripts")
 
 p.finish()

@@ -4,6 +4,7 @@ import argparse
 import csv
 import json
 import math
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -23,13 +24,14 @@ class Program:
         self.folder = pathlib.Path(self._folder.name)
         self.failures = 0
 
-    def call(self, *words, ranks=0):
+    def call(self, *words, ranks=0, environment=None):
         """Run `abut words`; ranks > 0: under mpirun."""
         command = [self.abut, *map(str, words)]
         if ranks > 0:
             command = ["mpirun", "--oversubscribe", "-n", str(ranks)] + command
         return subprocess.run(command, cwd=self.folder, text=True,
-                              capture_output=True, timeout=120)
+                              capture_output=True, timeout=120,
+                              env={**os.environ, **(environment or {})})
 
     def write(self, name, text):
         (self.folder / name).write_text(text)

@@ -5,9 +5,6 @@
 
 #include <deal.II/base/exceptions.h>
 
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
-
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -22,95 +19,6 @@ namespace abut::app
   {
     using dealii::ParameterHandler;
     namespace Utilities = dealii::Utilities;
-
-    /** ParameterHandler writes each character of a name other than letters and
-     * digits as an underscore and two hexadecimal digits. */
-    std::string demangle(const std::string &name)
-    {
-      std::string result;
-      for (std::size_t i = 0; i < name.size(); ++i)
-        if (name[i] == '_' && i + 2 < name.size())
-        {
-          const std::string digits = name.substr(i + 1, 2);
-          result += static_cast<char>(std::stoi(digits, nullptr, 16));
-          i += 2;
-        }
-        else
-          result += name[i];
-      return result;
-    }
-
-    /** Words of "[Selection a|b|c ]". */
-    std::vector<std::string> selection_words(const std::string &pattern)
-    {
-      const std::string begin = "[Selection ";
-      if (pattern.compare(0, begin.size(), begin) != 0)
-        return {};
-      return Utilities::split_string_list(
-          pattern.substr(begin.size(), pattern.size() - begin.size() - 1), '|');
-    }
-
-    /** deal.II's description of a pattern in words. */
-    std::string pattern_words(std::string pattern)
-    {
-      const std::vector<std::string> choices = selection_words(pattern);
-      if (!choices.empty())
-      {
-        std::string words = "one of ";
-        for (std::size_t i = 0; i < choices.size(); ++i)
-          words += (i == 0 ? "" : ", ") + choices[i];
-        return words;
-      }
-      if (pattern == "[Bool]")
-        return "true or false";
-      if (pattern == "[Anything]")
-        return "text";
-      std::istringstream in(pattern);
-      std::string kind, range;
-      in >> kind >> range;
-      if (kind != "[Double" && kind != "[Integer")
-        return pattern;
-      std::string words = kind == "[Double" ? "a number" : "a whole number";
-      const std::size_t dots = range.find("...");
-      if (dots == std::string::npos)
-        return words;
-      const std::string low = range.substr(0, dots),
-                        high = range.substr(dots + 3);
-      const bool bounded_below =
-          low.find("MAX") == std::string::npos && low != "-2147483648";
-      const bool bounded_above =
-          high.find("MAX") == std::string::npos && high != "2147483647";
-      if (bounded_below && std::atof(low.c_str()) > 0
-          && std::atof(low.c_str()) < 1e-300)
-        words += bounded_above ? " above 0 and up to " + high : " above 0";
-      else if (bounded_below && bounded_above)
-        words += " from " + low + " to " + high;
-      else if (bounded_below)
-        words += " of at least " + low;
-      else if (bounded_above)
-        words += " of at most " + high;
-      return words;
-    }
-
-    void collect(const boost::property_tree::ptree &tree,
-                 const std::string &path,
-                 std::vector<DeclaredParameter> &result)
-    {
-      for (const auto &[mangled, node] : tree)
-      {
-        const std::string name = path + demangle(mangled);
-        if (const auto value = node.get_optional<std::string>("default_value"))
-        {
-          const std::string pattern =
-              node.get<std::string>("pattern_description", "");
-          result.push_back({name, *value,
-                            node.get<std::string>("documentation", ""),
-                            pattern_words(pattern), selection_words(pattern)});
-        }
-        else if (!node.get_optional<std::string>("alias"))
-          collect(node, name + "/", result);
-      }
-    }
 
     /** Text without blanks at both ends and with single blanks within. */
     std::string squeezed(const std::string &text)
@@ -136,6 +44,17 @@ namespace abut::app
       for (const std::string &section : sections)
         path += section + "/";
       return path + name;
+    }
+
+    std::string text_of(const ParameterFile::Place &place)
+    {
+      return place.file + ":" + std::to_string(place.line);
+    }
+
+    [[noreturn]] void complain(const ParameterFile::Place &place,
+                               const std::string &message)
+    {
+      throw InputError("", text_of(place) + ": " + message);
     }
 
     /** Complain about @p path, which is not declared: name the section when
@@ -200,19 +119,6 @@ namespace abut::app
     }
   } // namespace
 
-  std::vector<DeclaredParameter>
-  declared_parameters(const ParameterHandler &prm)
-  {
-    std::stringstream json;
-    prm.print_parameters(json, ParameterHandler::JSON
-                                   | ParameterHandler::KeepDeclarationOrder);
-    boost::property_tree::ptree tree;
-    boost::property_tree::read_json(json, tree);
-    std::vector<DeclaredParameter> result;
-    collect(tree, "", result);
-    return result;
-  }
-
   ParameterFile::ParameterFile(const std::string &file,
                                const std::vector<std::string> &overrides)
       : file(file)
@@ -233,10 +139,6 @@ namespace abut::app
     std::vector<std::string> sections;
     std::string line, continued;
     unsigned int number = 0;
-    const auto complain = [&](const std::string &message) {
-      throw InputError("",
-                       name + ":" + std::to_string(number) + ": " + message);
-    };
     while (std::getline(in, line))
     {
       ++number;
@@ -246,42 +148,50 @@ namespace abut::app
       {
         line.pop_back();
         continued = line;
-        continue;
       }
-      if (line.empty())
-        continue;
-      std::istringstream words(line);
-      std::string keyword, rest;
-      words >> keyword;
-      std::getline(words, rest);
-      const std::string command = lower_case(keyword);
-      if (command == "subsection")
-        sections.push_back(squeezed(rest));
-      else if (command == "end" && sections.empty())
-        complain("'end' without 'subsection'.");
-      else if (command == "end")
-        sections.pop_back();
-      else if (command == "include")
-        read((std::filesystem::path(name).parent_path() / squeezed(rest))
-                 .string(),
-             depth + 1);
-      else if (command == "set" && rest.find('=') != std::string::npos)
-      {
-        const std::size_t sign = rest.find('=');
-        assignments.push_back({join(sections, squeezed(rest.substr(0, sign))),
-                               Utilities::trim(rest.substr(sign + 1)),
-                               name + ":" + std::to_string(number)});
-      }
-      else if (command == "set")
-        complain("'set' without '=': " + line);
-      else
-        complain(
-            "'" + keyword + "' is not a word of a scene file."
-            + did_you_mean(keyword, {"set", "subsection", "end", "include"}));
+      else if (!line.empty())
+        read_line(line, {name, number}, sections, depth);
     }
     if (!sections.empty())
-      complain("the file ends within subsection '" + sections.back()
-               + "': an 'end' is missing.");
+      complain({name, number}, "the file ends within subsection '"
+                                   + sections.back()
+                                   + "': an 'end' is missing.");
+  }
+
+  void ParameterFile::read_line(const std::string &line, const Place &place,
+                                std::vector<std::string> &sections,
+                                const unsigned int depth)
+  {
+    std::istringstream words(line);
+    std::string keyword, rest;
+    words >> keyword;
+    std::getline(words, rest);
+    const std::string command = lower_case(keyword);
+    if (command == "subsection")
+      sections.push_back(squeezed(rest));
+    else if (command == "end")
+    {
+      if (sections.empty())
+        complain(place, "'end' without 'subsection'.");
+      sections.pop_back();
+    }
+    else if (command == "include")
+      read((std::filesystem::path(place.file).parent_path() / squeezed(rest))
+               .string(),
+           depth + 1);
+    else if (command == "set")
+    {
+      const std::size_t sign = rest.find('=');
+      if (sign == std::string::npos)
+        complain(place, "'set' without '=': " + line);
+      assignments.push_back({join(sections, squeezed(rest.substr(0, sign))),
+                             Utilities::trim(rest.substr(sign + 1)),
+                             text_of(place)});
+    }
+    else
+      complain(place, "'" + keyword + "' is not a word of a scene file."
+                          + did_you_mean(keyword, {"set", "subsection", "end",
+                                                   "include"}));
   }
 
   void ParameterFile::override_with(const std::string &argument)
