@@ -496,6 +496,72 @@ no_rows_need_one_tight_solve(void **unused)
   assert_ok(abut_context_destroy(&context));
 }
 
+/* Serve one SOLVE with the changes that lead to the pressures and gaps, and
+ * the MOVE after it. */
+static void
+answer(fixture *s, int n, const double *p, const double *gap,
+       abut_request *request)
+{
+  assert_int_equal(request->action, ABUT_ACTION_SOLVE);
+  for (int i = 0; i < n; ++i)
+  {
+    request->pressure_change[i] = p[i] - request->pressure[i];
+    request->gap_change[i] = 0;
+  }
+  assert_ok(abut_strategy_next(s->strategy, NULL, request));
+  assert_ok(abut_strategy_next(s->strategy, gap, request));
+}
+
+/* A linear solver leaves a small gap on a closed row. Times a large c it would
+ * outweigh the pressure, which alone must decide. */
+static void
+closed_rows_are_judged_by_pressure(void **unused)
+{
+  (void)unused;
+  abut_strategy_options options = exact_options();
+  options.complementarity = 1e6;
+  fixture s = open_scene(&options);
+  abut_request request;
+  const double p = 0.25, gap = 5e-7;
+  const uint8_t closed = ABUT_STATE_CLOSED;
+  assert_ok(abut_strategy_start(s.strategy, 1, NULL, &one, &one, NULL, &one,
+                                NULL, &closed));
+  assert_ok(abut_strategy_next(s.strategy, NULL, &request));
+  /* p - c g = 0.25 - 0.5 < 0. */
+  answer(&s, 1, &p, &gap, &request);
+  assert_int_equal(request.action, ABUT_ACTION_STOP);
+  assert_int_equal(request.reason, ABUT_REASON_CONVERGED);
+  assert_int_equal(request.state[0], ABUT_STATE_CLOSED);
+  close_scene(&s);
+}
+
+/* The second row has next to no pressure when closed and next to no gap when
+ * open, of the wrong sign both times. */
+static void
+flicker_stops(void **unused)
+{
+  (void)unused;
+  const abut_strategy_options options = exact_options();
+  fixture s = open_scene(&options);
+  abut_request request;
+  const double ones[] = {1, 1}, start[] = {0, 0};
+  const uint8_t state[] = {ABUT_STATE_CLOSED, ABUT_STATE_OPEN};
+  assert_ok(abut_strategy_start(s.strategy, 2, NULL, ones, ones, NULL, start,
+                                NULL, state));
+  assert_ok(abut_strategy_next(s.strategy, NULL, &request));
+  int n_steps = 0;
+  for (; request.action != ABUT_ACTION_STOP && n_steps < 20; ++n_steps)
+  {
+    const bool closed = request.state[1] == ABUT_STATE_CLOSED;
+    const double p[] = {1, closed ? -5e-10 : 0};
+    const double gap[] = {0, closed ? 0 : -5e-10};
+    answer(&s, 2, p, gap, &request);
+  }
+  assert_true(n_steps < 10);
+  assert_int_equal(request.reason, ABUT_REASON_CONVERGED);
+  close_scene(&s);
+}
+
 int
 main(void)
 {
@@ -513,6 +579,8 @@ main(void)
       cmocka_unit_test(a_users_law_is_iterated_to_its_solution),
       cmocka_unit_test(a_hosts_failure_is_passed_on),
       cmocka_unit_test(no_rows_need_one_tight_solve),
+      cmocka_unit_test(closed_rows_are_judged_by_pressure),
+      cmocka_unit_test(flicker_stops),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
