@@ -176,7 +176,8 @@ abut_measure3(abut_facet_kind kind, const double *nodes, abut_facet_measures *m,
   *vector_area = unit3(m->normal, 0.);
   measure_warping(kind, nodes, m->normal, &m->warping, lowest_cosine);
   m->diameter = largest_distance(nodes, n);
-  if (kind == ABUT_FACET_TRI3 || (linear && m->warping < 1e-7))
+  if (kind == ABUT_FACET_TRI3
+      || (linear && *lowest_cosine > 0. && m->warping < 1e-7))
     m->area = *vector_area;
   else if (linear)
   {
