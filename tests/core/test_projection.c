@@ -44,7 +44,7 @@ sampled_distance(abut_facet_kind kind, const double *nodes, const double *x)
 {
   const int line = abut_facet_dimension(kind) == 2;
   double centre[2] = {0., 0.}, half = 1., best = INFINITY;
-  int n = line ? 400 : 40;
+  int n = line ? 200 : 16;
   for (int level = 0; level < 18; ++level)
   {
     double next[2] = {centre[0], centre[1]};
@@ -121,7 +121,7 @@ test_sampling(void **state)
   uint64_t seed = 1;
   int not_converged = 0;
   for (int k = 0; k < ABUT_FACET_N_KINDS; ++k)
-    for (int i = 0; i < 400; ++i)
+    for (int i = 0; i < 240; ++i)
     {
       const abut_facet_kind kind = (abut_facet_kind)k;
       const int dim = abut_facet_dimension(kind), n = abut_facet_n_nodes(kind);
@@ -290,7 +290,7 @@ test_extremes(void **state)
   (void)state;
   uint64_t seed = 5;
   for (int k = 0; k < ABUT_FACET_N_KINDS; ++k)
-    for (int i = 0; i < 300; ++i)
+    for (int i = 0; i < 100; ++i)
     {
       const abut_facet_kind kind = (abut_facet_kind)k;
       const int dim = abut_facet_dimension(kind), n = abut_facet_n_nodes(kind);
@@ -335,7 +335,7 @@ test_slivers(void **state)
   (void)state;
   uint64_t seed = 11;
   const double h = 1e-6;
-  for (int i = 0; i < 500; ++i)
+  for (int i = 0; i < 100; ++i)
   {
     const double quad[] = {
         0, 0, 0, 1, 0, 0, i % 2 ? 0.3 : 0., h, 0, i % 3 ? 1.3 : 0.7, h, 0};

@@ -54,14 +54,13 @@ evaluate(abut_facet_kind kind, const double *z, double *gradient,
   return p.gap;
 }
 
-/* Fourth-order central differences of gap and gradient. */
+/* Central differences of gap and gradient. */
 static void
 test_finite_differences(void **state)
 {
   (void)state;
-  static const double weight[4] = {1. / 12., -8. / 12., 8. / 12., -1. / 12.};
   uint64_t seed = 23;
-  const double h = 1e-3;
+  const double h = 1e-4;
   double worst[2] = {0., 0.};
   for (int k = 0; k < ABUT_FACET_N_KINDS; ++k)
     for (int i = 0; i < n_cases; ++i)
@@ -76,12 +75,12 @@ test_finite_differences(void **state)
       {
         double slope = 0., row[max_unknowns] = {0.};
         const double middle = z[u];
-        for (int s = 0; s < 4; ++s)
+        for (int side = -1; side <= 1; side += 2)
         {
-          z[u] = middle + h * (s < 2 ? s - 2 : s - 1);
-          slope += weight[s] / h * evaluate(kind, z, f, NULL);
+          z[u] = middle + side * h;
+          slope += side / (2. * h) * evaluate(kind, z, f, NULL);
           for (int v = 0; v < n; ++v)
-            row[v] += weight[s] / h * f[v];
+            row[v] += side / (2. * h) * f[v];
         }
         z[u] = middle;
         worst[0] = fmax(worst[0], fabs(slope - g[u]));
