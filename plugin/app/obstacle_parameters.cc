@@ -60,6 +60,13 @@ namespace abut::app
                         "Solve on all levels from the coarsest on, each "
                         "started from the one before. Off: solve on `Level` "
                         "from displacement 0.");
+      prm.declare_entry("Coarse level tolerance", "1e-3",
+                        Patterns::Double(0., 1.),
+                        "Final linear tolerance on all meshes but the last, "
+                        "whose results are only a start. Meshes whose results "
+                        "are wanted (an exact solution is given, or `All "
+                        "levels`) are solved to `Method/Final linear "
+                        "tolerance`.");
       prm.declare_entry("Relaxation sweeps", "3", Patterns::Integer(0),
                         "Symmetric projected Gauss-Seidel sweeps that improve "
                         "each start of nested iteration.");
@@ -167,6 +174,7 @@ namespace abut::app
     coarsest_level = prm.get_integer("Coarsest level");
     nested = prm.get_bool("Nested iteration");
     relaxation_sweeps = prm.get_integer("Relaxation sweeps");
+    coarse_tolerance = prm.get_double("Coarse level tolerance");
     adaptive_cycles = prm.get_integer("Adaptive cycles");
     refine_fraction = prm.get_double("Refine fraction");
     coarsen_fraction = prm.get_double("Coarsen fraction");

@@ -26,6 +26,7 @@ namespace abut::app
     unsigned int level = 0;
     unsigned int coarsest_level = 0;
     bool nested = true;
+    double coarse_tolerance = 1e-3;
     unsigned int relaxation_sweeps = 3;
     unsigned int adaptive_cycles = 0;
     double refine_fraction = 0.6;

@@ -40,7 +40,8 @@ namespace abut::app
     report.declare_columns({"level", "cells", "dofs", "constraints", "active",
                             "steps", "linear_iterations", "matvecs", "setups",
                             "energy", "contact_force", "penetration",
-                            "l2_error", "h1_error", "estimate", "seconds"});
+                            "l2_error", "h1_error", "estimate", "setup_seconds",
+                            "krylov_seconds", "seconds"});
   }
 
   template <int dim> void ObstacleRun<dim>::write_steps() const

@@ -22,6 +22,7 @@ namespace abut::app
                                 const RunOptions &options, Report &report)
       : parameters(parameters),
         method(method),
+        solver(solver),
         options(options),
         report(report),
         communicator(options.communicator),
@@ -30,7 +31,6 @@ namespace abut::app
         contact(communicator),
         series(options.output_folder, "fields", communicator)
   {
-    contact.set_parameters(method, solver);
     contact.assume_constant_matrix(true);
   }
 
@@ -97,6 +97,7 @@ namespace abut::app
     create_coarse_mesh();
     collective(communicator, [&] { set_obstacle(); });
     setup_level();
+    contact.set_parameters(method, solver);
     contact.reinit(membrane.mapping, membrane.dof_handler,
                    membrane.constraints);
     u = membrane.vector();
@@ -191,6 +192,16 @@ namespace abut::app
       transfer.interpolate(result);
       membrane.constraints.distribute(u);
     }
+  }
+
+  template <int dim> void ObstacleRun<dim>::set_tolerance(const bool last)
+  {
+    MethodParameters here = method;
+    if (!last && !exact && !parameters.all_levels)
+      here.options.final_linear_tolerance = std::max(
+          here.options.final_linear_tolerance,
+          std::min(parameters.coarse_tolerance, here.options.linear_tolerance));
+    contact.set_parameters(here, solver);
   }
 
   template <int dim>
@@ -332,6 +343,8 @@ namespace abut::app
         {"energy", present.energy},
         {"contact_force", present.force},
         {"penetration", contact.penetration()},
+        {"setup_seconds", present.linear.setup_seconds},
+        {"krylov_seconds", present.linear.solve_seconds},
         {"seconds", present.seconds}};
     if (present.errors)
     {
@@ -371,6 +384,7 @@ namespace abut::app
         refine(number > parameters.level);
       present = ObstacleLevel();
       present.level = number;
+      set_tolerance(number == last);
       converged = solve_level(number > first);
       if (number >= parameters.level && parameters.adaptive_cycles > 0)
         estimate();

@@ -57,6 +57,7 @@ namespace abut::app
     void setup_level();
     void assemble();
     void refine(bool adaptive);
+    void set_tolerance(bool last);
     void prepare_start(bool warm, la::Vector &residual);
     bool solve_level(bool warm);
     void iterate(la::Vector &residual);
@@ -75,6 +76,7 @@ namespace abut::app
 
     const ObstacleParameters &parameters;
     const MethodParameters &method;
+    const SolverParameters &solver;
     const RunOptions &options;
     Report &report;
     const MPI_Comm communicator;

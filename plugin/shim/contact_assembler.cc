@@ -125,6 +125,7 @@ namespace abut
     shim::Handle<abut_strategy> strategy;
     abut_rows_view view = {};
     global_dof_index n_rows = 0;
+    global_dof_index first_unknown = 0; ///< owned ones are consecutive
 
     /** [owned] signed nodal pressure to start from; empty: 0. */
     std::vector<double> start_pressure;
@@ -160,8 +161,8 @@ namespace abut
   template <int dim>
   int ContactAssembler<dim>::Implementation::unknown(const int row) const
   {
-    return static_cast<int>(dof_handler->locally_owned_dofs().index_within_set(
-        view.column[view.row_start[row]]));
+    return static_cast<int>(view.column[view.row_start[row]]
+                            - static_cast<std::int64_t>(first_unknown));
   }
 
   template <int dim>
@@ -475,6 +476,12 @@ namespace abut
                            "has "
                            + std::to_string(dof_handler.get_fe().n_components())
                            + " components."));
+    AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(),
+                ExcMessage("The unknowns of a rank must be numbered "
+                           "consecutively."));
+    i.first_unknown = dof_handler.locally_owned_dofs().n_elements() > 0
+                          ? *dof_handler.locally_owned_dofs().begin()
+                          : 0;
     i.mapping = &mapping;
     i.dof_handler = &dof_handler;
     i.constraints = &constraints;

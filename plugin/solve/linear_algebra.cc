@@ -5,6 +5,8 @@
 #include <Epetra_Import.h>
 #include <Epetra_Vector.h>
 
+#include <algorithm>
+
 namespace abut::la
 {
   LocalRows local_rows(const Matrix &matrix)
@@ -24,10 +26,12 @@ namespace abut::la
 
     // Epetra numbers owned columns first and in the order of the rows when
     // every diagonal entry is present. All loops here rely on that.
-    for (int i = 0; i < rows.n_rows; ++i)
-      AssertThrow(i < rows.n_columns && epetra.GRID64(i) == epetra.GCID64(i),
-                  dealii::ExcMessage("The matrix lacks diagonal entries: "
-                                     "build its pattern with them."));
+    const int *const row_ids = epetra.RowMap().MyGlobalElements();
+    const int *const column_ids = epetra.ColMap().MyGlobalElements();
+    AssertThrow(rows.n_columns >= rows.n_rows
+                    && std::equal(row_ids, row_ids + rows.n_rows, column_ids),
+                dealii::ExcMessage("The matrix lacks diagonal entries: build "
+                                   "its pattern with them."));
     return rows;
   }
 

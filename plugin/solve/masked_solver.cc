@@ -107,31 +107,43 @@ namespace abut::solve
                        : counts[0] > rebuild_fraction * counts[1];
   }
 
-  void MaskedSolver::build_truncated_matrix(const Mask &mask)
+  void MaskedSolver::cut_off(const std::vector<std::uint8_t> &held,
+                             const Mask &mask, const bool everything)
   {
+    // 1: held; 2: changed since the last call.
     la::Vector flags(matrix_->locally_owned_range_indices(),
                      matrix_->get_mpi_communicator());
     double *flag = la::data(flags);
-    for (std::size_t i = 0; i < mask.held.size(); ++i)
-      flag[i] = mask.held[i];
-    const std::vector<double> held = la::gather(*matrix_, flags);
+    for (std::size_t i = 0; i < held.size(); ++i)
+      flag[i] = held[i] + (everything || held[i] != cut_[i] ? 2. : 0.);
+    const std::vector<double> column_flag = la::gather(*matrix_, flags);
+    std::vector<std::uint8_t> state(column_flag.begin(), column_flag.end());
 
-    truncated_.copy_from(*matrix_);
-    const la::LocalRows rows = la::local_rows(truncated_);
-    for (int i = 0; i < rows.n_rows; ++i)
-      for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+    const la::LocalRows from = la::local_rows(*matrix_);
+    const la::LocalRows to = la::local_rows(truncated_);
+    for (int i = 0; i < to.n_rows; ++i)
+    {
+      std::uint8_t any = 0;
+      for (int k = to.start[i]; k < to.start[i + 1]; ++k)
+        any |= state[to.column[k]];
+      if ((any & 2) == 0)
+        continue;
+      for (int k = to.start[i]; k < to.start[i + 1]; ++k)
       {
-        const int j = rows.column[k];
+        const int j = to.column[k];
+        const bool cut = ((state[i] | state[j]) & 1) != 0 && j != i;
+        to.value[k] = cut ? 0. : from.value[k];
         if (j == i)
-          rows.value[k] += added(mask, i);
-        else if (held[i] != 0. || held[j] != 0.)
-          rows.value[k] = 0.;
+          to.value[k] += added(mask, i);
       }
+    }
+    cut_ = held;
   }
 
   void MaskedSolver::build(const Mask &mask)
   {
-    build_truncated_matrix(mask);
+    truncated_.copy_from(*matrix_);
+    cut_off(mask.held, mask, true);
     if (is_direct())
     {
       direct_control_ = std::make_unique<dealii::SolverControl>();
@@ -210,6 +222,13 @@ namespace abut::solve
       build(mask);
       ++report.n_setups;
       report.setup_seconds = timer.wall_time();
+    }
+    else if (!is_direct())
+    {
+      const bool changed = dealii::Utilities::MPI::logical_or(
+          mask.held != cut_, matrix_->get_mpi_communicator());
+      if (changed)
+        cut_off(mask.held, built_mask_, false);
     }
     return report;
   }

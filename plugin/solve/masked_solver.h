@@ -53,20 +53,28 @@ namespace abut::solve
   class ScaledPreconditioner
   {
   public:
+    /** @p scaling [owned]; vectors that come in must be 0 where it is 0. */
     ScaledPreconditioner(
         const dealii::TrilinosWrappers::PreconditionBase &inner,
         std::vector<double> scaling, const la::Vector &model)
         : inner_(inner), scaling_(std::move(scaling)), scaled_(model)
     {
+      for (const double s : scaling_)
+        only_masks_ = only_masks_ && (s == 0. || s == 1.);
     }
 
     void vmult(la::Vector &dst, const la::Vector &src) const
     {
-      const double *in = la::data(src);
-      double *middle = la::data(scaled_);
-      for (std::size_t i = 0; i < scaling_.size(); ++i)
-        middle[i] = scaling_[i] * in[i];
-      inner_.vmult(dst, scaled_);
+      if (only_masks_)
+        inner_.vmult(dst, src);
+      else
+      {
+        const double *in = la::data(src);
+        double *middle = la::data(scaled_);
+        for (std::size_t i = 0; i < scaling_.size(); ++i)
+          middle[i] = scaling_[i] * in[i];
+        inner_.vmult(dst, scaled_);
+      }
       double *out = la::data(dst);
       for (std::size_t i = 0; i < scaling_.size(); ++i)
         out[i] *= scaling_[i];
@@ -76,6 +84,7 @@ namespace abut::solve
     const dealii::TrilinosWrappers::PreconditionBase &inner_;
     std::vector<double> scaling_;
     mutable la::Vector scaled_;
+    bool only_masks_ = true;
   };
 
   /** Solves (K + D) x = b with some unknowns held, without changing K:
@@ -84,11 +93,12 @@ namespace abut::solve
    * Held unknowns are projected out of the Krylov iteration instead of out
    * of the matrix. Only the preconditioner is built on a copy of K whose
    * held rows and columns are cut off. It is kept while the mask changes
-   * little, corrected by the diagonal scaling
+   * little: the smoother of its finest level sees the present held unknowns,
+   * since the copy is brought up to date, and
    *     M -> S M S,  s = sqrt(d_old / d_new),
    * where d is the diagonal of K + D (s = 0 on held unknowns, which is the
-   * limit d -> infinity), and built anew when too many entries changed or
-   * the iteration slows down. */
+   * limit d -> infinity), accounts for a changed D. It is built anew when too
+   * many entries changed or the iteration slows down. */
   class MaskedSolver
   {
   public:
@@ -124,7 +134,8 @@ namespace abut::solve
 
   private:
     bool is_outdated(const Mask &mask) const;
-    void build_truncated_matrix(const Mask &mask);
+    void cut_off(const std::vector<std::uint8_t> &held, const Mask &mask,
+                 bool everything);
     void build(const Mask &mask);
     void solve_direct(const la::Vector &residual, la::Vector &correction);
     unsigned int solve_iteratively(const Mask &mask, const la::Vector &residual,
@@ -138,6 +149,7 @@ namespace abut::solve
     /** K with the mask of the last build cut off. */
     la::Matrix truncated_;
     Mask built_mask_;
+    std::vector<std::uint8_t> cut_; ///< held unknowns of truncated_
     bool is_built_ = false;
     double speed_when_built_ = 0.;
     bool is_slow_ = false;

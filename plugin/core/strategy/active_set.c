@@ -262,11 +262,21 @@ only_flickers(const abut_strategy *s, const findings *found)
                 <= 1e-3 * s->options.gap_tolerance * found->all_weight;
 }
 
+/* So few rows changed, measured by the length of the set's rim, that the next
+ * solve is likely the last: it may as well be an accurate one. */
+static bool
+nearly_settled(const abut_strategy *s)
+{
+  const double n_changes = (double)s->progress.n_changes;
+  return s->progress.step > 0 && s->options.law->outer == ABUT_OUTER_NONE
+         && 50 * n_changes * n_changes <= (double)s->progress.n_active;
+}
+
 static double
 tolerance_of(const abut_strategy *s)
 {
   const abut_strategy_options *options = &s->options;
-  return s->active_set.tight || s->progress.n_rows == 0
+  return s->active_set.tight || s->progress.n_rows == 0 || nearly_settled(s)
              ? fmin(options->linear_tolerance, options->final_linear_tolerance)
              : options->linear_tolerance;
 }
