@@ -2,6 +2,7 @@
 
 #include "expression.h"
 
+#include "dealii_message.h"
 #include "input_error.h"
 
 #include <algorithm>
@@ -44,16 +45,13 @@ namespace abut::app
       std::streambuf *saved;
     };
 
-    /** The parser's own sentence out of deal.II's exception text. */
-    std::string parser_message(const std::string &exception_text)
+    /** The parser's own sentence out of deal.II's exception. */
+    std::string parser_message(const std::exception &error)
     {
+      const std::string text = dealii_message(error);
       const std::string before = "The parser said: ";
-      const std::size_t at = exception_text.find(before);
-      if (at == std::string::npos)
-        return exception_text;
-      const std::size_t begin = at + before.size();
-      const std::size_t end = exception_text.find('\n', begin);
-      return exception_text.substr(begin, end - begin);
+      const std::size_t at = text.find(before);
+      return at == std::string::npos ? text : text.substr(at + before.size());
     }
 
     /** Names in a formula: words that start with a letter or underscore and
@@ -126,7 +124,7 @@ namespace abut::app
       {
         throw InputError(parameter,
                          "the formula '" + text + "' cannot be read: "
-                             + parser_message(error.what()) + " Variables are "
+                             + parser_message(error) + " Variables are "
                              + (dim == 3 ? "x, y, z, t." : "x, y, t."));
       }
       return parser;

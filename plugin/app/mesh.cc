@@ -3,6 +3,7 @@
 #include "mesh.h"
 
 #include "collective.h"
+#include "dealii_message.h"
 #include "expression.h"
 #include "input_error.h"
 #include "parameters.h"
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
-#include <sstream>
 
 namespace abut::app
 {
@@ -60,24 +60,6 @@ namespace abut::app
       return names;
     }
 
-    /** What deal.II had to say, without place in the source and stack. */
-    std::string short_message(const std::exception &error)
-    {
-      std::string text = error.what();
-      const std::string before = "Additional information:";
-      const std::size_t at = text.find(before);
-      if (at != std::string::npos)
-        text = text.substr(at + before.size());
-      const std::size_t end =
-          std::min(text.find("\nStacktrace"), text.find("\n-----"));
-      text = text.substr(0, end);
-      std::istringstream words(text);
-      std::string result;
-      for (std::string word; words >> word;)
-        result += (result.empty() ? "" : " ") + word;
-      return result;
-    }
-
     template <int dim>
     void generate(const MeshParameters &parameters,
                   dealii::Triangulation<dim> &triangulation)
@@ -94,7 +76,7 @@ namespace abut::app
         const bool known = std::find(generators().begin(), generators().end(),
                                      parameters.generator)
                            != generators().end();
-        const std::string message = short_message(error);
+        const std::string message = dealii_message(error);
         if (!known)
           throw InputError(
               parameters.section + "/Generator",
@@ -149,7 +131,7 @@ namespace abut::app
         throw InputError(parameter, "the mesh file '" + path.string()
                                         + "' cannot be read as a mesh in "
                                         + std::to_string(dim) + " dimensions: "
-                                        + short_message(error));
+                                        + dealii_message(error));
       }
     }
 

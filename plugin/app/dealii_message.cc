@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include "dealii_message.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace abut::app
+{
+  std::string dealii_message(const std::exception &error)
+  {
+    std::string text = error.what();
+    const std::string before = "Additional information:";
+    const std::size_t at = text.find(before);
+    if (at != std::string::npos)
+      text = text.substr(at + before.size());
+    text = text.substr(
+        0, std::min(text.find("\nStacktrace"), text.find("\n-----")));
+    std::istringstream words(text);
+    std::string result;
+    for (std::string word; words >> word;)
+      result += (result.empty() ? "" : " ") + word;
+    return result;
+  }
+} // namespace abut::app
