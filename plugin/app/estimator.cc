@@ -217,7 +217,7 @@ namespace abut::app
         scratch.inner_points = points.get_quadrature_points();
         const dealii::Point<dim> center = cell->center();
         for (dealii::Point<dim> &point : scratch.inner_points)
-          point += 1e-6 * (center - point);
+          point += 1e-10 * (center - point);
         input.coefficient->value_list(scratch.inner_points, coefficients);
       }
 

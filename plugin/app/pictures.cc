@@ -121,39 +121,48 @@ namespace abut::app
     if (!(low <= high))
       return false;
     const double range = high > low ? high - low : 1.;
-    const std::size_t stride =
-        std::max<std::size_t>(1, std::max(raster.nx, raster.ny) / 40);
+    // The surface and the level lines are drawn as polygons and paths, of
+    // which the file must not hold too many; the map is an image.
+    const std::size_t longer = std::max(raster.nx, raster.ny);
+    const std::size_t surface_stride = std::max<std::size_t>(1, longer / 20);
+    const std::size_t lines_stride = std::max<std::size_t>(1, longer / 70);
+    const double step = level_step(range);
 
     std::ostringstream script;
-    script << gnuplot_header(name, 960, map_height(raster, 340, 150));
-    script << "set datafile missing 'NaN'\n"
+    script << gnuplot_header(name, 960, map_height(raster, 330, 140))
+           << "set datafile missing 'NaN'\n"
            << grid_block("fine", raster, values, 1)
-           << grid_block("coarse", raster, values, stride);
-    script << palette << "set multiplot layout 1,2 title " << quoted(title)
-           << " font ',15'\n"
+           << grid_block("coarse", raster, values, surface_stride)
+           << grid_block("middle", raster, values, lines_stride) << palette
+           << "set multiplot title " << quoted(title) << " font ',16'\n"
            << "unset key\nunset grid\n"
            << ranges(raster) << "set cbrange [" << low << ':' << low + range
            << "]\n"
-           << "set xlabel 'x'\nset ylabel 'y'\n";
-    // Seen from the side. Few faces: each is a polygon in the file.
-    script << "set lmargin at screen 0.02\nset rmargin at screen 0.46\n"
-           << "set view 58, 322, 1.12, 1.0\nset view equal xy\n"
-           << "set xyplane relative 0.05\nset border 31 lw 0.6\n"
-           << "set pm3d depthorder border lc rgb '#30ffffff' lw 0.2\n"
-           << "set ticslevel 0\nset zrange [" << low << ':' << low + range
-           << "]\nset ztics " << level_step(2.5 * range) << "\nunset colorbox\n"
-           << "splot $coarse using 1:2:3 with pm3d\n";
-    script << "unset pm3d\nunset view\nset zrange [*:*]\nunset ztics\n"
-           << "set border 15 lw 0.6\nset colorbox\n"
-           << "set lmargin at screen 0.56\nset rmargin at screen 0.88\n"
-           << "set size ratio -1\n"
            << "set contour base\nset cntrparam levels incremental "
-           << std::ceil(low / level_step(range)) * level_step(range) << ", "
-           << level_step(range) << ", " << high << "\n"
-           << "unset surface\nset table $lines\nsplot $fine using 1:2:3\n"
-           << "unset table\nunset contour\nset surface\n"
-           << "plot $fine using 1:2:3 with image pixels, "
-           << "$lines using 1:2 with lines lc rgb '#90ffffff' lw 0.8\n"
+           << std::ceil(low / step) * step << ", " << step << ", " << high
+           << "\nunset surface\nset table $lines\nsplot $middle using 1:2:3\n"
+           << "unset table\nunset contour\nset surface\n";
+    script << "set origin 0, 0\nset size 0.5, 0.95\n"
+           << "set view 60, 322, 0.9, 0.9\nset view equal xy\n"
+           << "set xyplane at " << low << "\nset border 21 lw 0.6\n"
+           << "set pm3d depthorder border lc rgb '#60ffffff' lw 0.2\n"
+           << "set zrange [" << low << ':' << low + range << "]\n"
+           << "set xtics offset 0, -0.3\nset ytics offset 0, -0.3\n"
+           << "set xtics " << level_step(2 * (raster.x_max - raster.x_min))
+           << "\nset ytics " << level_step(2 * (raster.y_max - raster.y_min))
+           << "\nset ztics " << level_step(2 * range)
+           << "\nset xlabel 'x' offset 0, -0.5\nset ylabel 'y' offset 0, "
+              "-0.5\nunset colorbox\n"
+           << "splot $coarse using 1:2:3 with pm3d\n";
+    script << "unset pm3d\nset view noequal\nset zrange [*:*]\nset border 15\n"
+           << "set xtics autofreq offset 0, 0\n"
+           << "set ytics autofreq offset 0, 0\n"
+           << "set xlabel 'x' offset 0, 0\nset ylabel 'y' offset 0, 0\n"
+           << "set colorbox\nset size ratio -1\n"
+           << "set lmargin at screen 0.57\nset rmargin at screen 0.9\n"
+           << "set tmargin at screen 0.88\nset bmargin at screen 0.16\n"
+           << "plot $fine using 1:2:3 with image, "
+           << "$lines using 1:2 with lines lc rgb '#70ffffff' lw 0.8\n"
            << "unset multiplot\n";
     return draw_picture(report, folder, name, script.str());
   }
@@ -188,7 +197,7 @@ namespace abut::app
            << ranges(raster)
            << "set size ratio -1\nunset grid\nunset colorbox\n"
            << "set xlabel 'x'\nset ylabel 'y'\n"
-           << "set key below horizontal samplen 1.5\n"
+           << "set key below horizontal samplen 1.5\nset bmargin 5.5\n"
            << "set cbrange [-0.5:" << double(words.size()) - 0.5
            << "]\nset palette maxcolors " << words.size() << "\n"
            << "set palette defined (";
@@ -196,7 +205,7 @@ namespace abut::app
       script << (w > 0 ? ", " : "") << double(w) - 0.5 << " '"
              << colours[w % colours.size()] << "', " << double(w) + 0.5 << " '"
              << colours[w % colours.size()] << '\'';
-    script << ")\nplot $kinds using 1:2:3 with image pixels notitle";
+    script << ")\nplot $kinds using 1:2:3 with image notitle";
     for (std::size_t w = 0; w < words.size(); ++w)
       if (occurs[w])
         script << ", NaN with points pt 5 ps 1.6 lc rgb '"
@@ -287,6 +296,11 @@ namespace abut::app
     if (n_plots == 0)
       return false;
 
+    double top = 1;
+    for (const Curve &curve : counts)
+      for (const auto &point : shown(curve))
+        top = std::max(top, point.second);
+
     std::ostringstream script;
     script << gnuplot_header(name, 760, 100 + 340 * n_plots) << blocks.str()
            << "set multiplot layout " << n_plots << ",1 title " << quoted(title)
@@ -300,7 +314,9 @@ namespace abut::app
              << "set key bottom left\n"
              << above << '\n';
     if (!below.empty())
-      script << "unset logscale y\nset format y '%g'\nset yrange [0:*]\n"
+      script << "unset logscale y\nset format y '%g'\nset yrange [0:"
+             << 1.1 * top << "]\nset ytics "
+             << std::max(1., level_step(1.5 * top)) << "\n"
              << "set ylabel 'number'\nset xlabel 'degrees of freedom'\n"
              << "set key top left\n"
              << below << '\n';

@@ -461,9 +461,9 @@ namespace
                 {{0, "open"}, {1, "contact"}, {2, "upper"}}, "Active set");
     draw_convergence(
         report, folder, "convergence",
-        {{"L2 error", {{81, 1e-1}, {289, 2.5e-2}, {1089, 6e-3}, {4225, 0}}},
-         {"H1 error", {{81, 1}, {289, 0.5}, {1089, 0.25}, {4225, 0.125}}}},
-        {{"active-set steps", {{81, 3}, {289, 4}, {1089, 3}, {4225, 4}}}},
+        {{"L2 error", {{100, 1e-1}, {400, 2.5e-2}, {1600, 6e-3}, {6400, 0}}},
+         {"H1 error", {{100, 1}, {400, 0.5}, {1600, 0.25}, {6400, 0.125}}}},
+        {{"active-set steps", {{100, 3}, {400, 4}, {1600, 3}, {6400, 4}}}},
         "Convergence");
     MPI_Barrier(MPI_COMM_WORLD);
     for (const char *name : {"solution", "active", "convergence"})
