@@ -86,8 +86,9 @@ abut_text_add_number(abut_text *text, double value)
   }
   int exponent = (int)floor(log10(size));
   /* Two factors, because 10^-exponent overflows for the smallest numbers. */
+  const int half = exponent / 2;
   const double scaled =
-      size * pow(10.0, -exponent / 2) * pow(10.0, 5 - exponent + exponent / 2);
+      size * pow(10.0, -half) * pow(10.0, 5 - exponent + half);
   int64_t mantissa = (int64_t)llround(scaled);
   if (mantissa < 100000)
   {
