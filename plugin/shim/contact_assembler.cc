@@ -214,15 +214,20 @@ namespace abut
         evaluate<dim>(obstacle.lower, candidates.prescribed, -INFINITY);
     const auto upper =
         evaluate<dim>(obstacle.upper, candidates.prescribed, INFINITY);
+    // Round-off of a formula that is 0 at a node is measured by its values
+    // elsewhere.
+    double largest = 0.;
+    for (const auto &line : constraints->get_lines())
+      largest = std::max(largest, std::abs(line.inhomogeneity));
+    for (std::size_t i = 0; i < lower.size(); ++i)
+      largest = std::max({largest, obstacle.lower ? std::abs(lower[i]) : 0.,
+                          obstacle.upper ? std::abs(upper[i]) : 0.});
+    const double slack = 1e-10 * MPI::max(largest, communicator);
     std::string message;
     for (std::size_t i = 0; i < lower.size() && message.empty(); ++i)
     {
       const auto &node = candidates.prescribed[i];
       const double value = constraints->get_inhomogeneity(node.dof);
-      const double slack =
-          1e-10
-          * (std::abs(value) + (obstacle.lower ? std::abs(lower[i]) : 0.)
-             + (obstacle.upper ? std::abs(upper[i]) : 0.));
       if (value < lower[i] - slack)
         message = "The obstacle (" + std::to_string(lower[i])
                   + ") lies above the prescribed value ("
