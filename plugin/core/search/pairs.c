@@ -130,6 +130,8 @@ arrange(abut_pairs *p, const abut_search *s, const abut_list *l, int32_t n)
     start[i + 1] += start[i];
   for (int32_t k = 0; k < l->n; ++k)
   {
+    if (from[k] == from[k + 1])
+      continue;
     int32_t *to = facet + start[order[k]];
     for (int64_t e = from[k]; e < from[k + 1]; ++e)
       to[e - from[k]] = records[slot[e]].facet;

@@ -192,6 +192,9 @@ abut_strategy_start(abut_strategy *strategy, int32_t n, const int64_t *id,
     reset(s);
     if ((s->options.law->flags & ABUT_LAW_INTERIOR) == 0)
       status = first_state(s, state);
+    else
+      for (int32_t i = 0; i < n; ++i)
+        s->state[i] = ABUT_STATE_OPEN;
   }
   status = abut_strategy_agree(s, status);
   if (status == ABUT_SUCCESS)
