@@ -59,7 +59,8 @@ check_domain(const facet *f, const double *xi)
 static void
 check_projection(const facet *f, const double *x, const abut_projection *p)
 {
-  double scale = 0., nearest = INFINITY;
+  /* Smaller facets than this are no facets. */
+  double scale = 1. / ABUT_FACET_LIMIT, nearest = INFINITY;
   REQUIRE(finite_projection(p));
   check_domain(f, p->local);
   for (int i = 0; i < f->n * f->dimension; ++i)
@@ -78,7 +79,7 @@ static void
 check_measures(const facet *f, const double *x, const abut_projection *p)
 {
   abut_facet_measures m;
-  double lower, upper, scale = 0.;
+  double lower, upper, scale = 1. / ABUT_FACET_LIMIT;
   REQUIRE(abut_facet_measure(f->kind, f->nodes, &m) == ABUT_SUCCESS);
   REQUIRE(m.area >= 0. && m.radius >= 0. && m.warping >= 0.);
   REQUIRE(m.aspect > 0.);

@@ -48,9 +48,9 @@ abut_clip2_segments(const double *secondary, const double *primary,
   split(secondary, c, h);
   split(primary, q, k);
   split(normals, n0, m);
-  for (int i = 0; i < 2; ++i)
-    if (!over(c, h, n0, m, primary + 2 * i, &xi[i]))
-      return 0;
+  if (!over(c, h, n0, m, primary, &xi[0])
+      || !over(c, h, n0, m, primary + 2, &xi[1]))
+    return 0;
   clip->secondary[0] = clamp(min2(xi[0], xi[1]), -1., 1.);
   clip->secondary[1] = clamp(max2(xi[0], xi[1]), -1., 1.);
   const double hh = sqrt(h[0] * h[0] + h[1] * h[1]),

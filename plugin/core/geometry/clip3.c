@@ -82,8 +82,7 @@ convex(const polygon *p, double area)
 static void
 cut(polygon *p, const double *a, const double *b)
 {
-  polygon q;
-  q.n = 0;
+  polygon q = {0};
   for (int i = 0; i < p->n && q.n < abut_clip_max; ++i)
   {
     const double *x = p->x[i], *y = p->x[(i + 1) % p->n];
@@ -128,7 +127,7 @@ abut_clip_result
 abut_clip3_parts(const abut_part *s, const abut_part *m, const double *origin,
                  const double *normal, abut_clip3 *c)
 {
-  polygon p, q;
+  polygon p = {0}, q = {0};
   memcpy(c->origin, origin, sizeof(c->origin));
   memcpy(c->normal, normal, sizeof(c->normal));
   set_basis(c);

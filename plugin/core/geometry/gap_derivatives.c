@@ -129,7 +129,7 @@ static int
 assemble_hessian(stages *s, double *hessian)
 {
   double t[2][max_unknowns], e[2][max_unknowns];
-  double h[2][2], h_inverse[2][2], a_inverse[2][2], c[2][2];
+  double h[2][2] = {{0.}}, h_inverse[2][2], a_inverse[2][2], c[2][2];
   const int m = s->dimension - 1;
   for (int i = 0; i < m; ++i)
     for (int j = 0; j < m; ++j)
@@ -169,7 +169,7 @@ abut_facet_gap_derivatives(abut_facet_kind kind, const double *nodes,
     return ABUT_NOT_FINITE;
   if (!projection->inside || dot3(projection->normal, projection->normal) == 0.)
     return ABUT_UNSUPPORTED;
-  stages s;
+  stages s = {0};
   load(&s, kind, nodes, projection);
   if (hessian && !assemble_hessian(&s, hessian))
     return ABUT_UNSUPPORTED;

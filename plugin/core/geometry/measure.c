@@ -87,7 +87,7 @@ abut_facet_point(abut_facet_kind kind, const double *nodes, const double *local,
   if (!abut_facet_finite(nodes, n * dim) || !abut_facet_finite(local, dim - 1))
     return ABUT_NOT_FINITE;
   abut_shape s;
-  double t[2][3] = {{0.}}, y[3] = {0.}, v[3];
+  double t[2][3] = {{0.}}, y[3] = {0.}, v[3] = {0.};
   if (dim == 2)
     abut_shape2(kind, local[0], &s);
   else

@@ -44,7 +44,7 @@ abut_measure2(abut_facet_kind kind, const double *nodes, abut_facet_measures *m,
   const int n = abut_facet_n_nodes(kind);
   const double chord[2] = {nodes[2] - nodes[0], nodes[3] - nodes[1]};
   const double length = sqrt(chord[0] * chord[0] + chord[1] * chord[1]);
-  double hull[6];
+  double hull[6] = {0.};
   for (int d = 0; d < 2; ++d)
   {
     const double middle = nodes[d] + 0.5 * chord[d];
@@ -61,7 +61,7 @@ abut_measure2(abut_facet_kind kind, const double *nodes, abut_facet_measures *m,
   *vector_area = length;
   *lowest_cosine = 1.;
   m->warping = 0.;
-  for (int a = 0; a < n && length > 0.; ++a)
+  for (int a = 0; a < 3 && a < n && length > 0.; ++a)
   {
     double t[2];
     tangent(kind, nodes, node_xi[a], t);
@@ -71,9 +71,9 @@ abut_measure2(abut_facet_kind kind, const double *nodes, abut_facet_measures *m,
     m->warping = max2(m->warping, atan2(fabs(s), c));
   }
   m->diameter = length;
-  for (int a = 0; a < 2 && n == 3; ++a)
+  for (int a = 0; a <= 2 && n == 3; a += 2)
   {
-    const double u = nodes[4] - nodes[2 * a], v = nodes[5] - nodes[2 * a + 1];
+    const double u = nodes[4] - nodes[a], v = nodes[5] - nodes[a + 1];
     m->diameter = max2(m->diameter, sqrt(u * u + v * v));
   }
   m->aspect = m->area > 0. ? m->diameter / m->area : INFINITY;

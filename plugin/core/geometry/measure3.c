@@ -70,6 +70,7 @@ control_points(abut_facet_kind kind, const double *nodes, double *hull)
   static const int ends[3][2] = {{0, 1}, {1, 2}, {2, 0}};
   static const int rows[3][3] = {{0, 1, 6}, {2, 3, 7}, {4, 5, 8}};
   const int n = abut_facet_n_nodes(kind);
+  const ptrdiff_t step = 3;
   for (int i = 0; i < 3 * n; ++i)
     hull[i] = nodes[i];
   for (int d = 0; d < 3; ++d)
@@ -77,15 +78,15 @@ control_points(abut_facet_kind kind, const double *nodes, double *hull)
     double *h = hull + d;
     /* Middle control point of a parabola: 2 m - (l + r)/2. */
     for (int e = 0; e < 3 && kind == ABUT_FACET_TRI6; ++e)
-      h[3 * (3 + e)] +=
-          h[3 * (3 + e)] - 0.5 * h[3 * ends[e][0]] - 0.5 * h[3 * ends[e][1]];
+      h[9 + e * step] += h[9 + e * step] - 0.5 * h[step * ends[e][0]]
+                         - 0.5 * h[step * ends[e][1]];
     for (int pass = 0; pass < 2 && kind == ABUT_FACET_QUAD9; ++pass)
       for (int r = 0; r < 3; ++r)
       {
         const int l = pass == 0 ? rows[r][0] : rows[0][r],
                   u = pass == 0 ? rows[r][1] : rows[1][r],
                   m = pass == 0 ? rows[r][2] : rows[2][r];
-        h[3 * m] += h[3 * m] - 0.5 * h[3 * l] - 0.5 * h[3 * u];
+        h[step * m] += h[step * m] - 0.5 * h[step * l] - 0.5 * h[step * u];
       }
   }
   return n;
@@ -121,7 +122,7 @@ largest_distance(const double *nodes, int n)
     for (int b = 0; b < a; ++b)
     {
       double r[3];
-      sub3(nodes + 3 * a, nodes + 3 * b, r);
+      sub3(nodes + (ptrdiff_t)3 * a, nodes + (ptrdiff_t)3 * b, r);
       square = max2(square, dot3(r, r));
     }
   return sqrt(square);
@@ -159,7 +160,7 @@ abut_measure3(abut_facet_kind kind, const double *nodes, abut_facet_measures *m,
 {
   const int n = abut_facet_n_nodes(kind), triangle = n == 3 || n == 6;
   const int linear = n <= 4;
-  double hull[3 * ABUT_FACET_MAX_NODES];
+  double hull[3 * ABUT_FACET_MAX_NODES] = {0.};
   abut_shape s;
   abut_shape3(kind, triangle ? 1. / 3. : 0., triangle ? 1. / 3. : 0., &s);
   for (int d = 0; d < 3; ++d)
@@ -185,5 +186,6 @@ abut_measure3(abut_facet_kind kind, const double *nodes, abut_facet_measures *m,
     m->area = integrate_area(kind, nodes, unused);
   }
   m->aspect = m->area > 0. ? m->diameter * m->diameter / m->area : INFINITY;
-  abut_measure_hull(hull, control_points(kind, nodes, hull), 3, m);
+  const int n_hull = control_points(kind, nodes, hull);
+  abut_measure_hull(hull, n_hull, 3, m);
 }

@@ -149,11 +149,11 @@ abut_facet_common_area(abut_facet_kind secondary_kind, const double *secondary,
   const int dim = abut_facet_dimension(secondary_kind);
   for (int i = 0; i < abut_facet_n_parts(secondary_kind); ++i)
   {
-    abut_part s;
+    abut_part s = {0};
     abut_facet_part(secondary_kind, secondary, i, &s);
     for (int j = 0; j < abut_facet_n_parts(primary_kind); ++j)
     {
-      abut_part m;
+      abut_part m = {0};
       abut_facet_part(primary_kind, primary, j, &m);
       area += dim == 2 ? common_length(&s, &m) : common_polygon_area(&s, &m);
     }

@@ -6,13 +6,14 @@
 
 /* Coefficients of 1, t, t^2 from the values at t = -1, 1, 0. */
 static void
-line_coefficients(const double *l, const double *r, const double *m, double *c)
+line_coefficients(const double *l, const double *r, const double *m,
+                  double c[3][3])
 {
   for (int i = 0; i < 3; ++i)
   {
-    c[i] = m[i];
-    c[3 + i] = 0.5 * (r[i] - l[i]);
-    c[6 + i] = 0.5 * (r[i] - m[i]) + 0.5 * (l[i] - m[i]);
+    c[0][i] = m[i];
+    c[1][i] = 0.5 * (r[i] - l[i]);
+    c[2][i] = 0.5 * (r[i] - m[i]) + 0.5 * (l[i] - m[i]);
   }
 }
 
@@ -50,22 +51,22 @@ init_quad9(abut_patch *p, double x[9][3])
   /* Rows of nodes at eta = -1, 1, 0, each as 1, xi, xi^2; then along eta. */
   static const int row[3][3] = {{0, 1, 6}, {2, 3, 7}, {4, 5, 8}};
   static const int term[3][3] = {{0, 2, 5}, {1, 3, 7}, {4, 6, 8}};
-  double c[3][9];
+  double c[3][3][3];
   for (int j = 0; j < 3; ++j)
     line_coefficients(x[row[j][0]], x[row[j][1]], x[row[j][2]], c[j]);
   for (int k = 0; k < 3; ++k)
   {
-    double d[9];
-    line_coefficients(c[0] + 3 * k, c[1] + 3 * k, c[2] + 3 * k, d);
+    double d[3][3];
+    line_coefficients(c[0][k], c[1][k], c[2][k], d);
     for (int j = 0; j < 3; ++j)
-      memcpy(p->c[term[k][j]], d + 3 * j, sizeof(p->c[0]));
+      memcpy(p->c[term[k][j]], d[j], sizeof(d[j]));
   }
 }
 
 void
 abut_patch_init(abut_patch *p, abut_facet_kind kind, const double *nodes)
 {
-  double x[9][3];
+  double x[9][3] = {{0.}};
   const int n = abut_facet_n_nodes(kind);
   memset(p->c, 0, sizeof(p->c));
   p->triangle = kind == ABUT_FACET_TRI6 || kind == ABUT_FACET_TRI3;
@@ -75,7 +76,7 @@ abut_patch_init(abut_patch *p, abut_facet_kind kind, const double *nodes)
                        ? nodes[24 + i]
                        : nodes[i] + 0.5 * (nodes[3 + i] - nodes[i]);
   for (int a = 0; a < n; ++a)
-    sub3(nodes + 3 * a, p->origin, x[a]);
+    sub3(nodes + (ptrdiff_t)3 * a, p->origin, x[a]);
   if (kind == ABUT_FACET_QUAD4)
     init_quad4(p, x);
   else if (kind == ABUT_FACET_TRI6)
@@ -88,34 +89,34 @@ abut_patch_init(abut_patch *p, abut_facet_kind kind, const double *nodes)
 }
 
 void
-abut_patch_evaluate(const abut_patch *p, double s, double t,
-                    abut_patch_point *q)
+abut_patch_evaluate(const abut_patch *patch, double s, double t,
+                    abut_patch_point *point)
 {
   for (int i = 0; i < 3; ++i)
   {
-#define C(k) p->c[k][i]
-    q->y[i] = C(0) + s * C(1) + t * (C(2) + s * C(3));
-    q->y1[i] = C(1) + t * C(3);
-    q->y2[i] = C(2) + s * C(3);
-    q->y12[i] = C(3);
-    q->y11[i] = q->y22[i] = 0.;
-    if (p->n_terms > 4)
+#define C(k) patch->c[k][i]
+    point->y[i] = C(0) + s * C(1) + t * (C(2) + s * C(3));
+    point->y1[i] = C(1) + t * C(3);
+    point->y2[i] = C(2) + s * C(3);
+    point->y12[i] = C(3);
+    point->y11[i] = point->y22[i] = 0.;
+    if (patch->n_terms > 4)
     {
-      q->y[i] += s * s * C(4) + t * t * C(5);
-      q->y1[i] += 2. * s * C(4);
-      q->y2[i] += 2. * t * C(5);
-      q->y11[i] = 2. * C(4);
-      q->y22[i] = 2. * C(5);
+      point->y[i] += s * s * C(4) + t * t * C(5);
+      point->y1[i] += 2. * s * C(4);
+      point->y2[i] += 2. * t * C(5);
+      point->y11[i] = 2. * C(4);
+      point->y22[i] = 2. * C(5);
     }
-    if (p->n_terms > 6)
+    if (patch->n_terms > 6)
     {
       const double u = C(6) + t * C(8), v = C(7) + s * C(8);
-      q->y[i] += s * t * (s * C(6) + t * v);
-      q->y1[i] += t * (2. * s * u + t * C(7));
-      q->y2[i] += s * (2. * t * v + s * C(6));
-      q->y11[i] += 2. * t * u;
-      q->y22[i] += 2. * s * v;
-      q->y12[i] += 2. * (s * C(6) + t * C(7)) + 4. * s * t * C(8);
+      point->y[i] += s * t * (s * C(6) + t * v);
+      point->y1[i] += t * (2. * s * u + t * C(7));
+      point->y2[i] += s * (2. * t * v + s * C(6));
+      point->y11[i] += 2. * t * u;
+      point->y22[i] += 2. * s * v;
+      point->y12[i] += 2. * (s * C(6) + t * C(7)) + 4. * s * t * C(8);
     }
 #undef C
   }

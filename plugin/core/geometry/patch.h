@@ -20,7 +20,7 @@ typedef struct abut_patch
   double size; /* bound of the distance of two points */
 } abut_patch;
 
-/* Point and derivatives. */
+/* Point and derivatives at (s, t). */
 typedef struct abut_patch_point
 {
   double y[3], y1[3], y2[3], y11[3], y22[3], y12[3];
@@ -28,7 +28,7 @@ typedef struct abut_patch_point
 
 void abut_patch_init(abut_patch *patch, abut_facet_kind kind,
                      const double *nodes);
-void abut_patch_evaluate(const abut_patch *patch, double xi, double eta,
+void abut_patch_evaluate(const abut_patch *patch, double s, double t,
                          abut_patch_point *point);
 
 /* Nearest point on the edges alone; x relative to the origin. Returns the
@@ -49,8 +49,8 @@ double abut_patch_descent(const abut_patch *patch, const double *x,
 int abut_patch_descend(const abut_patch *patch, const double *x, double *local,
                        double *objective, int32_t *iterations);
 
-/* The whole search for the global minimum, x absolute. */
-void abut_patch_project(const abut_patch *patch, const double *x,
+/* The whole search for the global minimum; absolute: the point. */
+void abut_patch_project(const abut_patch *patch, const double *absolute,
                         abut_projection *p);
 
 #endif

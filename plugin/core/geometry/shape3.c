@@ -50,8 +50,8 @@ shape_tri6(double xi, double eta, abut_shape *s)
 static void
 shape_quad(abut_facet_kind kind, double xi, double eta, abut_shape *s)
 {
-  static const int8_t along_xi[] = {0, 1, 0, 1, 0, 1, 2, 2, 2},
-                      along_eta[] = {0, 0, 1, 1, 2, 2, 0, 1, 2};
+  static const int along_xi[] = {0, 1, 0, 1, 0, 1, 2, 2, 2},
+                   along_eta[] = {0, 0, 1, 1, 2, 2, 0, 1, 2};
   const abut_facet_kind line =
       kind == ABUT_FACET_QUAD4 ? ABUT_FACET_LINE2 : ABUT_FACET_LINE3;
   const int n = kind == ABUT_FACET_QUAD4 ? 4 : 9;
