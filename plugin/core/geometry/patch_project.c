@@ -9,13 +9,14 @@
  * (each coordinate scaled by its tangent's length at the middle). Then
  *
  *     |x - z|^2 = |r|^2 + |y - z|^2 - 2 r.(z - y),
- *     |y - z| >= (s - e) |D|,   r.(z - y) <= K |r| |D|^2 / 2
+ *     |y - z| >= (s - e) |D|,   r.(z - y) <= K |D|^2 / 2
  *
  * with s the smallest singular value of the scaled tangents at the middle, e
- * the largest change of the tangents, K the largest second derivative. So
- * (s - e)^2 >= K |r| suffices. Else the facet is sampled on a grid and Newton
- * runs from each sample that is a minimum along one coordinate: the number of
- * steps is bounded, and the best point found is returned in any case. */
+ * the largest change of the tangents within their plane, K the largest second
+ * derivative along r. So (s - e)^2 >= K suffices. Else the facet is sampled on
+ * a grid and Newton runs from each sample that is a minimum along one
+ * coordinate: the number of steps is bounded, and the best point found is
+ * returned in any case. */
 #include "geometry/finish.h"
 #include "geometry/patch.h"
 
@@ -253,39 +254,53 @@ abut_patch_descend(const abut_patch *patch, const double *x, double *local,
   return converged;
 }
 
+/* Bounds over the domain of the derivatives of each term beyond the linear
+ * ones: change of the tangents from the middle, and second derivatives. */
+typedef struct term_bounds
+{
+  double d1[9], d2[9], d11[9], d22[9], d12[9];
+} term_bounds;
+
+static const term_bounds square_bounds = {{0, 0, 0, 1, 2, 0, 2, 1, 2},
+                                          {0, 0, 0, 1, 0, 2, 1, 2, 2},
+                                          {0, 0, 0, 0, 2, 0, 2, 0, 2},
+                                          {0, 0, 0, 0, 0, 2, 0, 2, 2},
+                                          {0, 0, 0, 1, 0, 0, 2, 2, 4}};
+static const term_bounds triangle_bounds = {{0, 0, 0, 2. / 3., 4. / 3.},
+                                            {0, 0, 0, 2. / 3., 0, 4. / 3.},
+                                            {0, 0, 0, 0, 2},
+                                            {0, 0, 0, 0, 0, 2},
+                                            {0, 0, 0, 1}};
+
 /* See the head comment: can there be another, nearer point? */
 static int
 surely_global(const abut_patch *patch, const double *x, const double *y)
 {
-  /* Largest absolute values over the domain of the derivatives of the terms
-   * beyond the linear ones: along xi, along eta, second derivatives. The
-   * middle of a triangle is taken at its origin, at most 1 away. */
-  static const double d1[9] = {0, 0, 0, 1, 2, 0, 2, 1, 2},
-                      d2[9] = {0, 0, 0, 1, 0, 2, 1, 2, 2},
-                      d11[9] = {0, 0, 0, 0, 2, 0, 2, 0, 2},
-                      d22[9] = {0, 0, 0, 0, 0, 2, 0, 2, 2},
-                      d12[9] = {0, 0, 0, 1, 0, 0, 2, 2, 4};
-  const double l1 = norm3(patch->c[1]), l2 = norm3(patch->c[2]);
-  double e1 = 0., e2 = 0., k11 = 0., k22 = 0., k12 = 0., r[3];
-  if (!(l1 > 0. && l2 > 0.))
+  const term_bounds *t = patch->triangle ? &triangle_bounds : &square_bounds;
+  const double middle = patch->triangle ? 1. / 3. : 0.;
+  abut_patch_point p;
+  double n[3], r[3], e1 = 0., e2 = 0., k11 = 0., k22 = 0., k12 = 0.;
+  abut_patch_evaluate(patch, middle, middle, &p);
+  cross3(p.y1, p.y2, n);
+  const double l1 = norm3(p.y1), l2 = norm3(p.y2);
+  if (!(l1 > 0. && l2 > 0. && unit3(n, 0.) > 0.))
     return 0;
+  sub3(x, y, r);
   for (int k = 3; k < patch->n_terms; ++k)
   {
-    const double l = norm3(patch->c[k]);
-    e1 += d1[k] * l;
-    e2 += d2[k] * l;
-    k11 += d11[k] * l;
-    k22 += d22[k] * l;
-    k12 += d12[k] * l;
+    const double *c = patch->c[k];
+    const double cn = dot3(c, n), l = sqrt(max2(dot3(c, c) - cn * cn, 0.)),
+                 rc = fabs(dot3(r, c));
+    e1 += t->d1[k] * l;
+    e2 += t->d2[k] * l;
+    k11 += t->d11[k] * rc;
+    k22 += t->d22[k] * rc;
+    k12 += t->d12[k] * rc;
   }
-  sub3(x, y, r);
-  const double cosine =
-      min2(1., fabs(dot3(patch->c[1], patch->c[2])) / (l1 * l2));
-  const double s = sqrt(1. - cosine),
-               e = sqrt((e1 / l1) * (e1 / l1) + (e2 / l2) * (e2 / l2));
+  const double cosine = min2(1., fabs(dot3(p.y1, p.y2)) / (l1 * l2));
+  const double s = sqrt(1. - cosine) - hypot(e1 / l1, e2 / l2);
   const double u = k11 / (l1 * l1), v = k22 / (l2 * l2), w = k12 / (l1 * l2);
-  const double k = sqrt(u * u + v * v + 2. * w * w);
-  return s > e && (s - e) * (s - e) >= k * norm3(r);
+  return s > 0. && s * s >= sqrt(u * u + v * v + 2. * w * w);
 }
 
 /* Newton from each sample of a grid that is a minimum along xi or along eta:
