@@ -119,20 +119,25 @@ extern "C"
   /** English text of a reason; never NULL. */
   ABUT_API const char *abut_rejection_text(abut_rejection reason);
 
-  /** Read-only result of the last run; arrays of n_nodes entries live until
-   * the next run. */
+  /** Contact element of a node: its facet and where on it. All but the facet
+   * is zero for a node without one. */
+  typedef struct abut_contact
+  {
+    double gap;       /**< signed normal distance, length */
+    double distance;  /**< distance to the nearest point, >= 0 */
+    double local[2];  /**< local coordinates of the nearest point in the facet
+                           (2D: the second is 0) */
+    double normal[3]; /**< unit outward normal of the facet there (2D: third
+                           component 0) */
+    int32_t facet;    /**< facet of the primary surface, or -1 */
+    int32_t reserved; /**< 0 */
+  } abut_contact;
+
+  /** Read-only result of the last run; lives until the next run. */
   typedef struct abut_detection_view
   {
-    int32_t n_nodes;      /**< nodes of the secondary surface */
-    const int32_t *facet; /**< facet of the primary surface, or -1 */
-    /** [2 * n_nodes] local coordinates of the nearest point in the facet (2D:
-     * the second is 0); 0 without a facet, as are the following. */
-    const double *local;
-    const double *gap;      /**< signed normal distance, length */
-    const double *distance; /**< distance to the nearest point, >= 0 */
-    /** [3 * n_nodes] unit outward normal of the facet at the nearest point
-     * (2D: third component 0). */
-    const double *normal;
+    int32_t n_nodes;             /**< nodes of the secondary surface */
+    const abut_contact *contact; /**< [n_nodes] */
     int32_t changed;     /**< nonzero: some node's facet is another than in the
                               run before (in the first run: any node is paired) */
     int32_t n_paired;    /**< nodes with a facet */

@@ -41,14 +41,10 @@ prepare(abut_detection *d)
   } const list[] = {{&d->node_groups, sizeof(uint64_t)},
                     {&d->thickness, sizeof(double)},
                     {&d->thickness_group, sizeof(int32_t)},
-                    {&d->facet, sizeof(int32_t)},
-                    {&d->local, sizeof(double)},
-                    {&d->gap, sizeof(double)},
-                    {&d->distance, sizeof(double)},
-                    {&d->normal, sizeof(double)},
+                    {&d->contact, sizeof(abut_contact)},
+                    {&d->listed, sizeof(uint8_t)},
                     {&d->reversed, sizeof(uint8_t)},
-                    {&d->bound, sizeof(double)},
-                    {&d->cost, sizeof(double)}};
+                    {&d->scratch, sizeof(abut_candidate)}};
   for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
     list[i].array->element = list[i].element;
   abut_skin_list_prepare(&d->list);
@@ -84,10 +80,9 @@ reserve(abut_detection *d)
   {
     abut_array *array;
     int64_t n;
-  } const list[] = {
-      {&d->node_groups, n}, {&d->facet, n},     {&d->local, 2 * n},
-      {&d->gap, n},         {&d->distance, n},  {&d->normal, 3 * n},
-      {&d->reversed, n},    {&d->thickness, t}, {&d->thickness_group, t}};
+  } const list[] = {{&d->node_groups, n}, {&d->contact, n},
+                    {&d->listed, n},      {&d->reversed, n},
+                    {&d->thickness, t},   {&d->thickness_group, t}};
   for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
   {
     const abut_status status =
@@ -96,12 +91,12 @@ reserve(abut_detection *d)
       return status;
   }
   uint64_t *groups = d->node_groups.data;
-  int32_t *facet = d->facet.data;
+  abut_contact *contact = d->contact.data;
   const int32_t *start = d->secondary->view.node_start;
   for (int32_t i = 0; i < n; ++i)
   {
     groups[i] = start[i + 1] > start[i] ? UINT64_MAX : 0;
-    facet[i] = -1;
+    contact[i].facet = -1;
   }
   if (t > 0)
   {
@@ -116,9 +111,8 @@ static void
 release(abut_detection *d)
 {
   abut_array *arrays[] = {&d->node_groups, &d->thickness, &d->thickness_group,
-                          &d->facet,       &d->local,     &d->gap,
-                          &d->distance,    &d->normal,    &d->reversed,
-                          &d->bound,       &d->cost};
+                          &d->contact,     &d->listed,    &d->reversed,
+                          &d->scratch};
   for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); ++i)
     abut_array_release(d->context, arrays[i]);
   abut_skin_list_release(d->context, &d->list);
@@ -213,85 +207,43 @@ abut_detection_pair_groups(abut_detection *detection, int32_t secondary_group,
   return ABUT_SUCCESS;
 }
 
-/* Steps 2 to 11: lists of candidates, made anew or reused. */
-static abut_status
-find_candidates(abut_detection *d, double motion)
-{
-  const abut_search_options *o = &d->options.search;
-  const double reach = fmax(o->reach, 1.5 * motion);
-  abut_search *s = d->search;
-  d->view.reach = reach;
-  abut_status status =
-      abut_search_set_reach(s, reach, o->relative_reach, o->skin);
-  if (status == ABUT_SUCCESS)
-    status = abut_search_update(s);
-  if (status != ABUT_SUCCESS)
-    return status;
-  d->view.searched = !abut_skin_list_serves(&d->list, s, d->secondary, false);
-  if (d->view.searched)
-    status = abut_skin_list_make(&d->list, s, d->secondary, false);
-  if (status == ABUT_SUCCESS)
-    ++*(d->view.searched ? &s->statistics.n_searches : &s->statistics.n_reuses);
-  return status;
-}
-
-/* Room for the candidates of the node that has most. */
-static abut_status
-reserve_ranking(abut_detection *d)
-{
-  const abut_list *l = &d->list.list;
-  const int64_t *start = l->start.data;
-  int64_t most = 1;
-  for (int32_t k = 0; k < l->n; ++k)
-    most = start[k + 1] - start[k] > most ? start[k + 1] - start[k] : most;
-  abut_status status = abut_array_reserve(d->context, &d->bound, 0, most);
-  if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(d->context, &d->cost, 0, most);
-  return status;
-}
-
 /* Steps 15 to 17 for one node. */
 static void
 connect(abut_detection *d, int32_t node, int32_t facet,
         const abut_projection *p)
 {
-  static const abut_projection none;
-  int32_t *old = (int32_t *)d->facet.data + node;
-  double *local = (double *)d->local.data + 2 * (int64_t)node;
-  double *normal = (double *)d->normal.data + 3 * (int64_t)node;
-  if (facet < 0)
-    p = &none;
-  d->view.n_gained += *old < 0 && facet >= 0;
-  d->view.n_lost += *old >= 0 && facet < 0;
-  d->view.n_exchanged += *old >= 0 && facet >= 0 && *old != facet;
+  abut_contact *c = (abut_contact *)d->contact.data + node;
+  const int32_t old = c->facet;
+  d->view.n_gained += old < 0 && facet >= 0;
+  d->view.n_lost += old >= 0 && facet < 0;
+  d->view.n_exchanged += old >= 0 && facet >= 0 && old != facet;
   d->view.n_paired += facet >= 0;
-  *old = facet;
-  local[0] = p->local[0];
-  local[1] = p->local[1];
+  c->facet = facet;
+  c->reserved = 0;
+  c->gap = facet >= 0 ? p->gap : 0;
+  c->distance = facet >= 0 ? p->distance : 0;
+  c->local[0] = facet >= 0 ? p->local[0] : 0;
+  c->local[1] = facet >= 0 ? p->local[1] : 0;
   for (int k = 0; k < 3; ++k)
-    normal[k] = p->normal[k];
-  ((double *)d->gap.data)[node] = p->gap;
-  ((double *)d->distance.data)[node] = p->distance;
+    c->normal[k] = facet >= 0 ? p->normal[k] : 0;
 }
 
-/* Steps 12 to 17 for the k-th node of the list. */
+/* Steps 12 to 17 for the k-th of the answers. */
 static void
-pair_node(abut_detection *d, int32_t k, const double *normals)
+pair_node(abut_detection *d, const abut_answers *a, int32_t k)
 {
-  const abut_list *l = &d->list.list;
-  const int64_t *start = l->start.data;
   const int32_t dimension = d->secondary->view.dimension;
   const abut_query query = {0, dimension, d->secondary->view.position, NULL};
   abut_ranking r;
   abut_projection p;
-  r.node = ((const int32_t *)l->order.data)[k];
+  r.node = a->order[k];
   r.groups = ((const uint64_t *)d->node_groups.data)[r.node];
-  r.slot = (const int32_t *)l->slot.data + start[k];
-  r.n = (int32_t)(start[k + 1] - start[k]);
+  r.slot = a->slot + a->start[k];
+  r.n = (int32_t)(a->start[k + 1] - a->start[k]);
   abut_query_point(&query, r.node, r.x);
   r.normal[2] = 0;
   for (int32_t i = 0; i < dimension; ++i)
-    r.normal[i] = normals[(int64_t)dimension * r.node + i];
+    r.normal[i] = d->normals[(int64_t)dimension * r.node + i];
   int32_t facet = -1;
   if (r.groups != 0)
   {
@@ -303,20 +255,77 @@ pair_node(abut_detection *d, int32_t k, const double *normals)
         && d->view.n_candidates - candidates
                == d->view.rejected[ABUT_REJECTION_FACING_AWAY] - away;
   }
+  ((uint8_t *)d->listed.data)[r.node] = 1;
   connect(d, r.node, facet, &p);
 }
 
-/* Nodes too far from all facets are not in the list. */
+/* Ask for what the nodes of a block will need: results and normals, and the
+ * nodes of the facets with the nearest centres. */
 static void
-mark_listed(const abut_detection *d, uint8_t *listed)
+prefetch_block(const abut_detection *d, const abut_answers *a)
 {
-  const abut_list *l = &d->list.list;
-  const int32_t *order = l->order.data;
-  const int32_t n = d->secondary->view.n_nodes;
-  if (n > 0)
-    memset(listed, 0, (size_t)n);
-  for (int32_t k = 0; k < l->n; ++k)
-    listed[order[k]] = 1;
+  const abut_record *records = d->search->records.data;
+  const abut_contact *contact = d->contact.data;
+  const int32_t dimension = d->secondary->view.dimension;
+  for (int32_t k = 0; k < a->n; ++k)
+  {
+    const int32_t node = a->order[k];
+    __builtin_prefetch(contact + node, 1);
+    __builtin_prefetch(d->normals + (int64_t)dimension * node);
+    if (a->start[k + 1] > a->start[k])
+      abut_prefetch_nodes(d->primary, records[a->slot[a->start[k]]].facet);
+  }
+}
+
+/* Steps 12 to 17 for a block of nodes. */
+static abut_status
+pair_block(void *user, const abut_answers *a)
+{
+  abut_detection *d = user;
+  int64_t most = 0;
+  for (int32_t k = 0; k < a->n; ++k)
+    most = a->start[k + 1] - a->start[k] > most ? a->start[k + 1] - a->start[k]
+                                                : most;
+  const abut_status status =
+      abut_array_reserve(d->context, &d->scratch, 0, most);
+  if (status != ABUT_SUCCESS)
+    return status;
+  prefetch_block(d, a);
+  for (int32_t k = 0; k < a->n; ++k)
+    pair_node(d, a, k);
+  return ABUT_SUCCESS;
+}
+
+/* Steps 2 to 17: candidates of a block of nodes and, while they are in the
+ * cache, the pairing of these nodes; with a skin from a list that is made anew
+ * only when it must be. */
+static abut_status
+search_and_pair(abut_detection *d, double motion)
+{
+  const abut_search_options *o = &d->options.search;
+  abut_search *s = d->search;
+  d->view.reach = fmax(o->reach, 1.5 * motion);
+  abut_status status =
+      abut_search_set_reach(s, d->view.reach, o->relative_reach, o->skin);
+  if (status == ABUT_SUCCESS)
+    status = abut_search_update(s);
+  if (status != ABUT_SUCCESS)
+    return status;
+  d->view.searched = !abut_skin_list_serves(&d->list, s, d->secondary, false);
+  ++*(d->view.searched ? &s->statistics.n_searches : &s->statistics.n_reuses);
+  if (s->skin > 0)
+  {
+    if (d->view.searched)
+      status = abut_skin_list_make(&d->list, s, d->secondary, false);
+    return status == ABUT_SUCCESS
+               ? abut_list_consume(&d->list.list, pair_block, d)
+               : status;
+  }
+  abut_query query;
+  status = abut_search_query_of(s, d->secondary, false, &query);
+  return status == ABUT_SUCCESS
+             ? abut_search_list(s, &query, 0, &s->list, pair_block, d)
+             : status;
 }
 
 abut_status
@@ -328,34 +337,27 @@ abut_detection_run(abut_detection *detection, double motion)
   if (!(motion >= 0 && motion <= ABUT_FACET_LIMIT))
     return abut_fail(d->context, ABUT_INVALID_ARGUMENT, "abut_detection_run",
                      "motion is negative or not finite");
-  const double *normals = NULL;
-  abut_status status = abut_surface_normals(d->secondary, &normals); /* 1 */
+  abut_status status = abut_surface_normals(d->secondary, &d->normals); /* 1 */
   if (status != ABUT_SUCCESS)
     return status;
+  const int32_t n = d->secondary->view.n_nodes;
   const abut_detection_view empty = {0};
   d->view = empty;
-  status = find_candidates(d, motion); /* 2-11 */
-  if (status == ABUT_SUCCESS)
-    status = reserve_ranking(d);
+  if (n > 0)
+  {
+    memset(d->listed.data, 0, (size_t)n);
+    memset(d->reversed.data, 0, (size_t)n);
+  }
+  status = search_and_pair(d, motion); /* 2-17 */
   if (status != ABUT_SUCCESS)
     return status;
-  uint8_t *reversed = d->reversed.data;
-  mark_listed(d, reversed);
-  for (int32_t i = 0; i < d->secondary->view.n_nodes; ++i) /* 17 */
-    if (!reversed[i])
+  const uint8_t *listed = d->listed.data;
+  for (int32_t i = 0; i < n; ++i) /* 17: nodes far from all facets */
+    if (!listed[i])
       connect(d, i, -1, NULL);
-  for (int32_t k = 0; k < d->list.list.n; ++k) /* 12-17 */
-  {
-    reversed[((const int32_t *)d->list.list.order.data)[k]] = 0;
-    pair_node(d, k, normals);
-  }
   d->view.changed = d->view.n_gained + d->view.n_lost + d->view.n_exchanged > 0;
-  d->view.n_nodes = d->secondary->view.n_nodes; /* 18-19 */
-  d->view.facet = d->facet.data;
-  d->view.local = d->local.data;
-  d->view.gap = d->gap.data;
-  d->view.distance = d->distance.data;
-  d->view.normal = d->normal.data;
+  d->view.n_nodes = n; /* 18-19 */
+  d->view.contact = d->contact.data;
   return ABUT_SUCCESS;
 }
 

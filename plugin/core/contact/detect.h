@@ -31,16 +31,22 @@ struct abut_detection
   abut_array thickness;       /* double, [n_thicknesses] */
   abut_array thickness_group; /* int32_t */
 
-  abut_array facet;    /* int32_t */
-  abut_array local;    /* double */
-  abut_array gap;      /* double */
-  abut_array distance; /* double */
-  abut_array normal;   /* double */
-  abut_array reversed; /* uint8_t */
-  abut_array bound;    /* double, scratch of one node */
-  abut_array cost;     /* double, scratch of one node */
+  abut_array contact;    /* abut_contact, [n_nodes] */
+  abut_array listed;     /* uint8_t, [n_nodes] the node has candidates */
+  abut_array reversed;   /* uint8_t, [n_nodes] all of them face away */
+  abut_array scratch;    /* abut_candidate, of one node */
+  const double *normals; /* of the secondary nodes, while running */
   abut_detection_view view;
 };
+
+/* A candidate that passed the filters that need no projection. */
+typedef struct abut_candidate
+{
+  const abut_record *record;
+  double bound;  /* squared distance to its box: not more than cost^2 */
+  double centre; /* squared distance to its centre */
+  double cost;
+} abut_candidate;
 
 /* One node and its candidates. */
 typedef struct abut_ranking
@@ -49,17 +55,17 @@ typedef struct abut_ranking
   double x[3];
   double normal[3];
   uint64_t groups;
-  const int32_t *slot; /* [n] candidates */
+  const int32_t *slot; /* [n] */
   int32_t n;
 } abut_ranking;
 
 /* Steps 12 to 14: the facet of the node, with its projection, or -1. Counts
- * rejections in the view. */
+ * rejections in the view. Scratch must hold ranking->n candidates. */
 int32_t abut_detection_rank(abut_detection *detection,
                             const abut_ranking *ranking,
                             abut_projection *projection);
 
-/* Bits of the paired groups that facet f of the primary surface is in. */
+/* Bit of a primary group in pairs, or 0. */
 uint64_t abut_detection_group_bit(const abut_detection *detection,
                                   int32_t group);
 

@@ -4,14 +4,19 @@
  *
  * The cost of a candidate is the distance to its nearest point, which joins
  * the gap (distance along the normal) and the violation of the local
- * coordinates (distance beyond the edge): cost^2 = gap^2 + overshoot^2. The
- * distance to the facet's box is a lower bound of it, so that of the handful
- * of candidates of a node usually one or two are projected.
+ * coordinates (distance beyond the edge): cost^2 = gap^2 + overshoot^2. Lower
+ * bounds of it are the distances to the facet's box and, for a quadrilateral,
+ * to the strips of its parallelogram. Candidates are taken in the order of the
+ * first until it exceeds the least cost so far, and projected unless the
+ * second does, so that of the handful of candidates of a node usually one is
+ * projected.
  *
  * Costs that differ by round-off are a tie, and the facet with the lowest
  * number wins; the result then does not depend on the order in which
  * candidates come, on the numbering of the arrays, or on the frame. */
 #include "contact/detect.h"
+
+#include "geometry/kernels.h"
 
 #include <math.h>
 
@@ -150,14 +155,46 @@ thickness_of(const abut_detection *d, int32_t group)
   return INFINITY;
 }
 
-static void
-project(const abut_detection *d, int32_t f, const double *x, abut_projection *p)
+/* Lower bound of the distance to a quadrilateral y = c + a xi + b eta +
+ * d xi eta, |xi|, |eta| <= 1: the distance from the plane, or from the strips
+ * |xi| <= 1 and |eta| <= 1 of the parallelogram, less |d|. */
+static double
+strip_bound(const double *X, const double *x)
 {
-  double nodes[3 * ABUT_FACET_MAX_NODES];
-  abut_surface_gather(d->primary, f, nodes);
-  /* Cannot fail: kind and positions were checked by the surface. */
-  (void)abut_facet_project((abut_facet_kind)d->primary->view.kinds[f], nodes, x,
-                           p);
+  double a[3], b[3], q[3], n[3], u[3], v[3];
+  double dd = 0, aa = 0, bb = 0, nn = 0, xi = 0, eta = 0, gap = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double l = 0.25 * (X[3 + i] - X[i]), r = 0.25 * (X[9 + i] - X[6 + i]);
+    a[i] = l + r;
+    b[i] = 0.25 * ((X[6 + i] - X[i]) + (X[9 + i] - X[3 + i]));
+    q[i] = x[i] - 0.25 * ((X[i] + X[9 + i]) + (X[3 + i] + X[6 + i]));
+    dd += (r - l) * (r - l);
+    aa += a[i] * a[i];
+    bb += b[i] * b[i];
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    n[i] = a[j] * b[k] - a[k] * b[j];
+    u[i] = q[j] * b[k] - q[k] * b[j];
+    v[i] = a[j] * q[k] - a[k] * q[j];
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    nn += n[i] * n[i];
+    gap += q[i] * n[i];
+    xi += u[i] * n[i];
+    eta += v[i] * n[i];
+  }
+  if (!(nn > 1e-20 * aa * bb))
+    return 0;
+  /* |xi| - 1 times the height of the parallelogram over b, |n| / |b|. */
+  const double s = fabs(xi) - nn, t = fabs(eta) - nn;
+  const double beyond_a = s > 0 ? s * s / (nn * bb) : 0;
+  const double beyond_b = t > 0 ? t * t / (nn * aa) : 0;
+  const double beyond = beyond_a > beyond_b ? beyond_a : beyond_b;
+  return sqrt(gap * gap / nn + beyond) - sqrt(dd);
 }
 
 /* Filters that need the projection. */
@@ -177,35 +214,45 @@ judge(const abut_detection *d, const abut_record *r, const abut_projection *p)
 static double
 tie(const abut_record *r, const double *x)
 {
-  const double magnitude = fmax(fmax(fabs(x[0]), fabs(x[1])), fabs(x[2]));
-  return 1e-10 * r->size + 1e-15 * magnitude;
+  return 1e-10 * r->size + 1e-15 * (fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
 }
 
-/* Step 12 for candidate i; the cost, or infinity if it is rejected. */
+/* Step 12: the cost of a candidate, or infinity if it is rejected or surely
+ * costs more than `least`. */
 static double
 cost_of(abut_detection *d, const abut_ranking *k, const abut_record *r,
-        abut_projection *p)
+        double least, abut_projection *p)
 {
-  project(d, r->facet, k->x, p);
-  const abut_rejection reason = judge(d, r, p);
+  double nodes[3 * ABUT_FACET_MAX_NODES];
+  const abut_facet_kind kind =
+      (abut_facet_kind)d->primary->view.kinds[r->facet];
+  abut_rejection reason = ABUT_REJECTION_COSTLIER;
+  abut_surface_gather(d->primary, r->facet, nodes);
+  if (least == INFINITY || kind != ABUT_FACET_QUAD4
+      || !(strip_bound(nodes, k->x) > least + 2 * tie(r, k->x)))
+  {
+    abut_project(kind, nodes, k->x, p);
+    reason = judge(d, r, p);
+  }
   if (reason == ABUT_REJECTION_N)
     return p->distance;
   ++d->view.rejected[reason];
   return INFINITY;
 }
 
-/* Bounds of the costs of all candidates, infinite for those screened out;
- * returns the one with the least bound, or -1. */
+/* Candidates that pass the filters without projection, with their bounds;
+ * returns their number. */
 static int32_t
-bound_costs(abut_detection *d, const abut_ranking *k, double *bound)
+select(abut_detection *d, const abut_ranking *k, abut_candidate *c)
 {
   const abut_record *records = d->search->records.data;
-  int32_t first = -1;
+  const double skin = d->search->skin;
+  int32_t n = 0;
   for (int32_t i = 0; i < k->n; ++i)
   {
     const abut_record *r = records + k->slot[i];
-    bound[i] = INFINITY;
-    if (d->search->skin > 0 && !abut_record_near_point(r, k->x, 0))
+    double square = 0;
+    if (skin > 0 && !abut_record_near_point(r, k->x, 0, &square))
       continue;
     ++d->view.n_candidates;
     const abut_rejection reason = screen(d, k, r);
@@ -214,31 +261,56 @@ bound_costs(abut_detection *d, const abut_ranking *k, double *bound)
       ++d->view.rejected[reason];
       continue;
     }
-    bound[i] = sqrt(box_distance(r, k->x));
-    if (first < 0 || bound[i] < bound[first]
-        || (bound[i] == bound[first] && k->slot[i] < k->slot[first]))
-      first = i;
+    square = 0;
+    for (int j = 0; j < 3; ++j)
+      square += (k->x[j] - r->centre[j]) * (k->x[j] - r->centre[j]);
+    c[n].record = r;
+    c[n].bound = box_distance(r, k->x);
+    c[n].centre = square;
+    c[n].cost = INFINITY;
+    ++n;
   }
-  return first;
+  return n;
 }
 
-/* Among the costs within a tie of the least one, the lowest facet number. */
-static int32_t
-settle(const abut_detection *d, const abut_ranking *k, const double *cost,
-       double least)
+/* Whether candidate a is to be looked at before b. */
+static inline bool
+before(const abut_candidate *a, const abut_candidate *b)
 {
-  const abut_record *records = d->search->records.data;
-  int32_t best = -1;
+  if (a->bound != b->bound)
+    return a->bound < b->bound;
+  if (a->centre != b->centre)
+    return a->centre < b->centre;
+  return a->record->facet < b->record->facet;
+}
+
+/* Bring the most promising one of c[n] to the front. */
+static void
+bring_forward(abut_candidate *c, int32_t n)
+{
+  int32_t first = 0;
+  for (int32_t i = 1; i < n; ++i)
+    first = before(c + i, c + first) ? i : first;
+  const abut_candidate swap = c[0];
+  c[0] = c[first];
+  c[first] = swap;
+}
+
+/* Among costs within a tie of the least one, the lowest facet number. */
+static const abut_record *
+settle(const abut_detection *d, const abut_ranking *k, const abut_candidate *c,
+       int32_t n, double least)
+{
+  const abut_record *best = NULL;
   int64_t best_id = INT64_MAX;
-  for (int32_t i = 0; i < k->n; ++i)
+  for (int32_t i = 0; i < n; ++i)
   {
-    const abut_record *r = records + k->slot[i];
-    if (!(cost[i] <= least + tie(r, k->x)))
+    if (!(c[i].cost <= least + tie(c[i].record, k->x)))
       continue;
-    const int64_t id = abut_surface_facet_id(d->primary, r->facet);
-    if (best < 0 || id < best_id)
+    const int64_t id = abut_surface_facet_id(d->primary, c[i].record->facet);
+    if (best == NULL || id < best_id)
     {
-      best = i;
+      best = c[i].record;
       best_id = id;
     }
   }
@@ -249,45 +321,33 @@ int32_t
 abut_detection_rank(abut_detection *d, const abut_ranking *k,
                     abut_projection *projection)
 {
-  const abut_record *records = d->search->records.data;
-  double *bound = d->bound.data, *cost = d->cost.data;
+  abut_candidate *c = d->scratch.data;
   abut_projection p;
-  const int32_t first = bound_costs(d, k, bound);
-  if (first < 0)
-    return -1;
+  const abut_record *held = NULL;
   double least = INFINITY;
-  int32_t held = -1, n_costs = 0;
-  /* The most promising one first, then the others in their order. */
-  for (int32_t j = -1; j < k->n; ++j)
+  int32_t n_costs = 0, i = 0;
+  const int32_t n = select(d, k, c);
+  for (; i < n; ++i)
   {
-    const int32_t i = j < 0 ? first : j;
-    if (j == first)
-      continue;
-    const abut_record *r = records + k->slot[i];
-    if (j >= 0)
-      cost[i] = INFINITY;
-    if (bound[i] > least + tie(r, k->x))
+    bring_forward(c + i, n - i);
+    const double limit = least + tie(c[i].record, k->x);
+    if (c[i].bound > limit * limit)
+      break;
+    c[i].cost = cost_of(d, k, c[i].record, least, &p);
+    n_costs += c[i].cost < INFINITY;
+    if (c[i].cost < least)
     {
-      d->view.rejected[ABUT_REJECTION_COSTLIER] += isfinite(bound[i]);
-      continue;
-    }
-    if (isinf(bound[i]))
-      continue;
-    cost[i] = cost_of(d, k, r, &p);
-    n_costs += isfinite(cost[i]);
-    if (cost[i] < least)
-    {
-      least = cost[i];
-      held = i;
+      least = c[i].cost;
+      held = c[i].record;
       *projection = p;
     }
   }
-  if (held < 0)
+  d->view.rejected[ABUT_REJECTION_COSTLIER] += n - i;
+  if (held == NULL)
     return -1;
   d->view.rejected[ABUT_REJECTION_COSTLIER] += n_costs - 1;
-  const int32_t best = n_costs > 1 ? settle(d, k, cost, least) : held;
-  const int32_t facet = records[k->slot[best]].facet;
+  const abut_record *best = n_costs > 1 ? settle(d, k, c, i, least) : held;
   if (best != held)
-    project(d, facet, k->x, projection);
-  return facet;
+    (void)cost_of(d, k, best, INFINITY, projection);
+  return best->facet;
 }

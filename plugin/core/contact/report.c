@@ -9,7 +9,7 @@ cover(const abut_detection *d, abut_detection_report *z)
 {
   const abut_surface *s = d->secondary;
   const uint64_t *groups = d->node_groups.data;
-  const int32_t *facet = d->facet.data;
+  const abut_contact *contact = d->contact.data;
   for (int32_t f = 0; f < s->view.n_facets; ++f)
   {
     double nodes[3 * ABUT_FACET_MAX_NODES];
@@ -23,7 +23,7 @@ cover(const abut_detection *d, abut_detection_report *z)
       if (groups[c[a]] != 0)
       {
         z->area += m.area / n;
-        z->uncovered_area += facet[c[a]] < 0 ? m.area / n : 0;
+        z->uncovered_area += contact[c[a]].facet < 0 ? m.area / n : 0;
       }
   }
 }
@@ -35,7 +35,7 @@ abut_detection_make_report(abut_detection *detection,
   if (detection == NULL || report == NULL)
     return ABUT_INVALID_ARGUMENT;
   abut_detection *d = detection;
-  if (d->view.facet == NULL)
+  if (d->view.contact == NULL)
     return abut_fail(d->context, ABUT_WRONG_ORDER, "abut_detection_make_report",
                      "nothing was detected yet");
   abut_surface_sizes secondary, primary;
@@ -51,19 +51,20 @@ abut_detection_make_report(abut_detection *detection,
   for (int32_t i = 0; i < d->view.n_nodes; ++i)
   {
     z.n_nodes += groups[i] != 0;
-    z.n_paired += d->view.facet[i] >= 0;
+    const abut_contact *contact = d->view.contact + i;
+    const int32_t f = contact->facet;
+    z.n_paired += f >= 0;
     z.n_reversed += reversed[i];
-    if (d->view.facet[i] < 0)
+    if (f < 0)
       continue;
     double nodes[3 * ABUT_FACET_MAX_NODES];
-    const int32_t f = d->view.facet[i];
     abut_surface_gather(d->primary, f, nodes);
     const double size = abut_surface_longest_side(
         (abut_facet_kind)d->primary->view.kinds[f], nodes);
-    z.n_overlaps += d->view.gap[i] < -1e-10 * size;
-    if (-d->view.gap[i] > z.largest_overlap)
+    z.n_overlaps += contact->gap < -1e-10 * size;
+    if (-contact->gap > z.largest_overlap)
     {
-      z.largest_overlap = -d->view.gap[i];
+      z.largest_overlap = -contact->gap;
       z.deepest_node = i;
     }
   }

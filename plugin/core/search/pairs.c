@@ -166,7 +166,7 @@ filter(abut_search *s, const abut_list *l, const abut_query *q)
   {
     ((int32_t *)out->order.data)[k] = order[k];
     start[k] = n;
-    double x[3];
+    double x[3], square;
     if (q->points != NULL)
       abut_query_point(q, order[k], x);
     for (int64_t e = from[k]; e < from[k + 1]; ++e)
@@ -174,7 +174,7 @@ filter(abut_search *s, const abut_list *l, const abut_query *q)
       const abut_record *r = records + slot[e];
       to[n] = slot[e];
       if (q->points != NULL)
-        n += abut_record_near_point(r, x, 0);
+        n += abut_record_near_point(r, x, 0, &square);
       else
       {
         const double *box = q->boxes + 6 * (int64_t)order[k];
@@ -203,7 +203,7 @@ search_surface(abut_search *s, const abut_surface *secondary, bool facets,
     status = abut_search_query_of(s, secondary, facets, &query);
   if (status == ABUT_SUCCESS)
     status = s->skin > 0 ? filter(s, &p->skin.list, &query)
-                         : abut_search_list(s, &query, 0, &s->list);
+                         : abut_search_list(s, &query, 0, &s->list, NULL, NULL);
   if (status == ABUT_SUCCESS)
     status = arrange(p, s, &s->list, query.n);
   if (status == ABUT_SUCCESS)
@@ -271,7 +271,7 @@ abut_search_points(abut_search *search, int32_t n, const double *points,
   const abut_query query = {n, dimension, points, NULL};
   abut_status status = abut_search_update(s);
   if (status == ABUT_SUCCESS)
-    status = abut_search_list(s, &query, 0, &s->list);
+    status = abut_search_list(s, &query, 0, &s->list, NULL, NULL);
   if (status == ABUT_SUCCESS)
     status = arrange(pairs, s, &s->list, n);
   if (status != ABUT_SUCCESS)

@@ -12,11 +12,11 @@
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 enum
 {
-  BLOCK = 64
+  BLOCK = 40,
+  PAD = 16
 };
 
 /* Queries in their order, with their boxes (points: twice the same). */
@@ -80,21 +80,22 @@ key_queries(const abut_search *s, const abut_query *q, double skin,
   return n;
 }
 
-/* End of the block that begins at i: queries in the largest octree cell that
- * holds no more than BLOCK of them from here. */
+/* End of the block that begins at i: queries in the largest cell of the
+ * binary tree behind Morton's curve that holds no more than BLOCK of them from
+ * here. */
 static int32_t
 block_end(const abut_keyed *items, int32_t i, int32_t n)
 {
   if (n - i <= BLOCK)
     return n;
-  const uint64_t differ = items[i].key ^ items[i + BLOCK].key;
+  uint64_t differ = items[i].key ^ items[i + BLOCK].key;
   if (differ == 0)
     return i + BLOCK;
-  int level = 0;
-  while (differ >> (3 * (level + 1)) != 0)
-    ++level;
+  int bit = 0;
+  while ((differ >>= 1) != 0)
+    ++bit;
   int32_t end = i + 1;
-  while (end < i + BLOCK && (items[end].key ^ items[i].key) >> (3 * level) == 0)
+  while (end < i + BLOCK && (items[end].key ^ items[i].key) >> bit == 0)
     ++end;
   return end;
 }
@@ -113,8 +114,9 @@ load_batch(const abut_query *q, const abut_keyed *items, int32_t n, batch *b)
     query_box(q, items[i].index, b->lower[i], b->upper[i]);
     for (int d = 0; d < 3; ++d)
     {
-      b->block_lower[d] = fmin(b->block_lower[d], b->lower[i][d]);
-      b->block_upper[d] = fmax(b->block_upper[d], b->upper[i][d]);
+      const double l = b->lower[i][d], u = b->upper[i][d];
+      b->block_lower[d] = l < b->block_lower[d] ? l : b->block_lower[d];
+      b->block_upper[d] = u > b->block_upper[d] ? u : b->block_upper[d];
     }
   }
 }
@@ -142,14 +144,30 @@ reserve_block(abut_context *context, abut_block *b, int32_t n)
 {
   if (n <= b->slot.capacity)
     return ABUT_SUCCESS;
-  /* Multiples of eight: hits are read eight at a time. */
-  const int64_t room = (2 * (int64_t)n + 7) / 8 * 8;
+  const int64_t room = 2 * (int64_t)n;
   abut_status status = abut_array_reserve(context, &b->box, 0, 6 * room);
   if (status == ABUT_SUCCESS)
     status = abut_array_reserve(context, &b->hit, 0, room);
   if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(context, &b->near, 0, room);
+  if (status == ABUT_SUCCESS)
     status = abut_array_reserve(context, &b->slot, 0, room);
   return status;
+}
+
+/* Empty boxes up to a multiple of PAD, so that the loop over them has no
+ * tail. */
+static void
+pad_block(abut_block *b)
+{
+  float *box = b->box.data;
+  b->n_padded = (b->n + PAD - 1) / PAD * PAD;
+  for (int32_t i = b->n; i < b->n_padded; ++i)
+    for (int d = 0; d < 3; ++d)
+    {
+      box[d * b->slot.capacity + i] = FLT_MAX;
+      box[(3 + d) * b->slot.capacity + i] = -FLT_MAX;
+    }
 }
 
 /* Facets of the runs whose inflated box touches the block. */
@@ -162,7 +180,7 @@ fill_block(abut_search *s, const abut_runs *runs, const batch *q, double skin)
     n_facets += runs->run[r].last - runs->run[r].first;
   s->statistics.n_block_tests += n_facets;
   const abut_status status =
-      reserve_block(s->context, b, (int32_t)n_facets + 8);
+      reserve_block(s->context, b, (int32_t)n_facets + PAD);
   if (status != ABUT_SUCCESS)
     return status;
   const int64_t stride = b->slot.capacity;
@@ -172,50 +190,53 @@ fill_block(abut_search *s, const abut_runs *runs, const batch *q, double skin)
   int32_t n = 0;
   for (int d = 0; d < 3; ++d)
     b->origin[d] = 0.5 * (q->block_lower[d] + q->block_upper[d]);
+  /* Without branches: which ones touch cannot be predicted. */
   for (int32_t r = 0; r < runs->n; ++r)
     for (int32_t i = runs->run[r].first; i < runs->run[r].last; ++i)
     {
-      const abut_record *f = records + i;
-      if (!abut_record_near_box(f, q->block_lower, q->block_upper, skin))
-        continue;
-      const double reach = f->reach + skin;
-      for (int d = 0; d < 3; ++d)
-      {
-        box[d * stride + n] = round_down(f->lower[d] - reach - b->origin[d]);
-        box[(3 + d) * stride + n] =
-            round_up(f->upper[d] + reach - b->origin[d]);
-      }
-      slot[n++] = i;
+      slot[n] = i;
+      n += abut_record_near_box(records + i, q->block_lower, q->block_upper,
+                                skin);
     }
+  for (int32_t i = 0; i < n; ++i)
+  {
+    const abut_record *f = records + slot[i];
+    const double reach = f->reach + skin;
+    for (int d = 0; d < 3; ++d)
+    {
+      box[d * stride + i] = round_down(f->lower[d] - reach - b->origin[d]);
+      box[(3 + d) * stride + i] = round_up(f->upper[d] + reach - b->origin[d]);
+    }
+  }
   b->n = n;
+  pad_block(b);
   return ABUT_SUCCESS;
 }
 
-/* hit[i] = whether box i of the block touches the query. */
+/* hit[i] = whether box i of the block touches the query; n is a multiple of
+ * PAD. */
 static void
 test_boxes(const float *restrict box, int64_t stride, int32_t n,
-           const float *restrict q, uint8_t *restrict hit)
+           const float *restrict q, int32_t *restrict hit)
 {
   const float *restrict l0 = box, *restrict l1 = box + stride;
   const float *restrict l2 = box + 2 * stride;
   const float *restrict u0 = box + 3 * stride, *restrict u1 = box + 4 * stride;
   const float *restrict u2 = box + 5 * stride;
   const float a0 = q[0], a1 = q[1], a2 = q[2], b0 = q[3], b1 = q[4], b2 = q[5];
-  for (int32_t i = 0; i < n; ++i)
-    hit[i] = (uint8_t)((l0[i] <= b0) & (u0[i] >= a0) & (l1[i] <= b1)
-                       & (u1[i] >= a1) & (l2[i] <= b2) & (u2[i] >= a2));
+  for (int32_t i = 0; i < n; i += PAD)
+    for (int32_t j = i; j < i + PAD; ++j)
+      hit[j] = (l0[j] <= b0) & (u0[j] >= a0) & (l1[j] <= b1) & (u1[j] >= a1)
+               & (l2[j] <= b2) & (u2[j] >= a2);
 }
 
-/* Pairs of one query into slots; returns their number. */
+/* Places of the facets in the block that a query touches in single precision;
+ * returns their number. */
 static int32_t
-answer(abut_search *s, const abut_query *q, const double *lower,
-       const double *upper, double skin, int32_t *slots)
+touch(const abut_block *b, const double *lower, const double *upper)
 {
-  abut_block *b = &s->block;
-  const abut_record *records = s->records.data;
-  const int32_t *slot = b->slot.data;
-  uint8_t *hit = b->hit.data;
-  const int32_t padded = (b->n + 7) / 8 * 8;
+  const int32_t *restrict hit = b->hit.data;
+  int32_t *restrict near = b->near.data;
   float bounds[6];
   int32_t n = 0;
   for (int d = 0; d < 3; ++d)
@@ -223,24 +244,60 @@ answer(abut_search *s, const abut_query *q, const double *lower,
     bounds[d] = round_down(lower[d] - b->origin[d]);
     bounds[3 + d] = round_up(upper[d] - b->origin[d]);
   }
-  test_boxes(b->box.data, b->slot.capacity, b->n, bounds, hit);
-  memset(hit + b->n, 0, (size_t)(padded - b->n));
-  s->statistics.n_box_tests += b->n;
-  for (int32_t i = 0; i < padded; i += 8)
+  test_boxes(b->box.data, b->slot.capacity, b->n_padded, bounds, b->hit.data);
+  for (int32_t i = 0; i < b->n; ++i)
   {
-    uint64_t word;
-    memcpy(&word, hit + i, 8);
-    if (word == 0)
-      continue;
-    for (int32_t j = i; j < i + 8; ++j)
-    {
-      if (hit[j] == 0)
-        continue;
-      const abut_record *r = records + slot[j];
-      slots[n] = slot[j];
-      n += q->points != NULL ? abut_record_near_point(r, lower, skin)
-                             : abut_record_near_box(r, lower, upper, skin);
-    }
+    near[n] = i;
+    n += hit[i];
+  }
+  return n;
+}
+
+/* Pairs of one query into slots; returns their number. */
+static int32_t
+answer_point(const abut_search *s, const double *x, double skin,
+             int32_t *restrict slots)
+{
+  const abut_block *b = &s->block;
+  const abut_record *records = s->records.data;
+  const int32_t *slot = b->slot.data, *near = b->near.data;
+  const int32_t n_near = touch(b, x, x);
+  int32_t n = 0, nearest = 0;
+  double least = INFINITY;
+  for (int32_t i = 0; i < n_near; ++i)
+  {
+    const int32_t at = slot[near[i]];
+    double square;
+    const int in = abut_record_near_point(records + at, x, skin, &square);
+    const int better = in & (square < least);
+    slots[n] = at;
+    least = better ? square : least;
+    nearest = better ? n : nearest;
+    n += in;
+  }
+  if (n > 0)
+  {
+    const int32_t swap = slots[0];
+    slots[0] = slots[nearest];
+    slots[nearest] = swap;
+    abut_prefetch_facet(s->surface, records[slots[0]].facet);
+  }
+  return n;
+}
+
+static int32_t
+answer_box(const abut_search *s, const double *lower, const double *upper,
+           double skin, int32_t *restrict slots)
+{
+  const abut_block *b = &s->block;
+  const abut_record *records = s->records.data;
+  const int32_t *slot = b->slot.data, *near = b->near.data;
+  const int32_t n_near = touch(b, lower, upper);
+  int32_t n = 0;
+  for (int32_t i = 0; i < n_near; ++i)
+  {
+    slots[n] = slot[near[i]];
+    n += abut_record_near_box(records + slots[n], lower, upper, skin);
   }
   return n;
 }
@@ -273,10 +330,16 @@ answer_block(abut_search *s, const abut_query *q, const batch *b, double skin,
   if (status != ABUT_SUCCESS)
     return status;
   int32_t *slot = list->slot.data;
+  s->statistics.n_box_tests += (int64_t)b->n * s->block.n;
   for (int32_t i = 0; i < b->n; ++i, ++list->n)
+  {
+    int32_t *to = slot + start[list->n];
     start[list->n + 1] =
         start[list->n]
-        + answer(s, q, b->lower[i], b->upper[i], skin, slot + start[list->n]);
+        + (q->points != NULL
+               ? answer_point(s, b->lower[i], skin, to)
+               : answer_box(s, b->lower[i], b->upper[i], skin, to));
+  }
   return ABUT_SUCCESS;
 }
 
@@ -284,55 +347,74 @@ answer_block(abut_search *s, const abut_query *q, const batch *b, double skin,
  * test. */
 static abut_status
 answer_all_pairs(abut_search *s, const abut_query *q, double skin,
-                 abut_list *list)
+                 abut_list *list, abut_consume consume, void *user)
 {
   const abut_record *records = s->records.data;
   int64_t *start = list->start.data;
   int32_t *order = list->order.data;
-  for (int32_t i = 0; i < q->n; ++i)
+  abut_status status = ABUT_SUCCESS;
+  for (int32_t i = 0; i < q->n && status == ABUT_SUCCESS; ++i)
   {
-    double lower[3], upper[3];
-    const abut_status status =
-        abut_array_reserve(s->context, &list->slot, start[i], start[i] + s->n);
+    double lower[3], upper[3], square;
+    const int32_t k = list->n;
+    status =
+        abut_array_reserve(s->context, &list->slot, start[k], start[k] + s->n);
     if (status != ABUT_SUCCESS)
       return status;
     int32_t *slot = list->slot.data;
-    int64_t n = start[i];
+    int64_t n = start[k];
     query_box(q, i, lower, upper);
     for (int32_t f = 0; f < s->n; ++f)
     {
       slot[n] = f;
       n += q->points != NULL
-               ? abut_record_near_point(records + f, lower, skin)
+               ? abut_record_near_point(records + f, lower, skin, &square)
                : abut_record_near_box(records + f, lower, upper, skin);
     }
-    order[i] = i;
-    start[i + 1] = n;
+    order[k] = i;
+    start[k + 1] = n;
+    list->n = k + 1;
+    if (consume != NULL)
+    {
+      const abut_answers answers = {1, order, start, slot};
+      status = consume(user, &answers);
+      list->n = 0;
+    }
   }
   s->statistics.n_box_tests += (int64_t)q->n * s->n;
-  list->n = q->n;
-  return ABUT_SUCCESS;
+  return status;
+}
+
+abut_status
+abut_search_fit(abut_context *context, abut_array *array, int64_t n)
+{
+  if (n <= array->capacity)
+    return ABUT_SUCCESS;
+  abut_array_release(context, array);
+  return abut_array_reserve(context, array, 0, n);
 }
 
 static abut_status
-reserve_list(abut_search *s, const abut_query *q, abut_list *list)
+reserve_list(abut_search *s, int32_t n_queries, int32_t n_listed,
+             abut_list *list)
 {
   abut_status status =
-      abut_array_reserve(s->context, &list->order, 0, (int64_t)q->n + 1);
+      abut_search_fit(s->context, &list->order, (int64_t)n_listed + 1);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &list->start, 0, (int64_t)q->n + 1);
+    status = abut_search_fit(s->context, &list->start, (int64_t)n_listed + 1);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &s->items, 0, q->n);
+    status = abut_search_fit(s->context, &s->items, n_queries);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &s->room, 0, q->n);
+    status = abut_search_fit(s->context, &s->room, n_queries);
   return status;
 }
 
 abut_status
 abut_search_list(abut_search *s, const abut_query *q, double skin,
-                 abut_list *list)
+                 abut_list *list, abut_consume consume, void *user)
 {
-  abut_status status = reserve_list(s, q, list);
+  const int32_t n_listed = consume == NULL || q->n < BLOCK ? q->n : BLOCK;
+  abut_status status = reserve_list(s, q->n, n_listed, list);
   if (status != ABUT_SUCCESS)
     return status;
   list->n = 0;
@@ -340,20 +422,42 @@ abut_search_list(abut_search *s, const abut_query *q, double skin,
   if (s->n == 0)
     return ABUT_SUCCESS;
   if (s->options.algorithm == ABUT_SEARCH_ALL_PAIRS)
-    return answer_all_pairs(s, q, skin, list);
+    return answer_all_pairs(s, q, skin, list, consume, user);
   abut_keyed *items = s->items.data;
   const int32_t n = key_queries(s, q, skin, items);
   abut_order_sort(items, s->room.data, n);
-  int32_t *order = list->order.data;
-  for (int32_t i = 0; i < n; ++i)
-    order[i] = items[i].index;
   for (int32_t i = 0; i < n && status == ABUT_SUCCESS;)
   {
     batch b;
     const int32_t end = block_end(items, i, n);
+    int32_t *order = (int32_t *)list->order.data + list->n;
+    for (int32_t k = i; k < end; ++k)
+      order[k - i] = items[k].index;
     load_batch(q, items + i, end - i, &b);
     status = answer_block(s, q, &b, skin, list);
+    if (status == ABUT_SUCCESS && consume != NULL)
+    {
+      const abut_answers answers = {list->n, order, list->start.data,
+                                    list->slot.data};
+      status = consume(user, &answers);
+      list->n = 0;
+    }
     i = end;
+  }
+  return status;
+}
+
+abut_status
+abut_list_consume(const abut_list *list, abut_consume consume, void *user)
+{
+  const int32_t *order = list->order.data;
+  const int64_t *start = list->start.data;
+  abut_status status = ABUT_SUCCESS;
+  for (int32_t k = 0; k < list->n && status == ABUT_SUCCESS; k += BLOCK)
+  {
+    const abut_answers answers = {list->n - k < BLOCK ? list->n - k : BLOCK,
+                                  order + k, start + k, list->slot.data};
+    status = consume(user, &answers);
   }
   return status;
 }

@@ -94,20 +94,35 @@ abut_record_compute(const abut_surface *s, int32_t f, const abut_reach *reach,
   record->group = abut_surface_group(s, f);
 }
 
-void
-abut_record_compute_all(const abut_surface *s, int32_t n, const int32_t *order,
-                        const abut_reach *reach, abut_record *records)
+/* As compute(), without what needs roots. */
+static inline double
+extent_quad4(const double *x0, const double *x1, const double *x2,
+             const double *x3, double *lower, double *upper)
 {
-  for (int32_t i = 0; i < n; ++i)
-    abut_record_compute(s, order != NULL ? order[i] : i, reach, records + i);
+  for (int d = 0; d < 3; ++d)
+  {
+    lower[d] = min2(min2(x0[d], x1[d]), min2(x2[d], x3[d]));
+    upper[d] = max2(max2(x0[d], x1[d]), max2(x2[d], x3[d]));
+  }
+  return sqrt(max2(max2(square_distance(x0, x1), square_distance(x1, x3)),
+                   max2(square_distance(x3, x2), square_distance(x2, x0))));
 }
 
 void
 abut_record_extent(const abut_surface *s, int32_t f, double *lower,
                    double *upper, double *size)
 {
+  if (s->uniform_kind == ABUT_FACET_QUAD4)
+  {
+    const int32_t *c = s->view.connectivity + 4 * (int64_t)f;
+    const double *p = s->view.position;
+    *size = extent_quad4(p + 3 * (int64_t)c[0], p + 3 * (int64_t)c[1],
+                         p + 3 * (int64_t)c[2], p + 3 * (int64_t)c[3], lower,
+                         upper);
+    return;
+  }
   abut_record r;
-  compute(s, f, &r);
+  compute_general(s, f, &r);
   for (int d = 0; d < 3; ++d)
   {
     lower[d] = r.lower[d];

@@ -9,13 +9,15 @@
 
 typedef struct abut_record
 {
+  /* First line: what decides whether the facet is near. */
   double lower[3]; /* box of the facet */
   double upper[3];
+  double reach; /* max(reach, relative reach * size) */
+  double radius;
+  /* Second line. */
   double centre[3];
   double normal[3]; /* unit mean normal */
-  double radius;
-  double reach; /* max(reach, relative reach * size) */
-  double size;  /* longest side */
+  double size;      /* longest side */
   int32_t facet;
   int32_t group;
 } abut_record;
@@ -34,9 +36,11 @@ abut_reach_of(const abut_reach *reach, double size)
   return relative > reach->absolute ? relative : reach->absolute;
 }
 
-/* Whether point and facet are a pair when the reach is enlarged by skin. */
+/* Whether point and facet are a pair when the reach is enlarged by skin;
+ * *square is the squared distance to the centre. */
 static inline int
-abut_record_near_point(const abut_record *r, const double *x, double skin)
+abut_record_near_point(const abut_record *r, const double *x, double skin,
+                       double *square)
 {
   const double reach = r->reach + skin;
   int in = 1;
@@ -47,6 +51,7 @@ abut_record_near_point(const abut_record *r, const double *x, double skin)
     d2 += (x[d] - r->centre[d]) * (x[d] - r->centre[d]);
   }
   const double limit = reach + r->radius;
+  *square = d2;
   return in & (d2 <= limit * limit);
 }
 
@@ -66,13 +71,29 @@ abut_record_near_box(const abut_record *r, const double *lower,
 void abut_record_compute(const abut_surface *surface, int32_t f,
                          const abut_reach *reach, abut_record *record);
 
-/* Records of the facets order[0..n-1] (NULL: 0..n-1) into records. */
-void abut_record_compute_all(const abut_surface *surface, int32_t n,
-                             const int32_t *order, const abut_reach *reach,
-                             abut_record *records);
-
 /* Box and longest side of facet f: what sorting needs. */
 void abut_record_extent(const abut_surface *surface, int32_t f, double *lower,
                         double *upper, double *size);
+
+/* Ask for the nodes of facet f: first stage the connectivity, then, some
+ * facets later, the positions. */
+static inline void
+abut_prefetch_facet(const abut_surface *s, int32_t f)
+{
+  __builtin_prefetch(s->view.facet_start + f);
+  if (s->uniform_kind == ABUT_FACET_QUAD4)
+    __builtin_prefetch(s->view.connectivity + 4 * (int64_t)f);
+}
+
+static inline void
+abut_prefetch_nodes(const abut_surface *s, int32_t f)
+{
+  const int32_t first = s->view.facet_start[f];
+  const int32_t n = s->view.facet_start[f + 1] - first;
+  for (int32_t a = 0; a < n; ++a)
+    __builtin_prefetch(s->view.position
+                       + (int64_t)s->view.dimension
+                             * s->view.connectivity[first + a]);
+}
 
 #endif

@@ -161,7 +161,7 @@ abut_skin_list_make(abut_skin_list *l, abut_search *s,
   l->search = NULL;
   abut_status status = abut_search_query_of(s, secondary, facets, &query);
   if (status == ABUT_SUCCESS)
-    status = abut_search_list(s, &query, s->skin, &l->list);
+    status = abut_search_list(s, &query, s->skin, &l->list, NULL, NULL);
   if (status == ABUT_SUCCESS && s->skin > 0)
     status = remember(s->context, s->surface, &l->primary_position);
   if (status == ABUT_SUCCESS && s->skin > 0)

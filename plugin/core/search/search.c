@@ -5,6 +5,11 @@
 #include <math.h>
 #include <string.h>
 
+enum
+{
+  AHEAD = 8 /* facets between a prefetch and its use */
+};
+
 static const char *const names[ABUT_SEARCH_N_ALGORITHMS] = {
     "all pairs", "uniform buckets", "adaptive buckets"};
 
@@ -71,7 +76,8 @@ prepare(abut_search *s)
                     {&s->query_box, sizeof(double)},
                     {&s->block.box, sizeof(float)},
                     {&s->block.slot, sizeof(int32_t)},
-                    {&s->block.hit, sizeof(uint8_t)}};
+                    {&s->block.near, sizeof(int32_t)},
+                    {&s->block.hit, sizeof(int32_t)}};
   for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
     list[i].array->element = list[i].element;
   abut_list_prepare(&s->list);
@@ -114,10 +120,10 @@ abut_search_destroy(abut_search **search)
   if (s == NULL)
     return ABUT_SUCCESS;
   abut_array *arrays[] = {
-      &s->records,   &s->sites,      &s->items,           &s->room,
-      &s->runs,      &s->query_box,  &s->tree.groups,     &s->grid.cell_key,
-      &s->block.box, &s->grid.table, &s->grid.cell_start, &s->block.hit,
-      &s->block.slot};
+      &s->records,    &s->sites,      &s->items,           &s->room,
+      &s->runs,       &s->query_box,  &s->tree.groups,     &s->grid.cell_key,
+      &s->block.box,  &s->grid.table, &s->grid.cell_start, &s->block.hit,
+      &s->block.slot, &s->block.near};
   for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); ++i)
     abut_array_release(s->context, arrays[i]);
   abut_list_release(s->context, &s->list);
@@ -183,6 +189,8 @@ compute_sites(abut_search *s)
   for (int32_t f = 0; f < s->n; ++f)
   {
     double lower[3], upper[3], size, half = 0;
+    if (f + AHEAD < s->n)
+      abut_prefetch_nodes(s->surface, f + AHEAD);
     abut_record_extent(s->surface, f, lower, upper, &size);
     for (int d = 0; d < 3; ++d)
     {
@@ -228,15 +236,12 @@ reserve(abut_search *s)
   {
     abut_array *array;
     int64_t n;
-  } const list[] = {{&s->records, n},
-                    {&s->sites, n},
-                    {&s->items, n},
-                    {&s->room, n},
-                    {&s->runs, n}};
+  } const list[] = {
+      {&s->records, n}, {&s->sites, n}, {&s->items, n}, {&s->room, n}};
   for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
   {
     const abut_status status =
-        abut_array_reserve(s->context, list[i].array, 0, list[i].n);
+        abut_search_fit(s->context, list[i].array, list[i].n);
     if (status != ABUT_SUCCESS)
       return status;
   }
@@ -250,7 +255,14 @@ compute_records(abut_search *s)
   abut_record *records = s->records.data;
   const abut_keyed *items = s->items.data;
   for (int32_t i = 0; i < s->n; ++i)
+  {
+    if (i + 2 * AHEAD < s->n)
+    {
+      abut_prefetch_facet(s->surface, items[i + 2 * AHEAD].index);
+      abut_prefetch_nodes(s->surface, items[i + AHEAD].index);
+    }
     abut_record_compute(s->surface, items[i].index, &s->reach, records + i);
+  }
 }
 
 static abut_status
@@ -265,7 +277,10 @@ sort_facets(abut_search *s)
   z->n_buckets = 1;
   if (s->options.algorithm == ABUT_SEARCH_ALL_PAIRS)
   {
-    abut_record_compute_all(s->surface, s->n, NULL, &s->reach, s->records.data);
+    abut_keyed *items = s->items.data;
+    for (int32_t f = 0; f < s->n; ++f)
+      items[f].index = f;
+    compute_records(s);
     return ABUT_SUCCESS;
   }
   compute_sites(s);
@@ -277,12 +292,16 @@ sort_facets(abut_search *s)
     status = abut_grid_build(s->context, &s->grid, s->sites.data, s->n, edge,
                              s->items.data, s->room.data);
     compute_records(s);
+    if (status == ABUT_SUCCESS)
+      status = abut_search_fit(s->context, &s->runs, s->grid.n_cells);
     z->n_buckets = s->grid.n_cells;
     z->bucket_edge = s->grid.edge;
     z->bucket_raised = s->grid.raised;
     return status;
   }
   status = abut_tree_reserve(s->context, &s->tree, s->n, choose_capacity(s));
+  if (status == ABUT_SUCCESS)
+    status = abut_search_fit(s->context, &s->runs, s->tree.n_buckets);
   if (status != ABUT_SUCCESS)
     return status;
   abut_tree_order(&s->tree, s->sites.data, s->n, s->items.data, s->room.data);
@@ -301,7 +320,14 @@ refit(abut_search *s)
 {
   abut_record *records = s->records.data;
   for (int32_t i = 0; i < s->n; ++i)
+  {
+    if (i + 2 * AHEAD < s->n)
+    {
+      abut_prefetch_facet(s->surface, records[i + 2 * AHEAD].facet);
+      abut_prefetch_nodes(s->surface, records[i + AHEAD].facet);
+    }
     abut_record_compute(s->surface, records[i].facet, &s->reach, records + i);
+  }
   if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
     return abut_grid_refit(&s->grid, records);
   if (s->options.algorithm == ABUT_SEARCH_ADAPTIVE_BUCKETS)

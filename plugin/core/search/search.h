@@ -26,9 +26,11 @@ typedef struct abut_block
 {
   double origin[3];
   int32_t n;
-  abut_array box;  /* float, [6][capacity]: lower x, y, z, upper x, y, z */
-  abut_array slot; /* int32_t */
-  abut_array hit;  /* uint8_t */
+  int32_t n_padded; /* with empty boxes at the end */
+  abut_array box;   /* float, [6][capacity]: lower x, y, z, upper x, y, z */
+  abut_array slot;  /* int32_t */
+  abut_array hit;   /* int32_t */
+  abut_array near;  /* int32_t, places of hits */
 } abut_block;
 
 struct abut_search
@@ -66,9 +68,33 @@ typedef struct abut_query
   const double *boxes;  /* [6 * n] lower, upper */
 } abut_query;
 
-/* Answer a query into list; the search must be up to date. */
+/* Answers to a few queries: query order[k] has the records slot[start[k]] ..
+ * slot[start[k + 1] - 1]; the one with the nearest centre comes first. */
+typedef struct abut_answers
+{
+  int32_t n;
+  const int32_t *order;
+  const int64_t *start;
+  const int32_t *slot;
+} abut_answers;
+
+/* Takes answers while they are in the cache. */
+typedef abut_status (*abut_consume)(void *user, const abut_answers *answers);
+
+/* Answer a query; the search must be up to date. Either all answers go into
+ * list (consume is NULL), or each block's to consume, and list is scratch. */
 abut_status abut_search_list(abut_search *search, const abut_query *query,
-                             double skin, abut_list *list);
+                             double skin, abut_list *list, abut_consume consume,
+                             void *user);
+
+/* Hand the answers of a complete list to consume, a block at a time. */
+abut_status abut_list_consume(const abut_list *list, abut_consume consume,
+                              void *user);
+
+/* Room for exactly n elements, contents lost: for large arrays, where
+ * doubling would waste memory. */
+abut_status abut_search_fit(abut_context *context, abut_array *array,
+                            int64_t n);
 
 void abut_list_prepare(abut_list *list);
 void abut_list_release(abut_context *context, abut_list *list);
