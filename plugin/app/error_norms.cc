@@ -101,7 +101,7 @@ namespace abut::app
                          const dealii::Function<dim> &exact)
   {
     const auto &fe = dof_handler.get_fe();
-    const dealii::QGauss<dim> quadrature(fe.degree + 3);
+    const dealii::QGauss<dim> quadrature(fe.degree + 2);
     dealii::FEValues<dim> points(
         mapping, fe, quadrature,
         dealii::update_values | dealii::update_gradients

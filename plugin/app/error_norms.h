@@ -50,7 +50,7 @@ namespace abut::app
     double largest_node; /**< largest error at a node */
   };
 
-  /** Integrate the error by Gauss' formula of degree+3 points per direction.
+  /** Integrate the error by Gauss' formula of degree+2 points per direction.
    * @p solution is ghosted. Collective. */
   template <int dim>
   ErrorNorms error_norms(const dealii::Mapping<dim> &mapping,

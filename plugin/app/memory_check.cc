@@ -48,13 +48,13 @@ namespace abut::app
                          const unsigned int n_components)
   {
     const double dofs = n_dofs(dim, n_cells, degree, n_components);
-    // A row of degree 1 has 3^dim entries, of degree 2 on average 4^dim; an
-    // entry takes 12 bytes in the matrix, as much in its condensed copy, in
-    // the pattern it is made from, and in the multigrid hierarchy with its
-    // products.
+    // A row of degree 1 has 3^dim entries, of degree 2 on average 4^dim. The
+    // factors are fitted to the peak memory of runs on uniform meshes (bytes
+    // per unknown, degrees 1 and 2: 1155 and 1070 in 2D, 2100 and 2360 in 3D)
+    // and are at most a sixth too large.
     const double entries = dofs * std::pow(degree + 2., dim) * n_components;
-    const double mesh = n_cells * (dim == 2 ? 350. : 900.);
-    return mesh + 60. * entries + 400. * dofs;
+    const double mesh = n_cells * (dim == 2 ? 440. : 750.);
+    return mesh + 35. * entries + 400. * dofs;
   }
 
   double available_bytes(MPI_Comm communicator)

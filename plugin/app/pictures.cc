@@ -44,6 +44,16 @@ namespace abut::app
       return result;
     }
 
+    /** The title, and in 3D the plane that is shown. */
+    std::string full_title(const std::string &title, const Raster &raster)
+    {
+      if (std::isnan(raster.z))
+        return quoted(title);
+      std::ostringstream text;
+      text << title << ", plane z = " << raster.z;
+      return quoted(text.str());
+    }
+
     /** Data block of lines "x y value", an empty line after each row; every
      * @p stride -th point, the outermost included. */
     std::string grid_block(const std::string &name, const Raster &raster,
@@ -134,8 +144,9 @@ namespace abut::app
            << grid_block("fine", raster, values, 1)
            << grid_block("coarse", raster, values, surface_stride)
            << grid_block("middle", raster, values, lines_stride) << palette
-           << "set multiplot title " << quoted(title) << " font ',16'\n"
-           << "unset key\nunset grid\n"
+           << "set multiplot title " << full_title(title, raster)
+           << " font ',16'\n"
+           << "unset key\nunset grid\nset format z '%g'\nset format cb '%g'\n"
            << ranges(raster) << "set cbrange [" << low << ':' << low + range
            << "]\n"
            << "set contour base\nset cntrparam levels incremental "
@@ -173,10 +184,11 @@ namespace abut::app
                    const std::vector<StatusWord> &words,
                    const std::string &title)
   {
-    // Okabe and Ito's colours, the first a quiet grey for what is open.
+    // Dark colours of Okabe and Ito's for what is in contact, pale ones for
+    // the first two, which are not.
     static const std::vector<const char *> colours = {
-        "#e8e8e8", "#d55e00", "#0072b2", "#009e73",
-        "#f0e442", "#cc79a7", "#56b4e9"};
+        "#f2f2f2", "#c6dff0", "#d55e00", "#0072b2",
+        "#009e73", "#f0e442", "#cc79a7"};
     const std::vector<double> &values = raster.fields.at(field);
     std::vector<double> kinds(values.size(),
                               std::numeric_limits<double>::quiet_NaN());
@@ -193,7 +205,7 @@ namespace abut::app
     script << gnuplot_header(name, 640, map_height(raster, 500, 130))
            << "set datafile missing 'NaN'\n"
            << grid_block("kinds", raster, kinds, 1) << "set title "
-           << quoted(title) << " font ',15'\n"
+           << full_title(title, raster) << " font ',15'\n"
            << ranges(raster)
            << "set size ratio -1\nunset grid\nunset colorbox\n"
            << "set xlabel 'x'\nset ylabel 'y'\n"
@@ -315,7 +327,7 @@ namespace abut::app
              << above << '\n';
     if (!below.empty())
       script << "unset logscale y\nset format y '%g'\nset yrange [0:"
-             << 1.1 * top << "]\nset ytics "
+             << 1.4 * top << "]\nset ytics "
              << std::max(1., level_step(1.5 * top)) << "\n"
              << "set ylabel 'number'\nset xlabel 'degrees of freedom'\n"
              << "set key top left\n"

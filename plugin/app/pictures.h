@@ -31,7 +31,8 @@ namespace abut::app
   };
 
   /** `<name>.svg`: map of a status field, one flat colour per value, with a
-   * legend of the values that occur. */
+   * legend of the values that occur. The first two words get pale colours: for
+   * what is not in contact. */
   bool draw_status(Report &report, const std::filesystem::path &folder,
                    const std::string &name, const Raster &raster,
                    std::size_t field, const std::vector<StatusWord> &words,

@@ -26,7 +26,8 @@ namespace abut::app
     double x_max = 0;
     double y_min = 0;
     double y_max = 0;
-    double z = 0; /**< height of the plane in 3D */
+    /** Height of the plane in 3D, NaN in 2D. */
+    double z = std::numeric_limits<double>::quiet_NaN();
     /** One array per field, x fastest; NaN outside the mesh. */
     std::vector<std::vector<double>> fields;
 

@@ -458,7 +458,7 @@ namespace
     Report report(MPI_COMM_WORLD, true);
     draw_solution(report, folder, "solution", raster, 0, "Membrane's height");
     draw_status(report, folder, "active", raster, 1,
-                {{0, "open"}, {1, "contact"}, {2, "upper"}}, "Active set");
+                {{2, "none"}, {0, "open"}, {1, "contact"}}, "Active set");
     draw_convergence(
         report, folder, "convergence",
         {{"L2 error", {{100, 1e-1}, {400, 2.5e-2}, {1600, 6e-3}, {6400, 0}}},
