@@ -13,6 +13,7 @@
 #include <abut/export.h>
 #include <abut/facet.h>
 #include <abut/law.h>
+#include <abut/parts.h>
 #include <abut/projection.h>
 #include <abut/rows.h>
 #include <abut/search.h>

@@ -2,6 +2,8 @@
 /* Every search algorithm finds the pairs of the definition, on all scenes. */
 #include "scenes.h"
 
+#include "geometry/clip.h"
+
 #include <abut/search.h>
 
 #include <math.h>
@@ -201,6 +203,67 @@ matching_grids_have_four_pairs_per_facet(void **state)
   assert_int_equal(compare_all(plane(ABUT_FACET_QUAD4, n, 0, false),
                                plane(ABUT_FACET_QUAD4, n, 0, true), 0, 0.5),
                    4 * n * n);
+}
+
+static int32_t
+gcd(int32_t a, int32_t b)
+{
+  return b == 0 ? a : gcd(b, a % b);
+}
+
+static void
+corners_of(const scene_mesh *m, int32_t f, double *x)
+{
+  for (int a = 0; a < 4; ++a)
+    for (int d = 0; d < 3; ++d)
+      x[3 * a + d] = m->position[3 * m->connectivity[4 * f + a] + d];
+}
+
+/* Lines at i / n1 and j / n2 cut the unit interval into n1 + n2 - gcd pieces,
+ * so that many squared pairs of facets have a common area, and the areas sum
+ * to one. */
+static void
+clipped_pairs_of_flat_grids(void **state)
+{
+  (void)state;
+  static const int32_t n[4][2] = {{12, 9}, {7, 5}, {16, 24}, {1, 6}};
+  for (int k = 0; k < 4; ++k)
+    for (int algorithm = 0; algorithm < ABUT_SEARCH_N_ALGORITHMS; ++algorithm)
+    {
+      scene_mesh a = plane(ABUT_FACET_QUAD4, n[k][0], 0, false);
+      scene_mesh b = plane(ABUT_FACET_QUAD4, n[k][1], 0.01, true);
+      abut_surface *s = surface_of(&a), *t = surface_of(&b);
+      abut_pairs *nodes = NULL, *facets = NULL;
+      abut_pairs_view v;
+      require(abut_pairs_create(context, &nodes));
+      require(abut_pairs_create(context, &facets));
+      const abut_search_options o =
+          options_of((abut_search_algorithm)algorithm, 0.02, 0);
+      run(s, t, &o, nodes, facets);
+      require(abut_pairs_get(facets, &v));
+      int32_t clipped = 0;
+      double area = 0;
+      for (int32_t i = 0; i < v.n_queries; ++i)
+        for (int64_t e = v.start[i]; e < v.start[i + 1]; ++e)
+        {
+          double x[12], y[12];
+          corners_of(&b, i, x);
+          corners_of(&a, v.facet[e], y);
+          const double common =
+              abut_facet_common_area(ABUT_FACET_QUAD4, x, ABUT_FACET_QUAD4, y);
+          clipped += common > 0;
+          area += common;
+        }
+      const int32_t pieces = n[k][0] + n[k][1] - gcd(n[k][0], n[k][1]);
+      assert_int_equal(clipped, pieces * pieces);
+      assert_float_equal(area, 1, 1e-12);
+      require(abut_pairs_destroy(&nodes));
+      require(abut_pairs_destroy(&facets));
+      require(abut_surface_destroy(&s));
+      require(abut_surface_destroy(&t));
+      scene_free(&a);
+      scene_free(&b);
+    }
 }
 
 static void
@@ -708,6 +771,7 @@ main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(flat_grids),
       cmocka_unit_test(matching_grids_have_four_pairs_per_facet),
+      cmocka_unit_test(clipped_pairs_of_flat_grids),
       cmocka_unit_test(sphere_patches),
       cmocka_unit_test(sphere_in_sphere),
       cmocka_unit_test(graded_ring),

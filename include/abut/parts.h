@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_PARTS_H
+#define ABUT_PARTS_H
+
+/** @file
+ * Surfaces in parts: what processes that hold parts of two surfaces need to
+ * detect contact as one. The library knows no network; it makes the boxes and
+ * the buffers that the caller sends.
+ *
+ * For each process, with its part of the secondary and the primary surface
+ * (all facets and nodes with numbers that are unique over all parts, nodes over
+ * both surfaces):
+ *
+ *   1  agree on the largest reach H = max(reach, relative_reach * largest
+ *      facet size) over all parts;
+ *   2  gather the bounds of all parts: abut_surface_bounds() of the secondary,
+ *      inflated by H;
+ *   3  for each peer abut_search_select() the primary facets near its bounds,
+ *      and abut_surface_pack() them;
+ *   4  exchange the buffers, abut_surface_unpack() them with the own ones;
+ *   5  likewise with the secondary surface and the bounds inflated by 0: the
+ *      facets around the own nodes complete their normals;
+ *   6  detect. For nodes of own facets the result is that of the undivided
+ *      surfaces, bit for bit, if those were numbered in ascending order.
+ */
+
+#include <abut/search.h>
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+  /** Box parallel to the axes; in 2D the third components are 0. */
+  typedef struct abut_box
+  {
+    double lower[3];
+    double upper[3];
+  } abut_box;
+
+  /** Boxes that together contain all facets of a surface, inflated by @p
+   * reach: facets are cut into @p max_boxes runs along a space-filling curve.
+   * @param reach length >= 0
+   * @param max_boxes >= 1
+   * @param boxes [max_boxes] out
+   * @param n_boxes out: number of boxes, 0 for an empty surface
+   * O(n). */
+  ABUT_API abut_status abut_surface_bounds(abut_surface *surface, double reach,
+                                           int32_t max_boxes, abut_box *boxes,
+                                           int32_t *n_boxes);
+
+  /** Facets of the search whose box, inflated by their reach, touches any of
+   * the boxes.
+   * @param facets [number of facets of the surface] out: ascending
+   * @param n_facets out */
+  ABUT_API abut_status abut_search_select(abut_search *search, int32_t n_boxes,
+                                          const abut_box *boxes,
+                                          int32_t *facets, int32_t *n_facets);
+
+  /** Write facets with their nodes, numbers, groups and present positions into
+   * a buffer, for a process of the same kind of machine.
+   * @param facets [n_facets] facets of the surface, each at most once
+   * @param buffer NULL: only the size is asked for
+   * @param bytes in: room in the buffer; out: bytes needed or written
+   * INVALID_ARGUMENT if the room does not suffice. */
+  ABUT_API abut_status abut_surface_pack(abut_surface *surface,
+                                         int32_t n_facets,
+                                         const int32_t *facets, void *buffer,
+                                         size_t *bytes);
+
+  /** Make one surface of several buffers. Facets and nodes with the same
+   * number are taken once (the first one met); facets and nodes are arranged
+   * by number, so that the surface does not depend on how it was cut.
+   *
+   * INVALID_ARGUMENT for a buffer that abut_surface_pack() did not write, or
+   * was cut off. Neighbours across the rim of a part may be missing, so that
+   * orientation is not checked. */
+  ABUT_API abut_status abut_surface_unpack(abut_context *context,
+                                           int32_t dimension, int32_t n_buffers,
+                                           const void *const *buffers,
+                                           const size_t *bytes,
+                                           abut_surface **surface);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
