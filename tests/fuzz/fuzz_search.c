@@ -207,37 +207,60 @@ compare_searches(searches *s, const abut_surface *secondary, int32_t n,
 }
 
 static void
+require_same_contacts(abut_detection *one, abut_detection *two,
+                      int32_t n_facets)
+{
+  abut_detection_view a, b;
+  REQUIRE(abut_detection_get(one, &a) == ABUT_SUCCESS);
+  REQUIRE(abut_detection_get(two, &b) == ABUT_SUCCESS);
+  REQUIRE(a.n_nodes == b.n_nodes && a.n_paired == b.n_paired);
+  for (int32_t i = 0; i < a.n_nodes; ++i)
+  {
+    const abut_contact *c = &a.contact[i], *d = &b.contact[i];
+    REQUIRE(c->facet >= -1 && c->facet < n_facets);
+    REQUIRE(isfinite(c->gap) && c->distance >= 0.);
+    REQUIRE(c->facet == d->facet && c->gap == d->gap);
+  }
+}
+
+/* Detect by all pairs and by another algorithm. */
+static void
 run_detection(input *in, abut_context *context, abut_surface *secondary,
               abut_surface *primary, abut_search_options o)
 {
   abut_detection_options options = abut_detection_defaults();
-  abut_detection *detection = NULL;
-  options.search = o;
-  options.search.algorithm =
-      (abut_search_algorithm)(take_byte(in) % ABUT_SEARCH_N_ALGORITHMS);
+  abut_detection *detection[2] = {NULL, NULL};
+  abut_surface_view facets;
+  const int algorithm = take_byte(in) % ABUT_SEARCH_N_ALGORITHMS;
   options.self_contact = take_byte(in) % 2;
   options.normal_cosine = take_grid(in) / 8.;
-  if (abut_detection_create(context, secondary, primary, &options, &detection)
-      != ABUT_SUCCESS)
-    return;
-  if (take_byte(in) % 2)
-    (void)abut_detection_pair_groups(detection, take_byte(in) % 3,
-                                     take_byte(in) % 3);
-  for (int run = 0; run < 2; ++run)
+  const int one_pair = take_byte(in) % 2;
+  const int32_t groups[2] = {take_byte(in) % 3, take_byte(in) % 3};
+  int created = 0;
+  for (int k = 0; k < 2; ++k)
   {
-    if (abut_detection_run(detection, 0.1 * run) != ABUT_SUCCESS)
-      continue;
-    abut_detection_view view;
-    abut_detection_report report;
-    abut_surface_view facets;
-    REQUIRE(abut_detection_get(detection, &view) == ABUT_SUCCESS);
-    REQUIRE(abut_surface_get(primary, &facets) == ABUT_SUCCESS);
-    for (int32_t i = 0; i < view.n_nodes; ++i)
-      REQUIRE(view.facet[i] >= -1 && view.facet[i] < facets.n_facets
-              && isfinite(view.gap[i]));
-    REQUIRE(abut_detection_make_report(detection, &report) >= 0);
+    options.search = o;
+    options.search.algorithm =
+        k == 0 ? ABUT_SEARCH_ALL_PAIRS : (abut_search_algorithm)algorithm;
+    created += abut_detection_create(context, secondary, primary, &options,
+                                     &detection[k])
+               == ABUT_SUCCESS;
+    if (detection[k] && one_pair)
+      (void)abut_detection_pair_groups(detection[k], groups[0], groups[1]);
   }
-  REQUIRE(abut_detection_destroy(&detection) == ABUT_SUCCESS);
+  REQUIRE(abut_surface_get(primary, &facets) == ABUT_SUCCESS);
+  for (int run = 0; run < 2 && created == 2; ++run)
+  {
+    abut_detection_report report;
+    if (abut_detection_run(detection[0], 0.1 * run) != ABUT_SUCCESS
+        || abut_detection_run(detection[1], 0.1 * run) != ABUT_SUCCESS)
+      break;
+    require_same_contacts(detection[0], detection[1], facets.n_facets);
+    REQUIRE(abut_detection_make_report(detection[1], &report) >= 0);
+  }
+  for (int k = 0; k < 2; ++k)
+    if (detection[k])
+      REQUIRE(abut_detection_destroy(&detection[k]) == ABUT_SUCCESS);
 }
 
 static void

@@ -24,7 +24,7 @@ set_basis(abut_clip3 *c)
   double axis[3] = {0., 0., 0.};
   axis[k] = 1.;
   cross3(c->normal, axis, c->e1);
-  unit3(c->e1, 0.);
+  unit3(c->e1, ABUT_TINY);
   cross3(c->normal, c->e1, c->e2);
 }
 

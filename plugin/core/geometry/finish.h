@@ -24,7 +24,7 @@ tangent_offset(const double *r, const double *t1, const double *t2,
                const double *n, double *d)
 {
   const double nn = dot3(n, n), t11 = dot3(t1, t1), t22 = dot3(t2, t2);
-  if (nn > ABUT_PARALLEL * t11 * t22)
+  if (nn > ABUT_PARALLEL * t11 * t22 && nn > ABUT_TINY)
   {
     double s[3];
     cross3(r, t2, s);
@@ -52,7 +52,7 @@ finish3(const double *origin, const double *y, const double *t1,
   p->distance = norm3(r);
   if (regular)
   {
-    unit3(p->normal, 0.);
+    unit3(p->normal, ABUT_TINY);
     p->gap = dot3(r, p->normal);
   }
   else

@@ -104,7 +104,7 @@ abut_facet_point(abut_facet_kind kind, const double *nodes, const double *local,
     t[1][2] = 1.; /* (tx, ty, 0) x (0, 0, 1) = (ty, -tx, 0) */
   cross3(t[0], t[1], v);
   const double l1 = dot3(t[0], t[0]), l2 = dot3(t[1], t[1]);
-  unit3(v, ABUT_PARALLEL * l1 * l2);
+  unit3(v, max2(ABUT_PARALLEL * l1 * l2, ABUT_TINY));
   for (int32_t d = 0; d < dim; ++d)
   {
     if (point)

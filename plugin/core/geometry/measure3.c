@@ -174,7 +174,7 @@ abut_measure3(abut_facet_kind kind, const double *nodes, abut_facet_measures *m,
     linear_area(kind, nodes, m->normal);
   else
     m->area = integrate_area(kind, nodes, m->normal);
-  *vector_area = unit3(m->normal, 0.);
+  *vector_area = unit3(m->normal, ABUT_TINY);
   measure_warping(kind, nodes, m->normal, &m->warping, lowest_cosine);
   m->diameter = largest_distance(nodes, n);
   if (kind == ABUT_FACET_TRI3

@@ -57,14 +57,14 @@ abut_part_area(const abut_part *part, double *normal)
     normal[0] = u[1];
     normal[1] = -u[0];
     normal[2] = 0.;
-    return unit3(normal, 0.);
+    return unit3(normal, ABUT_TINY);
   }
   /* Half the product of the diagonals; a triangle's second ends at its third
    * corner. */
   sub3(part->x[2], part->x[0], u);
   sub3(part->x[part->n - 1], part->x[1], v);
   cross3(u, v, normal);
-  return 0.5 * unit3(normal, 0.);
+  return 0.5 * unit3(normal, ABUT_TINY);
 }
 
 static double

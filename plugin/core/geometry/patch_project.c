@@ -283,7 +283,7 @@ surely_global(const abut_patch *patch, const double *x, const double *y)
   abut_patch_evaluate(patch, middle, middle, &p);
   cross3(p.y1, p.y2, n);
   const double l1 = norm3(p.y1), l2 = norm3(p.y2);
-  if (!(l1 > 0. && l2 > 0. && unit3(n, 0.) > 0.))
+  if (!(l1 > 0. && l2 > 0. && unit3(n, ABUT_TINY) > 0.))
     return 0;
   sub3(x, y, r);
   for (int k = 3; k < patch->n_terms; ++k)

@@ -35,12 +35,12 @@ abut_project_line2(const double *nodes, const double *x, abut_projection *p)
                        0.5 * (nodes[3] - nodes[1])};
   const double q[2] = {x[0] - o[0], x[1] - o[1]};
   const double tt = t[0] * t[0] + t[1] * t[1];
-  const double free_xi = tt > 0. ? (q[0] * t[0] + q[1] * t[1]) / tt : 0.;
+  const double free_xi = tt > ABUT_TINY ? (q[0] * t[0] + q[1] * t[1]) / tt : 0.;
   const double xi = clamp(free_xi, -1., 1.);
   const double y[2] = {xi * t[0], xi * t[1]}, r[2] = {q[0] - y[0], q[1] - y[1]};
   p->iterations = 0;
   p->converged = 1;
-  finish2(o, y, t, r, xi, free_xi, 0., p);
+  finish2(o, y, t, r, xi, free_xi, ABUT_TINY, p);
 }
 
 void
@@ -66,7 +66,8 @@ abut_project_line3(const double *nodes, const double *x, abut_projection *p)
     r[i] = q[i] - y[i];
   }
   const double tt = t[0] * t[0] + t[1] * t[1];
-  const double smallest = 1e-26 * (dot3(c[1], c[1]) + dot3(c[2], c[2]));
+  const double smallest =
+      max2(1e-26 * (dot3(c[1], c[1]) + dot3(c[2], c[2])), ABUT_TINY);
   /* A stationary point inside stays one whatever round-off says. */
   const double step =
       fabs(xi) < 1. || !(tt > smallest) ? 0. : (r[0] * t[0] + r[1] * t[1]) / tt;

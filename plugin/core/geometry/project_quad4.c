@@ -99,7 +99,7 @@ finish_inside(const quad4 *f, double xi, double eta, abut_projection *p)
     p->point[i] = f->c[i] + y;
   }
   cross3(t1, t2, p->normal);
-  unit3(p->normal, 0.);
+  unit3(p->normal, ABUT_TINY);
   p->gap = dot3(r, p->normal);
   p->distance = norm3(r);
   p->violation = 0.;
@@ -235,7 +235,7 @@ abut_project_quad4(const double *nodes, const double *x, abut_projection *p)
   quad4 f;
   load(nodes, x, &f);
   p->iterations = 0;
-  if (f.nn > ABUT_PARALLEL * f.aa * f.bb)
+  if (f.nn > ABUT_PARALLEL * f.aa * f.bb && f.nn > ABUT_TINY)
   {
     double s[3];
     const double scale = 1. / f.nn;
