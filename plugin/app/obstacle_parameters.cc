@@ -62,8 +62,10 @@ namespace abut::app
                         "from displacement 0.");
       prm.declare_entry("Coarse level tolerance", "1e-3",
                         Patterns::Double(0., 1.),
-                        "Final linear tolerance on all meshes but the last, "
-                        "whose results are only a start. Meshes whose results "
+                        "Linear, gap and pressure tolerance in the end on all "
+                        "meshes but the last, whose results are only a start "
+                        "(a thousandth of it for the barrier). Meshes whose "
+                        "results "
                         "are wanted (an exact solution is given, or `All "
                         "levels`) are solved to `Method/Final linear "
                         "tolerance`.");

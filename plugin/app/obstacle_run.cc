@@ -198,9 +198,19 @@ namespace abut::app
   {
     MethodParameters here = method;
     if (!last && !exact && !parameters.all_levels)
-      here.options.final_linear_tolerance = std::max(
-          here.options.final_linear_tolerance,
-          std::min(parameters.coarse_tolerance, here.options.linear_tolerance));
+    {
+      const double coarse = parameters.coarse_tolerance;
+      abut_strategy_options &o = here.options;
+      // Outer steps need linear solves that are finer than what they look at.
+      const double linear =
+          o.law->outer == ABUT_OUTER_NONE ? coarse : 1e-2 * coarse;
+      o.final_linear_tolerance = std::max(o.final_linear_tolerance,
+                                          std::min(linear, o.linear_tolerance));
+      o.gap_tolerance = std::max(o.gap_tolerance, coarse);
+      o.pressure_tolerance = std::max(o.pressure_tolerance, coarse);
+      o.barrier_end =
+          std::max(o.barrier_end, std::min(1e-3 * coarse, o.barrier_start));
+    }
     contact.set_parameters(here, solver);
   }
 
@@ -239,7 +249,7 @@ namespace abut::app
   {
     const abut_progress progress = contact.progress();
     present.linear += linear;
-    ++present.steps;
+    present.steps += linear.n_systems;
     steps.push_back({double(present.level), double(present.steps),
                      double(progress.n_active), double(progress.n_changes),
                      double(linear.n_iterations), double(linear.n_setups),

@@ -585,6 +585,7 @@ namespace abut
     while (i.request.action == ABUT_ACTION_SOLVE
            || i.request.action == ABUT_ACTION_SOLVE_AGAIN)
     {
+      report.n_systems += i.request.action == ABUT_ACTION_SOLVE;
       report +=
           i.solver->solve(residual, i.request, i.smallest_residual, increment);
       i.next();
@@ -744,13 +745,7 @@ namespace abut
     {
       const int u = i.unknown(row);
       s[u] = std::max(s[u], 0.);
-      const bool interior =
-          (i.method.options.law->flags & ABUT_LAW_INTERIOR) != 0;
-      const bool closed =
-          i.is_started
-          && (interior ? i.request.d_gap[row] > i.request.d_pressure[row]
-                       : i.request.state[row] != ABUT_STATE_OPEN);
-      if (closed)
+      if (i.is_started && i.request.state[row] != ABUT_STATE_OPEN)
         s[u] = i.is_upper(row) ? 2. : 1.;
     }
     result.compress(dealii::VectorOperation::insert);

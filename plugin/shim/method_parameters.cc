@@ -161,6 +161,15 @@ namespace abut
              : word == "saddle point" ? System::saddle_point
                                       : System::automatic;
     prm.leave_subsection();
+    AssertThrow(system != System::saddle_point
+                    || (options.law->flags & ABUT_LAW_HARD) != 0,
+                dealii::ExcMessage(
+                    std::string("Method/System = saddle point goes with "
+                                "Method/Enforcement = lagrange: with '")
+                    + options.law->name
+                    + "' each pressure follows from its gap, and unknowns of "
+                      "its own would only enlarge the system. Use auto or "
+                      "condensed."));
     AssertThrow(options.barrier_end <= options.barrier_start,
                 dealii::ExcMessage("Method/Barrier end is larger than "
                                    "Method/Barrier start."));

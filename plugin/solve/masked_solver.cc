@@ -4,8 +4,6 @@
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
 
-#include <Amesos.h>
-
 #include <cmath>
 
 namespace abut::solve
@@ -50,12 +48,6 @@ namespace abut::solve
     throw SolverFailure(text.str());
   }
 
-  std::string direct_solver_name()
-  {
-    Amesos factory;
-    return factory.Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
-  }
-
   MaskedSolver::MaskedSolver(const SolverParameters &parameters)
       : parameters_(parameters)
   {
@@ -97,13 +89,14 @@ namespace abut::solve
       }
       const double ratio = (diagonal_[i] + added(mask, i))
                            / (diagonal_[i] + added(built_mask_, i));
-      if (ratio > rebuild_factor || ratio * rebuild_factor < 1.)
+      // A factorisation is exact or nothing.
+      const double factor = is_direct() ? 1. : rebuild_factor;
+      if (ratio > factor || ratio * factor < 1.)
         counts[0] += 1.;
     }
     dealii::Utilities::MPI::sum(counts, matrix_->get_mpi_communicator(),
                                 counts);
-    // A factorisation is exact or nothing.
-    return is_direct() ? counts[0] > 0. || !mask.diagonal.empty()
+    return is_direct() ? counts[0] > 0.
                        : counts[0] > rebuild_fraction * counts[1];
   }
 
@@ -145,14 +138,7 @@ namespace abut::solve
     truncated_.copy_from(*matrix_);
     cut_off(mask.held, mask, true);
     if (is_direct())
-    {
-      direct_control_ = std::make_unique<dealii::SolverControl>();
-      direct_ = std::make_unique<dealii::TrilinosWrappers::SolverDirect>(
-          *direct_control_,
-          dealii::TrilinosWrappers::SolverDirect::AdditionalData(
-              false, direct_solver_name()));
-      direct_->initialize(truncated_);
-    }
+      direct_ = std::make_unique<DirectSolver>(truncated_);
     else
     {
       dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
@@ -168,10 +154,14 @@ namespace abut::solve
     speed_when_built_ = 0.;
   }
 
-  void MaskedSolver::solve_direct(const la::Vector &residual,
-                                  la::Vector &correction)
+  double MaskedSolver::load(const Mask &mask, const la::Vector &rhs) const
   {
-    direct_->solve(correction, residual);
+    la::Vector force(rhs);
+    zero_held(mask, force);
+    double *values = la::data(force);
+    for (std::size_t i = 0; i < mask.diagonal.size(); ++i)
+      values[i] *= diagonal_[i] / (diagonal_[i] + mask.diagonal[i]);
+    return force.l2_norm();
   }
 
   ScaledPreconditioner
@@ -257,7 +247,7 @@ namespace abut::solve
     if (residual.l2_norm() > tolerance)
     {
       if (is_direct())
-        solve_direct(residual, correction);
+        direct_->solve(correction, residual);
       else
       {
         const double digits = std::log10(residual.l2_norm() / tolerance);

@@ -2,11 +2,13 @@
 #ifndef ABUT_SOLVE_MASKED_SOLVER_H
 #define ABUT_SOLVE_MASKED_SOLVER_H
 
+#include "direct_solver.h"
+
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
 
+#include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_solver.h>
 
 #include <cstdint>
 #include <memory>
@@ -116,6 +118,12 @@ namespace abut::solve
                        double tolerance, la::Vector &x,
                        bool start_is_zero = false);
 
+    /** Norm of the forces that @p rhs puts on the free unknowns, where D adds
+     * to the diagonal k of K counted k / (k + D) times: very stiff springs
+     * then count no more than held unknowns do, though the forces in them are
+     * large at first. Tolerances are multiples of this norm. Collective. */
+    double load(const Mask &mask, const la::Vector &rhs) const;
+
     /** Make the preconditioner (or factorisation) fit the mask. Collective. */
     LinearReport prepare(const Mask &mask);
 
@@ -137,7 +145,6 @@ namespace abut::solve
     void cut_off(const std::vector<std::uint8_t> &held, const Mask &mask,
                  bool everything);
     void build(const Mask &mask);
-    void solve_direct(const la::Vector &residual, la::Vector &correction);
     unsigned int solve_iteratively(const Mask &mask, const la::Vector &residual,
                                    double tolerance, la::Vector &correction);
     void note_speed(double digits_per_iteration);
@@ -154,8 +161,7 @@ namespace abut::solve
     double speed_when_built_ = 0.;
     bool is_slow_ = false;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg_;
-    std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> direct_;
-    std::unique_ptr<dealii::SolverControl> direct_control_;
+    std::unique_ptr<DirectSolver> direct_;
   };
 
   /** Throw a SolverFailure that says what was seen. */
@@ -163,9 +169,6 @@ namespace abut::solve
   throw_failure(const std::string &method,
                 const dealii::SolverControl::NoConvergence &failure,
                 double tolerance);
-
-  /** Name of the best direct solver that Amesos has: MUMPS, else KLU. */
-  std::string direct_solver_name();
 } // namespace abut::solve
 
 #endif

@@ -145,19 +145,10 @@ namespace abut::solve
     fill_right_hand_side(residual, request, rhs);
     const bool start_is_zero = fill_held_values(request, increment);
 
-    // Relative to what is out of balance on the free unknowns.
-    double norm = 0.;
-    const double *values = la::data(rhs);
-    for (std::size_t i = 0; i < mask_.held.size(); ++i)
-      if (!mask_.held[i])
-        norm += values[i] * values[i];
-    norm = std::sqrt(
-        dealii::Utilities::MPI::sum(norm, stiffness_->get_mpi_communicator()));
-
-    LinearReport report = solver_.solve(
-        mask_, rhs,
-        std::max(request.linear_tolerance * norm, smallest_residual), increment,
-        start_is_zero);
+    const double tolerance = std::max(
+        request.linear_tolerance * solver_.load(mask_, rhs), smallest_residual);
+    LinearReport report =
+        solver_.solve(mask_, rhs, tolerance, increment, start_is_zero);
     recover(residual, request, increment);
     ++report.n_matvecs;
     return report;

@@ -309,11 +309,7 @@ namespace abut::solve
       la::data(right)[n_unknowns + k] = system.right[k];
     }
 
-    dealii::SolverControl control;
-    dealii::TrilinosWrappers::SolverDirect direct(
-        control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(
-                     false, direct_solver_name()));
-    direct.solve(matrix, solution, right);
+    DirectSolver(matrix).solve(solution, right);
     const double *values = la::data(solution);
     std::copy(values, values + n_unknowns, la::data(increment));
     multiplier.assign(values + n_unknowns,
@@ -358,7 +354,8 @@ namespace abut::solve
     }
     else
     {
-      double tolerance = request.linear_tolerance * system.force.l2_norm();
+      double tolerance =
+          request.linear_tolerance * leading_.load(system.added, system.force);
       tolerance = std::max(tolerance, smallest_residual);
       if (system.n_constraints > 0)
       {

@@ -51,6 +51,8 @@ namespace abut
   /** What linear solves have cost. */
   struct LinearReport
   {
+    unsigned int n_systems = 0;    /**< matrices with one right-hand side, or
+                                        two (interior point) */
     unsigned int n_iterations = 0; /**< of the Krylov method */
     unsigned int n_matvecs = 0;    /**< products with the matrix */
     unsigned int n_setups = 0;     /**< preconditioners or factorisations */
@@ -60,6 +62,7 @@ namespace abut
     /** Add the cost of another solve. */
     LinearReport &operator+=(const LinearReport &other)
     {
+      n_systems += other.n_systems;
       n_iterations += other.n_iterations;
       n_matvecs += other.n_matvecs;
       n_setups += other.n_setups;

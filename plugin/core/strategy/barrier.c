@@ -22,6 +22,29 @@ set_barrier(abut_strategy *s, double barrier)
   s->interior.error = INFINITY;
 }
 
+/* The mu that the start's pressures belong to: the mean of p g, each row
+ * weighed by its force. With no pressure, barrier_start. */
+static abut_status
+first_barrier(abut_strategy *s, double *barrier)
+{
+  const abut_strategy_options *options = &s->options;
+  double sum[2] = {0, 0};
+  for (int32_t i = 0; i < s->n; ++i)
+  {
+    const double force = s->weight[i] * fmax(s->pressure[i], 0);
+    sum[0] += force * s->pressure[i] * s->gap[i];
+    sum[1] += force;
+  }
+  const abut_status status =
+      abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, 2);
+  *barrier = options->barrier_start;
+  if (sum[1] > 0)
+    *barrier =
+        sum[0] / sum[1] / (options->pressure_scale * options->length_scale);
+  *barrier = fmin(fmax(*barrier, options->barrier_end), options->barrier_start);
+  return status;
+}
+
 /* Rows that are not open, and the worst gap, over all ranks. */
 static abut_status
 count_closed(abut_strategy *s, double *n_closed, double *worst)
@@ -65,17 +88,18 @@ ask(abut_strategy *s, bool tight)
 static abut_status
 begin(abut_strategy *s)
 {
-  double n_closed, worst;
-  const abut_status status = count_closed(s, &n_closed, &worst);
+  double n_closed, worst, barrier;
+  abut_status status = count_closed(s, &n_closed, &worst);
+  if (status == ABUT_SUCCESS)
+    status = first_barrier(s, &barrier);
   if (status != ABUT_SUCCESS)
     return status;
   if (n_closed > 0)
     return stop_infeasible(s, n_closed, worst);
   const bool rows = s->progress.n_rows > 0;
-  set_barrier(s, rows ? s->options.barrier_start : s->options.barrier_end);
+  set_barrier(s, rows ? barrier : s->options.barrier_end);
   for (int32_t i = 0; i < s->n; ++i)
-    if (s->pressure[i] <= 0)
-      s->pressure[i] = s->mu / s->gap[i];
+    s->pressure[i] = fmax(s->pressure[i], s->mu / s->gap[i]);
   return ask(s, !rows);
 }
 

@@ -165,6 +165,7 @@ reset(abut_strategy *s)
   s->request.gap_change = s->dg;
   s->mu = 0;
   s->matrix_changed = true;
+  memset(s->state, 0, (size_t)s->n);
   const double penalty = abut_strategy_first_penalty(&s->options);
   if (penalty > 0)
     abut_strategy_set_penalty(s, penalty);

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "direct_solver.h"
+
+#include <abut/dealii/solver_parameters.h>
+
+#include <Amesos.h>
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_LinearProblem.h>
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+
+namespace abut::solve
+{
+  namespace
+  {
+    /** MUMPS: room beyond its estimate, in percent of it, tried one after the
+     * other. The estimate knows nothing of pivoting. */
+    constexpr int extra_room[] = {100, 1000, 10000};
+
+    [[noreturn]] void throw_failure(const int status)
+    {
+      throw SolverFailure("The direct solver failed (Amesos status "
+                          + std::to_string(status)
+                          + "). The matrix is singular, for example because "
+                            "nothing holds a body, or there is too little "
+                            "memory: try Solver/Linear solver = iterative.");
+    }
+  } // namespace
+
+  DirectSolver::DirectSolver(const la::Matrix &matrix)
+      : problem_(std::make_unique<Epetra_LinearProblem>())
+  {
+    // Amesos does not change the matrix, but has no const.
+    problem_->SetOperator(
+        const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
+    Amesos factory;
+    const bool mumps = factory.Query("Amesos_Mumps");
+    solver_.reset(
+        factory.Create(mumps ? "Amesos_Mumps" : "Amesos_Klu", *problem_));
+    int status = solver_ == nullptr ? -1 : 0;
+    for (const int room : extra_room)
+    {
+      if (solver_ == nullptr)
+        break;
+      Teuchos::ParameterList parameters;
+      parameters.sublist("mumps").set("ICNTL(14)", room);
+      solver_->SetParameters(parameters);
+      status = solver_->SymbolicFactorization();
+      if (status == 0)
+        status = solver_->NumericFactorization();
+      if (status == 0 || !mumps)
+        break;
+    }
+    if (status != 0)
+      throw_failure(status);
+  }
+
+  DirectSolver::~DirectSolver() = default;
+
+  void DirectSolver::solve(la::Vector &x, const la::Vector &b) const
+  {
+    problem_->SetLHS(&x.trilinos_vector());
+    problem_->SetRHS(const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
+    const int status = solver_->Solve();
+    if (status != 0)
+      throw_failure(status);
+  }
+} // namespace abut::solve

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_DIRECT_SOLVER_H
+#define ABUT_SOLVE_DIRECT_SOLVER_H
+
+#include <abut/dealii/linear_algebra.h>
+
+#include <memory>
+
+class Amesos_BaseSolver;
+class Epetra_LinearProblem;
+
+namespace abut::solve
+{
+  /** A sparse factorisation by Amesos: MUMPS where it is built in, else KLU.
+   * deal.II's wrapper of the same cannot give MUMPS the room that indefinite
+   * matrices need beyond its estimate. */
+  class DirectSolver
+  {
+  public:
+    /** Factorise @p matrix, which must outlive this object and keep its
+     * values. Throws SolverFailure if it is singular. Collective. */
+    explicit DirectSolver(const la::Matrix &matrix);
+    ~DirectSolver();
+
+    /** Solve matrix x = b. Collective. */
+    void solve(la::Vector &x, const la::Vector &b) const;
+
+  private:
+    std::unique_ptr<Epetra_LinearProblem> problem_;
+    std::unique_ptr<Amesos_BaseSolver> solver_;
+  };
+} // namespace abut::solve
+
+#endif
