@@ -39,7 +39,9 @@ extern "C"
      * estimate of the tangent plane at y. */
     double violation;
     int32_t iterations; /**< Newton steps; 0 where there is a closed form */
-    uint8_t inside;     /**< nonzero: x - y is orthogonal to the facet at y */
+    uint8_t inside;     /**< nonzero: x - y is orthogonal to the facet at y, or
+                             misses the edge by at most 1e-12 in local
+                             coordinates */
     uint8_t converged;  /**< zero: y is the best point found, to less than full
                              accuracy */
   } abut_projection;
