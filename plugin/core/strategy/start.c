@@ -165,7 +165,8 @@ reset(abut_strategy *s)
   s->request.gap_change = s->dg;
   s->mu = 0;
   s->matrix_changed = true;
-  memset(s->state, 0, (size_t)s->n);
+  for (int32_t i = 0; i < s->n; ++i)
+    s->state[i] = ABUT_STATE_OPEN;
   const double penalty = abut_strategy_first_penalty(&s->options);
   if (penalty > 0)
     abut_strategy_set_penalty(s, penalty);
@@ -193,9 +194,6 @@ abut_strategy_start(abut_strategy *strategy, int32_t n, const int64_t *id,
     reset(s);
     if ((s->options.law->flags & ABUT_LAW_INTERIOR) == 0)
       status = first_state(s, state);
-    else
-      for (int32_t i = 0; i < n; ++i)
-        s->state[i] = ABUT_STATE_OPEN;
   }
   status = abut_strategy_agree(s, status);
   if (status == ABUT_SUCCESS)
