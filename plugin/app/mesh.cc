@@ -9,6 +9,7 @@
 #include "parameters.h"
 #include "placed_manifold.h"
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
@@ -59,6 +60,24 @@ namespace abut::app
           "moebius"};
       return names;
     }
+
+    /** While it lives, failed assertions of deal.II's debug library throw
+     * instead of ending the program: what a user wrote may well violate them.
+     */
+    class AssertionsThrow
+    {
+    public:
+      AssertionsThrow()
+      {
+        dealii::deal_II_exceptions::disable_abort_on_exception();
+      }
+      ~AssertionsThrow()
+      {
+        dealii::deal_II_exceptions::enable_abort_on_exception();
+      }
+      AssertionsThrow(const AssertionsThrow &) = delete;
+      AssertionsThrow &operator=(const AssertionsThrow &) = delete;
+    };
 
     template <int dim>
     void generate(const MeshParameters &parameters,
@@ -215,6 +234,7 @@ namespace abut::app
     std::shared_ptr<const dealii::Triangulation<dim>>
     make_reference(const MeshParameters &parameters, const RunOptions &options)
     {
+      const AssertionsThrow throwing;
       auto made = std::make_shared<dealii::Triangulation<dim>>();
       if (parameters.file.empty())
         generate(parameters, *made);
