@@ -45,9 +45,10 @@ double abut_patch_descent(const abut_patch *patch, const double *x,
                           const double *local, const abut_patch_point *point);
 
 /* Newton's method with a shifted Hessian within the reference domain, from
- * local; returns nonzero when it converged to a stationary point inside. */
-int abut_patch_descend(const abut_patch *patch, const double *x, double *local,
-                       double *objective, int32_t *iterations);
+ * local, at most n_steps; returns nonzero when it converged to a stationary
+ * point inside. */
+int abut_patch_descend(const abut_patch *patch, const double *x, int n_steps,
+                       double *local, double *objective, int32_t *iterations);
 
 /* The whole search for the global minimum; absolute: the point. */
 void abut_patch_project(const abut_patch *patch, const double *absolute,

@@ -23,6 +23,7 @@
 enum
 {
   max_steps = 60,
+  n_short = 8, /* steps from a sample, before the best is followed to its end */
   n_samples = 9,
   n_restarts = 4
 };
@@ -198,8 +199,8 @@ slide(int triangle, const abut_patch_point *p, const double *r,
 }
 
 int
-abut_patch_descend(const abut_patch *patch, const double *x, double *local,
-                   double *objective, int32_t *iterations)
+abut_patch_descend(const abut_patch *patch, const double *x, int n_steps,
+                   double *local, double *objective, int32_t *iterations)
 {
   abut_patch_point p;
   abut_patch_evaluate(patch, local[0], local[1], &p);
@@ -208,7 +209,7 @@ abut_patch_descend(const abut_patch *patch, const double *x, double *local,
   const double small = max2(1e-9 * patch->size, 1e-15 * distance);
   const double noise = objective_noise(patch, x);
   int converged = 0;
-  for (int k = 0; k < max_steps && !converged; ++k)
+  for (int k = 0; k < n_steps && !converged; ++k)
   {
     double r[3], d[2], next[2];
     sub3(x, p.y, r);
@@ -237,7 +238,7 @@ abut_patch_descend(const abut_patch *patch, const double *x, double *local,
     if (g <= f + noise)
     {
       if (last && at_edge)
-        k = max_steps;
+        k = n_steps;
       local[0] = next[0];
       local[1] = next[1];
       f = g;
@@ -336,7 +337,7 @@ search_samples(const abut_patch *patch, const double *x, double *local,
                || (m <= f[i][j - 1] && m <= f[i][j + 1])))
         continue;
       double at[2] = {lower + step * (i - 1), lower + step * (j - 1)}, g;
-      abut_patch_descend(patch, x, at, &g, iterations);
+      abut_patch_descend(patch, x, n_short, at, &g, iterations);
       if (g < *best - noise)
       {
         *best = g;
@@ -375,7 +376,8 @@ abut_patch_project(const abut_patch *patch, const double *absolute,
   p->iterations = 0;
   double inner[2] = {patch->triangle ? 1. / 3. : 0.,
                      patch->triangle ? 1. / 3. : 0.};
-  const int found = abut_patch_descend(patch, x, inner, &f, &p->iterations);
+  const int found =
+      abut_patch_descend(patch, x, max_steps, inner, &f, &p->iterations);
   abut_patch_evaluate(patch, inner[0], inner[1], &q);
   if (found && surely_global(patch, x, q.y))
   {
@@ -403,7 +405,7 @@ abut_patch_project(const abut_patch *patch, const double *absolute,
     abut_patch_evaluate(patch, edge[0], edge[1], &q);
     if (abut_patch_descent(patch, x, edge, &q) <= tolerance)
       break;
-    abut_patch_descend(patch, x, edge, &best, &p->iterations);
+    abut_patch_descend(patch, x, max_steps, edge, &best, &p->iterations);
   }
   finish(patch, x, edge, p);
 }
