@@ -54,11 +54,37 @@ namespace abut::app
       return quoted(text.str());
     }
 
+    /** The point with a value that is nearest to (i, j), at most @p reach
+     * away in each direction; (i, j) itself if there is none. */
+    std::pair<std::size_t, std::size_t>
+    nearest_value(const Raster &raster, const std::vector<double> &values,
+                  const std::size_t i, const std::size_t j,
+                  const std::size_t reach)
+    {
+      std::pair<std::size_t, std::size_t> best = {i, j};
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t b = j - std::min(j, reach);
+           b < std::min(raster.ny, j + reach + 1); ++b)
+        for (std::size_t a = i - std::min(i, reach);
+             a < std::min(raster.nx, i + reach + 1); ++a)
+        {
+          const double distance =
+              std::hypot(double(a) - double(i), double(b) - double(j));
+          if (distance < least && !std::isnan(values[b * raster.nx + a]))
+          {
+            least = distance;
+            best = {a, b};
+          }
+        }
+      return best;
+    }
+
     /** Data block of lines "x y value", an empty line after each row; every
-     * @p stride -th point, the outermost included. */
+     * @p stride -th point, the outermost included. A point outside the mesh
+     * moves to its border if that is nearer than @p snap points. */
     std::string grid_block(const std::string &name, const Raster &raster,
                            const std::vector<double> &values,
-                           const std::size_t stride)
+                           const std::size_t stride, const std::size_t snap = 0)
     {
       const auto indices = [stride](const std::size_t n)
       {
@@ -72,10 +98,14 @@ namespace abut::app
       std::ostringstream out;
       out.precision(5);
       out << '$' << name << " << EOD\n";
-      for (const std::size_t j : indices(raster.ny))
+      for (const std::size_t row : indices(raster.ny))
       {
-        for (const std::size_t i : indices(raster.nx))
+        for (const std::size_t column : indices(raster.nx))
         {
+          const auto [i, j] =
+              std::isnan(values[row * raster.nx + column])
+                  ? nearest_value(raster, values, column, row, snap)
+                  : std::pair(column, row);
           const double value = values[j * raster.nx + i];
           out << raster.x(i) << ' ' << raster.y(j) << ' ';
           if (std::isnan(value))
@@ -140,9 +170,9 @@ namespace abut::app
 
     std::ostringstream script;
     script << gnuplot_header(name, 960, map_height(raster, 330, 140))
-           << "set datafile missing 'NaN'\n"
            << grid_block("fine", raster, values, 1)
-           << grid_block("coarse", raster, values, surface_stride)
+           << grid_block("coarse", raster, values, surface_stride,
+                         surface_stride)
            << grid_block("middle", raster, values, lines_stride) << palette
            << "set multiplot title " << full_title(title, raster)
            << " font ',16'\n"
@@ -203,7 +233,6 @@ namespace abut::app
 
     std::ostringstream script;
     script << gnuplot_header(name, 640, map_height(raster, 500, 130))
-           << "set datafile missing 'NaN'\n"
            << grid_block("kinds", raster, kinds, 1) << "set title "
            << full_title(title, raster) << " font ',15'\n"
            << ranges(raster)
