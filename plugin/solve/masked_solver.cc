@@ -75,6 +75,14 @@ namespace abut::solve
     }
   }
 
+  bool MaskedSolver::is_plain(const Mask &mask) const
+  {
+    const bool has_held =
+        std::find(mask.held.begin(), mask.held.end(), 1) != mask.held.end();
+    return !dealii::Utilities::MPI::logical_or(
+        has_held || !mask.diagonal.empty(), matrix_->get_mpi_communicator());
+  }
+
   bool MaskedSolver::is_outdated(const Mask &mask) const
   {
     if (!is_built_ || is_slow_)
@@ -135,10 +143,15 @@ namespace abut::solve
 
   void MaskedSolver::build(const Mask &mask)
   {
-    truncated_.copy_from(*matrix_);
-    cut_off(mask.held, mask, true);
+    is_plain_ = is_plain(mask);
+    if (!is_plain_)
+    {
+      truncated_.copy_from(*matrix_);
+      cut_off(mask.held, mask, true);
+    }
+    const la::Matrix &system = is_plain_ ? *matrix_ : truncated_;
     if (is_direct())
-      direct_ = std::make_unique<DirectSolver>(truncated_);
+      direct_ = std::make_unique<DirectSolver>(system);
     else
     {
       dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
@@ -146,7 +159,7 @@ namespace abut::solve
       data.aggregation_threshold = parameters_.aggregation_threshold;
       data.smoother_sweeps = parameters_.smoother_sweeps;
       amg_ = std::make_unique<dealii::TrilinosWrappers::PreconditionAMG>();
-      amg_->initialize(truncated_, data);
+      amg_->initialize(system, data);
     }
     built_mask_ = mask;
     is_built_ = true;
@@ -206,14 +219,14 @@ namespace abut::solve
   LinearReport MaskedSolver::prepare(const Mask &mask)
   {
     LinearReport report;
-    if (is_outdated(mask))
+    if (is_outdated(mask) || (is_plain_ && !is_plain(mask)))
     {
       const dealii::Timer timer;
       build(mask);
       ++report.n_setups;
       report.setup_seconds = timer.wall_time();
     }
-    else if (!is_direct())
+    else if (!is_direct() && !is_plain_)
     {
       const bool changed = dealii::Utilities::MPI::logical_or(
           mask.held != cut_, matrix_->get_mpi_communicator());

@@ -142,6 +142,7 @@ namespace abut::solve
 
   private:
     bool is_outdated(const Mask &mask) const;
+    bool is_plain(const Mask &mask) const;
     void cut_off(const std::vector<std::uint8_t> &held, const Mask &mask,
                  bool everything);
     void build(const Mask &mask);
@@ -158,6 +159,7 @@ namespace abut::solve
     Mask built_mask_;
     std::vector<std::uint8_t> cut_; ///< held unknowns of truncated_
     bool is_built_ = false;
+    bool is_plain_ = false; ///< built on K itself: nothing held, no D
     double speed_when_built_ = 0.;
     bool is_slow_ = false;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg_;

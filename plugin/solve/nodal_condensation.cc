@@ -119,20 +119,30 @@ namespace abut::solve
                                             stiffness_->get_mpi_communicator()))
       return;
 
-    // The reaction of a held unknown, K du + R, is the force of its row.
-    la::Vector reaction(residual);
-    stiffness_->vmult_add(reaction, increment);
-    double *force = la::data(reaction);
+    // The reaction of a held unknown, K du + R, is the force of its rows.
+    const auto force_of = [&](const int i)
+    { return rows_.weight[i] * rows_.coefficient[rows_.row_start[i]]; };
     for (int i = 0; i < rows_.n_rows; ++i)
-      if (!is_constraint(request, i))
-        force[unknown_[i]] -=
-            rows_.weight[i] * rows_.coefficient[rows_.row_start[i]]
-            * (request.pressure[i] + request.pressure_change[i]);
+      if (!is_constraint(request, i) && mask_.held[unknown_[i]])
+      {
+        const int holder = holder_[unknown_[i]];
+        request.pressure_change[holder] -=
+            force_of(i) * (request.pressure[i] + request.pressure_change[i])
+            / force_of(holder);
+      }
+    const la::LocalRows matrix = la::local_rows(*stiffness_);
+    const std::vector<double> gathered = la::gather(*stiffness_, increment);
+    const double *r = la::data(residual);
     for (int i = 0; i < rows_.n_rows; ++i)
-      if (is_constraint(request, i) && holder_[unknown_[i]] == i)
-        request.pressure_change[i] +=
-            force[unknown_[i]]
-            / (rows_.weight[i] * rows_.coefficient[rows_.row_start[i]]);
+    {
+      const int j = unknown_[i];
+      if (!is_constraint(request, i) || holder_[j] != i)
+        continue;
+      double reaction = r[j];
+      for (int k = matrix.start[j]; k < matrix.start[j + 1]; ++k)
+        reaction += matrix.value[k] * gathered[matrix.column[k]];
+      request.pressure_change[i] += reaction / force_of(i);
+    }
   }
 
   LinearReport NodalCondensation::solve(const la::Vector &residual,
