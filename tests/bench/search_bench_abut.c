@@ -175,7 +175,7 @@ time_steps(const bench_scene *scene, world *w, abut_detection *d,
   require(abut_skin_list_make(&d->list, s, w->secondary, false));
   require(abut_surface_update(w->primary, scene->primary.position));
   t0 = bench_now();
-  require(abut_search_update(s));
+  require(abut_search_refresh(s));
   if (!abut_skin_list_serves(&d->list, s, w->secondary, false))
     abort();
   z->after_motion = fmin(z->after_motion, 1e9 * (bench_now() - t0) / n);

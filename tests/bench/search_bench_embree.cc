@@ -24,6 +24,7 @@ namespace
     const double *x;
     int node;
     double best;
+    int facet;
     bench_result *result;
   };
 
@@ -56,9 +57,10 @@ namespace
   {
     Query *q = static_cast<Query *>(a->userPtr);
     const double d = bench_distance(q->scene, a->primID, q->x);
-    if (!(d < q->best) || d > 0.5 * q->scene->facet[a->primID].size)
+    if (!(d < q->best))
       return false;
     q->best = d;
+    q->facet = a->primID;
     a->query->radius = static_cast<float>(d) + slack;
     return true;
   }
@@ -84,7 +86,8 @@ namespace
     q.best = INFINITY;
     rtcPointQuery(tree, &p, &context,
                   task == BENCH_CANDIDATES ? take_candidate : take_nearest, &q);
-    if (task == BENCH_NEAREST && q.best < INFINITY)
+    if (task == BENCH_NEAREST && q.best < INFINITY
+        && q.best <= 0.5 * q.scene->facet[q.facet].size)
     {
       ++q.result->n;
       q.result->sum += q.best;
@@ -111,7 +114,7 @@ bench_embree(const bench_scene *scene, bench_task task, bench_result *r)
   rtcCommitScene(tree);
   const double t1 = bench_now();
   r->bytes = memory;
-  Query q{scene, nullptr, 0, 0, r};
+  Query q{scene, nullptr, 0, 0, 0, r};
   for (q.node = 0; q.node < scene->secondary.n_nodes; ++q.node)
   {
     q.x = scene->secondary.position + 3L * q.node;

@@ -640,7 +640,7 @@ motion_with_skin(void **state)
     require(abut_search_get_statistics(search, &z));
     assert_true(z.n_reuses > 0);
     assert_true(z.n_searches > 2);
-    assert_true(z.n_refits > 10);
+    assert_true(z.n_refits > 0);
     assert_true(z.n_builds > 1);
     require(abut_search_destroy(&search));
     for (int i = 0; i < 2; ++i)

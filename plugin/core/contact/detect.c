@@ -308,10 +308,14 @@ search_and_pair(abut_detection *d, double motion)
   abut_status status =
       abut_search_set_reach(s, d->view.reach, o->relative_reach, o->skin);
   if (status == ABUT_SUCCESS)
-    status = abut_search_update(s);
+    status = abut_search_refresh(s);
   if (status != ABUT_SUCCESS)
     return status;
   d->view.searched = !abut_skin_list_serves(&d->list, s, d->secondary, false);
+  if (d->view.searched)
+    status = abut_search_update(s);
+  if (status != ABUT_SUCCESS)
+    return status;
   ++*(d->view.searched ? &s->statistics.n_searches : &s->statistics.n_reuses);
   if (s->skin > 0)
   {

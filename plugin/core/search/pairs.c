@@ -192,10 +192,14 @@ search_surface(abut_search *s, const abut_surface *secondary, bool facets,
                abut_pairs *p)
 {
   abut_query query;
-  abut_status status = abut_search_update(s);
+  abut_status status = abut_search_refresh(s);
   if (status != ABUT_SUCCESS)
     return status;
   const bool reuse = abut_skin_list_serves(&p->skin, s, secondary, facets);
+  if (!reuse)
+    status = abut_search_update(s);
+  if (status != ABUT_SUCCESS)
+    return status;
   *(reuse ? &s->statistics.n_reuses : &s->statistics.n_searches) += 1;
   if (!reuse && s->skin > 0)
     status = abut_skin_list_make(&p->skin, s, secondary, facets);

@@ -1,22 +1,20 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Answering queries through buckets.
  *
- * Queries are sorted along Morton's curve and taken in blocks that fill a
- * cell of an octree with at most BLOCK of them. For a block the buckets are
- * visited once; facets whose inflated box touches the block's box go into
- * short arrays of single-precision boxes, rounded outwards. Each query is
- * tested against these in one vectorisable loop, and what is hit is tested
- * exactly in double precision. So numbering does not matter, trees and tables
- * are read once per block, and the answer is that of the exact test. */
+ * Queries are sorted along Morton's curve and taken in blocks of at most BLOCK
+ * that fill a cell of the binary tree behind the curve. For a block the
+ * buckets are visited once, and the facets near it gathered (block.c); of
+ * these, those near ABUT_PART queries at a time; each query is tested against
+ * the few that remain. So the numbering of nodes and facets does not matter,
+ * trees and tables are read once per block, and the answer is that of the exact
+ * test. */
 #include "search/search.h"
 
-#include <float.h>
 #include <math.h>
 
 enum
 {
-  BLOCK = 40,
-  PAD = 16
+  BLOCK = 64
 };
 
 /* Queries in their order, with their boxes (points: twice the same). */
@@ -121,185 +119,30 @@ load_batch(const abut_query *q, const abut_keyed *items, int32_t n, batch *b)
   }
 }
 
-/* Single precision at most / at least v; |v| far beyond what a block can
- * touch is cut off, which keeps the order. */
-static inline float
-round_down(double v)
-{
-  v = v < -1e38 ? -1e38 : v > 1e38 ? 1e38 : v;
-  const float f = (float)v;
-  return f - fabsf(f) * 2e-7f - FLT_MIN;
-}
-
-static inline float
-round_up(double v)
-{
-  v = v < -1e38 ? -1e38 : v > 1e38 ? 1e38 : v;
-  const float f = (float)v;
-  return f + fabsf(f) * 2e-7f + FLT_MIN;
-}
-
-static abut_status
-reserve_block(abut_context *context, abut_block *b, int32_t n)
-{
-  if (n <= b->slot.capacity)
-    return ABUT_SUCCESS;
-  const int64_t room = 2 * (int64_t)n;
-  abut_status status = abut_array_reserve(context, &b->box, 0, 6 * room);
-  if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(context, &b->hit, 0, room);
-  if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(context, &b->near, 0, room);
-  if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(context, &b->slot, 0, room);
-  return status;
-}
-
-/* Empty boxes up to a multiple of PAD, so that the loop over them has no
- * tail. */
+/* Answer queries first .. last - 1 of the batch, which are near each other. */
 static void
-pad_block(abut_block *b)
+answer_part(abut_search *s, const abut_query *q, const batch *b, int32_t first,
+            int32_t last, double skin, abut_list *list)
 {
-  float *box = b->box.data;
-  b->n_padded = (b->n + PAD - 1) / PAD * PAD;
-  for (int32_t i = b->n; i < b->n_padded; ++i)
-    for (int d = 0; d < 3; ++d)
-    {
-      box[d * b->slot.capacity + i] = FLT_MAX;
-      box[(3 + d) * b->slot.capacity + i] = -FLT_MAX;
-    }
-}
-
-/* Facets of the runs whose inflated box touches the block. */
-static abut_status
-fill_block(abut_search *s, const abut_runs *runs, const batch *q, double skin)
-{
-  abut_block *b = &s->block;
-  int64_t n_facets = 0;
-  for (int32_t r = 0; r < runs->n; ++r)
-    n_facets += runs->run[r].last - runs->run[r].first;
-  s->statistics.n_block_tests += n_facets;
-  const abut_status status =
-      reserve_block(s->context, b, (int32_t)n_facets + PAD);
-  if (status != ABUT_SUCCESS)
-    return status;
-  const int64_t stride = b->slot.capacity;
-  const abut_record *records = s->records.data;
-  float *box = b->box.data;
-  int32_t *slot = b->slot.data;
-  int32_t n = 0;
-  for (int d = 0; d < 3; ++d)
-    b->origin[d] = 0.5 * (q->block_lower[d] + q->block_upper[d]);
-  /* Without branches: which ones touch cannot be predicted. */
-  for (int32_t r = 0; r < runs->n; ++r)
-    for (int32_t i = runs->run[r].first; i < runs->run[r].last; ++i)
-    {
-      slot[n] = i;
-      n += abut_record_near_box(records + i, q->block_lower, q->block_upper,
-                                skin);
-    }
-  for (int32_t i = 0; i < n; ++i)
-  {
-    const abut_record *f = records + slot[i];
-    const double reach = f->reach + skin;
-    for (int d = 0; d < 3; ++d)
-    {
-      box[d * stride + i] = round_down(f->lower[d] - reach - b->origin[d]);
-      box[(3 + d) * stride + i] = round_up(f->upper[d] + reach - b->origin[d]);
-    }
-  }
-  b->n = n;
-  pad_block(b);
-  return ABUT_SUCCESS;
-}
-
-/* hit[i] = whether box i of the block touches the query; n is a multiple of
- * PAD. */
-static void
-test_boxes(const float *restrict box, int64_t stride, int32_t n,
-           const float *restrict q, int32_t *restrict hit)
-{
-  const float *restrict l0 = box, *restrict l1 = box + stride;
-  const float *restrict l2 = box + 2 * stride;
-  const float *restrict u0 = box + 3 * stride, *restrict u1 = box + 4 * stride;
-  const float *restrict u2 = box + 5 * stride;
-  const float a0 = q[0], a1 = q[1], a2 = q[2], b0 = q[3], b1 = q[4], b2 = q[5];
-  for (int32_t i = 0; i < n; i += PAD)
-    for (int32_t j = i; j < i + PAD; ++j)
-      hit[j] = (l0[j] <= b0) & (u0[j] >= a0) & (l1[j] <= b1) & (u1[j] >= a1)
-               & (l2[j] <= b2) & (u2[j] >= a2);
-}
-
-/* Places of the facets in the block that a query touches in single precision;
- * returns their number. */
-static int32_t
-touch(const abut_block *b, const double *lower, const double *upper)
-{
-  const int32_t *restrict hit = b->hit.data;
-  int32_t *restrict near = b->near.data;
-  float bounds[6];
-  int32_t n = 0;
+  double lower[3], upper[3];
+  int64_t *start = list->start.data;
+  int32_t *slot = list->slot.data;
   for (int d = 0; d < 3; ++d)
   {
-    bounds[d] = round_down(lower[d] - b->origin[d]);
-    bounds[3 + d] = round_up(upper[d] - b->origin[d]);
+    lower[d] = b->lower[first][d];
+    upper[d] = b->upper[first][d];
+    for (int32_t i = first + 1; i < last; ++i)
+    {
+      lower[d] = b->lower[i][d] < lower[d] ? b->lower[i][d] : lower[d];
+      upper[d] = b->upper[i][d] > upper[d] ? b->upper[i][d] : upper[d];
+    }
   }
-  test_boxes(b->box.data, b->slot.capacity, b->n_padded, bounds, b->hit.data);
-  for (int32_t i = 0; i < b->n; ++i)
-  {
-    near[n] = i;
-    n += hit[i];
-  }
-  return n;
-}
-
-/* Pairs of one query into slots; returns their number. */
-static int32_t
-answer_point(const abut_search *s, const double *x, double skin,
-             int32_t *restrict slots)
-{
-  const abut_block *b = &s->block;
-  const abut_record *records = s->records.data;
-  const int32_t *slot = b->slot.data, *near = b->near.data;
-  const int32_t n_near = touch(b, x, x);
-  int32_t n = 0, nearest = 0;
-  double least = INFINITY;
-  for (int32_t i = 0; i < n_near; ++i)
-  {
-    const int32_t at = slot[near[i]];
-    double square;
-    const int in = abut_record_near_point(records + at, x, skin, &square);
-    const int better = in & (square < least);
-    slots[n] = at;
-    least = better ? square : least;
-    nearest = better ? n : nearest;
-    n += in;
-  }
-  if (n > 0)
-  {
-    const int32_t swap = slots[0];
-    slots[0] = slots[nearest];
-    slots[nearest] = swap;
-    abut_prefetch_facet(s->surface, records[slots[0]].facet);
-  }
-  return n;
-}
-
-static int32_t
-answer_box(const abut_search *s, const double *lower, const double *upper,
-           double skin, int32_t *restrict slots)
-{
-  const abut_block *b = &s->block;
-  const abut_record *records = s->records.data;
-  const int32_t *slot = b->slot.data, *near = b->near.data;
-  const int32_t n_near = touch(b, lower, upper);
-  int32_t n = 0;
-  for (int32_t i = 0; i < n_near; ++i)
-  {
-    slots[n] = slot[near[i]];
-    n += abut_record_near_box(records + slots[n], lower, upper, skin);
-  }
-  return n;
+  abut_block_narrow(s, lower, upper);
+  int32_t count[ABUT_PART];
+  abut_block_answer(s, last - first, b->lower + first, b->upper + first,
+                    q->points != NULL, skin, count, slot + start[list->n]);
+  for (int32_t i = first; i < last; ++i, ++list->n)
+    start[list->n + 1] = start[list->n] + count[i - first];
 }
 
 static abut_status
@@ -320,27 +163,17 @@ answer_block(abut_search *s, const abut_query *q, const batch *b, double skin,
     abut_grid_gather(&s->grid, lower, upper, &runs);
   else
     abut_tree_gather(&s->tree, lower, upper, &runs);
-  abut_status status = fill_block(s, &runs, b, skin);
+  abut_status status =
+      abut_block_fill(s, &runs, b->block_lower, b->block_upper, skin);
   if (status != ABUT_SUCCESS)
     return status;
-  int64_t *start = list->start.data;
-  status =
-      abut_array_reserve(s->context, &list->slot, start[list->n],
-                         start[list->n] + (int64_t)b->n * (s->block.n + 1));
-  if (status != ABUT_SUCCESS)
-    return status;
-  int32_t *slot = list->slot.data;
-  s->statistics.n_box_tests += (int64_t)b->n * s->block.n;
-  for (int32_t i = 0; i < b->n; ++i, ++list->n)
-  {
-    int32_t *to = slot + start[list->n];
-    start[list->n + 1] =
-        start[list->n]
-        + (q->points != NULL
-               ? answer_point(s, b->lower[i], skin, to)
-               : answer_box(s, b->lower[i], b->upper[i], skin, to));
-  }
-  return ABUT_SUCCESS;
+  const int64_t used = ((const int64_t *)list->start.data)[list->n];
+  status = abut_array_reserve(s->context, &list->slot, used,
+                              used + (int64_t)b->n * (s->block.n + 1));
+  for (int32_t i = 0; i < b->n && status == ABUT_SUCCESS; i += ABUT_PART)
+    answer_part(s, q, b, i, i + ABUT_PART < b->n ? i + ABUT_PART : b->n, skin,
+                list);
+  return status;
 }
 
 /* Every query against every facet, in their order: nothing but the exact

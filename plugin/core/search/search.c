@@ -76,8 +76,11 @@ prepare(abut_search *s)
                     {&s->query_box, sizeof(double)},
                     {&s->block.box, sizeof(float)},
                     {&s->block.slot, sizeof(int32_t)},
-                    {&s->block.near, sizeof(int32_t)},
-                    {&s->block.hit, sizeof(int32_t)}};
+                    {&s->part.box, sizeof(float)},
+                    {&s->part.slot, sizeof(int32_t)},
+                    {&s->near, sizeof(int32_t)},
+                    {&s->owner, sizeof(uint8_t)},
+                    {&s->hit, sizeof(int32_t)}};
   for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
     list[i].array->element = list[i].element;
   abut_list_prepare(&s->list);
@@ -119,11 +122,23 @@ abut_search_destroy(abut_search **search)
   abut_search *s = *search;
   if (s == NULL)
     return ABUT_SUCCESS;
-  abut_array *arrays[] = {
-      &s->records,    &s->sites,      &s->items,           &s->room,
-      &s->runs,       &s->query_box,  &s->tree.groups,     &s->grid.cell_key,
-      &s->block.box,  &s->grid.table, &s->grid.cell_start, &s->block.hit,
-      &s->block.slot, &s->block.near};
+  abut_array *arrays[] = {&s->records,
+                          &s->sites,
+                          &s->items,
+                          &s->room,
+                          &s->runs,
+                          &s->query_box,
+                          &s->tree.groups,
+                          &s->grid.cell_key,
+                          &s->grid.table,
+                          &s->block.box,
+                          &s->grid.cell_start,
+                          &s->block.slot,
+                          &s->part.box,
+                          &s->part.slot,
+                          &s->hit,
+                          &s->near,
+                          &s->owner};
   for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); ++i)
     abut_array_release(s->context, arrays[i]);
   abut_list_release(s->context, &s->list);
@@ -202,32 +217,6 @@ compute_sites(abut_search *s)
   }
 }
 
-/* Box of all inflated facets and the smallest inflated half-extent. */
-static void
-bound_records(abut_search *s)
-{
-  const abut_record *r = s->records.data;
-  s->smallest = s->n > 0 ? INFINITY : 0;
-  for (int d = 0; d < 3; ++d)
-  {
-    s->lower[d] = INFINITY;
-    s->upper[d] = -INFINITY;
-  }
-  for (int32_t i = 0; i < s->n; ++i)
-  {
-    double half = 0;
-    for (int d = 0; d < 3; ++d)
-    {
-      const double l = r[i].lower[d] - r[i].reach;
-      const double u = r[i].upper[d] + r[i].reach;
-      s->lower[d] = l < s->lower[d] ? l : s->lower[d];
-      s->upper[d] = u > s->upper[d] ? u : s->upper[d];
-      half = 0.5 * (u - l) > half ? 0.5 * (u - l) : half;
-    }
-    s->smallest = half < s->smallest ? half : s->smallest;
-  }
-}
-
 static abut_status
 reserve(abut_search *s)
 {
@@ -248,21 +237,75 @@ reserve(abut_search *s)
   return ABUT_SUCCESS;
 }
 
-/* Compute the records of all facets in the order of the sorted items. */
+/* Boxes of the records first .. last - 1, inflated by their reach, in one; and
+ * the smallest inflated half-extent so far. */
 static void
-compute_records(abut_search *s)
+bound_records(const abut_record *r, int32_t first, int32_t last, double *lower,
+              double *upper, double *smallest)
+{
+  for (int d = 0; d < 3; ++d)
+  {
+    lower[d] = INFINITY;
+    upper[d] = -INFINITY;
+  }
+  for (int32_t i = first; i < last; ++i)
+  {
+    double extent = 0;
+    for (int d = 0; d < 3; ++d)
+    {
+      const double l = r[i].lower[d] - r[i].reach;
+      const double u = r[i].upper[d] + r[i].reach;
+      lower[d] = l < lower[d] ? l : lower[d];
+      upper[d] = u > upper[d] ? u : upper[d];
+      extent = u - l > extent ? u - l : extent;
+    }
+    *smallest = 0.5 * extent < *smallest ? 0.5 * extent : *smallest;
+  }
+}
+
+/* Compute the records of all facets, in the order of the sorted items or (NULL)
+ * the one they have, and, while they are in the cache, the boxes around each
+ * bucket and around all. Returns the sum of the buckets' extents. */
+static double
+compute_records(abut_search *s, const abut_keyed *items)
 {
   abut_record *records = s->records.data;
-  const abut_keyed *items = s->items.data;
-  for (int32_t i = 0; i < s->n; ++i)
+  const bool adaptive = s->options.algorithm == ABUT_SEARCH_ADAPTIVE_BUCKETS;
+  const int32_t chunk = adaptive ? s->tree.capacity : 64;
+  double extent = 0;
+  s->smallest = s->n > 0 ? INFINITY : 0;
+  for (int d = 0; d < 3; ++d)
   {
-    if (i + 2 * AHEAD < s->n)
-    {
-      abut_prefetch_facet(s->surface, items[i + 2 * AHEAD].index);
-      abut_prefetch_nodes(s->surface, items[i + AHEAD].index);
-    }
-    abut_record_compute(s->surface, items[i].index, &s->reach, records + i);
+    s->lower[d] = INFINITY;
+    s->upper[d] = -INFINITY;
   }
+  for (int32_t first = 0; first < s->n; first += chunk)
+  {
+    const int32_t last = first + chunk < s->n ? first + chunk : s->n;
+    double lower[3], upper[3];
+    for (int32_t i = first; i < last; ++i)
+    {
+      if (i + 2 * AHEAD < s->n)
+      {
+        const int32_t k = i + AHEAD, l = i + 2 * AHEAD;
+        abut_prefetch_facet(s->surface,
+                            items ? items[l].index : records[l].facet);
+        abut_prefetch_nodes(s->surface,
+                            items ? items[k].index : records[k].facet);
+      }
+      abut_record_compute(s->surface, items ? items[i].index : records[i].facet,
+                          &s->reach, records + i);
+    }
+    bound_records(records, first, last, lower, upper, &s->smallest);
+    if (adaptive)
+      extent += abut_tree_fit_bucket(&s->tree, first / chunk, lower, upper);
+    for (int d = 0; d < 3; ++d)
+    {
+      s->lower[d] = lower[d] < s->lower[d] ? lower[d] : s->lower[d];
+      s->upper[d] = upper[d] > s->upper[d] ? upper[d] : s->upper[d];
+    }
+  }
+  return extent;
 }
 
 static abut_status
@@ -280,7 +323,7 @@ sort_facets(abut_search *s)
     abut_keyed *items = s->items.data;
     for (int32_t f = 0; f < s->n; ++f)
       items[f].index = f;
-    compute_records(s);
+    compute_records(s, items);
     return ABUT_SUCCESS;
   }
   compute_sites(s);
@@ -291,7 +334,7 @@ sort_facets(abut_search *s)
                             : 0;
     status = abut_grid_build(s->context, &s->grid, s->sites.data, s->n, edge,
                              s->items.data, s->room.data);
-    compute_records(s);
+    compute_records(s, s->items.data);
     if (status == ABUT_SUCCESS)
       status = abut_search_fit(s->context, &s->runs, s->grid.n_cells);
     z->n_buckets = s->grid.n_cells;
@@ -305,34 +348,61 @@ sort_facets(abut_search *s)
   if (status != ABUT_SUCCESS)
     return status;
   abut_tree_order(&s->tree, s->sites.data, s->n, s->items.data, s->room.data);
-  compute_records(s);
-  s->tree.extent_built = abut_tree_fit(&s->tree, s->records.data);
+  s->tree.extent_built = compute_records(s, s->items.data);
+  abut_tree_fit(&s->tree);
   z->n_buckets = s->tree.n_buckets;
   z->n_levels = s->tree.n_classes;
   z->capacity = s->tree.capacity;
   return ABUT_SUCCESS;
 }
 
-/* New positions in the old order; false if the buckets do not serve any more.
- */
+/* Fit the buckets to renewed records; false if they do not serve any more. */
 static bool
 refit(abut_search *s)
 {
-  abut_record *records = s->records.data;
-  for (int32_t i = 0; i < s->n; ++i)
-  {
-    if (i + 2 * AHEAD < s->n)
-    {
-      abut_prefetch_facet(s->surface, records[i + 2 * AHEAD].facet);
-      abut_prefetch_nodes(s->surface, records[i + AHEAD].facet);
-    }
-    abut_record_compute(s->surface, records[i].facet, &s->reach, records + i);
-  }
   if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
-    return abut_grid_refit(&s->grid, records);
+    return abut_grid_refit(&s->grid, s->records.data);
   if (s->options.algorithm == ABUT_SEARCH_ADAPTIVE_BUCKETS)
-    return abut_tree_fit(&s->tree, records) <= 1.5 * s->tree.extent_built;
+  {
+    if (s->extent > 1.5 * s->tree.extent_built)
+      return false;
+    abut_tree_fit(&s->tree);
+  }
   return true;
+}
+
+static abut_status
+build(abut_search *s)
+{
+  s->revision = 0;
+  const abut_status status = sort_facets(s);
+  if (status != ABUT_SUCCESS)
+    return status;
+  ++s->statistics.n_builds;
+  ++s->serial;
+  s->fitted = true;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_search_refresh(abut_search *s)
+{
+  if (s->revision == s->surface->revision && !s->reach_changed)
+    return ABUT_SUCCESS;
+  if (s->revision != 0)
+  {
+    s->extent = compute_records(s, NULL);
+    s->fitted = false;
+  }
+  else
+  {
+    const abut_status status = build(s);
+    if (status != ABUT_SUCCESS)
+      return status;
+  }
+  s->revision = s->surface->revision;
+  s->reach_changed = false;
+  return ABUT_SUCCESS;
 }
 
 abut_status
@@ -341,23 +411,20 @@ abut_search_update(abut_search *search)
   if (search == NULL)
     return ABUT_INVALID_ARGUMENT;
   abut_search *s = search;
-  if (s->revision == s->surface->revision && !s->reach_changed)
-    return ABUT_SUCCESS;
-  if (s->revision != 0 && refit(s))
-    ++s->statistics.n_refits;
-  else
+  abut_status status = abut_search_refresh(s);
+  if (status != ABUT_SUCCESS || s->fitted)
+    return status;
+  if (refit(s))
   {
-    s->revision = 0;
-    const abut_status status = sort_facets(s);
-    if (status != ABUT_SUCCESS)
-      return status;
-    ++s->statistics.n_builds;
-    ++s->serial;
+    ++s->statistics.n_refits;
+    s->fitted = true;
+    return ABUT_SUCCESS;
   }
-  bound_records(s);
-  s->revision = s->surface->revision;
-  s->reach_changed = false;
-  return ABUT_SUCCESS;
+  const uint64_t revision = s->revision;
+  status = build(s);
+  if (status == ABUT_SUCCESS)
+    s->revision = revision;
+  return status;
 }
 
 static int64_t
@@ -383,6 +450,8 @@ abut_search_get_statistics(const abut_search *search,
   statistics->query_bytes = bytes_of(&s->list.order) + bytes_of(&s->list.start)
                             + bytes_of(&s->list.slot) + bytes_of(&s->query_box)
                             + bytes_of(&s->block.box) + bytes_of(&s->block.slot)
-                            + bytes_of(&s->block.hit);
+                            + bytes_of(&s->part.box) + bytes_of(&s->part.slot)
+                            + bytes_of(&s->hit) + bytes_of(&s->near)
+                            + bytes_of(&s->owner);
   return ABUT_SUCCESS;
 }

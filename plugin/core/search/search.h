@@ -9,6 +9,11 @@
 
 #include <abut/search.h>
 
+enum
+{
+  ABUT_PART = 8 /* queries that are answered together */
+};
+
 /* Pairs in the order in which queries were answered: query order[k] has the
  * records slot[start[k]] .. slot[start[k + 1] - 1]. Queries without pairs may
  * be missing. */
@@ -20,17 +25,14 @@ typedef struct abut_list
   abut_array slot;  /* int32_t */
 } abut_list;
 
-/* Facets near a block of queries, boxes as single-precision numbers relative
- * to the block, rounded outwards. */
+/* Facets near some queries: their boxes as single-precision numbers relative
+ * to a common origin, rounded outwards. */
 typedef struct abut_block
 {
-  double origin[3];
   int32_t n;
   int32_t n_padded; /* with empty boxes at the end */
   abut_array box;   /* float, [6][capacity]: lower x, y, z, upper x, y, z */
   abut_array slot;  /* int32_t */
-  abut_array hit;   /* int32_t */
-  abut_array near;  /* int32_t, places of hits */
 } abut_block;
 
 struct abut_search
@@ -40,7 +42,9 @@ struct abut_search
   abut_search_options options;
   abut_reach reach;
   double skin;
-  uint64_t revision; /* of the surface when last fitted; 0: never */
+  uint64_t revision; /* of the surface in the records; 0: never built */
+  bool fitted;       /* buckets fit the records */
+  double extent;     /* sum of the buckets' extents, adaptive */
   uint64_t serial;   /* counts sorts: slots keep their facet in between */
   bool reach_changed;
   int32_t n;
@@ -53,9 +57,14 @@ struct abut_search
   abut_array runs;           /* abut_run */
   abut_tree tree;
   abut_grid grid;
-  abut_list list;       /* of the last query */
-  abut_array query_box; /* double, boxes of queries in query order */
-  abut_block block;
+  abut_list list;         /* of the last query */
+  abut_array query_box;   /* double, boxes of queries in query order */
+  double block_origin[3]; /* of the two blocks */
+  abut_block block;       /* near a block of queries */
+  abut_block part;        /* near a few of them */
+  abut_array hit;         /* int32_t, whether a box of a block is touched */
+  abut_array near;        /* int32_t, places of hits */
+  abut_array owner;       /* uint8_t, whose hits they are */
   abut_search_statistics statistics;
 };
 
@@ -80,6 +89,24 @@ typedef struct abut_answers
 
 /* Takes answers while they are in the cache. */
 typedef abut_status (*abut_consume)(void *user, const abut_answers *answers);
+
+/* Facets of the runs whose inflated box touches the box of a block of queries;
+ * then, of these, those near a part of the queries; then, of these, the pairs
+ * of each query of the part into slots, one query after the other, which has
+ * room for all. count[ABUT_PART] receives how many each has; of a point the
+ * one with the nearest centre comes first. Returns their sum. */
+abut_status abut_block_fill(abut_search *search, const abut_runs *runs,
+                            const double *lower, const double *upper,
+                            double skin);
+void abut_block_narrow(abut_search *search, const double *lower,
+                       const double *upper);
+int32_t abut_block_answer(abut_search *search, int32_t n_queries,
+                          const double (*lower)[3], const double (*upper)[3],
+                          bool points, double skin, int32_t *count,
+                          int32_t *slots);
+
+/* Bring the records up to date, not the buckets: enough to use a list. */
+abut_status abut_search_refresh(abut_search *search);
 
 /* Answer a query; the search must be up to date. Either all answers go into
  * list (consume is NULL), or each block's to consume, and list is scratch. */

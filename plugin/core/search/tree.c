@@ -123,25 +123,12 @@ clear_lane(abut_tree_group *g, int lane)
   }
 }
 
-/* Box of the records of bucket b, inflated by their reach. */
-static double
-fit_bucket(const abut_tree *tree, const abut_record *records, int32_t b,
-           abut_tree_group *g, int lane)
+double
+abut_tree_fit_bucket(abut_tree *tree, int32_t b, const double *lower,
+                     const double *upper)
 {
-  const int32_t first = b * tree->capacity;
-  const int32_t last = first + tree->capacity < tree->n_facets
-                           ? first + tree->capacity
-                           : tree->n_facets;
-  double lower[3] = {INFINITY, INFINITY, INFINITY};
-  double upper[3] = {-INFINITY, -INFINITY, -INFINITY};
-  for (int32_t i = first; i < last; ++i)
-    for (int d = 0; d < 3; ++d)
-    {
-      const double l = records[i].lower[d] - records[i].reach;
-      const double u = records[i].upper[d] + records[i].reach;
-      lower[d] = l < lower[d] ? l : lower[d];
-      upper[d] = u > upper[d] ? u : upper[d];
-    }
+  abut_tree_group *g = (abut_tree_group *)tree->groups.data + b / ABUT_TREE_FAN;
+  const int lane = b % ABUT_TREE_FAN;
   double extent = 0;
   for (int d = 0; d < 3; ++d)
   {
@@ -169,10 +156,9 @@ fit_group(const abut_tree_group *from, abut_tree_group *g, int lane)
   }
 }
 
-double
-abut_tree_fit(abut_tree *tree, const abut_record *records)
+void
+abut_tree_fit(abut_tree *tree)
 {
-  double extent = 0;
   abut_tree_group *groups = tree->groups.data;
   int32_t boxes = tree->n_buckets;
   for (int32_t level = 0; level < tree->n_levels; ++level)
@@ -181,20 +167,16 @@ abut_tree_fit(abut_tree *tree, const abut_record *records)
         level > 0 ? groups + tree->level_start[level - 1] : NULL;
     abut_tree_group *at = groups + tree->level_start[level];
     const int32_t n_groups = (boxes + ABUT_TREE_FAN - 1) / ABUT_TREE_FAN;
-    for (int32_t b = 0; b < n_groups * ABUT_TREE_FAN; ++b)
+    for (int32_t b = level > 0 ? 0 : boxes; b < n_groups * ABUT_TREE_FAN; ++b)
     {
       abut_tree_group *g = at + b / ABUT_TREE_FAN;
-      const int lane = b % ABUT_TREE_FAN;
       if (b >= boxes)
-        clear_lane(g, lane);
-      else if (level == 0)
-        extent += fit_bucket(tree, records, b, g, lane);
+        clear_lane(g, b % ABUT_TREE_FAN);
       else
-        fit_group(below + b, g, lane);
+        fit_group(below + b, g, b % ABUT_TREE_FAN);
     }
     boxes = n_groups;
   }
-  return extent;
 }
 
 /* Bit k is set if box k of the group touches the box. */

@@ -61,9 +61,12 @@ void abut_tree_order(abut_tree *tree, const abut_site *sites, int32_t n,
 abut_status abut_tree_reserve(abut_context *context, abut_tree *tree, int32_t n,
                               int32_t capacity);
 
-/* Compute all boxes from the records; returns the sum of the buckets' extents.
- */
-double abut_tree_fit(abut_tree *tree, const abut_record *records);
+/* Set the box of bucket b of the lowest level; returns its extent. */
+double abut_tree_fit_bucket(abut_tree *tree, int32_t b, const double *lower,
+                            const double *upper);
+
+/* Compute the boxes of all levels above the lowest. */
+void abut_tree_fit(abut_tree *tree);
 
 /* Runs of records in all buckets that the box touches. */
 void abut_tree_gather(const abut_tree *tree, const double *lower,
