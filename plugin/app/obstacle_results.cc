@@ -22,11 +22,11 @@ namespace abut::app
         "level",  "step",    "n_active", "n_changes",   "linear_iterations",
         "setups", "penalty", "barrier",  "penetration", "outer"};
 
-    // The first colour is a quiet one.
-    const std::vector<StatusWord> status_words = {{0, "open"},
+    // In the order of draw_status()'s colours: two quiet ones first.
+    const std::vector<StatusWord> status_words = {{-1, "no constraint"},
+                                                  {0, "open"},
                                                   {1, "contact"},
-                                                  {2, "contact above"},
-                                                  {-1, "no constraint"}};
+                                                  {2, "contact above"}};
 
     double median(std::vector<double> values)
     {
