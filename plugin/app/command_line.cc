@@ -13,19 +13,17 @@ namespace abut::app
     using Command = CommandLine::Command;
 
     const std::map<std::string, Command> commands = {
-        {"run", Command::run},
-        {"check", Command::check},
-        {"parameters", Command::parameters},
-        {"help", Command::help},
-        {"--help", Command::help},
-        {"-h", Command::help},
-        {"--version", Command::version}};
+        {"run", Command::run},       {"check", Command::check},
+        {"search", Command::search}, {"parameters", Command::parameters},
+        {"help", Command::help},     {"--help", Command::help},
+        {"-h", Command::help},       {"--version", Command::version}};
 
     const char *const general_help =
         R"(abut - contact mechanics with deal.II
 
   abut run SCENE.prm      solve a scene
   abut check SCENE.prm    read a scene, check its data and stop before solving
+  abut search SCENE.prm   search contact on two surfaces: pairs, time, memory
   abut parameters         print the reference of all parameters (Markdown)
   abut help COMMAND       explain a command
   abut --version          print the versions of abut, deal.II and Trilinos
@@ -53,6 +51,14 @@ written), 1 internal error.
 
 Read the scene, check everything that can be found out without solving, and
 print what would be solved. Exit code 0 when all is well, 2 when not.
+)"},
+        {"search", R"(abut search SCENE.prm [options]
+
+Run the contact search of a scene of kind 'search' by itself: print pairs, time
+per node, memory, a report on what was found, and the time of the search over
+the size of its buckets for each algorithm. Options, results and exit codes are
+those of 'abut run'; the sweep is written as sweep.csv and, with
+--set Output/Pictures=true, as search.svg. It uses one rank.
 )"},
         {"parameters", R"(abut parameters
 
@@ -87,7 +93,7 @@ Print the commands, or explain one.
       for (std::size_t i = 1; i < words.size(); ++i)
         if (words[i] == "--set")
           result.overrides.push_back(value_of(words, i));
-        else if (words[i] == "--output" && result.command == Command::run)
+        else if (words[i] == "--output" && result.command != Command::check)
           result.output = value_of(words, i);
         else if (words[i] == "--quiet")
           result.quiet = true;
@@ -118,7 +124,8 @@ Print the commands, or explain one.
                                + did_you_mean(words[0], names(commands))
                                + " 'abut --help' lists the commands.");
     result.command = command->second;
-    if (result.command == Command::run || result.command == Command::check)
+    if (result.command == Command::run || result.command == Command::check
+        || result.command == Command::search)
       parse_scene_command(words, result);
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];

@@ -14,6 +14,7 @@ namespace abut::app
     {
       run,
       check,
+      search,
       parameters,
       version,
       help

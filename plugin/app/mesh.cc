@@ -7,7 +7,6 @@
 #include "expression.h"
 #include "input_error.h"
 #include "parameters.h"
-#include "placed_manifold.h"
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/patterns.h>
@@ -154,55 +153,6 @@ namespace abut::app
       }
     }
 
-    template <int dim>
-    Placement<dim> make_placement(const MeshParameters &parameters)
-    {
-      const auto wrong =
-          [&parameters](const std::string &name, const std::string &message)
-      { throw InputError(parameters.section + "/" + name, message); };
-      const auto vector =
-          [&wrong](const std::vector<double> &numbers, const std::string &name)
-      {
-        dealii::Tensor<1, dim> result;
-        if (!numbers.empty() && numbers.size() != dim)
-          wrong(name, "needs " + std::to_string(dim) + " numbers, not "
-                          + std::to_string(numbers.size()) + ".");
-        for (unsigned int d = 0; d < numbers.size(); ++d)
-          result[d] = numbers[d];
-        return result;
-      };
-
-      dealii::Tensor<2, dim> matrix;
-      for (unsigned int d = 0; d < dim; ++d)
-        matrix[d][d] = parameters.scale.empty() ? 1 : parameters.scale[0];
-      if (parameters.scale.size() > 1)
-      {
-        const auto factors = vector(parameters.scale, "Scale");
-        for (unsigned int d = 0; d < dim; ++d)
-          matrix[d][d] = factors[d];
-      }
-      const std::size_t n_angles = dim == 2 ? 1 : 3;
-      if (!parameters.rotate.empty() && parameters.rotate.size() != n_angles)
-        wrong("Rotate", dim == 2 ? "needs one angle in degrees."
-                                 : "needs three angles in degrees, about "
-                                   "x, then y, then z.");
-      for (std::size_t axis = 0; axis < parameters.rotate.size(); ++axis)
-      {
-        const double angle =
-            parameters.rotate[axis] * 3.14159265358979323846 / 180;
-        const unsigned int i = dim == 2 ? 0 : unsigned(axis + 1) % 3;
-        const unsigned int j = dim == 2 ? 1 : unsigned(axis + 2) % 3;
-        dealii::Tensor<2, dim> rotation;
-        for (unsigned int d = 0; d < dim; ++d)
-          rotation[d][d] = 1;
-        rotation[i][i] = rotation[j][j] = std::cos(angle);
-        rotation[j][i] = std::sin(angle);
-        rotation[i][j] = -std::sin(angle);
-        matrix = rotation * matrix;
-      }
-      return {matrix, vector(parameters.move, "Move")};
-    }
-
     /** What a coarse mesh must be, whoever made it. */
     template <int dim>
     void check_mesh(const MeshParameters &parameters,
@@ -298,6 +248,55 @@ namespace abut::app
   }
 
   template <int dim>
+  Placement<dim> make_placement(const MeshParameters &parameters)
+  {
+    const auto wrong =
+        [&parameters](const std::string &name, const std::string &message)
+    { throw InputError(parameters.section + "/" + name, message); };
+    const auto vector =
+        [&wrong](const std::vector<double> &numbers, const std::string &name)
+    {
+      dealii::Tensor<1, dim> result;
+      if (!numbers.empty() && numbers.size() != dim)
+        wrong(name, "needs " + std::to_string(dim) + " numbers, not "
+                        + std::to_string(numbers.size()) + ".");
+      for (unsigned int d = 0; d < numbers.size(); ++d)
+        result[d] = numbers[d];
+      return result;
+    };
+
+    dealii::Tensor<2, dim> matrix;
+    for (unsigned int d = 0; d < dim; ++d)
+      matrix[d][d] = parameters.scale.empty() ? 1 : parameters.scale[0];
+    if (parameters.scale.size() > 1)
+    {
+      const auto factors = vector(parameters.scale, "Scale");
+      for (unsigned int d = 0; d < dim; ++d)
+        matrix[d][d] = factors[d];
+    }
+    const std::size_t n_angles = dim == 2 ? 1 : 3;
+    if (!parameters.rotate.empty() && parameters.rotate.size() != n_angles)
+      wrong("Rotate", dim == 2 ? "needs one angle in degrees."
+                               : "needs three angles in degrees, about "
+                                 "x, then y, then z.");
+    for (std::size_t axis = 0; axis < parameters.rotate.size(); ++axis)
+    {
+      const double angle =
+          parameters.rotate[axis] * 3.14159265358979323846 / 180;
+      const unsigned int i = dim == 2 ? 0 : unsigned(axis + 1) % 3;
+      const unsigned int j = dim == 2 ? 1 : unsigned(axis + 2) % 3;
+      dealii::Tensor<2, dim> rotation;
+      for (unsigned int d = 0; d < dim; ++d)
+        rotation[d][d] = 1;
+      rotation[i][i] = rotation[j][j] = std::cos(angle);
+      rotation[j][i] = std::sin(angle);
+      rotation[i][j] = -std::sin(angle);
+      matrix = rotation * matrix;
+    }
+    return {matrix, vector(parameters.move, "Move")};
+  }
+
+  template <int dim>
   void create_mesh(const MeshParameters &parameters, const RunOptions &options,
                    dealii::Triangulation<dim> &triangulation)
   {
@@ -357,6 +356,8 @@ namespace abut::app
     }
   }
 
+  template Placement<2> make_placement<2>(const MeshParameters &);
+  template Placement<3> make_placement<3>(const MeshParameters &);
   template void create_mesh<2>(const MeshParameters &, const RunOptions &,
                                dealii::Triangulation<2> &);
   template void create_mesh<3>(const MeshParameters &, const RunOptions &,

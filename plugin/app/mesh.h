@@ -6,6 +6,7 @@
  * Coarse meshes from a scene file: a generator of deal.II by name, or a file.
  */
 
+#include "placed_manifold.h"
 #include "scene.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -37,6 +38,11 @@ namespace abut::app
      * InputError for values that cannot be right in any dimension. */
     void parse(dealii::ParameterHandler &prm, const std::string &section);
   };
+
+  /** The placement that Scale, Rotate and Move ask for; throws InputError for
+   * a wrong number of numbers. */
+  template <int dim>
+  Placement<dim> make_placement(const MeshParameters &parameters);
 
   /** Create the coarse mesh in the empty @p triangulation: generate or read
    * it, then scale, rotate and move it, then set boundary ids. Manifolds of

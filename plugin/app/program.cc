@@ -43,6 +43,14 @@ namespace abut::app
           : file(line.scene_file, line.overrides)
       {
         const SceneKind &kind = scene_kind(file);
+        if (line.command == Command::search
+            && std::string(kind.name) != "search")
+          throw InputError("Scene", std::string("'abut search' takes scenes "
+                                                "of kind 'search'; this one "
+                                                "is of kind '")
+                                        + kind.name
+                                        + "', which searches no "
+                                          "facets.");
         const unsigned int dimension = scene_dimension(file, kind);
         scene = kind.create(dimension);
         declare_all(prm, kind, *scene);
@@ -140,8 +148,8 @@ namespace abut::app
       return ExitCode::success;
     }
 
-    /** run and check. An error in the input is thrown with the place of the
-     * parameter in front of the message. */
+    /** run, check and search. An error in the input is thrown with the place of
+     * the parameter in front of the message. */
     ExitCode scene_command(MPI_Comm communicator, const CommandLine &line)
     {
       std::optional<LoadedScene> loaded;
@@ -154,8 +162,8 @@ namespace abut::app
                      file.emplace(line.scene_file, line.overrides);
                      loaded.emplace(communicator, line);
                    });
-        return line.command == Command::run ? run_scene(*loaded, line)
-                                            : check_scene(*loaded, line);
+        return line.command == Command::check ? check_scene(*loaded, line)
+                                              : run_scene(*loaded, line);
       }
       catch (const InputError &error)
       {
@@ -176,6 +184,7 @@ namespace abut::app
     {
     case Command::run:
     case Command::check:
+    case Command::search:
       return scene_command(communicator, line);
     case Command::parameters:
       write_reference(text);

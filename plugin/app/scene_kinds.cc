@@ -3,6 +3,7 @@
 #include "obstacle_scene.h"
 #include "point_mass.h"
 #include "scene.h"
+#include "search_scene.h"
 
 namespace abut::app
 {
@@ -23,7 +24,11 @@ namespace abut::app
         {"point mass",
          "point masses on springs with constraints: small dense problems",
          {0},
-         make_point_mass}};
+         make_point_mass},
+        {"search",
+         "contact search between two surfaces (or one and itself), by itself",
+         {3, 2},
+         create_search_scene}};
     return kinds;
   }
 } // namespace abut::app

@@ -2,8 +2,11 @@
 #ifndef ABUT_SHIM_HANDLES_H
 #define ABUT_SHIM_HANDLES_H
 
+#include <abut/detect.h>
 #include <abut/rows.h>
+#include <abut/search.h>
 #include <abut/strategy.h>
+#include <abut/surface.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -25,6 +28,22 @@ namespace abut::shim
     void operator()(abut_strategy *object) const
     {
       abut_strategy_destroy(&object);
+    }
+    void operator()(abut_surface *object) const
+    {
+      abut_surface_destroy(&object);
+    }
+    void operator()(abut_search *object) const
+    {
+      abut_search_destroy(&object);
+    }
+    void operator()(abut_pairs *object) const
+    {
+      abut_pairs_destroy(&object);
+    }
+    void operator()(abut_detection *object) const
+    {
+      abut_detection_destroy(&object);
     }
   };
 
@@ -60,6 +79,40 @@ namespace abut::shim
     abut_strategy *strategy = nullptr;
     check(context, abut_strategy_create(context, &options, &strategy));
     return Handle<abut_strategy>(strategy);
+  }
+
+  inline Handle<abut_surface> create_surface(abut_context *context,
+                                             const abut_surface_data &data)
+  {
+    abut_surface *surface = nullptr;
+    check(context, abut_surface_create(context, &data, &surface));
+    return Handle<abut_surface>(surface);
+  }
+
+  inline Handle<abut_search> create_search(abut_context *context,
+                                           abut_surface *surface,
+                                           const abut_search_options &options)
+  {
+    abut_search *search = nullptr;
+    check(context, abut_search_create(context, surface, &options, &search));
+    return Handle<abut_search>(search);
+  }
+
+  inline Handle<abut_pairs> create_pairs(abut_context *context)
+  {
+    abut_pairs *pairs = nullptr;
+    check(context, abut_pairs_create(context, &pairs));
+    return Handle<abut_pairs>(pairs);
+  }
+
+  inline Handle<abut_detection>
+  create_detection(abut_context *context, abut_surface *secondary,
+                   abut_surface *primary, const abut_detection_options &options)
+  {
+    abut_detection *detection = nullptr;
+    check(context, abut_detection_create(context, secondary, primary, &options,
+                                         &detection));
+    return Handle<abut_detection>(detection);
   }
 } // namespace abut::shim
 
