@@ -56,8 +56,10 @@ namespace abut::app
       for (const auto &field : *list)
         names.push_back(field.first);
     std::ofstream out(file);
-    dealii::DataOutBase::write_vtu(patches, names, {},
-                                   dealii::DataOutBase::VtkFlags(), out);
+    // Better compression takes many times as long and saves little.
+    dealii::DataOutBase::VtkFlags flags;
+    flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+    dealii::DataOutBase::write_vtu(patches, names, {}, flags, out);
     if (!out.flush())
       throw std::runtime_error("cannot write " + file.string());
   }
