@@ -63,6 +63,8 @@ namespace abut::app
       std::istringstream in(pattern);
       std::string kind, range;
       in >> kind >> range;
+      if (range == "range")
+        in >> range;
       if (kind != "[Double" && kind != "[Integer")
         return pattern;
       std::string words = kind == "[Double" ? "a number" : "a whole number";

@@ -3,12 +3,12 @@
 #include "search_run.h"
 
 #include "input_error.h"
+#include "processor_time.h"
 #include "surface_output.h"
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace abut::app
@@ -197,7 +197,6 @@ namespace abut::app
   void SearchRun::measure_times()
   {
     SectionTimes::Scope scope(report.times, "timing");
-    using Clock = std::chrono::steady_clock;
     Side &other = primary_side();
     std::vector<double> seconds;
     for (unsigned int i = 0; i < parameters.sweep.repeats; ++i)
@@ -208,12 +207,11 @@ namespace abut::app
                     abut_surface_update(side->surface.get(),
                                         side->arrays.position.data()));
       const abut_detection_options chosen = detection_options();
-      const Clock::time_point start = Clock::now();
+      const double start = processor_seconds();
       const auto again = shim::create_detection(
           context.get(), secondary.surface.get(), other.surface.get(), chosen);
       shim::check(context.get(), abut_detection_run(again.get(), 0));
-      seconds.push_back(
-          std::chrono::duration<double>(Clock::now() - start).count());
+      seconds.push_back(processor_seconds() - start);
     }
     report.set("ns_per_node",
                1e9 * *std::min_element(seconds.begin(), seconds.end())

@@ -3,10 +3,10 @@
 
 #include "input_error.h"
 #include "parameters.h"
+#include "processor_time.h"
 #include "shim/handles.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -14,13 +14,6 @@ namespace abut::app
 {
   namespace
   {
-    using Clock = std::chrono::steady_clock;
-
-    double seconds_since(const Clock::time_point start)
-    {
-      return std::chrono::duration<double>(Clock::now() - start).count();
-    }
-
     /** The pairs of a search, to be compared with those of the others. */
     struct Pairs
     {
@@ -109,9 +102,9 @@ namespace abut::app
         options.bucket_size = bucket_size;
         options.capacity = 0;
         SweepPoint point = {algorithm, bucket_size, 0, 0, 0, {}};
-        const Clock::time_point begin = Clock::now();
-        for (unsigned int i = 0;
-             i < parameters.repeats && (i == 0 || seconds_since(begin) < 1);
+        const double begin = processor_seconds();
+        for (unsigned int i = 0; i < parameters.repeats
+                                 && (i == 0 || processor_seconds() - begin < 1);
              ++i)
           measure(i == 0, point);
         point.bucket_in_use =
@@ -122,15 +115,15 @@ namespace abut::app
       /** One search; keeps the fastest. */
       void measure(const bool first, SweepPoint &point)
       {
-        const Clock::time_point start = Clock::now();
+        const double start = processor_seconds();
         const auto search = shim::create_search(context, primary, options);
         shim::check(context, abut_search_update(search.get()));
-        const double build = seconds_since(start);
+        const double build = processor_seconds() - start;
         const auto pairs = shim::create_pairs(context);
-        const Clock::time_point built = Clock::now();
+        const double built = processor_seconds();
         shim::check(context,
                     abut_search_nodes(search.get(), secondary, pairs.get()));
-        const double query = seconds_since(built);
+        const double query = processor_seconds() - built;
         if (first || build + query < point.build_seconds + point.query_seconds)
         {
           point.build_seconds = build;
@@ -177,9 +170,8 @@ namespace abut::app
                       "algorithm, beside the automatic choice. Empty: no "
                       "sweep.");
     prm.declare_entry("Repeats", "5", Integer(1),
-                      "Measurements of which the fastest counts, since what "
-                      "else the machine does only slows them down; fewer "
-                      "where they take longer than a second.");
+                      "Measurements, in processor time, of which the fastest "
+                      "counts; fewer where they take longer than a second.");
     prm.declare_entry("Most tests", "3e8", Double(0),
                       "All pairs take part in the sweep as long as nodes "
                       "times facets are not more.");

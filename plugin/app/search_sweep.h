@@ -30,7 +30,7 @@ namespace abut::app
     void parse(dealii::ParameterHandler &prm);
   };
 
-  /** One search of the sweep. */
+  /** One search of the sweep; times are those of the processor. */
   struct SweepPoint
   {
     abut_search_algorithm algorithm;

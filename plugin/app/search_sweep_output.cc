@@ -170,7 +170,8 @@ namespace abut::app
              << " using 1:2 with points pt 6 ps 1.8 lw 2.5 lc "
                 "rgb '#000000' notitle, $chosen"
              << a
-             << " using 1:2:(sprintf('%.0f ns', $2)) with labels offset 0,1.1 "
+             << " using 1:2:(sprintf('%.0f ns', $2)) with labels boxed offset "
+                "0,1.1 "
                 "notitle";
         separator = ", ";
       }

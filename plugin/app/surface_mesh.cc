@@ -245,6 +245,11 @@ namespace abut::app
   {
     using namespace dealii::Patterns;
     MeshParameters::declare(prm);
+    prm.declare_entry("File", "", Anything(),
+                      "Mesh file (msh of gmsh, inp or ucd, vtk, vtu, unv, "
+                      "xda) whose boundary is the surface, or triangles in 3D "
+                      "(stl, text or binary), read instead of generating a "
+                      "mesh; relative names are relative to the scene file.");
     prm.declare_entry("Refinements", "0", Integer(0, 30),
                       "How often the cells at the surface are refined; those "
                       "inside the body are not.");
