@@ -102,6 +102,21 @@ for size in (1e-9, 1e9):
            f"bucket size {size}", pairs_with_area=121,
            candidates=brute_force(7, 5, 0.05, 0.317)[0])
 
+# Other words of the section: lists that are too long find the same contact,
+# a bucket holds as many facets as it may, and a surface at 60 degrees is
+# faced within 70 degrees but not within 50.
+expect(search(scene(upper(7), lower(5), "set Skin = 0.3\n"
+                    "set Bucket capacity = 3")),
+       "skin", contact_elements=64, pairs_with_area=121, bucket_capacity=3)
+for angle, n in ((70, 9), (50, 0)):
+    found = search(scene(box((2, 2), (0.4, 0, 0), (0.6, 0.1, 1), 4,
+                             "set Rotate = 60, 0, 0", "set Move = 0, 0.5, 0.1"),
+                         lower(5), "set Reach = 0.5\n"
+                         f"set Facing angle = {angle}"))
+    expect(found, f"angle {angle}", contact_elements=n,
+           rejected_facing_away=0 if n else found["candidates"])
+    p.expect(found["candidates"] > 0, "no candidates")
+
 # Uncovered: of 9 columns of nodes at x = 1/2 .. 3/2, those beyond 1 are not
 # paired; they have 3 1/2 eighths of the area.
 expect(search(scene(upper(8, 0.0625, "set Move = 0.5, 0, 0"), lower(8),
@@ -207,6 +222,8 @@ text_stl("degenerate.stl", flat[:5] + [(flat[5][0],) * 2 + flat[5][1:2]]
 wrong_file("degenerate.stl", "surface 'Primary'", "facet 5")
 text_stl("inverted.stl", triangles(2, 0, flip=(3,)))
 wrong_file("inverted.stl", "surface 'Primary'", "inverted", "facet 3")
+expect(search(scene(upper(2), "set File = inverted.stl",
+                    "set Check orientation = false")), "inverted", facets=8)
 text_stl("good.stl", flat)
 wrong(scene(upper(2), "set File = good.stl\nset Refinements = 1"),
       "scene.prm:10: Primary/Refinements", "STL")
