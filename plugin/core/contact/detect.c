@@ -31,6 +31,11 @@
 #include <math.h>
 #include <string.h>
 
+enum
+{
+  AHEAD = 8 /* nodes between a prefetch and its use */
+};
+
 static void
 prepare(abut_detection *d)
 {
@@ -259,22 +264,18 @@ pair_node(abut_detection *d, const abut_answers *a, int32_t k)
   connect(d, r.node, facet, &p);
 }
 
-/* Ask for what the nodes of a block will need: results and normals, and the
- * nodes of the facets with the nearest centres. */
-static void
-prefetch_block(const abut_detection *d, const abut_answers *a)
+/* Ask for what the k-th node will need: its result, normal and groups, and the
+ * nodes of the facet with the nearest centre. */
+static inline void
+prefetch_node(const abut_detection *d, const abut_answers *a, int32_t k)
 {
   const abut_record *records = d->search->records.data;
-  const abut_contact *contact = d->contact.data;
-  const int32_t dimension = d->secondary->view.dimension;
-  for (int32_t k = 0; k < a->n; ++k)
-  {
-    const int32_t node = a->order[k];
-    __builtin_prefetch(contact + node, 1);
-    __builtin_prefetch(d->normals + (int64_t)dimension * node);
-    if (a->start[k + 1] > a->start[k])
-      abut_prefetch_nodes(d->primary, records[a->slot[a->start[k]]].facet);
-  }
+  const int32_t dimension = d->secondary->view.dimension, node = a->order[k];
+  __builtin_prefetch((const abut_contact *)d->contact.data + node, 1);
+  __builtin_prefetch(d->normals + (int64_t)dimension * node);
+  __builtin_prefetch((const uint64_t *)d->node_groups.data + node);
+  if (a->start[k + 1] > a->start[k])
+    abut_prefetch_nodes(d->primary, records[a->slot[a->start[k]]].facet);
 }
 
 /* Steps 12 to 17 for a block of nodes. */
@@ -290,9 +291,14 @@ pair_block(void *user, const abut_answers *a)
       abut_array_reserve(d->context, &d->scratch, 0, most);
   if (status != ABUT_SUCCESS)
     return status;
-  prefetch_block(d, a);
+  for (int32_t k = 0; k < a->n && k < AHEAD; ++k)
+    prefetch_node(d, a, k);
   for (int32_t k = 0; k < a->n; ++k)
+  {
+    if (k + AHEAD < a->n)
+      prefetch_node(d, a, k + AHEAD);
     pair_node(d, a, k);
+  }
   return ABUT_SUCCESS;
 }
 

@@ -127,6 +127,13 @@ add_quad4_area_vectors(const abut_surface *s, double *restrict sum)
   const double *p = s->view.position;
   for (int32_t f = 0; f < s->view.n_facets; ++f, c += 4)
   {
+    /* Numbers of nodes may lead anywhere. */
+    if (f + 8 < s->view.n_facets)
+      for (int k = 32; k < 36; ++k)
+      {
+        __builtin_prefetch(p + 3 * (int64_t)c[k]);
+        __builtin_prefetch(sum + 4 * (int64_t)c[k], 1);
+      }
     const double *x0 = p + 3 * (int64_t)c[0], *x1 = p + 3 * (int64_t)c[1];
     const double *x2 = p + 3 * (int64_t)c[2], *x3 = p + 3 * (int64_t)c[3];
     double a[3], b[3], v[4];

@@ -145,6 +145,19 @@ answer_part(abut_search *s, const abut_query *q, const batch *b, int32_t first,
     start[list->n + 1] = start[list->n] + count[i - first];
 }
 
+/* Ask for the queries of the next block. */
+static void
+prefetch_queries(const abut_query *q, const abut_keyed *items, int32_t first,
+                 int32_t n)
+{
+  const int32_t last = n - first < BLOCK ? n : first + BLOCK;
+  for (int32_t i = first; i < last; ++i)
+    if (q->points != NULL)
+      __builtin_prefetch(q->points + (int64_t)q->dimension * items[i].index);
+    else
+      __builtin_prefetch(q->boxes + 6 * (int64_t)items[i].index);
+}
+
 static abut_status
 answer_block(abut_search *s, const abut_query *q, const batch *b, double skin,
              abut_list *list)
@@ -267,6 +280,7 @@ abut_search_list(abut_search *s, const abut_query *q, double skin,
     for (int32_t k = i; k < end; ++k)
       order[k - i] = items[k].index;
     load_batch(q, items + i, end - i, &b);
+    prefetch_queries(q, items, end, n);
     status = answer_block(s, q, &b, skin, list);
     if (status == ABUT_SUCCESS && consume != NULL)
     {

@@ -91,9 +91,14 @@ abut_prefetch_nodes(const abut_surface *s, int32_t f)
   const int32_t first = s->view.facet_start[f];
   const int32_t n = s->view.facet_start[f + 1] - first;
   for (int32_t a = 0; a < n; ++a)
-    __builtin_prefetch(s->view.position
-                       + (int64_t)s->view.dimension
-                             * s->view.connectivity[first + a]);
+  {
+    const double *x =
+        s->view.position
+        + (int64_t)s->view.dimension * s->view.connectivity[first + a];
+    /* A position may lie across two cache lines. */
+    __builtin_prefetch(x);
+    __builtin_prefetch(x + s->view.dimension - 1);
+  }
 }
 
 #endif
