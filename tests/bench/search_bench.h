@@ -73,10 +73,12 @@ extern "C"
   int bench_cgal(const bench_scene *, bench_task, bench_result *);
 
   /* Stages of Abut's detection, ns per node: normals; sorting and boxes; the
-   * rest with projection; then steps 2 to 11 alone, and after small motion. */
+   * rest with projection; then steps 2 to 11 alone; after small motion, with a
+   * list that has a skin, renewal of boxes and normals, and the check that the
+   * list still serves, which takes the place of steps 2 to 11. */
   typedef struct bench_stages
   {
-    double normals, build, rest, steps_2_to_11, after_motion;
+    double normals, build, rest, steps_2_to_11, renewal, after_motion;
   } bench_stages;
 
   void bench_stages_of(const bench_scene *scene, int repeats,

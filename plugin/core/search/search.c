@@ -329,9 +329,10 @@ sort_facets(abut_search *s)
   compute_sites(s);
   if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
   {
-    const double edge = s->options.bucket_size > 0
-                            ? s->options.bucket_size * median_size(s)
-                            : 0;
+    /* Four facets along a side of a cell cost least, measured; the radius of
+     * the largest facet is the least that works. */
+    const double asked = s->options.bucket_size;
+    const double edge = (asked > 0 ? asked : 4) * median_size(s);
     status = abut_grid_build(s->context, &s->grid, s->sites.data, s->n, edge,
                              s->items.data, s->room.data);
     compute_records(s, s->items.data);
@@ -339,7 +340,7 @@ sort_facets(abut_search *s)
       status = abut_search_fit(s->context, &s->runs, s->grid.n_cells);
     z->n_buckets = s->grid.n_cells;
     z->bucket_edge = s->grid.edge;
-    z->bucket_raised = s->grid.raised;
+    z->bucket_raised = asked > 0 && s->grid.raised;
     return status;
   }
   status = abut_tree_reserve(s->context, &s->tree, s->n, choose_capacity(s));
