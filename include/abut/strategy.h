@@ -89,7 +89,9 @@ extern "C"
      * on the first set, where abut_strategy_start() is given none: afterwards
      * closed rows are judged by their pressure and open ones by their gap. */
     double complementarity;
-    double barrier_start; /**< mu/(pressure_scale length_scale); default 1e-2 */
+    /** First mu/(pressure_scale length_scale) of the barrier, if there is no
+     * starting pressure to tell a better one; default 0.1. */
+    double barrier_start;
     double barrier_factor; /**< reduction per continuation step; default 0.1 */
     double barrier_end;    /**< last mu, same unit; default 1e-8 */
     double gap_tolerance;  /**< penetration / length_scale; default 1e-6 */

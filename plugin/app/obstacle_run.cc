@@ -201,9 +201,11 @@ namespace abut::app
     {
       const double coarse = parameters.coarse_tolerance;
       abut_strategy_options &o = here.options;
-      // Outer steps need linear solves that are finer than what they look at.
-      const double linear =
-          o.law->outer == ABUT_OUTER_NONE ? coarse : 1e-2 * coarse;
+      // Outer steps need linear solves that are finer than what they look at,
+      // and so do gaps that only the linear solver closes.
+      const bool rough = o.law->outer == ABUT_OUTER_NONE
+                         && here.system != System::saddle_point;
+      const double linear = rough ? coarse : 1e-2 * coarse;
       o.final_linear_tolerance = std::max(o.final_linear_tolerance,
                                           std::min(linear, o.linear_tolerance));
       o.gap_tolerance = std::max(o.gap_tolerance, coarse);
@@ -298,7 +300,7 @@ namespace abut::app
     if (present.reason != ABUT_REASON_CONVERGED)
       report.warn("The contact iteration ended without an answer after "
                   + std::to_string(present.steps)
-                  + " steps: " + abut_reason_text(present.reason));
+                  + " steps: " + contact.explanation());
     return present.reason == ABUT_REASON_CONVERGED;
   }
 

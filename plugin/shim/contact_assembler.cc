@@ -95,6 +95,7 @@ namespace abut
                      const std::vector<double> &upper);
     void compute_gap(const la::Vector &displacement);
     void set_scales(const la::Matrix &matrix, const la::Vector &residual);
+    double length_scale() const;
     void begin(const la::Matrix &matrix, const la::Vector &residual);
     void prepare_solver(const la::Matrix &matrix);
     void push_inside(la::Vector &displacement);
@@ -300,20 +301,33 @@ namespace abut
     smallest_residual = method.options.final_linear_tolerance
                         * std::max(residual.l2_norm(), internal.l2_norm());
 
+    double weight = 0.;
+    for (int i = 0; i < view.n_rows; ++i)
+      weight += view.weight[i];
+    weight = MPI::sum(weight, communicator);
+    const double load = std::max(residual.l1_norm(), internal.l1_norm());
+    abut_strategy_options &options = method.options;
+    options.pressure_scale = load > 0. && weight > 0. ? load / weight : 1.;
+    options.length_scale = length_scale();
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::Implementation::length_scale() const
+  {
+    const double displacement = start_displacement.linfty_norm();
+    if (displacement > 0.)
+      return displacement;
+    // The harmonic mean of the gaps: parts of an obstacle that are out of
+    // reach do not count.
     double sums[2] = {0., 0.};
     for (int i = 0; i < view.n_rows; ++i)
-      sums[0] += view.weight[i];
+      if (gap[i] != 0.)
+      {
+        sums[0] += view.weight[i];
+        sums[1] += view.weight[i] / std::abs(gap[i]);
+      }
     MPI::sum(sums, communicator, sums);
-    double largest[2] = {0., start_displacement.linfty_norm()};
-    for (const double g : gap)
-      largest[0] = std::max(largest[0], std::abs(g));
-    largest[0] = MPI::max(largest[0], communicator);
-
-    const double load = std::max(residual.l1_norm(), internal.l1_norm());
-    const double length = largest[1] > 0. ? largest[1] : largest[0];
-    abut_strategy_options &options = method.options;
-    options.pressure_scale = load > 0. && sums[0] > 0. ? load / sums[0] : 1.;
-    options.length_scale = length > 0. ? length : 1.;
+    return sums[1] > 0. ? sums[0] / sums[1] : 1.;
   }
 
   template <int dim>
@@ -367,10 +381,15 @@ namespace abut
   void
   ContactAssembler<dim>::Implementation::push_inside(la::Vector &displacement)
   {
-    double largest = displacement.linfty_norm();
-    for (const double g : gap)
-      largest = std::max(largest, std::abs(g));
-    const double margin = 1e-3 * MPI::max(largest, communicator);
+    // On the path of the barrier p g = mu, as far as the start knows p.
+    double largest = 0.;
+    for (const double p : start_pressure)
+      largest = std::max(largest, std::abs(p));
+    largest = MPI::max(largest, communicator);
+    const bool warm = largest > 0.;
+    const double barrier = warm ? std::min(1e-4, method.options.barrier_start)
+                                : method.options.barrier_start;
+    const double margin = barrier * length_scale();
     double *u = la::data(displacement);
     for (int i = 0; i < view.n_rows; ++i)
     {
@@ -378,10 +397,15 @@ namespace abut
       const bool paired = i + 1 < view.n_rows && unknown(i) == unknown(i + 1);
       const bool second = i > 0 && unknown(i) == unknown(i - 1);
       double room = margin;
+      if (warm)
+      {
+        const double p = start_pressure[unknown(i)] * (is_upper(i) ? -1. : 1.);
+        room *= largest / std::max(p, 1e-2 * largest);
+      }
       if (paired || second)
       {
         const int other = paired ? i + 1 : i - 1;
-        room = std::min(margin,
+        room = std::min(room,
                         0.25 * (view.initial_gap[i] + view.initial_gap[other]));
       }
       const double slope = is_upper(i) ? -1. : 1.;
@@ -576,11 +600,13 @@ namespace abut
     AssertThrow(i.view.row_start != nullptr || i.n_rows == 0,
                 ExcMessage("Call detect() before solve()."));
     i.prepare_solver(matrix);
-    if (!i.is_started)
-      i.begin(matrix, residual);
-    AssertThrow(i.request.action == ABUT_ACTION_SOLVE,
+    AssertThrow(!i.is_started || i.request.action == ABUT_ACTION_SOLVE,
                 ExcMessage("The contact iteration has stopped: call detect() "
                            "to begin a new one."));
+    // An infeasible start stops a barrier at once; update() then says so.
+    increment = 0.;
+    if (!i.is_started)
+      i.begin(matrix, residual);
     LinearReport report;
     while (i.request.action == ABUT_ACTION_SOLVE
            || i.request.action == ABUT_ACTION_SOLVE_AGAIN)
@@ -654,6 +680,16 @@ namespace abut
   {
     return implementation->is_started ? implementation->request.reason
                                       : ABUT_REASON_NONE;
+  }
+
+  template <int dim> std::string ContactAssembler<dim>::explanation() const
+  {
+    const std::string seen =
+        abut_context_message(implementation->context.get());
+    const bool failed =
+        reason() != ABUT_REASON_NONE && reason() != ABUT_REASON_CONVERGED;
+    return abut_reason_text(reason())
+           + (failed && !seen.empty() ? " (" + seen + ")" : "");
   }
 
   template <int dim> abut_progress ContactAssembler<dim>::progress() const

@@ -67,8 +67,9 @@ namespace abut
       const std::string unit = ", as a multiple of the scene's pressure scale "
                                "times its length scale.";
       declare_number(prm, "Barrier start", d.barrier_start, tiny, huge,
-                     "First product of pressure and gap of `barrier` and "
-                     "`interior point`"
+                     "First product of pressure and gap of `barrier` where "
+                     "there is no coarser mesh to start from; no later start "
+                     "is above it"
                          + unit);
       declare_number(prm, "Barrier factor", d.barrier_factor, tiny, 1,
                      "Factor of the barrier in each step of the continuation.");

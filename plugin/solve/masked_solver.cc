@@ -173,7 +173,10 @@ namespace abut::solve
     zero_held(mask, force);
     double *values = la::data(force);
     for (std::size_t i = 0; i < mask.diagonal.size(); ++i)
-      values[i] *= diagonal_[i] / (diagonal_[i] + mask.diagonal[i]);
+    {
+      const double softness = diagonal_[i] / (diagonal_[i] + mask.diagonal[i]);
+      values[i] *= softness * softness;
+    }
     return force.l2_norm();
   }
 

@@ -119,9 +119,10 @@ namespace abut::solve
                        bool start_is_zero = false);
 
     /** Norm of the forces that @p rhs puts on the free unknowns, where D adds
-     * to the diagonal k of K counted k / (k + D) times: very stiff springs
-     * then count no more than held unknowns do, though the forces in them are
-     * large at first. Tolerances are multiples of this norm. Collective. */
+     * to the diagonal k of K counted (k / (k + D))^2 times: very stiff springs
+     * then count as held unknowns do, not at all, though the forces in them
+     * are large at first. Tolerances are multiples of this norm. Collective.
+     */
     double load(const Mask &mask, const la::Vector &rhs) const;
 
     /** Make the preconditioner (or factorisation) fit the mask. Collective. */

@@ -36,6 +36,7 @@
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <string>
 
 namespace abut
 {
@@ -137,6 +138,10 @@ namespace abut
 
     /** Why the iteration stopped. Not collective. */
     abut_reason reason() const;
+
+    /** The reason in words: what to try, and what was seen. Not collective.
+     */
+    std::string explanation() const;
 
     /** State of the iteration. Not collective. */
     abut_progress progress() const;

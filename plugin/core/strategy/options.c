@@ -18,7 +18,7 @@ abut_strategy_defaults(void)
       .adaptive_penalty = true,
       .allowed_penetration = 0,
       .complementarity = 1,
-      .barrier_start = 1e-2,
+      .barrier_start = 0.1,
       .barrier_factor = 0.1,
       .barrier_end = 1e-8,
       .gap_tolerance = 1e-6,
