@@ -60,9 +60,8 @@ typedef struct abut_ranking
 } abut_ranking;
 
 /* Steps 12 to 14: the facet of the node, with its projection, or -1. Counts
- * rejections in the view. Scratch must hold ranking->n candidates. */
-int32_t abut_detection_rank(abut_detection *detection,
-                            const abut_ranking *ranking,
+ * rejections in the view. Scratch must hold k->n candidates. */
+int32_t abut_detection_rank(abut_detection *d, const abut_ranking *k,
                             abut_projection *projection);
 
 /* Bit of a primary group in pairs, or 0. */
