@@ -1,38 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-#include "scenes.h"
+#include "surface_fixture.h"
 
 #include <abut/detect.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-static abut_context *context;
-
-static int
-set_up(void **state)
-{
-  (void)state;
-  return abut_context_create(NULL, &context) != ABUT_SUCCESS;
-}
-
-static int
-tear_down(void **state)
-{
-  (void)state;
-  return abut_context_destroy(&context) != ABUT_SUCCESS;
-}
-
-static void
-require(abut_status status)
-{
-  if (status != ABUT_SUCCESS)
-    fail_msg("%s: %s", abut_status_text(status), abut_context_message(context));
-}
 
 /* Two meshes, their surfaces, and a detection between them. */
 typedef struct
@@ -42,15 +11,6 @@ typedef struct
   abut_detection *detection;
   abut_detection_view view;
 } pair;
-
-static abut_surface *
-surface_of(const scene_mesh *mesh)
-{
-  abut_surface *s = NULL;
-  const abut_surface_data data = scene_data(mesh);
-  require(abut_surface_create(context, &data, &s));
-  return s;
-}
 
 static pair
 begin(scene_mesh secondary, scene_mesh primary,

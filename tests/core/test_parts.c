@@ -1,46 +1,15 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Detection over parts of surfaces is detection over the whole. */
-#include "scenes.h"
+#include "surface_fixture.h"
 
 #include <abut/detect.h>
 #include <abut/parts.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum
 {
   MAX_PARTS = 7,
   MAX_BOXES = 4
 };
-
-static abut_context *context;
-
-static int
-set_up(void **state)
-{
-  (void)state;
-  return abut_context_create(NULL, &context) != ABUT_SUCCESS;
-}
-
-static int
-tear_down(void **state)
-{
-  (void)state;
-  return abut_context_destroy(&context) != ABUT_SUCCESS;
-}
-
-static void
-require(abut_status status)
-{
-  if (status != ABUT_SUCCESS)
-    fail_msg("%s: %s", abut_status_text(status), abut_context_message(context));
-}
 
 typedef struct
 {

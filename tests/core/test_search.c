@@ -1,51 +1,10 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Every search algorithm finds the pairs of the definition, on all scenes. */
-#include "scenes.h"
+#include "surface_fixture.h"
 
 #include "geometry/clip.h"
 
 #include <abut/search.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-static abut_context *context;
-
-static int
-set_up(void **state)
-{
-  (void)state;
-  return abut_context_create(NULL, &context) != ABUT_SUCCESS;
-}
-
-static int
-tear_down(void **state)
-{
-  (void)state;
-  /* Refuses while anything is alive. */
-  return abut_context_destroy(&context) != ABUT_SUCCESS;
-}
-
-static void
-require(abut_status status)
-{
-  if (status != ABUT_SUCCESS)
-    fail_msg("%s: %s", abut_status_text(status), abut_context_message(context));
-}
-
-static abut_surface *
-surface_of(const scene_mesh *mesh)
-{
-  abut_surface *s = NULL;
-  const abut_surface_data data = scene_data(mesh);
-  require(abut_surface_create(context, &data, &s));
-  return s;
-}
 
 static abut_search_options
 options_of(abut_search_algorithm algorithm, double reach, double relative)

@@ -1,45 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-#include "scenes.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-static abut_context *context;
-
-static int
-set_up(void **state)
-{
-  (void)state;
-  return abut_context_create(NULL, &context) != ABUT_SUCCESS;
-}
-
-static int
-tear_down(void **state)
-{
-  (void)state;
-  return abut_context_destroy(&context) != ABUT_SUCCESS;
-}
-
-static void
-require(abut_status status)
-{
-  if (status != ABUT_SUCCESS)
-    fail_msg("%s: %s", abut_status_text(status), abut_context_message(context));
-}
-
-static abut_surface *
-surface_of(const scene_mesh *mesh)
-{
-  abut_surface *s = NULL;
-  const abut_surface_data data = scene_data(mesh);
-  require(abut_surface_create(context, &data, &s));
-  return s;
-}
+#include "surface_fixture.h"
 
 static const double plane_parameters[5] = {0, 0, 1, 2, 0.5};
 
