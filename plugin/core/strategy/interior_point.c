@@ -77,6 +77,18 @@ look_for_pressure(abut_strategy *s)
   return status;
 }
 
+/* Measure the products of the start, from which the path to 0 is counted. */
+static abut_status
+start_path(abut_strategy *s)
+{
+  const abut_status status = average_product(s, 0, &s->interior.average);
+  if (status != ABUT_SUCCESS)
+    return status;
+  s->interior.start = s->interior.average;
+  report_barrier(s);
+  return predict(s);
+}
+
 static abut_status
 begin(abut_strategy *s)
 {
@@ -89,13 +101,7 @@ begin(abut_strategy *s)
     s->pressure[i] = fmax(s->pressure[i], pressure);
   }
   s->interior.imbalance = 1;
-  if (status == ABUT_SUCCESS)
-    status = average_product(s, 0, &s->interior.average);
-  if (status != ABUT_SUCCESS)
-    return status;
-  s->interior.start = s->interior.average;
-  report_barrier(s);
-  return predict(s);
+  return status == ABUT_SUCCESS ? start_path(s) : status;
 }
 
 /* Start again from the sizes that pressure and slack would have after the
@@ -112,12 +118,7 @@ restart(abut_strategy *s)
     s->pressure[i] = fmax(pressure, fabs(s->pressure[i] + s->dp[i]));
   }
   s->interior.cold = false;
-  const abut_status status = average_product(s, 0, &s->interior.average);
-  if (status != ABUT_SUCCESS)
-    return status;
-  s->interior.start = s->interior.average;
-  report_barrier(s);
-  return predict(s);
+  return start_path(s);
 }
 
 /* The corrector's right-hand side: centring by Mehrotra's rule and the second
