@@ -33,6 +33,26 @@ bound_sites(const abut_site *sites, const abut_keyed *items, int32_t n,
   }
 }
 
+static void sort_cluster(const abut_tree *tree, const abut_site *sites,
+                         abut_keyed *items, abut_keyed *room, int32_t n);
+
+/* Sort by key, then by finer keys what more than a bucket has in common. */
+static void
+sort_and_split(const abut_tree *tree, const abut_site *sites, abut_keyed *items,
+               abut_keyed *room, int32_t n)
+{
+  abut_order_sort(items, room, n);
+  for (int32_t i = 0; i < n;)
+  {
+    int32_t j = i + 1;
+    while (j < n && items[j].key == items[i].key)
+      ++j;
+    if (j - i > tree->capacity)
+      sort_cluster(tree, sites, items + i, room + i, j - i);
+    i = j;
+  }
+}
+
 /* Sort facets that share a cell on the finest lattice over them, and so on
  * until cells hold no more than a bucket or all centres are one point. Each
  * step divides the extent by 2^19, so that the depth is small. */
@@ -47,16 +67,7 @@ sort_cluster(const abut_tree *tree, const abut_site *sites, abut_keyed *items,
     return;
   for (int32_t i = 0; i < n; ++i)
     items[i].key = abut_lattice_key(&lattice, sites[items[i].index].centre);
-  abut_order_sort(items, room, n);
-  for (int32_t i = 0; i < n;)
-  {
-    int32_t j = i + 1;
-    while (j < n && items[j].key == items[i].key)
-      ++j;
-    if (j - i > tree->capacity)
-      sort_cluster(tree, sites, items + i, room + i, j - i);
-    i = j;
-  }
+  sort_and_split(tree, sites, items, room, n);
 }
 
 void
@@ -82,16 +93,7 @@ abut_tree_order(abut_tree *tree, const abut_site *sites, int32_t n,
   tree->n_classes = 0;
   for (; classes != 0; classes &= classes - 1)
     ++tree->n_classes;
-  abut_order_sort(items, room, n);
-  for (int32_t i = 0; i < n;)
-  {
-    int32_t j = i + 1;
-    while (j < n && items[j].key == items[i].key)
-      ++j;
-    if (j - i > tree->capacity)
-      sort_cluster(tree, sites, items + i, room + i, j - i);
-    i = j;
-  }
+  sort_and_split(tree, sites, items, room, n);
 }
 
 abut_status
