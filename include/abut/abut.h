@@ -13,6 +13,7 @@
 #include <abut/export.h>
 #include <abut/facet.h>
 #include <abut/law.h>
+#include <abut/obstacle.h>
 #include <abut/parts.h>
 #include <abut/projection.h>
 #include <abut/rows.h>

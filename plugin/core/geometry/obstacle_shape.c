@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Obstacles of closed formulas: checks of their numbers, and the loop over
+ * points around the kernels. */
+#include "geometry/obstacle_shape.h"
+
+#include "geometry/kernels.h"
+#include "geometry/obstacle.h"
+#include "geometry/vector.h"
+
+#include <string.h>
+
+typedef struct shape_obstacle
+{
+  abut_obstacle base;
+  abut_shape_data data;
+  void (*kernel)(const abut_shape_data *s, const double *x,
+                 abut_shape_distance *d);
+} shape_obstacle;
+
+static abut_status
+evaluate(abut_obstacle *o, int32_t n, const double *points, double *distance,
+         double *gradient, double *hessian)
+{
+  const shape_obstacle *s = (const shape_obstacle *)o;
+  const int32_t dimension = o->view.dimension;
+  for (int64_t i = 0; i < n; ++i)
+  {
+    double x[3] = {0., 0., 0.};
+    abut_shape_distance d;
+    for (int32_t k = 0; k < dimension; ++k)
+      x[k] = points[i * dimension + k];
+    s->kernel(&s->data, x, &d);
+    distance[i] = d.value;
+    for (int32_t k = 0; k < dimension; ++k)
+      gradient[i * dimension + k] = d.gradient[k];
+    if (hessian == NULL)
+      continue;
+    for (int32_t k = 0; k < dimension; ++k)
+      for (int32_t l = 0; l < dimension; ++l)
+        hessian[(i * dimension + k) * dimension + l] = d.hessian[3 * k + l];
+  }
+  return ABUT_SUCCESS;
+}
+
+static const abut_obstacle_methods methods = {evaluate, NULL, true};
+
+static bool
+is_length(double v)
+{
+  return v > 0. && v <= ABUT_FACET_LIMIT;
+}
+
+static bool
+uses_axis(abut_obstacle_kind kind)
+{
+  return kind == ABUT_OBSTACLE_PLANE || kind == ABUT_OBSTACLE_CYLINDER
+         || kind == ABUT_OBSTACLE_CONE;
+}
+
+/* What is wrong with a number that belongs to the kind, or NULL. */
+static const char *
+fault_of_numbers(const abut_obstacle_shape *s)
+{
+  const bool round =
+      s->kind == ABUT_OBSTACLE_SPHERE || s->kind == ABUT_OBSTACLE_CYLINDER;
+  const bool turned =
+      s->kind == ABUT_OBSTACLE_CYLINDER || s->kind == ABUT_OBSTACLE_CONE;
+  if (round && !is_length(s->radius))
+    return "radius is not positive and finite";
+  if (turned && s->length != 0. && !is_length(s->length))
+    return "length is negative or not finite";
+  if (s->kind == ABUT_OBSTACLE_CONE
+      && !(s->angle >= 1e-8 && s->angle <= 1.5707963))
+    return "angle is not between 0 and pi/2";
+  if (s->kind == ABUT_OBSTACLE_BOX)
+    for (int32_t d = 0; d < s->dimension; ++d)
+      if (!is_length(s->size[d]))
+        return "size is not positive and finite";
+  return NULL;
+}
+
+static abut_status
+check(abut_context *context, const char *call, const abut_obstacle_shape *s)
+{
+  if (s == NULL || s->struct_size != sizeof(*s))
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "shape is NULL or of another version");
+  if (s->dimension != 2 && s->dimension != 3)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "dimension is neither 2 nor 3");
+  if ((int)s->kind < 0 || s->kind > ABUT_OBSTACLE_CONE)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "kind is none of the shapes");
+  if (s->dimension == 2 && s->kind == ABUT_OBSTACLE_CYLINDER)
+    return abut_fail(context, ABUT_UNSUPPORTED, call,
+                     "a cylinder exists in 3D only; its section in 2D is a "
+                     "sphere or a box");
+  if (!abut_facet_finite(s->point, s->dimension))
+    return abut_fail(context, ABUT_NOT_FINITE, call,
+                     "point is NaN, infinite or out of range");
+  if (uses_axis(s->kind) && !abut_facet_finite(s->axis, s->dimension))
+    return abut_fail(context, ABUT_NOT_FINITE, call,
+                     "axis is NaN, infinite or out of range");
+  const char *fault = fault_of_numbers(s);
+  if (fault != NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call, fault);
+  return ABUT_SUCCESS;
+}
+
+/* Scale to unit length, whatever the size; false for the zero vector. */
+static bool
+make_unit(double *a)
+{
+  const double largest = max2(fabs(a[0]), max2(fabs(a[1]), fabs(a[2])));
+  if (!(largest > 0.))
+    return false;
+  for (int d = 0; d < 3; ++d)
+    a[d] /= largest;
+  unit3(a, 0.);
+  return true;
+}
+
+/* A unit vector orthogonal to the axis, in the plane in 2D. */
+static void
+find_across(int32_t dimension, const double *axis, double *across)
+{
+  if (dimension == 2)
+  {
+    across[0] = axis[1];
+    across[1] = -axis[0];
+    return;
+  }
+  int smallest = 0;
+  for (int d = 1; d < 3; ++d)
+    if (fabs(axis[d]) < fabs(axis[smallest]))
+      smallest = d;
+  double e[3] = {0., 0., 0.};
+  e[smallest] = 1.;
+  axpy3(e, -axis[smallest], axis, across);
+  unit3(across, 0.);
+}
+
+/* The half plane around the axis of cylinder and cone. */
+static void
+prepare_turned(abut_shape_data *s)
+{
+  const abut_obstacle_shape *p = &s->shape;
+  find_across(p->dimension, p->axis, s->across);
+  if (p->kind == ABUT_OBSTACLE_CYLINDER)
+  {
+    s->side[0] = 1.;
+    s->offset = p->radius;
+    s->top = p->length > 0. ? 0.5 * p->length : INFINITY;
+    s->corner[0] = p->radius;
+  }
+  else
+  {
+    s->side[0] = cos(p->angle);
+    s->side[1] = -sin(p->angle);
+    s->top = p->length > 0. ? p->length : INFINITY;
+    s->corner[0] = s->top * tan(p->angle);
+  }
+  s->corner[1] = s->top;
+}
+
+abut_status
+abut_obstacle_create_shape(abut_context *context,
+                           const abut_obstacle_shape *shape,
+                           abut_obstacle **obstacle)
+{
+  static const char call[] = "abut_obstacle_create_shape";
+  if (context == NULL || obstacle == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "context or result is NULL");
+  const abut_status status = check(context, call, shape);
+  if (status != ABUT_SUCCESS)
+    return status;
+  abut_shape_data data;
+  memset(&data, 0, sizeof(data));
+  data.shape = *shape;
+  for (int32_t d = 0; d < 3; ++d)
+  {
+    const bool used = d < shape->dimension;
+    data.half[d] = used ? 0.5 * shape->size[d] : INFINITY;
+    data.shape.point[d] = used ? shape->point[d] : 0.;
+    data.shape.axis[d] = used ? shape->axis[d] : 0.;
+  }
+  if (uses_axis(shape->kind) && !make_unit(data.shape.axis))
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "axis is zero");
+  shape_obstacle *o =
+      abut_obstacle_make(context, call, sizeof(*o), &methods, shape->kind,
+                         shape->dimension, shape->hollow);
+  if (o == NULL)
+    return ABUT_OUT_OF_MEMORY;
+  o->data = data;
+  o->kernel = shape->kind == ABUT_OBSTACLE_PLANE    ? abut_plane_distance
+              : shape->kind == ABUT_OBSTACLE_SPHERE ? abut_sphere_distance
+              : shape->kind == ABUT_OBSTACLE_BOX    ? abut_box_distance
+                                                    : abut_turned_distance;
+  if (o->kernel == abut_turned_distance)
+    prepare_turned(&o->data);
+  *obstacle = &o->base;
+  return ABUT_SUCCESS;
+}
