@@ -18,31 +18,33 @@ namespace abut::app
   ExactSolution<dim>::ExactSolution(const std::string &value,
                                     const std::string &value_parameter,
                                     const std::string &gradient,
-                                    const std::string &gradient_parameter)
-      : value_expression(value, value_parameter)
+                                    const std::string &gradient_parameter,
+                                    const unsigned int n_components)
+      : dealii::Function<dim>(n_components),
+        value_expression(value, value_parameter, n_components)
   {
     if (gradient.find_first_not_of(" \t") != std::string::npos)
-      gradient_expression =
-          std::make_unique<Expression<dim>>(gradient, gradient_parameter, dim);
+      gradient_expression = std::make_unique<Expression<dim>>(
+          gradient, gradient_parameter, dim * n_components);
   }
 
   template <int dim>
   double ExactSolution<dim>::value(const dealii::Point<dim> &point,
-                                   const unsigned int) const
+                                   const unsigned int component) const
   {
-    return value_expression.value(point);
+    return value_expression.value(point, component);
   }
 
   template <int dim>
   dealii::Tensor<1, dim>
   ExactSolution<dim>::gradient(const dealii::Point<dim> &point,
-                               const unsigned int) const
+                               const unsigned int component) const
   {
     if (!gradient_expression)
-      return value_expression.gradient(point);
+      return value_expression.gradient(point, component);
     dealii::Tensor<1, dim> result;
     for (unsigned int d = 0; d < dim; ++d)
-      result[d] = gradient_expression->value(point, d);
+      result[d] = gradient_expression->value(point, dim * component + d);
     return result;
   }
 
@@ -86,19 +88,85 @@ namespace abut::app
             continue;
           seen[local] = true;
           largest = std::max(
-              largest, std::abs(solution(dofs[i])
-                                - exact.value(nodes.quadrature_point(i))));
+              largest,
+              std::abs(solution(dofs[i])
+                       - exact.value(nodes.quadrature_point(i),
+                                     fe.system_to_component_index(i).first)));
         }
       }
       return largest;
     }
+
+    /** Error of a function at the points of a cell, by components. */
+    template <int dim> class PointErrors
+    {
+    public:
+      PointErrors(const unsigned int n_components, const unsigned int n_points)
+          : value(n_components, std::vector<double>(n_points)),
+            gradient(n_components,
+                     std::vector<dealii::Tensor<1, dim>>(n_points))
+      {
+      }
+
+      void reinit(const dealii::FEValues<dim> &points,
+                  const la::Vector &solution,
+                  const dealii::Function<dim> &exact)
+      {
+        for (unsigned int c = 0; c < value.size(); ++c)
+        {
+          const auto &u = points[dealii::FEValuesExtractors::Scalar(c)];
+          u.get_function_values(solution, value[c]);
+          u.get_function_gradients(solution, gradient[c]);
+          for (const unsigned int q : points.quadrature_point_indices())
+          {
+            const dealii::Point<dim> &x = points.quadrature_point(q);
+            value[c][q] -= exact.value(x, c);
+            gradient[c][q] -= exact.gradient(x, c);
+          }
+        }
+      }
+
+      double value_square(const unsigned int q) const
+      {
+        double sum = 0;
+        for (const auto &component : value)
+          sum += component[q] * component[q];
+        return sum;
+      }
+
+      double gradient_square(const unsigned int q) const
+      {
+        double sum = 0;
+        for (const auto &component : gradient)
+          sum += component[q].norm_square();
+        return sum;
+      }
+
+      double energy(const ElasticMaterial &material, const unsigned int q,
+                    const dealii::Point<dim> &point) const
+      {
+        dealii::Tensor<1, dim> u;
+        dealii::Tensor<2, dim> du;
+        for (unsigned int c = 0; c < dim; ++c)
+        {
+          u[c] = value[c][q];
+          du[c] = gradient[c][q];
+        }
+        return strain_product(material, du, u, point);
+      }
+
+    private:
+      std::vector<std::vector<double>> value;
+      std::vector<std::vector<dealii::Tensor<1, dim>>> gradient;
+    };
   } // namespace
 
   template <int dim>
   ErrorNorms error_norms(const dealii::Mapping<dim> &mapping,
                          const dealii::DoFHandler<dim> &dof_handler,
                          const la::Vector &solution,
-                         const dealii::Function<dim> &exact)
+                         const dealii::Function<dim> &exact,
+                         const ElasticMaterials *materials)
   {
     const auto &fe = dof_handler.get_fe();
     const dealii::QGauss<dim> quadrature(fe.degree + 2);
@@ -106,31 +174,40 @@ namespace abut::app
         mapping, fe, quadrature,
         dealii::update_values | dealii::update_gradients
             | dealii::update_quadrature_points | dealii::update_JxW_values);
-    std::vector<double> values(quadrature.size());
-    std::vector<dealii::Tensor<1, dim>> gradients(quadrature.size());
+    PointErrors<dim> errors(fe.n_components(), quadrature.size());
     double l2 = 0;
     double h1 = 0;
+    double energy = 0;
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned())
         continue;
       points.reinit(cell);
-      points.get_function_values(solution, values);
-      points.get_function_gradients(solution, gradients);
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
+      errors.reinit(points, solution, exact);
+      for (const unsigned int q : points.quadrature_point_indices())
       {
         const dealii::Point<dim> &x = points.quadrature_point(q);
-        const double error = values[q] - exact.value(x);
-        l2 += error * error * points.JxW(q);
-        h1 += (gradients[q] - exact.gradient(x)).norm_square() * points.JxW(q);
+        double weight = points.JxW(q);
+        if (materials != nullptr)
+        {
+          const ElasticMaterial &material = materials->at(cell->material_id());
+          weight *= material.template measure<dim>(x);
+          energy += errors.energy(material, q, x) * weight;
+        }
+        l2 += errors.value_square(q) * weight;
+        h1 += errors.gradient_square(q) * weight;
       }
     }
     const MPI_Comm communicator = dof_handler.get_communicator();
     const double node =
         largest_nodal_error(mapping, dof_handler, solution, exact);
-    return {std::sqrt(dealii::Utilities::MPI::sum(l2, communicator)),
-            std::sqrt(dealii::Utilities::MPI::sum(h1, communicator)),
-            dealii::Utilities::MPI::max(node, communicator)};
+    ErrorNorms result{std::sqrt(dealii::Utilities::MPI::sum(l2, communicator)),
+                      std::sqrt(dealii::Utilities::MPI::sum(h1, communicator)),
+                      dealii::Utilities::MPI::max(node, communicator)};
+    if (materials != nullptr)
+      result.energy =
+          std::sqrt(dealii::Utilities::MPI::sum(energy, communicator));
+    return result;
   }
 
   template <int dim>
@@ -197,7 +274,8 @@ namespace abut::app
   template class ExactSolution<dim>;                                           \
   template ErrorNorms error_norms<dim>(                                        \
       const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &,           \
-      const la::Vector &, const dealii::Function<dim> &);                      \
+      const la::Vector &, const dealii::Function<dim> &,                       \
+      const ElasticMaterials *);                                               \
   template double membrane_energy<dim>(                                        \
       const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &,           \
       const la::Vector &, const dealii::Function<dim> &,                       \

@@ -6,6 +6,7 @@
  * Errors against an exact solution, and the energy of a membrane.
  */
 
+#include "elastic_material.h"
 #include "expression.h"
 
 #include <abut/dealii/linear_algebra.h>
@@ -15,21 +16,23 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace abut::app
 {
-  /** An exact scalar solution given by formulas. */
+  /** An exact solution given by formulas. */
   template <int dim> class ExactSolution : public dealii::Function<dim>
   {
   public:
-    /** @param value formula of u
-     * @param gradient formulas of du/dx; du/dy (; du/dz), or empty: symmetric
-     * differences of @p value
+    /** @param value formula of u, or of its components
+     * @param gradient formulas of du/dx; du/dy (; du/dz), component after
+     * component, or empty: symmetric differences of @p value
      * @param value_parameter, gradient_parameter names for messages */
     ExactSolution(const std::string &value, const std::string &value_parameter,
                   const std::string &gradient,
-                  const std::string &gradient_parameter);
+                  const std::string &gradient_parameter,
+                  unsigned int n_components = 1);
 
     double value(const dealii::Point<dim> &point,
                  unsigned int component = 0) const override;
@@ -47,16 +50,22 @@ namespace abut::app
   {
     double l2;           /**< |u - u_h| in L2 */
     double h1_seminorm;  /**< |grad(u - u_h)| in L2 */
-    double largest_node; /**< largest error at a node */
+    double largest_node; /**< largest error at a node, of any component */
+    /** (sum of sigma(e) : eps(e))^(1/2), of elastic bodies only. */
+    std::optional<double> energy = std::nullopt;
   };
 
-  /** Integrate the error by Gauss' formula of degree+2 points per direction.
-   * @p solution is ghosted. Collective. */
+  /** Integrate the error by Gauss' formula of degree+2 points per direction,
+   * for functions of any number of components.
+   * @param solution ghosted
+   * @param materials of elastic bodies, for the energy and for integrals over
+   * rings; null: not a displacement. Collective. */
   template <int dim>
   ErrorNorms error_norms(const dealii::Mapping<dim> &mapping,
                          const dealii::DoFHandler<dim> &dof_handler,
                          const la::Vector &solution,
-                         const dealii::Function<dim> &exact);
+                         const dealii::Function<dim> &exact,
+                         const ElasticMaterials *materials = nullptr);
 
   /** Energy 1/2 (k grad u, grad u) - (f, u) - <t_N, u> by Gauss' formula with
    * degree+1 points (exact for constant data on parallelograms).

@@ -56,11 +56,7 @@ namespace abut::app
    * badly the mesh follows a curved obstacle, and without them refinement
    * converges to a wrong energy.
    *
-   * @param squared eta_K^2 per active cell, zero on cells of other ranks; made
-   * for GridRefinement's fixed fraction, whose sum is then the bulk criterion
-   * @return the global estimate, square root of the sum over all ranks.
-   *
-   * Collective. About as expensive as one assembly of the matrix. */
+   * See estimate_residual() for the result and its cost. Collective. */
   template <int dim>
   double estimate_error(const EstimatorInput<dim> &input,
                         dealii::Vector<float> &squared);

@@ -11,13 +11,10 @@
 #include "app/report.h"
 
 #include "expect.h"
+#include "problem.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/distributed/tria.h>
-#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/affine_constraints.h>
@@ -40,71 +37,6 @@ using dealii::Point;
 namespace
 {
   std::filesystem::path folder;
-
-  /** A mesh of (0,1)^dim with sides of ids 0, 1, ... and nodal values. */
-  template <int dim> struct Problem
-  {
-    explicit Problem(const unsigned int degree)
-        : mesh(MPI_COMM_WORLD), fe(degree), dof_handler(mesh), mapping(1)
-    {
-    }
-
-    void distribute()
-    {
-      dof_handler.distribute_dofs(fe);
-      owned = dof_handler.locally_owned_dofs();
-      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-      constraints.reinit(relevant);
-      dealii::DoFTools::make_hanging_node_constraints(dof_handler, constraints);
-      constraints.close();
-    }
-
-    la::Vector interpolate(const std::string &text) const
-    {
-      la::Vector distributed(owned, MPI_COMM_WORLD);
-      dealii::VectorTools::interpolate(mapping, dof_handler,
-                                       Expression<dim>(text, "u"), distributed);
-      constraints.distribute(distributed);
-      return ghosted(distributed);
-    }
-
-    la::Vector ghosted(const la::Vector &distributed) const
-    {
-      la::Vector result(owned, relevant, MPI_COMM_WORLD);
-      result = distributed;
-      return result;
-    }
-
-    dealii::parallel::distributed::Triangulation<dim> mesh;
-    dealii::FE_Q<dim> fe;
-    dealii::DoFHandler<dim> dof_handler;
-    dealii::MappingQ<dim> mapping;
-    dealii::IndexSet owned;
-    dealii::IndexSet relevant;
-    dealii::AffineConstraints<double> constraints;
-  };
-
-  template <int dim>
-  void unit_cube(Problem<dim> &problem, const unsigned int refinements)
-  {
-    dealii::GridGenerator::hyper_cube(problem.mesh, 0, 1, true);
-    problem.mesh.refine_global(refinements);
-    problem.distribute();
-  }
-
-  /** Refine the cells near the origin once more. */
-  template <int dim> void refine_corner(Problem<dim> &problem)
-  {
-    for (const auto &cell : problem.mesh.active_cell_iterators())
-      if (cell->is_locally_owned() && cell->center().norm() < 0.6)
-        cell->set_refine_flag();
-    problem.mesh.execute_coarsening_and_refinement();
-    problem.distribute();
-    Expect::that(dealii::Utilities::MPI::sum(
-                     problem.constraints.n_constraints(), MPI_COMM_WORLD)
-                     > 0,
-                 "hanging nodes");
-  }
 
   /** Errors of the nodal interpolant of x^2, exactly: on a cell of side h the
    * error is (x-a)(x-b), its square integrates to h^5/30 and that of its
@@ -144,28 +76,12 @@ namespace
                  -4.5, 1e-13, "energy");
   }
 
-  template <int dim> std::set<dealii::types::boundary_id> all_sides()
-  {
-    std::set<dealii::types::boundary_id> ids;
-    for (unsigned int i = 0; i < 2 * dim; ++i)
-      ids.insert(i);
-    return ids;
-  }
-
   /** The estimate, and that the cells' parts sum up to it. */
   template <int dim> double estimate(const EstimatorInput<dim> &input)
   {
     dealii::Vector<float> squared;
-    const double total = estimate_error(input, squared);
-    double sum = 0;
-    for (const auto &cell : input.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        sum += squared[cell->active_cell_index()];
-      else
-        Expect::that(squared[cell->active_cell_index()] == 0, "foreign cell");
-    sum = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
-    Expect::near(std::sqrt(sum), total, 1e-5 * total + 1e-12, "sum of cells");
-    return total;
+    return expect_sum(input.dof_handler, squared,
+                      estimate_error(input, squared));
   }
 
   /** Functions that the elements represent have no residual at all. */
