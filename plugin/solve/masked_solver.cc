@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "masked_solver.h"
 
+#include "multigrid.h"
+
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
 
@@ -51,6 +53,11 @@ namespace abut::solve
   MaskedSolver::MaskedSolver(const SolverParameters &parameters)
       : parameters_(parameters)
   {
+  }
+
+  void MaskedSolver::set_near_null_space(const NearNullSpace &space)
+  {
+    space_ = space;
   }
 
   void MaskedSolver::reinit(const la::Matrix &matrix)
@@ -153,14 +160,7 @@ namespace abut::solve
     if (is_direct())
       direct_ = std::make_unique<DirectSolver>(system);
     else
-    {
-      dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
-      data.elliptic = true;
-      data.aggregation_threshold = parameters_.aggregation_threshold;
-      data.smoother_sweeps = parameters_.smoother_sweeps;
-      amg_ = std::make_unique<dealii::TrilinosWrappers::PreconditionAMG>();
-      amg_->initialize(system, data);
-    }
+      amg_ = make_multigrid(system, parameters_, space_);
     built_mask_ = mask;
     is_built_ = true;
     is_slow_ = false;

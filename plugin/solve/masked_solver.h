@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_MASKED_SOLVER_H
 
 #include "direct_solver.h"
+#include "near_null_space.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
@@ -106,6 +107,9 @@ namespace abut::solve
   public:
     explicit MaskedSolver(const SolverParameters &parameters = {});
 
+    /** What is known of the unknowns, for the matrices that come. */
+    void set_near_null_space(const NearNullSpace &space);
+
     /** Take a new matrix, which must outlive this object or the next call.
      */
     void reinit(const la::Matrix &matrix);
@@ -152,6 +156,7 @@ namespace abut::solve
     void note_speed(double digits_per_iteration);
 
     SolverParameters parameters_;
+    NearNullSpace space_;
     const la::Matrix *matrix_ = nullptr;
     std::vector<double> diagonal_;
 

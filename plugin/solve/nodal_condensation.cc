@@ -18,6 +18,11 @@ namespace abut::solve
   {
   }
 
+  void NodalCondensation::set_near_null_space(const NearNullSpace &space)
+  {
+    solver_.set_near_null_space(space);
+  }
+
   void NodalCondensation::reinit(const la::Matrix &stiffness,
                                  const abut_rows_view &rows)
   {

@@ -18,6 +18,8 @@ namespace abut::solve
   public:
     explicit NodalCondensation(const SolverParameters &parameters);
 
+    void set_near_null_space(const NearNullSpace &space) override;
+
     void reinit(const la::Matrix &stiffness,
                 const abut_rows_view &rows) override;
 

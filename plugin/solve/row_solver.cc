@@ -1,22 +1,51 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "row_solver.h"
 
+#include "nodal_condensation.h"
+#include "row_operator.h"
+#include "saddle_point.h"
+
 namespace abut::solve
 {
+  bool are_nodal(const la::Matrix &stiffness, const abut_rows_view &rows)
+  {
+    const dealii::IndexSet owned = stiffness.locally_owned_range_indices();
+    bool others = false;
+    for (int i = 0; i < rows.n_rows && !others; ++i)
+      others = rows.row_start[i + 1] - rows.row_start[i] != 1
+               || !owned.is_element(rows.column[rows.row_start[i]]);
+    return !dealii::Utilities::MPI::logical_or(
+        others, stiffness.get_mpi_communicator());
+  }
   std::vector<double> row_stiffness(const la::Matrix &stiffness,
-                                    const abut_rows_view &rows)
+                                    const RowOperator &rows)
   {
     const std::vector<double> diagonal =
         la::diagonal(la::local_rows(stiffness));
-    const dealii::IndexSet owned = stiffness.locally_owned_range_indices();
-    std::vector<double> result(rows.n_rows, 0.);
-    for (int i = 0; i < rows.n_rows; ++i)
-    {
-      for (std::int64_t k = rows.row_start[i]; k < rows.row_start[i + 1]; ++k)
-        result[i] += rows.coefficient[k] * rows.coefficient[k]
-                     * diagonal[owned.index_within_set(rows.column[k])];
-      result[i] /= rows.weight[i];
-    }
+    la::Vector vector(stiffness.locally_owned_range_indices(),
+                      stiffness.get_mpi_communicator());
+    std::copy(diagonal.begin(), diagonal.end(), la::data(vector));
+    std::vector<double> result = rows.squares(vector);
+    for (int i = 0; i < rows.n_rows(); ++i)
+      result[i] /= rows.weight(i);
     return result;
+  }
+
+  std::vector<double> row_stiffness(const la::Matrix &stiffness,
+                                    const abut_rows_view &rows)
+  {
+    return row_stiffness(stiffness,
+                         RowOperator(stiffness.locally_owned_range_indices(),
+                                     rows, stiffness.get_mpi_communicator()));
+  }
+
+  std::unique_ptr<RowSolver> make_row_solver(const System system,
+                                             const SolverParameters &parameters,
+                                             const la::Matrix &stiffness,
+                                             const abut_rows_view &rows)
+  {
+    if (system == System::saddle_point || !are_nodal(stiffness, rows))
+      return std::make_unique<SaddlePoint>(parameters);
+    return std::make_unique<NodalCondensation>(parameters);
   }
 } // namespace abut::solve

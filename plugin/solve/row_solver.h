@@ -2,13 +2,20 @@
 #ifndef ABUT_SOLVE_ROW_SOLVER_H
 #define ABUT_SOLVE_ROW_SOLVER_H
 
+#include "near_null_space.h"
+
 #include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/method_parameters.h>
 #include <abut/dealii/solver_parameters.h>
 #include <abut/rows.h>
 #include <abut/strategy.h>
 
+#include <memory>
+
 namespace abut::solve
 {
+  class RowOperator;
+
   /** One linearised step of a contact problem: find du and dp with
    *
    *     K du - sum_i w_i dp_i B_i^T = -R + sum_i w_i p_i B_i^T
@@ -22,8 +29,13 @@ namespace abut::solve
   public:
     virtual ~RowSolver() = default;
 
+    /** What is known of the unknowns. Call before reinit(), and again when the
+     * mesh changes. Not collective. */
+    virtual void set_near_null_space(const NearNullSpace &space) = 0;
+
     /** Take a matrix and the rows that go with it. Both must outlive the
-     * calls to solve(). Collective. */
+     * calls to solve(). Columns of rows may be unknowns of other ranks.
+     * Collective. */
     virtual void reinit(const la::Matrix &stiffness,
                         const abut_rows_view &rows) = 0;
 
@@ -38,9 +50,23 @@ namespace abut::solve
   };
 
   /** The local stiffness sum_j B_ij^2 K_jj / w_i of each row, pressure per
-   * length: what penalties are multiples of. All columns must be owned. */
+   * length: what penalties are multiples of. Collective. */
+  std::vector<double> row_stiffness(const la::Matrix &stiffness,
+                                    const RowOperator &rows);
+
+  /** The same for rows that no operator was made of yet. Collective. */
   std::vector<double> row_stiffness(const la::Matrix &stiffness,
                                     const abut_rows_view &rows);
+
+  /** Whether each row is one owned unknown alone, on all ranks. Collective. */
+  bool are_nodal(const la::Matrix &stiffness, const abut_rows_view &rows);
+
+  /** The solver for a set of rows: by elimination unless the user's word
+   * @p system asks for a saddle point. Collective. */
+  std::unique_ptr<RowSolver> make_row_solver(System system,
+                                             const SolverParameters &parameters,
+                                             const la::Matrix &stiffness,
+                                             const abut_rows_view &rows);
 } // namespace abut::solve
 
 #endif

@@ -4,6 +4,7 @@
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
 namespace abut::solve
@@ -11,49 +12,18 @@ namespace abut::solve
   using BlockVector = dealii::TrilinosWrappers::MPI::BlockVector;
   namespace MPI = dealii::Utilities::MPI;
 
-  namespace
-  {
-    /** C^T and C of the constraints on this rank, over owned unknowns. */
-    struct Coupling
-    {
-      std::vector<int> start = {0};
-      std::vector<int> unknown;
-      std::vector<double> value;
-
-      int size() const
-      {
-        return static_cast<int>(start.size()) - 1;
-      }
-
-      double times(const int k, const double *u) const
-      {
-        double sum = 0.;
-        for (int e = start[k]; e < start[k + 1]; ++e)
-          sum += value[e] * u[unknown[e]];
-        return sum;
-      }
-
-      void add_transposed(const int k, const double factor, double *u) const
-      {
-        for (int e = start[k]; e < start[k + 1]; ++e)
-          u[unknown[e]] += factor * value[e];
-      }
-    };
-  } // namespace
-
   struct SaddlePoint::System
   {
-    Coupling coupling;
     std::vector<int> row; ///< number of each constraint's row
     /** Multiplies the second equation, so that its residual is a force. */
     std::vector<double> scale;
-    /** gamma s / w: augmentation is C^T diag(augmentation) C. */
-    std::vector<double> augmentation;
-    std::vector<double> schur; ///< w / ((1 + gamma) s)
     std::vector<double> right; ///< h
-    Mask added;                ///< D
-    Mask augmented;            ///< D and the diagonal of the augmentation
-    la::Vector force;          ///< f
+    std::vector<double> schur; ///< w / ((1 + gamma) s)
+    std::vector<double> soft;  ///< [rows] w b/a where condensed, else 0
+    std::vector<double> stiff; ///< [rows] soft, and gamma w s on constraints
+    Mask added;                ///< diagonal of D
+    Mask augmented;            ///< and of the augmentation
+    la::Vector force;          ///< f, augmented
     dealii::types::global_dof_index n_constraints = 0;
     dealii::types::global_dof_index first_constraint = 0;
   };
@@ -70,36 +40,54 @@ namespace abut::solve
       return MPI::this_mpi_process(communicator) == 0 ? 0 : sum;
     }
 
+    /** The diagonal of B^T diag(factor) B; nothing is held. */
+    Mask diagonal_mask(const RowOperator &rows,
+                       const std::vector<double> &factor,
+                       const la::Vector &model)
+    {
+      la::Vector d(model);
+      d = 0.;
+      rows.add_squares(factor.data(), d);
+      Mask mask;
+      mask.held.assign(la::n_owned(d), 0);
+      mask.diagonal.assign(la::data(d), la::data(d) + la::n_owned(d));
+      return mask;
+    }
+
     /** The augmented system with its second equation scaled. */
     template <typename System> class AugmentedOperator
     {
     public:
-      AugmentedOperator(const la::Matrix &stiffness, const System &system)
-          : stiffness_(stiffness), system_(system)
+      AugmentedOperator(const la::Matrix &stiffness, const RowOperator &rows,
+                        const System &system)
+          : stiffness_(stiffness),
+            rows_(rows),
+            system_(system),
+            gap_(rows.n_rows())
       {
       }
 
       void vmult(BlockVector &dst, const BlockVector &src) const
       {
         stiffness_.vmult(dst.block(0), src.block(0));
-        double *force = la::data(dst.block(0));
-        double *gap = la::data(dst.block(1));
-        const double *u = la::data(src.block(0));
+        rows_.times(src.block(0), gap_.data());
+        double *out = la::data(dst.block(1));
         const double *p = la::data(src.block(1));
-        for (std::size_t i = 0; i < system_.added.diagonal.size(); ++i)
-          force[i] += system_.added.diagonal[i] * u[i];
-        for (int k = 0; k < system_.coupling.size(); ++k)
-        {
-          const double cu = system_.coupling.times(k, u);
-          gap[k] = -system_.scale[k] * cu;
-          system_.coupling.add_transposed(
-              k, system_.augmentation[k] * cu - p[k], force);
-        }
+        for (std::size_t k = 0; k < system_.row.size(); ++k)
+          out[k] = -system_.scale[k] * rows_.weight(system_.row[k])
+                   * gap_[system_.row[k]];
+        for (int i = 0; i < rows_.n_rows(); ++i)
+          gap_[i] *= system_.stiff[i];
+        for (std::size_t k = 0; k < system_.row.size(); ++k)
+          gap_[system_.row[k]] -= rows_.weight(system_.row[k]) * p[k];
+        rows_.add_transposed(gap_.data(), dst.block(0));
       }
 
     private:
       const la::Matrix &stiffness_;
+      const RowOperator &rows_;
       const System &system_;
+      mutable std::vector<double> gap_;
     };
 
     /** Upper block-triangular preconditioner. */
@@ -107,8 +95,13 @@ namespace abut::solve
     {
     public:
       TriangularPreconditioner(const ScaledPreconditioner &leading,
-                               const System &system, const la::Vector &model)
-          : leading_(leading), system_(system), force_(model)
+                               const RowOperator &rows, const System &system,
+                               const la::Vector &model)
+          : leading_(leading),
+            rows_(rows),
+            system_(system),
+            force_(model),
+            factor_(rows.n_rows(), 0.)
       {
       }
 
@@ -116,20 +109,22 @@ namespace abut::solve
       {
         const double *gap = la::data(src.block(1));
         double *p = la::data(dst.block(1));
-        force_ = src.block(0);
-        double *force = la::data(force_);
-        for (int k = 0; k < system_.coupling.size(); ++k)
+        for (std::size_t k = 0; k < system_.row.size(); ++k)
         {
           p[k] = -gap[k] / (system_.scale[k] * system_.schur[k]);
-          system_.coupling.add_transposed(k, p[k], force);
+          factor_[system_.row[k]] = rows_.weight(system_.row[k]) * p[k];
         }
+        force_ = src.block(0);
+        rows_.add_transposed(factor_.data(), force_);
         leading_.vmult(dst.block(0), force_);
       }
 
     private:
       const ScaledPreconditioner &leading_;
+      const RowOperator &rows_;
       const System &system_;
       mutable la::Vector force_;
+      mutable std::vector<double> factor_;
     };
   } // namespace
 
@@ -138,70 +133,58 @@ namespace abut::solve
   {
   }
 
+  void SaddlePoint::set_near_null_space(const NearNullSpace &space)
+  {
+    leading_.set_near_null_space(space);
+  }
+
   void SaddlePoint::reinit(const la::Matrix &stiffness,
                            const abut_rows_view &rows)
   {
     stiffness_ = &stiffness;
-    rows_ = rows;
+    rows_ = RowOperator(stiffness.locally_owned_range_indices(), rows,
+                        stiffness.get_mpi_communicator());
     leading_.reinit(stiffness);
-    row_stiffness_ = row_stiffness(stiffness, rows);
+    row_stiffness_ = row_stiffness(stiffness, rows_);
+    are_nodal_ = are_nodal(stiffness, rows);
   }
 
   SaddlePoint::System SaddlePoint::assemble(const la::Vector &residual,
                                             const abut_request &request) const
   {
     System system;
-    system.force = residual;
-    system.force *= -1.;
-    double *force = la::data(system.force);
-    const std::size_t n = leading_.diagonal().size();
-    system.added.held.assign(n, 0);
-    system.augmented.held.assign(n, 0);
-    system.added.diagonal.assign(n, 0.);
-    system.augmented.diagonal.assign(n, 0.);
-
-    const dealii::IndexSet owned = stiffness_->locally_owned_range_indices();
-    for (int i = 0; i < rows_.n_rows; ++i)
+    const double gamma = parameters_.augmentation;
+    std::vector<double> pressure(rows_.n_rows());
+    system.soft.assign(rows_.n_rows(), 0.);
+    system.stiff.assign(rows_.n_rows(), 0.);
+    for (int i = 0; i < rows_.n_rows(); ++i)
     {
-      const double w = rows_.weight[i];
+      const double w = rows_.weight(i);
       const double a = request.d_pressure[i];
       const double b = request.d_gap[i];
       const double c = request.residual[i];
-      const bool is_constraint = a == 0.;
-      const double factor =
-          is_constraint ? parameters_.augmentation * row_stiffness_[i] : b / a;
-      for (auto e = rows_.row_start[i]; e < rows_.row_start[i + 1]; ++e)
+      if (a == 0.)
       {
-        const int j = owned.index_within_set(rows_.column[e]);
-        const double slope = rows_.coefficient[e];
-        system.augmented.diagonal[j] += w * slope * slope * factor;
-        if (is_constraint)
-        {
-          system.coupling.unknown.push_back(j);
-          system.coupling.value.push_back(w * slope);
-          force[j] += w * slope * (request.pressure[i] - factor * c / b);
-        }
-        else
-        {
-          AssertThrow(b == 0.
-                          || rows_.row_start[i + 1] - rows_.row_start[i] == 1,
-                      dealii::ExcMessage("Rows over several unknowns cannot "
-                                         "be condensed into the diagonal."));
-          system.added.diagonal[j] += w * slope * slope * factor;
-          force[j] += w * slope * (request.pressure[i] - c / a);
-        }
-      }
-      if (is_constraint)
-      {
-        system.coupling.start.push_back(system.coupling.unknown.size());
+        const double s = row_stiffness_[i];
+        system.stiff[i] = gamma * w * s;
+        pressure[i] = w * (request.pressure[i] - gamma * s * c / b);
         system.row.push_back(i);
         system.right.push_back(w * c / b);
-        system.scale.push_back(row_stiffness_[i]);
-        system.augmentation.push_back(factor / w);
-        system.schur.push_back(
-            w / ((1. + parameters_.augmentation) * row_stiffness_[i]));
+        system.scale.push_back(s);
+        system.schur.push_back(w / ((1. + gamma) * s));
+      }
+      else
+      {
+        system.soft[i] = system.stiff[i] = w * b / a;
+        pressure[i] = w * (request.pressure[i] - c / a);
       }
     }
+    system.force = residual;
+    system.force *= -1.;
+    rows_.add_transposed(pressure.data(), system.force);
+    system.added = diagonal_mask(rows_, system.soft, residual);
+    system.augmented = diagonal_mask(rows_, system.stiff, residual);
+
     const MPI_Comm communicator = stiffness_->get_mpi_communicator();
     system.n_constraints = system.row.size();
     system.first_constraint =
@@ -229,9 +212,9 @@ namespace abut::solve
 
     const ScaledPreconditioner leading =
         leading_.preconditioner(system.augmented, increment);
-    const AugmentedOperator<System> matrix(*stiffness_, system);
-    const TriangularPreconditioner<System> preconditioner(leading, system,
-                                                          increment);
+    const AugmentedOperator<System> matrix(*stiffness_, rows_, system);
+    const TriangularPreconditioner<System> preconditioner(leading, rows_,
+                                                          system, increment);
     dealii::SolverControl control(parameters_.max_iterations,
                                   std::max(tolerance, 1e-14 * right.l2_norm()),
                                   false, false);
@@ -254,60 +237,80 @@ namespace abut::solve
                : control.last_step();
   }
 
-  void SaddlePoint::solve_directly(const System &system, la::Vector &increment,
-                                   std::vector<double> &multiplier) const
+  la::Matrix SaddlePoint::assemble_matrix(const System &system) const
   {
-    const MPI_Comm communicator = stiffness_->get_mpi_communicator();
-    const dealii::IndexSet unknowns = stiffness_->locally_owned_range_indices();
-    const auto n = unknowns.size();
-    dealii::IndexSet owned(n + system.n_constraints);
-    owned.add_indices(unknowns);
+    const auto n = stiffness_->m();
+    dealii::IndexSet owned(n + system.n_constraints), touched(owned.size());
+    owned.add_indices(rows_.owned());
     owned.add_range(n + system.first_constraint,
                     n + system.first_constraint + system.row.size());
+    touched.add_indices(owned);
+    touched.add_indices(rows_.ghosts());
 
-    // Entries of this rank's rows, in the numbering (unknowns, constraints).
-    dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), owned);
-    const la::LocalRows rows = la::local_rows(*stiffness_);
+    const la::LocalRows stiffness = la::local_rows(*stiffness_);
     const auto for_each_entry = [&](const auto &visit)
     {
-      for (int i = 0; i < rows.n_rows; ++i)
-        for (int e = rows.start[i]; e < rows.start[i + 1]; ++e)
-          visit(unknowns.nth_index_in_set(i),
-                la::global_column(*stiffness_, rows.column[e]),
-                rows.value[e]
-                    + (rows.column[e] == i ? system.added.diagonal[i] : 0.));
-      for (int k = 0; k < system.coupling.size(); ++k)
+      for (int i = 0; i < stiffness.n_rows; ++i)
+        for (int e = stiffness.start[i]; e < stiffness.start[i + 1]; ++e)
+          visit(rows_.global_column(i),
+                la::global_column(*stiffness_, stiffness.column[e]),
+                stiffness.value[e]);
+      for (int i = 0; i < rows_.n_rows(); ++i)
+        if (system.soft[i] != 0.)
+          for (auto e = rows_.begin(i); e < rows_.end(i); ++e)
+            for (auto f = rows_.begin(i); f < rows_.end(i); ++f)
+              visit(rows_.global_column(rows_.column(e)),
+                    rows_.global_column(rows_.column(f)),
+                    system.soft[i] * rows_.coefficient(e)
+                        * rows_.coefficient(f));
+      for (std::size_t k = 0; k < system.row.size(); ++k)
       {
         const auto row = n + system.first_constraint + k;
+        const int i = system.row[k];
         visit(row, row, 0.);
-        for (int e = system.coupling.start[k]; e < system.coupling.start[k + 1];
-             ++e)
+        for (auto e = rows_.begin(i); e < rows_.end(i); ++e)
         {
-          const auto column =
-              unknowns.nth_index_in_set(system.coupling.unknown[e]);
-          visit(row, column, -system.coupling.value[e]);
-          visit(column, row, -system.coupling.value[e]);
+          const auto column = rows_.global_column(rows_.column(e));
+          const double value = -rows_.weight(i) * rows_.coefficient(e);
+          visit(row, column, value);
+          visit(column, row, value);
         }
       }
     };
+    const MPI_Comm communicator = stiffness_->get_mpi_communicator();
+    dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), touched);
     for_each_entry([&](const auto i, const auto j, double)
                    { pattern.add(i, j); });
+    dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned,
+                                                       communicator, touched);
     la::Matrix matrix;
     matrix.reinit(owned, owned, pattern, communicator);
     for_each_entry([&](const auto i, const auto j, const double value)
                    { matrix.add(i, j, value); });
     matrix.compress(dealii::VectorOperation::add);
+    return matrix;
+  }
 
-    // Without augmentation here: a factorisation has no use for it.
+  void SaddlePoint::solve_directly(const System &system, la::Vector &increment,
+                                   std::vector<double> &multiplier) const
+  {
+    const la::Matrix matrix = assemble_matrix(system);
+    const dealii::IndexSet owned = matrix.locally_owned_range_indices();
+    const MPI_Comm communicator = stiffness_->get_mpi_communicator();
     la::Vector right(owned, communicator), solution(owned, communicator);
     const int n_unknowns = la::n_owned(increment);
-    std::copy(system.force.begin(), system.force.end(), la::data(right));
+
+    // Without augmentation here: a factorisation has no use for it.
+    la::Vector force(system.force);
+    std::vector<double> augmentation(rows_.n_rows(), 0.);
     for (std::size_t k = 0; k < system.row.size(); ++k)
     {
-      system.coupling.add_transposed(
-          k, system.augmentation[k] * system.right[k], la::data(right));
+      const int i = system.row[k];
+      augmentation[i] = system.stiff[i] * system.right[k] / rows_.weight(i);
       la::data(right)[n_unknowns + k] = system.right[k];
     }
+    rows_.add_transposed(augmentation.data(), force);
+    std::copy_n(la::data(force), n_unknowns, la::data(right));
 
     DirectSolver(matrix).solve(solution, right);
     const double *values = la::data(solution);
@@ -320,19 +323,12 @@ namespace abut::solve
                             const std::vector<double> &multiplier,
                             const la::Vector &increment) const
   {
-    const dealii::IndexSet owned = stiffness_->locally_owned_range_indices();
-    const double *du = la::data(increment);
-    for (int i = 0; i < rows_.n_rows; ++i)
-    {
-      request.gap_change[i] = 0.;
-      for (auto e = rows_.row_start[i]; e < rows_.row_start[i + 1]; ++e)
-        request.gap_change[i] +=
-            rows_.coefficient[e] * du[owned.index_within_set(rows_.column[e])];
+    rows_.times(increment, request.gap_change);
+    for (int i = 0; i < rows_.n_rows(); ++i)
       if (request.d_pressure[i] != 0.)
         request.pressure_change[i] =
             -(request.residual[i] + request.d_gap[i] * request.gap_change[i])
             / request.d_pressure[i];
-    }
     for (std::size_t k = 0; k < system.row.size(); ++k)
       request.pressure_change[system.row[k]] = multiplier[k];
   }
@@ -346,7 +342,9 @@ namespace abut::solve
     std::vector<double> multiplier;
     LinearReport report;
     const dealii::Timer timer;
-    if (leading_.is_direct() && system.n_constraints > 0)
+    // Condensed rows on single unknowns alone: K + D with a diagonal D.
+    const bool is_diagonal = are_nodal_ && system.n_constraints == 0;
+    if (leading_.is_direct() && !is_diagonal)
     {
       solve_directly(system, increment, multiplier);
       report.n_setups = 1;
@@ -357,7 +355,7 @@ namespace abut::solve
       double tolerance =
           request.linear_tolerance * leading_.load(system.added, system.force);
       tolerance = std::max(tolerance, smallest_residual);
-      if (system.n_constraints > 0)
+      if (!is_diagonal)
       {
         report = leading_.prepare(system.augmented);
         report.n_iterations =

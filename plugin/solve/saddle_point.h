@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_SADDLE_POINT_H
 
 #include "masked_solver.h"
+#include "row_operator.h"
 #include "row_solver.h"
 
 namespace abut::solve
@@ -12,7 +13,8 @@ namespace abut::solve
    *     [ K + D   -C^T ] [du]   [ f ]
    *     [  -C      0   ] [dp] = [ h ],      C = W B on constraints (a = 0);
    *
-   * rows whose pressure follows from the gap (a != 0) are condensed into D.
+   * rows whose pressure follows from the gap (a != 0) are condensed into
+   * D = B^T diag(w b/a) B.
    * Iteratively: FGMRES with the block-triangular preconditioner of the
    * augmented system, one ML cycle for K + D + gamma s W B^T B and the
    * diagonal w / ((1 + gamma) s) for the Schur complement, s being the local
@@ -21,6 +23,8 @@ namespace abut::solve
   {
   public:
     explicit SaddlePoint(const SolverParameters &parameters);
+
+    void set_near_null_space(const NearNullSpace &space) override;
 
     void reinit(const la::Matrix &stiffness,
                 const abut_rows_view &rows) override;
@@ -37,6 +41,7 @@ namespace abut::solve
     unsigned int solve_iteratively(const System &system, double tolerance,
                                    la::Vector &increment,
                                    std::vector<double> &multiplier) const;
+    la::Matrix assemble_matrix(const System &system) const;
     void solve_directly(const System &system, la::Vector &increment,
                         std::vector<double> &multiplier) const;
     void recover(const abut_request &request, const System &system,
@@ -46,8 +51,9 @@ namespace abut::solve
     SolverParameters parameters_;
     MaskedSolver leading_;
     const la::Matrix *stiffness_ = nullptr;
-    abut_rows_view rows_ = {};
+    RowOperator rows_;
     std::vector<double> row_stiffness_;
+    bool are_nodal_ = false;
   };
 } // namespace abut::solve
 

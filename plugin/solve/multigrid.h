@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_MULTIGRID_H
+#define ABUT_SOLVE_MULTIGRID_H
+
+#include "near_null_space.h"
+
+#include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/solver_parameters.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+
+namespace abut::solve
+{
+  /** ML's smoothed aggregation for @p matrix, with the translations of the
+   * near-null space as coarse functions. The matrix must outlive the result.
+   * Collective. */
+  std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG>
+  make_multigrid(const la::Matrix &matrix, const SolverParameters &parameters,
+                 const NearNullSpace &space);
+} // namespace abut::solve
+
+#endif

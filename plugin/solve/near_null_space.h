@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_NEAR_NULL_SPACE_H
+#define ABUT_SOLVE_NEAR_NULL_SPACE_H
+
+#include <deal.II/base/point.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace abut::solve
+{
+  /** Which unknown is what: the motions that a stiffness barely resists. By
+   * default the field is scalar and in one piece. */
+  struct NearNullSpace
+  {
+    /** Components of the field; more than one: a displacement. */
+    unsigned int n_components = 1;
+    /** Bodies, the connected parts of the mesh over all ranks. */
+    unsigned int n_bodies = 1;
+    /** [owned] component of each unknown; empty for a scalar field. */
+    std::vector<std::uint8_t> component;
+    /** [owned] body of each unknown from 0; empty: all in body 0. */
+    std::vector<int> body;
+    /** [owned] where each unknown sits, from which rotations are known;
+     * planes have z = 0. Empty: only translations are known. */
+    std::vector<dealii::Point<3>> point;
+    /** [n_bodies] for messages; empty: body 1, body 2, ... */
+    std::vector<std::string> names;
+  };
+} // namespace abut::solve
+
+#endif

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_ROW_OPERATOR_H
+#define ABUT_SOLVE_ROW_OPERATOR_H
+
+#include <abut/dealii/linear_algebra.h>
+#include <abut/rows.h>
+
+#include <deal.II/base/partitioner.h>
+
+#include <memory>
+#include <vector>
+
+namespace abut::solve
+{
+  /** The constraint rows of all ranks as an operator B = dg/du. A row is
+   * stored on one rank; its columns may be unknowns of any rank, which are
+   * imported and exported point to point.
+   *
+   * Columns are numbered locally: first the owned unknowns in their order,
+   * then the ghosts, those columns that other ranks own. */
+  class RowOperator
+  {
+  public:
+    /** No rows. */
+    RowOperator() = default;
+
+    /** Take the rows of this rank, whose arrays must outlive this object.
+     * @p owned must be a contiguous range. Collective. */
+    RowOperator(const dealii::IndexSet &owned, const abut_rows_view &rows,
+                MPI_Comm communicator);
+
+    /** Rows on this rank. */
+    int n_rows() const
+    {
+      return rows_.n_rows;
+    }
+
+    /** Owned unknowns. */
+    int n_owned() const
+    {
+      return n_owned_;
+    }
+
+    /** Owned unknowns and ghosts. */
+    int n_columns() const
+    {
+      return n_owned_ + static_cast<int>(partitioner_->n_ghost_indices());
+    }
+
+    /** First entry of @p row; end(row) is past its last one. */
+    std::int64_t begin(const int row) const
+    {
+      return rows_.row_start[row];
+    }
+
+    /** See begin(). */
+    std::int64_t end(const int row) const
+    {
+      return rows_.row_start[row + 1];
+    }
+
+    /** Local column of an entry. */
+    int column(const std::int64_t entry) const
+    {
+      return column_[entry];
+    }
+
+    /** Value of an entry. */
+    double coefficient(const std::int64_t entry) const
+    {
+      return rows_.coefficient[entry];
+    }
+
+    /** Weight of a row. */
+    double weight(const int row) const
+    {
+      return rows_.weight[row];
+    }
+
+    /** Global number of a local column. */
+    dealii::types::global_dof_index global_column(int column) const;
+
+    /** Owned unknowns. */
+    const dealii::IndexSet &owned() const
+    {
+      return partitioner_->locally_owned_range();
+    }
+
+    /** Columns that other ranks own. */
+    const dealii::IndexSet &ghosts() const
+    {
+      return partitioner_->ghost_indices();
+    }
+
+    /** Communicator of all ranks. */
+    MPI_Comm communicator() const
+    {
+      return partitioner_->get_mpi_communicator();
+    }
+
+    /** Values of the owned unknowns and ghosts, [n_columns]. The array is
+     * overwritten by the next call of any function that communicates.
+     * Collective. */
+    const double *import(const la::Vector &vector) const;
+
+    /** result = B u, [n_rows]. Collective. */
+    void times(const la::Vector &u, double *result) const;
+
+    /** The gap g0 + B u, [n_rows]. Collective. */
+    void gap(const la::Vector &u, double *result) const;
+
+    /** force += B^T factor with @p factor [n_rows]. Collective. */
+    void add_transposed(const double *factor, la::Vector &force) const;
+
+    /** sum_j B_ij^2 d_j of each row for a vector d. Collective. */
+    std::vector<double> squares(const la::Vector &d) const;
+
+    /** d_j += sum_i factor_i B_ij^2: the diagonal of B^T diag(factor) B.
+     * Collective. */
+    void add_squares(const double *factor, la::Vector &d) const;
+
+  private:
+    template <typename Function>
+    void add_entries(const double *factor, const Function &function,
+                     la::Vector &vector) const;
+
+    abut_rows_view rows_ = {};
+    int n_owned_ = 0;
+    std::vector<int> column_;
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner_ =
+        std::make_shared<dealii::Utilities::MPI::Partitioner>();
+    mutable std::vector<double> values_; ///< [n_columns]
+    mutable std::vector<double> buffer_; ///< values on their way
+  };
+} // namespace abut::solve
+
+#endif

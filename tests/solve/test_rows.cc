@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Random rows, with columns of other ranks, against a dense solution: every
+// back-end, every kind of law, ranks without rows or without unknowns.
+#include "../app_blocks/expect.h"
+#include "dense_problem.h"
+#include "solve/row_operator.h"
+#include "solve/row_solver.h"
+
+using namespace abut;
+using namespace abut::tests;
+using app::Expect;
+
+namespace
+{
+  const MPI_Comm communicator = MPI_COMM_WORLD;
+
+  enum class Laws
+  {
+    hard,    ///< constraints and open rows
+    penalty, ///< penalties and open rows
+    mixed,   ///< constraints, penalties, interior points and open rows
+    interior ///< slopes over many orders of magnitude
+  };
+
+  enum class Shape
+  {
+    own_unknown, ///< each row has an unknown that no other touches
+    overlapping, ///< all unknowns of a row occur in others
+    nodal        ///< one owned unknown, different ones
+  };
+
+  const std::map<Laws, std::string> law_names = {{Laws::hard, "hard"},
+                                                 {Laws::penalty, "penalty"},
+                                                 {Laws::mixed, "mixed"},
+                                                 {Laws::interior, "interior"}};
+  const std::map<Shape, std::string> shape_names = {
+      {Shape::own_unknown, "own unknown"},
+      {Shape::overlapping, "overlapping"},
+      {Shape::nodal, "nodal"}};
+
+  /** Partitions of the unknowns; in the last two a rank has nothing. */
+  std::vector<std::vector<int>> partitions()
+  {
+    switch (dealii::Utilities::MPI::n_mpi_processes(communicator))
+    {
+    case 1:
+      return {{60}};
+    case 2:
+      return {{31, 29}, {60, 0}, {0, 60}};
+    default:
+      return {{20, 23, 17}, {25, 0, 35}, {0, 40, 20}};
+    }
+  }
+
+  int owner(const Problem &problem, int unknown)
+  {
+    int rank = 0;
+    while (unknown >= problem.n_owned[rank])
+      unknown -= problem.n_owned[rank++];
+    return rank;
+  }
+
+  /** Rows at every fourth unknown, which other rows touch or not. */
+  void add_rows(Problem &problem, const Shape shape, std::mt19937 &random)
+  {
+    const int n = problem.size();
+    std::uniform_real_distribution<double> uniform(0.2, 1.);
+    std::uniform_int_distribution<int> any(0, n / 4 - 1);
+    std::uniform_int_distribution<int> rank(
+        0, static_cast<int>(problem.n_owned.size()) - 1);
+    for (int i = 0; i < n; i += 4)
+    {
+      Row row;
+      // Rows on single unknowns belong to the owner.
+      row.rank = shape == Shape::overlapping ? rank(random) : owner(problem, i);
+      row.weight = uniform(random);
+      row.entries[i] = uniform(random);
+      if (shape != Shape::nodal)
+        for (int k = 0; k < 3; ++k)
+          row.entries[4 * any(random) + (k == 0 ? 1 : 2)] = -uniform(random);
+      if (shape == Shape::overlapping && i > 0)
+        row.entries[i - 4] = -0.3 * uniform(random);
+      if (shape == Shape::overlapping && i + 4 < n)
+        row.entries[i + 4] = -0.3 * uniform(random);
+      problem.rows.push_back(row);
+    }
+  }
+
+  void set_laws(Problem &problem, const Laws laws, std::mt19937 &random)
+  {
+    std::uniform_real_distribution<double> uniform(0.2, 1.);
+    int k = static_cast<int>(random() % 4);
+    for (Row &row : problem.rows)
+    {
+      row.pressure = uniform(random);
+      row.c = uniform(random) - 0.6;
+      const int kind = k++ % 4;
+      row.a = 1.;
+      row.b = 0.;
+      if (laws == Laws::interior)
+      {
+        row.a = std::pow(10., -3. + 2. * kind) * uniform(random);
+        row.b = std::pow(10., 3. - 2. * kind) * uniform(random);
+      }
+      else if (kind == 0 || (laws == Laws::hard && kind == 1))
+      {
+        row.b = 1.;
+        row.a = laws == Laws::penalty ? 0.02 : 0.;
+      }
+      else if (kind == 1 || (laws == Laws::mixed && kind == 2))
+      {
+        row.a = 0.1 * uniform(random);
+        row.b = 1.;
+      }
+    }
+  }
+
+  void operators()
+  {
+    for (const std::vector<int> &partition : partitions())
+    {
+      std::mt19937 random(3);
+      Problem problem = make_problem(partition, 5);
+      add_rows(problem, Shape::overlapping, random);
+      Share share(problem, communicator);
+      const solve::RowOperator rows(share.owned, share.view, communicator);
+
+      la::Vector u(share.owned, communicator);
+      for (int i = 0; i < share.n; ++i)
+        la::data(u)[i] = std::sin(1. + share.first + i);
+      std::vector<double> dg(rows.n_rows()), factor(rows.n_rows());
+      rows.times(u, dg.data());
+      for (int i = 0; i < rows.n_rows(); ++i)
+      {
+        double expected = 0.;
+        for (const auto &[j, value] : problem.rows[share.number[i]].entries)
+          expected += value * std::sin(1. + j);
+        Expect::near(dg[i], expected, 1e-13, "B u");
+        factor[i] = std::cos(1. + share.number[i]);
+      }
+      la::Vector force(u), squares(u);
+      rows.add_transposed(factor.data(), force);
+      rows.add_squares(factor.data(), squares);
+      for (int i = 0; i < share.n; ++i)
+      {
+        double expected[2] = {la::data(u)[i], la::data(u)[i]};
+        for (std::size_t k = 0; k < problem.rows.size(); ++k)
+        {
+          const auto &entries = problem.rows[k].entries;
+          const auto found = entries.find(share.first + i);
+          const double b = found == entries.end() ? 0. : found->second;
+          expected[0] += std::cos(1. + k) * b;
+          expected[1] += std::cos(1. + k) * b * b;
+        }
+        Expect::near(la::data(force)[i], expected[0], 1e-13, "B^T f");
+        Expect::near(la::data(squares)[i], expected[1], 1e-13, "diagonal");
+      }
+    }
+  }
+
+  void compare(solve::RowSolver &solver, const Problem &problem, Share &share,
+               const std::string &what)
+  {
+    const LinearReport report = solver.solve(
+        share.residual, share.request(1e-13), 1e-14, share.increment);
+    const Difference error = difference(problem, share, communicator);
+    Expect::near(error.du, 0., 1e-10, what + ": du");
+    Expect::near(error.dp, 0., 1e-10, what + ": dp");
+    Expect::near(error.dg, 0., 1e-10, what + ": dg");
+    Expect::that(report.n_iterations < 200, what + ": iterations");
+  }
+
+  /** Every back-end solves three systems in a row that differ in their laws,
+   * so that what it keeps from one to the next is checked too. */
+  void solvers()
+  {
+    for (const std::vector<int> &partition : partitions())
+      for (const auto &[shape, shape_name] : shape_names)
+        for (const auto &[laws, law_name] : law_names)
+          for (const System system : {System::automatic, System::saddle_point})
+            for (const auto linear : {SolverParameters::Linear::iterative,
+                                      SolverParameters::Linear::direct})
+            {
+              if (laws == Laws::interior && shape != Shape::nodal)
+                continue;
+              std::mt19937 random(7);
+              Problem problem = make_problem(partition, 11);
+              add_rows(problem, shape, random);
+              set_laws(problem, laws, random);
+              Share share(problem, communicator);
+              SolverParameters parameters;
+              parameters.linear = linear;
+              const auto solver = solve::make_row_solver(
+                  system, parameters, share.matrix, share.view);
+              solver->reinit(share.matrix, share.view);
+              for (int repetition = 0; repetition < 3; ++repetition)
+              {
+                std::ostringstream what;
+                what << shape_name << " rows, " << law_name << " laws, "
+                     << (system == System::automatic ? "auto" : "saddle point")
+                     << (linear == SolverParameters::Linear::direct
+                             ? ", direct, "
+                             : ", iterative, ")
+                     << partition[0] << " unknowns on rank 0, solve "
+                     << repetition;
+                try
+                {
+                  compare(*solver, problem, share, what.str());
+                }
+                catch (const std::exception &error)
+                {
+                  Expect::that(false, what.str() + ": " + error.what());
+                }
+                set_laws(problem, laws, random);
+                share.set_laws(problem);
+              }
+            }
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  operators();
+  solvers();
+  return dealii::Utilities::MPI::max(Expect::failures(), communicator) > 0 ? 1
+                                                                           : 0;
+}
