@@ -49,6 +49,7 @@ namespace abut
   void ContactAssembler<dim>::set_obstacle(const Obstacle<dim> &obstacle)
   {
     implementation->obstacle = obstacle;
+    implementation->source_is_outdated = true;
   }
 
   template <int dim>
@@ -64,23 +65,15 @@ namespace abut
       const dealii::AffineConstraints<double> &constraints)
   {
     Implementation &i = *implementation;
-    AssertThrow(dof_handler.get_fe().n_components() == 1,
-                ExcMessage("Obstacles need a scalar field: the finite element "
-                           "has "
-                           + std::to_string(dof_handler.get_fe().n_components())
-                           + " components."));
     AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(),
                 ExcMessage("The unknowns of a rank must be numbered "
                            "consecutively."));
-    i.first_unknown = dof_handler.locally_owned_dofs().n_elements() > 0
-                          ? *dof_handler.locally_owned_dofs().begin()
-                          : 0;
     i.mapping = &mapping;
     i.dof_handler = &dof_handler;
     i.constraints = &constraints;
-    i.candidates_are_known = false;
+    i.source_is_outdated = true;
     i.solver_is_ready = false;
-    i.start_pressure.clear();
+    i.start_field = la::Vector();
     i.is_started = false;
     i.report = LinearReport();
   }
@@ -91,23 +84,12 @@ namespace abut
     Implementation &i = *implementation;
     AssertThrow(i.dof_handler != nullptr,
                 ExcMessage("Call reinit() before detect()."));
-    AssertThrow(i.obstacle.lower || i.obstacle.upper,
-                ExcMessage("There is no obstacle: call set_obstacle() first."));
-    if (!i.candidates_are_known || i.candidates_of != i.obstacle.boundary_ids)
-    {
-      i.candidates = shim::collect_nodal_candidates(
-          *i.mapping, *i.dof_handler, *i.constraints, i.obstacle.boundary_ids);
-      i.candidates_of = i.obstacle.boundary_ids;
-      i.candidates_are_known = true;
-      i.solver_is_ready = false;
-    }
+    // The pressures reached so far are the start of the next solve.
     if (i.is_started)
-    {
-      // The pressures reached so far are the start of the next solve.
-      const la::Vector p = pressure();
-      i.start_pressure.assign(la::data(p), la::data(p) + la::n_owned(p));
-    }
-    i.find_rows();
+      i.start_field = pressure();
+    if (i.source_is_outdated)
+      i.create_source();
+    i.find_rows(displacement);
     i.is_started = false;
     i.was_added = false;
     i.start_state.clear();
@@ -118,8 +100,7 @@ namespace abut
   template <int dim>
   void ContactAssembler<dim>::set_pressure(const la::Vector &pressure)
   {
-    implementation->start_pressure.assign(
-        la::data(pressure), la::data(pressure) + la::n_owned(pressure));
+    implementation->start_field = pressure;
   }
 
   template <int dim>
@@ -128,8 +109,13 @@ namespace abut
   {
     const Implementation &i = *implementation;
     for (int row = 0; row < i.view.n_rows; ++row)
-      pattern.add(i.view.column[i.view.row_start[row]],
-                  i.view.column[i.view.row_start[row]]);
+    {
+      const std::vector<global_dof_index> columns(
+          i.view.column + i.view.row_start[row],
+          i.view.column + i.view.row_start[row + 1]);
+      for (const global_dof_index dof : columns)
+        pattern.add_entries(dof, columns.begin(), columns.end());
+    }
   }
 
   template <int dim>
@@ -144,7 +130,8 @@ namespace abut
     if (i.method.options.law->outer == ABUT_OUTER_BARRIER)
       i.push_inside(displacement);
     else
-      i.relax(matrix, residual, n_sweeps, displacement);
+      i.start_state =
+          i.source->relax(matrix, residual, i.gap, n_sweeps, displacement);
     i.start_displacement = displacement;
     i.compute_gap(displacement);
   }
@@ -193,14 +180,21 @@ namespace abut
       i.begin(matrix, residual);
     for (int row = 0; row < i.view.n_rows; ++row)
     {
-      const auto dof =
-          static_cast<global_dof_index>(i.view.column[i.view.row_start[row]]);
-      const double slope = i.view.coefficient[i.view.row_start[row]];
       const double w = i.view.weight[row];
       const double a = i.request.d_pressure[row];
-      matrix.add(dof, dof, w * slope * slope * i.request.d_gap[row] / a);
-      residual(dof) -=
-          w * slope * (i.request.pressure[row] - i.request.residual[row] / a);
+      const double stiffness = w * i.request.d_gap[row] / a;
+      const double force =
+          w * (i.request.pressure[row] - i.request.residual[row] / a);
+      const auto begin = i.view.row_start[row], end = i.view.row_start[row + 1];
+      for (auto j = begin; j < end; ++j)
+      {
+        residual(i.view.column[j]) -= force * i.view.coefficient[j];
+        if (stiffness != 0.)
+          for (auto k = begin; k < end; ++k)
+            matrix.add(i.view.column[j], i.view.column[k],
+                       stiffness * i.view.coefficient[j]
+                           * i.view.coefficient[k]);
+      }
     }
     matrix.compress(dealii::VectorOperation::add);
     residual.compress(dealii::VectorOperation::add);

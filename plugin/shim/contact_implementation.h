@@ -3,28 +3,15 @@
 #define ABUT_SHIM_CONTACT_IMPLEMENTATION_H
 
 #include "handles.h"
-#include "nodal_candidates.h"
+#include "row_source.h"
 #include "solve/row_solver.h"
 
 #include <abut/dealii/contact_assembler.h>
 
 namespace abut
 {
-  namespace shim
-  {
-    /** Row numbers: two per unknown, so that numbers are unique over ranks
-     * and sorted by unknown. */
-    inline constexpr std::int64_t upper_bit = 1;
-
-    inline std::int64_t row_id(const dealii::types::global_dof_index dof,
-                               const bool upper)
-    {
-      return 2 * static_cast<std::int64_t>(dof) + (upper ? upper_bit : 0);
-    }
-  } // namespace shim
-
   /** The inside of a ContactAssembler: rows, start and strategy of one solve.
-   */
+   * Where rows come from is the business of a row source. */
   template <int dim> struct ContactAssembler<dim>::Implementation
   {
     explicit Implementation(const MPI_Comm communicator)
@@ -33,26 +20,17 @@ namespace abut
     }
 
     void check(const abut_status status) const;
-    void check_obstacles(const std::vector<double> &lower,
-                         const std::vector<double> &upper) const;
-    void check_prescribed_values() const;
-    void find_rows();
-    void append_rows(const std::vector<double> &lower,
-                     const std::vector<double> &upper);
+    void create_source();
+    void find_rows(const la::Vector &displacement);
     void compute_gap(const la::Vector &displacement);
     void set_scales(const la::Matrix &matrix, const la::Vector &residual);
     double length_scale() const;
     void begin(const la::Matrix &matrix, const la::Vector &residual);
     void prepare_solver(const la::Matrix &matrix);
     void push_inside(la::Vector &displacement);
-    void relax(const la::Matrix &matrix, const la::Vector &residual,
-               unsigned int n_sweeps, la::Vector &displacement);
     void next();
     double row_pressure(int row) const;
-    /** Local number of the unknown of a row. */
-    int unknown(int row) const;
-    bool is_upper(int row) const;
-    la::Vector nodal_vector() const;
+    std::vector<double> row_pressures() const;
 
     const MPI_Comm communicator;
     Obstacle<dim> obstacle;
@@ -60,23 +38,21 @@ namespace abut
     SolverParameters solver_parameters;
     bool constant_matrix = false;
 
+    const dealii::Mapping<dim> *mapping = nullptr;
     const dealii::DoFHandler<dim> *dof_handler = nullptr;
     const dealii::AffineConstraints<double> *constraints = nullptr;
-    shim::NodalCandidates<dim> candidates;
-    std::set<dealii::types::boundary_id> candidates_of;
-    bool candidates_are_known = false;
-    const dealii::Mapping<dim> *mapping = nullptr;
+    std::unique_ptr<shim::RowSource> source;
+    bool source_is_outdated = true;
 
     shim::Handle<abut_context> context = shim::create_context();
     shim::Handle<abut_rows> rows = shim::create_rows(context.get());
     shim::Handle<abut_strategy> strategy;
     abut_rows_view view = {};
     dealii::types::global_dof_index n_rows = 0;
-    dealii::types::global_dof_index first_unknown =
-        0; ///< owned ones are consecutive
 
-    /** [owned] signed nodal pressure to start from; empty: 0. */
-    std::vector<double> start_pressure;
+    la::Vector start_field;                ///< pressure to start from; empty: 0
+    std::vector<double> start_pressure;    ///< [rows] of it, at least 0 unless
+                                           ///< bilateral; empty: 0
     std::vector<std::uint8_t> start_state; ///< [rows]; empty: from p and g
     la::Vector start_displacement;
     std::vector<double> gap; ///< [rows] at the present displacement

@@ -14,7 +14,7 @@ namespace abut
     double force = 0.;
     for (int row = 0; row < i.view.n_rows; ++row)
       force += i.view.weight[row] * i.row_pressure(row)
-               * (i.is_upper(row) ? -1. : 1.);
+               * i.view.coefficient[i.view.row_start[row]];
     return MPI::sum(force, i.communicator);
   }
 
@@ -43,45 +43,19 @@ namespace abut
   template <int dim> la::Vector ContactAssembler<dim>::pressure() const
   {
     const Implementation &i = *implementation;
-    la::Vector result = i.nodal_vector();
-    double *p = la::data(result);
-    for (int row = 0; row < i.view.n_rows; ++row)
-      p[i.unknown(row)] += (i.is_upper(row) ? -1. : 1.) * i.row_pressure(row);
-    result.compress(dealii::VectorOperation::insert);
-    return result;
+    return i.source->pressure(i.row_pressures().data());
   }
 
   template <int dim> la::Vector ContactAssembler<dim>::gap() const
   {
     const Implementation &i = *implementation;
-    la::Vector result = i.nodal_vector();
-    double *g = la::data(result);
-    int previous = -1;
-    for (int row = 0; row < i.view.n_rows; ++row)
-    {
-      const int u = i.unknown(row);
-      g[u] = u == previous ? std::min(g[u], i.gap[row]) : i.gap[row];
-      previous = u;
-    }
-    result.compress(dealii::VectorOperation::insert);
-    return result;
+    return i.source->gap(i.gap.data());
   }
 
   template <int dim> la::Vector ContactAssembler<dim>::status() const
   {
     const Implementation &i = *implementation;
-    la::Vector result = i.nodal_vector();
-    result = -1.;
-    double *s = la::data(result);
-    for (int row = 0; row < i.view.n_rows; ++row)
-    {
-      const int u = i.unknown(row);
-      s[u] = std::max(s[u], 0.);
-      if (i.is_started && i.request.state[row] != ABUT_STATE_OPEN)
-        s[u] = i.is_upper(row) ? 2. : 1.;
-    }
-    result.compress(dealii::VectorOperation::insert);
-    return result;
+    return i.source->status(i.is_started ? i.request.state : nullptr);
   }
 
   template double ContactAssembler<2>::contact_force() const;

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_AGREE_H
+#define ABUT_SHIM_AGREE_H
+
+#include <abut/context.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace abut::shim
+{
+  /** Throw @p message on all ranks if it is not empty on one: that of the
+   * lowest such rank. Collective. */
+  template <typename Error>
+  void throw_everywhere(const MPI_Comm communicator, const std::string &message)
+  {
+    namespace MPI = dealii::Utilities::MPI;
+    const unsigned int me = MPI::this_mpi_process(communicator);
+    const unsigned int none = std::numeric_limits<unsigned int>::max();
+    const unsigned int rank =
+        MPI::min(message.empty() ? none : me, communicator);
+    if (rank != none)
+      throw Error(MPI::broadcast(communicator, message, rank));
+  }
+
+  /** What the core says of a call that failed; empty if it did not. */
+  inline std::string message_of(const abut_context *context,
+                                const abut_status status)
+  {
+    if (status == ABUT_SUCCESS)
+      return "";
+    const std::string message = abut_context_message(context);
+    return message.empty() ? abut_status_text(status) : message;
+  }
+
+  /** Throw on all ranks if a call of the core failed on one. Collective. */
+  inline void check_everywhere(const MPI_Comm communicator,
+                               const abut_context *context,
+                               const abut_status status)
+  {
+    throw_everywhere<std::runtime_error>(communicator,
+                                         message_of(context, status));
+  }
+} // namespace abut::shim
+
+#endif

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "nodal_obstacle_rows.h"
+
+#include "agree.h"
+#include "solve/projected_gauss_seidel.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Values of an obstacle at all nodes; none, or +-infinity, where there
+     * is no obstacle. */
+    template <int dim>
+    std::vector<double>
+    evaluate(const std::shared_ptr<const dealii::Function<dim>> &function,
+             const std::vector<typename NodalCandidates<dim>::Node> &nodes,
+             const double otherwise)
+    {
+      std::vector<double> values(nodes.size(), otherwise);
+      if (function == nullptr)
+        return values;
+      std::vector<dealii::Point<dim>> points;
+      points.reserve(nodes.size());
+      for (const auto &node : nodes)
+        points.push_back(node.point);
+      function->value_list(points, values);
+      return values;
+    }
+
+    template <int dim> std::string at(const dealii::Point<dim> &point)
+    {
+      std::ostringstream text;
+      text << " at (" << point << ")";
+      return text.str();
+    }
+
+    /** Row numbers: two per unknown, so that numbers are unique over ranks
+     * and sorted by unknown. */
+    std::int64_t row_id(const dealii::types::global_dof_index dof,
+                        const bool upper)
+    {
+      return 2 * static_cast<std::int64_t>(dof) + (upper ? 1 : 0);
+    }
+  } // namespace
+
+  template <int dim>
+  NodalObstacleRows<dim>::NodalObstacleRows(
+      const dealii::Mapping<dim> &mapping,
+      const dealii::DoFHandler<dim> &dof_handler,
+      const dealii::AffineConstraints<double> &constraints,
+      const Obstacle<dim> &obstacle)
+      : dof_handler_(dof_handler),
+        constraints_(constraints),
+        obstacle_(obstacle),
+        communicator_(dof_handler.get_communicator()),
+        candidates_(collect_nodal_candidates(mapping, dof_handler, constraints,
+                                             obstacle.boundary_ids))
+  {
+  }
+
+  template <int dim> la::Vector NodalObstacleRows<dim>::nodal_vector() const
+  {
+    return la::Vector(dof_handler_.locally_owned_dofs(), communicator_);
+  }
+
+  template <int dim>
+  void NodalObstacleRows<dim>::check_obstacles(
+      const std::vector<double> &lower, const std::vector<double> &upper) const
+  {
+    std::string message;
+    for (std::size_t i = 0; i < lower.size() && message.empty(); ++i)
+    {
+      if (std::isnan(lower[i]) || lower[i] == INFINITY)
+        message = "The obstacle is not a number or is infinite";
+      else if (std::isnan(upper[i]) || upper[i] == -INFINITY)
+        message = "The upper obstacle is not a number or is infinite";
+      else if (upper[i] < lower[i])
+        message = "No displacement can lie between the upper obstacle, "
+                  + std::to_string(upper[i]) + ", and the obstacle, "
+                  + std::to_string(lower[i]) + ",";
+      if (!message.empty())
+        message += at(candidates_.free[i].point) + ".";
+    }
+    throw_everywhere<ObstacleError>(communicator_, message);
+  }
+
+  template <int dim>
+  void NodalObstacleRows<dim>::check_prescribed_values() const
+  {
+    const auto lower =
+        evaluate<dim>(obstacle_.lower, candidates_.prescribed, -INFINITY);
+    const auto upper =
+        evaluate<dim>(obstacle_.upper, candidates_.prescribed, INFINITY);
+    // Round-off of a formula that is 0 at a node is measured by its values
+    // elsewhere.
+    double largest = 0.;
+    for (const auto &line : constraints_.get_lines())
+      largest = std::max(largest, std::abs(line.inhomogeneity));
+    for (std::size_t i = 0; i < lower.size(); ++i)
+      largest = std::max({largest, obstacle_.lower ? std::abs(lower[i]) : 0.,
+                          obstacle_.upper ? std::abs(upper[i]) : 0.});
+    const double slack = 1e-10 * MPI::max(largest, communicator_);
+    std::string message;
+    for (std::size_t i = 0; i < lower.size() && message.empty(); ++i)
+    {
+      const auto &node = candidates_.prescribed[i];
+      const double value = constraints_.get_inhomogeneity(node.dof);
+      if (value < lower[i] - slack)
+        message = "The obstacle (" + std::to_string(lower[i])
+                  + ") lies above the prescribed value ("
+                  + std::to_string(value) + ")" + at(node.point)
+                  + ". Lower the obstacle there or raise the Dirichlet value.";
+      else if (value > upper[i] + slack)
+        message = "The upper obstacle (" + std::to_string(upper[i])
+                  + ") lies below the prescribed value ("
+                  + std::to_string(value) + ")" + at(node.point)
+                  + ". Raise the obstacle there or lower the Dirichlet value.";
+    }
+    throw_everywhere<ObstacleError>(communicator_, message);
+  }
+
+  template <int dim>
+  void NodalObstacleRows<dim>::append_rows(const std::vector<double> &lower,
+                                           const std::vector<double> &upper,
+                                           abut_rows *rows)
+  {
+    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    const auto append =
+        [&](const auto &node, const bool is_upper, const double initial_gap)
+    {
+      rows_.push_back(
+          {static_cast<int>(owned.index_within_set(node.dof)), is_upper});
+      initial_gap_.push_back(initial_gap);
+      const auto column = static_cast<std::int64_t>(node.dof);
+      const double slope = rows_.back().slope();
+      return abut_rows_append(rows, row_id(node.dof, is_upper), node.weight,
+                              initial_gap, 0, 1, &column, &slope);
+    };
+
+    rows_.clear();
+    initial_gap_.clear();
+    abut_status status = ABUT_SUCCESS;
+    for (std::size_t i = 0; i < lower.size() && status == ABUT_SUCCESS; ++i)
+    {
+      if (lower[i] != -INFINITY)
+        status = append(candidates_.free[i], false, -lower[i]);
+      if (upper[i] != INFINITY && status == ABUT_SUCCESS)
+        status = append(candidates_.free[i], true, upper[i]);
+    }
+    throw_everywhere<std::runtime_error>(
+        communicator_, status == ABUT_SUCCESS ? "" : abut_status_text(status));
+  }
+
+  template <int dim>
+  void NodalObstacleRows<dim>::find(const la::Vector &, abut_rows *rows)
+  {
+    const auto lower =
+        evaluate<dim>(obstacle_.lower, candidates_.free, -INFINITY);
+    const auto upper =
+        evaluate<dim>(obstacle_.upper, candidates_.free, INFINITY);
+    check_obstacles(lower, upper);
+    check_prescribed_values();
+    abut_rows_clear(rows);
+    append_rows(lower, upper, rows);
+  }
+
+  template <int dim>
+  std::vector<double>
+  NodalObstacleRows<dim>::row_pressure(const la::Vector &field) const
+  {
+    const double *p = la::data(field);
+    std::vector<double> result(rows_.size());
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      result[i] = rows_[i].slope() * p[rows_[i].unknown];
+    return result;
+  }
+
+  template <int dim>
+  la::Vector NodalObstacleRows<dim>::pressure(const double *row_pressure) const
+  {
+    la::Vector result = nodal_vector();
+    double *p = la::data(result);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      p[rows_[i].unknown] += rows_[i].slope() * row_pressure[i];
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+  template <int dim>
+  la::Vector NodalObstacleRows<dim>::gap(const double *row_gap) const
+  {
+    la::Vector result = nodal_vector();
+    double *g = la::data(result);
+    int previous = -1;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+    {
+      const int u = rows_[i].unknown;
+      g[u] = u == previous ? std::min(g[u], row_gap[i]) : row_gap[i];
+      previous = u;
+    }
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+  template <int dim>
+  la::Vector NodalObstacleRows<dim>::status(const std::uint8_t *row_state) const
+  {
+    la::Vector result = nodal_vector();
+    result = -1.;
+    double *s = la::data(result);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+    {
+      const int u = rows_[i].unknown;
+      s[u] = std::max(s[u], 0.);
+      if (row_state != nullptr && row_state[i] != ABUT_STATE_OPEN)
+        s[u] = rows_[i].is_upper ? 2. : 1.;
+    }
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+  template <int dim>
+  std::vector<std::uint8_t> NodalObstacleRows<dim>::relax(
+      const la::Matrix &matrix, const la::Vector &residual,
+      const std::vector<double> &gap, const unsigned int n_sweeps,
+      la::Vector &displacement) const
+  {
+    const double infinity = std::numeric_limits<double>::infinity();
+    std::vector<double> lower(la::n_owned(displacement), -infinity);
+    std::vector<double> upper(la::n_owned(displacement), infinity);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (rows_[i].is_upper)
+        upper[rows_[i].unknown] = gap[i];
+      else
+        lower[rows_[i].unknown] = -gap[i];
+
+    la::Vector correction = nodal_vector();
+    solve::projected_gauss_seidel(matrix, residual, lower, upper, n_sweeps,
+                                  correction);
+    const double *d = la::data(correction);
+    std::vector<std::uint8_t> state(rows_.size());
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+    {
+      const double change = rows_[i].slope() * d[rows_[i].unknown];
+      state[i] = change <= -gap[i] ? ABUT_STATE_CLOSED : ABUT_STATE_OPEN;
+    }
+    displacement += correction;
+    return state;
+  }
+
+  template <int dim>
+  void NodalObstacleRows<dim>::push_inside(const std::vector<double> &,
+                                           std::vector<double> margin,
+                                           la::Vector &displacement) const
+  {
+    double *u = la::data(displacement);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+    {
+      // Between two obstacles the margin is at most a quarter of the room.
+      const int unknown = rows_[i].unknown;
+      const bool before = i > 0 && rows_[i - 1].unknown == unknown;
+      const bool after =
+          i + 1 < rows_.size() && rows_[i + 1].unknown == unknown;
+      if (before || after)
+        margin[i] = std::min(
+            margin[i],
+            0.25 * (initial_gap_[i] + initial_gap_[before ? i - 1 : i + 1]));
+      const double g = initial_gap_[i] + rows_[i].slope() * u[unknown];
+      if (g < margin[i])
+        u[unknown] += rows_[i].slope() * (margin[i] - g);
+    }
+    displacement.compress(dealii::VectorOperation::insert);
+  }
+
+  template class NodalObstacleRows<2>;
+  template class NodalObstacleRows<3>;
+} // namespace abut::shim

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_ROW_SOURCE_H
+#define ABUT_SHIM_ROW_SOURCE_H
+
+#include <abut/dealii/linear_algebra.h>
+#include <abut/rows.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace abut::shim
+{
+  /** A way to make constraint rows from a DoFHandler, and to bring what is
+   * known of rows back to its unknowns. All else in the assembler deals with
+   * rows only. */
+  class RowSource
+  {
+  public:
+    virtual ~RowSource() = default;
+
+    /** Replace @p rows by those for the bodies displaced by @p displacement
+     * (owned entries). Throws on all ranks. Collective. */
+    virtual void find(const la::Vector &displacement, abut_rows *rows) = 0;
+
+    /** Pressure of each row from a field as pressure() makes it; may be
+     * negative. Collective. */
+    virtual std::vector<double> row_pressure(const la::Vector &field) const = 0;
+
+    /** The field of pressures that the host sees, from [rows] values.
+     * Collective. */
+    virtual la::Vector pressure(const double *row_pressure) const = 0;
+
+    /** The field of gaps, 0 where there is no row. Collective. */
+    virtual la::Vector gap(const double *row_gap) const = 0;
+
+    /** The field of states, -1 where there is no row; @p row_state may be
+     * null (nothing solved yet). Collective. */
+    virtual la::Vector status(const std::uint8_t *row_state) const = 0;
+
+    /** Improve the start by projected relaxation, if these rows allow it:
+     * changes @p displacement and returns the states of the rows, or returns
+     * nothing and changes nothing. Collective. */
+    virtual std::vector<std::uint8_t> relax(const la::Matrix &matrix,
+                                            const la::Vector &residual,
+                                            const std::vector<double> &gap,
+                                            unsigned int n_sweeps,
+                                            la::Vector &displacement) const = 0;
+
+    /** Open every gap to at least @p margin, as far as that can be done by
+     * moving the nodes of the rows; @p margin [rows], length > 0, @p gap at
+     * @p displacement. Collective. */
+    virtual void push_inside(const std::vector<double> &gap,
+                             std::vector<double> margin,
+                             la::Vector &displacement) const = 0;
+  };
+} // namespace abut::shim
+
+#endif
