@@ -14,6 +14,7 @@
 #include <abut/facet.h>
 #include <abut/law.h>
 #include <abut/obstacle.h>
+#include <abut/obstacle_surface.h>
 #include <abut/parts.h>
 #include <abut/projection.h>
 #include <abut/rows.h>

@@ -174,8 +174,8 @@ extern "C"
    * function fails or gives NaN.
    *
    * One thread at a time per obstacle: room for points in its own frame is
-   * kept in it. Cost: shapes O(n); surfaces O(n) near the surface, and more
-   * with the number of facets within twice the distance of each point. */
+   * kept in it. Cost: shapes O(n); surfaces some microseconds for a point
+   * near the surface, some nanoseconds per facet for one far from it. */
   ABUT_API abut_status abut_obstacle_distance(abut_obstacle *obstacle,
                                               int32_t n, const double *points,
                                               double *distance,
@@ -191,7 +191,7 @@ extern "C"
     bool has_hessian;        /**< second derivatives can be asked for */
     double rotation[9];      /**< R of the pose, [dimension * dimension] */
     double translation[3];   /**< T of the pose */
-    double limit;            /**< surfaces: limit in use; else 0 */
+    double limit;            /**< surfaces: as created; else 0 */
     /** Surfaces: points of the last abut_obstacle_distance() beyond the limit;
      * else 0. */
     int64_t n_beyond;

@@ -79,6 +79,10 @@ abut_surface_gather(const abut_surface *s, int32_t f, double *restrict nodes)
   return n;
 }
 
+/* Sum of the normals of the facets of node i, weighted by their angles there
+ * (lines: by one): not of unit length. */
+void abut_surface_angle_weighted(const abut_surface *s, int32_t i, double *sum);
+
 /* Length of the longest side of a facet between its corners. */
 double abut_surface_longest_side(abut_facet_kind kind, const double *nodes);
 

@@ -179,8 +179,8 @@ angle_at(const abut_surface *s, int32_t f, int32_t i, const double *x)
   return 3.14159265358979323846;
 }
 
-static void
-angle_weighted(const abut_surface *s, int32_t i, double *sum)
+void
+abut_surface_angle_weighted(const abut_surface *s, int32_t i, double *sum)
 {
   double x[3 * ABUT_FACET_MAX_NODES], v[3 * ABUT_FACET_MAX_NODES], area;
   sum[0] = sum[1] = sum[2] = 0;
@@ -231,7 +231,7 @@ abut_surface_normals(abut_surface *surface, const double **normal)
     double length = norm(v);
     if (length < smooth * v[3])
     {
-      angle_weighted(s, i, v);
+      abut_surface_angle_weighted(s, i, v);
       length = norm(v);
     }
     const double scale = length > 0 ? 1 / length : 0;

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_GEOMETRY_PSEUDONORMAL_H
+#define ABUT_GEOMETRY_PSEUDONORMAL_H
+
+#include "geometry/surface.h"
+
+#include <abut/projection.h>
+
+/* Unit normal that tells the sides of a surface at the nearest point of facet f
+ * (Baerentzen and Aanaes 2005): the facet's within it, the sum of the two
+ * facets' on a side, the sum weighted by angles at a corner. At borders the
+ * facets that are there count. Three components. */
+void abut_pseudonormal(const abut_surface *surface, int32_t f,
+                       const abut_projection *p, double *normal);
+
+#endif
