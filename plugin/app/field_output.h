@@ -10,10 +10,12 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
 #include <deal.II/lac/vector.h>
+#include <deal.II/numerics/data_postprocessor.h>
 
 #include <mpi.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +32,12 @@ namespace abut::app
     std::vector<std::pair<std::string, const la::Vector *>> nodal;
     /** Names and values per active cell. */
     std::vector<std::pair<std::string, const dealii::Vector<float> *>> cells;
+    /** Ghosted nodal values and what makes fields of them. */
+    std::vector<
+        std::pair<const la::Vector *, const dealii::DataPostprocessor<dim> *>>
+        derived = {};
+    /** Boundary ids: show these faces alone, not the cells. Empty: cells. */
+    std::set<dealii::types::boundary_id> faces = {};
   };
 
   /** A series of fields over time or mesh level. The PVD file is written anew
@@ -47,6 +55,14 @@ namespace abut::app
     template <int dim> void write(double time, const Fields<dim> &fields);
 
   private:
+    /** Fill in the fields and the flags of the output. */
+    template <int dim, typename Output>
+    void add_fields(double time, const Fields<dim> &fields,
+                    Output &output) const;
+
+    /** Write the files of a step and the list. */
+    template <typename Output> void append(double time, const Output &output);
+
     std::filesystem::path folder;
     std::string name;
     MPI_Comm communicator;

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include "contact_output.h"
+
+#include <cmath>
+
+namespace abut::app
+{
+  template <int dim>
+  SignedLength<dim>::SignedLength(const std::string &name, const double outward)
+      : dealii::DataPostprocessorScalar<dim>(
+          name, dealii::update_values | dealii::update_normal_vectors),
+        outward(outward)
+  {
+  }
+
+  template <int dim>
+  void SignedLength<dim>::evaluate_vector_field(
+      const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+      std::vector<dealii::Vector<double>> &results) const
+  {
+    for (unsigned int q = 0; q < results.size(); ++q)
+    {
+      double square = 0;
+      double along = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double component = inputs.solution_values[q][d];
+        square += component * component;
+        along += component * inputs.normals[q][d];
+      }
+      results[q][0] = outward * std::copysign(std::sqrt(square), along);
+    }
+  }
+
+  template <int dim>
+  FirstComponent<dim>::FirstComponent(const std::string &name)
+      : dealii::DataPostprocessorScalar<dim>(name, dealii::update_values)
+  {
+  }
+
+  template <int dim>
+  void FirstComponent<dim>::evaluate_vector_field(
+      const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+      std::vector<dealii::Vector<double>> &results) const
+  {
+    for (unsigned int q = 0; q < results.size(); ++q)
+      results[q][0] = inputs.solution_values[q][0];
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template class SignedLength<dim>;                                            \
+  template class FirstComponent<dim>;
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+} // namespace abut::app

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_CONTACT_OUTPUT_H
+#define ABUT_APP_CONTACT_OUTPUT_H
+
+/** @file
+ * Fields of contact boundaries for output files of faces.
+ */
+
+#include <deal.II/numerics/data_postprocessor.h>
+
+#include <string>
+#include <vector>
+
+namespace abut::app
+{
+  /** From nodal vectors along the surface normal, such as p n or g n, their
+   * signed length: on the nodal normals the length is exact, while the normal
+   * of a facet only tells the sign. For faces. */
+  template <int dim>
+  class SignedLength : public dealii::DataPostprocessorScalar<dim>
+  {
+  public:
+    /** @param name of the field
+     * @param outward the sign of vectors that point out of the body, 1 or -1
+     */
+    SignedLength(const std::string &name, double outward);
+
+    void evaluate_vector_field(
+        const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+        std::vector<dealii::Vector<double>> &results) const override;
+
+  private:
+    const double outward;
+  };
+
+  /** From a field that is the same number in all components that number. */
+  template <int dim>
+  class FirstComponent : public dealii::DataPostprocessorScalar<dim>
+  {
+  public:
+    explicit FirstComponent(const std::string &name);
+
+    void evaluate_vector_field(
+        const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+        std::vector<dealii::Vector<double>> &results) const override;
+  };
+} // namespace abut::app
+
+#endif

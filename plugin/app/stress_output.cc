@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include "stress_output.h"
+
+#include <deal.II/base/quadrature.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/affine_constraints.h>
+
+namespace abut::app
+{
+  namespace
+  {
+    namespace Meaning = dealii::DataComponentInterpretation;
+
+    /** Components in the order of nodal_stress(). */
+    template <int dim> std::vector<double> components(const Stress<dim> &stress)
+    {
+      std::vector<double> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result.push_back(stress.tensor[d][d]);
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i + 1; j < dim; ++j)
+          result.push_back(stress.tensor[i][j]);
+      if (dim == 2)
+        result.push_back(stress.out_of_plane);
+      return result;
+    }
+
+    template <int dim> Stress<dim> from_components(const double *value)
+    {
+      Stress<dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result.tensor[d][d] = *value++;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i + 1; j < dim; ++j)
+          result.tensor[i][j] = *value++;
+      if (dim == 2)
+        result.out_of_plane = *value;
+      return result;
+    }
+
+    template <int dim> constexpr unsigned int n_stresses()
+    {
+      return dim == 2 ? 4 : 6;
+    }
+  } // namespace
+
+  template <int dim>
+  StressPostprocessor<dim>::StressPostprocessor(
+      const ElasticMaterials &materials)
+      : materials(materials)
+  {
+  }
+
+  template <int dim>
+  std::vector<std::string> StressPostprocessor<dim>::get_names() const
+  {
+    std::vector<std::string> names(dim * dim, "stress");
+    names.push_back("von_mises_stress");
+    if (dim == 2)
+      names.push_back("stress_out_of_plane");
+    return names;
+  }
+
+  template <int dim>
+  std::vector<Meaning::DataComponentInterpretation>
+  StressPostprocessor<dim>::get_data_component_interpretation() const
+  {
+    std::vector<Meaning::DataComponentInterpretation> result(
+        dim * dim, Meaning::component_is_part_of_tensor);
+    result.resize(get_names().size(), Meaning::component_is_scalar);
+    return result;
+  }
+
+  template <int dim>
+  dealii::UpdateFlags StressPostprocessor<dim>::get_needed_update_flags() const
+  {
+    return dealii::update_values | dealii::update_gradients
+           | dealii::update_quadrature_points;
+  }
+
+  template <int dim>
+  void StressPostprocessor<dim>::evaluate_vector_field(
+      const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+      std::vector<dealii::Vector<double>> &results) const
+  {
+    const ElasticMaterial &material =
+        materials.at(inputs.template get_cell<dim>()->material_id());
+    for (unsigned int q = 0; q < results.size(); ++q)
+    {
+      dealii::Tensor<1, dim> u;
+      dealii::Tensor<2, dim> du;
+      for (unsigned int c = 0; c < dim; ++c)
+      {
+        u[c] = inputs.solution_values[q][c];
+        du[c] = inputs.solution_gradients[q][c];
+      }
+      const Stress<dim> s =
+          stress(material, du, u, inputs.evaluation_points[q]);
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          results[q][dim * i + j] = s.tensor[i][j];
+      results[q][dim * dim] = s.von_mises();
+      if (dim == 2)
+        results[q][dim * dim + 1] = s.out_of_plane;
+    }
+  }
+
+  namespace
+  {
+    /** Sums over cells: volume times stress, and volume last. */
+    template <int dim>
+    std::vector<la::Vector> stress_sums(
+        const dealii::Mapping<dim> &mapping,
+        const dealii::DoFHandler<dim> &dof_handler,
+        const la::Vector &displacement, const ElasticMaterials &materials,
+        const dealii::DoFHandler<dim> &scalar, const dealii::IndexSet &relevant)
+    {
+      const auto &nodes = scalar.get_fe();
+      dealii::FEValues<dim> points(
+          mapping, dof_handler.get_fe(),
+          dealii::Quadrature<dim>(nodes.get_unit_support_points()),
+          dealii::update_values | dealii::update_gradients
+              | dealii::update_quadrature_points);
+      const dealii::FEValuesExtractors::Vector field(0);
+      std::vector<dealii::Tensor<1, dim>> u(nodes.n_dofs_per_cell());
+      std::vector<dealii::Tensor<2, dim>> du(nodes.n_dofs_per_cell());
+      std::vector<dealii::types::global_dof_index> dofs(
+          nodes.n_dofs_per_cell());
+      std::vector<la::Vector> sums(n_stresses<dim>() + 1);
+      for (la::Vector &sum : sums)
+        sum.reinit(scalar.locally_owned_dofs(), relevant,
+                   scalar.get_communicator(), true);
+      for (const auto &cell : dof_handler.active_cell_iterators())
+      {
+        if (!cell->is_locally_owned())
+          continue;
+        points.reinit(cell);
+        points[field].get_function_values(displacement, u);
+        points[field].get_function_gradients(displacement, du);
+        typename dealii::DoFHandler<dim>::active_cell_iterator(
+            &scalar.get_triangulation(), cell->level(), cell->index(), &scalar)
+            ->get_dof_indices(dofs);
+        const ElasticMaterial &material = materials.at(cell->material_id());
+        const double volume = cell->measure();
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+        {
+          const auto values = components(
+              stress(material, du[i], u[i], points.quadrature_point(i)));
+          for (unsigned int c = 0; c < values.size(); ++c)
+            sums[c](dofs[i]) += volume * values[c];
+          sums.back()(dofs[i]) += volume;
+        }
+      }
+      return sums;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<la::Vector>
+  nodal_stress(const dealii::Mapping<dim> &mapping,
+               const dealii::DoFHandler<dim> &dof_handler,
+               const la::Vector &displacement,
+               const ElasticMaterials &materials,
+               const dealii::DoFHandler<dim> &scalar)
+  {
+    dealii::IndexSet relevant;
+    dealii::DoFTools::extract_locally_relevant_dofs(scalar, relevant);
+    dealii::AffineConstraints<double> hanging(relevant);
+    dealii::DoFTools::make_hanging_node_constraints(scalar, hanging);
+    hanging.close();
+    std::vector<la::Vector> open = stress_sums(
+        mapping, dof_handler, displacement, materials, scalar, relevant);
+    const unsigned int n = n_stresses<dim>();
+    std::vector<la::Vector> fields(n + 1);
+    for (unsigned int c = 0; c <= n; ++c)
+    {
+      open[c].compress(dealii::VectorOperation::add);
+      fields[c].reinit(scalar.locally_owned_dofs(), scalar.get_communicator());
+      fields[c] = open[c];
+    }
+    std::vector<double> values(n);
+    for (int i = 0; i < la::n_owned(fields[n]); ++i)
+    {
+      const double volume = la::data(fields[n])[i];
+      for (unsigned int c = 0; c < n; ++c)
+        values[c] = la::data(fields[c])[i] /= volume;
+      la::data(fields[n])[i] = from_components<dim>(values.data()).von_mises();
+    }
+    std::vector<la::Vector> result(n + 1);
+    for (unsigned int c = 0; c <= n; ++c)
+    {
+      fields[c].compress(dealii::VectorOperation::insert);
+      hanging.distribute(fields[c]);
+      result[c].reinit(scalar.locally_owned_dofs(), relevant,
+                       scalar.get_communicator());
+      result[c] = fields[c];
+    }
+    return result;
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template class StressPostprocessor<dim>;                                     \
+  template std::vector<la::Vector> nodal_stress<dim>(                          \
+      const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &,           \
+      const la::Vector &, const ElasticMaterials &,                            \
+      const dealii::DoFHandler<dim> &);
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+} // namespace abut::app
