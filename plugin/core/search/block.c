@@ -1,62 +1,62 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Facets near a block of queries, as boxes that vector instructions test.
  *
- * Boxes are in single precision relative to the middle of the block and
- * rounded outwards, so that nothing is lost; whether a facet really is a
- * partner is decided elsewhere in double precision. Which boxes are touched
- * cannot be predicted, hence loops without branches. */
+ * Coordinates are sorted into 256 steps over the block by one function, which
+ * is monotone: for v <= w also step(v) <= step(w). So boxes that touch touch in
+ * steps too, whatever the rounding, and bytes are enough for a first test
+ * that loses nothing. What passes it, few more than the pairs, is decided by
+ * the exact test. Which boxes are touched cannot be predicted, hence loops
+ * without branches. */
 #include "search/search.h"
 
-#include <float.h>
+#include "search/order.h"
+
 #include <math.h>
+#include <string.h>
 
 enum
 {
-  PAD = 16 /* boxes are tested by so many */
+  PAD = 16,   /* boxes are tested by so many */
+  CHUNK = 256 /* places within a chunk fit a byte */
 };
 
-/* Single precision at most / at least v; |v| far beyond what a block can
- * touch is cut off, which keeps the order. */
-static inline float
-round_down(double v)
+void
+abut_block_prepare(abut_block *b)
 {
-  v = v < -1e38 ? -1e38 : v > 1e38 ? 1e38 : v;
-  const float f = (float)v;
-  return f - fabsf(f) * 2e-7f - FLT_MIN;
+  memset(b, 0, sizeof(*b));
+  b->step.element = sizeof(int8_t);
+  b->exact.element = sizeof(abut_exact);
+  b->value.element = sizeof(int32_t);
+  b->keyed.element = sizeof(uint64_t);
+  for (int bits = 0; bits < 256; ++bits)
+    for (int k = 0; k < 8; ++k)
+      if ((bits >> k & 1) != 0)
+        b->place[bits][b->n_places[bits]++] = (uint8_t)k;
 }
 
-static inline float
-round_up(double v)
+void
+abut_block_release(abut_context *context, abut_block *b)
 {
-  v = v < -1e38 ? -1e38 : v > 1e38 ? 1e38 : v;
-  const float f = (float)v;
-  return f + fabsf(f) * 2e-7f + FLT_MIN;
+  abut_array_release(context, &b->step);
+  abut_array_release(context, &b->exact);
+  abut_array_release(context, &b->value);
+  abut_array_release(context, &b->keyed);
 }
 
 static abut_status
 reserve_block(abut_context *context, abut_block *b, int64_t n)
 {
-  if (n + PAD <= b->slot.capacity)
+  if (n + PAD <= b->value.capacity)
     return ABUT_SUCCESS;
   const int64_t room = 2 * n + PAD;
-  abut_status status = abut_array_reserve(context, &b->box, 0, 6 * room);
+  abut_status status = abut_array_reserve(context, &b->step, 0, 6 * room);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(context, &b->slot, 0, room);
+    status = abut_array_reserve(context, &b->exact, 0, room);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(context, &b->keyed, 0, 2 * room);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(context, &b->value, 0, room);
   return status;
-}
-
-/* Empty boxes up to a multiple of PAD, so that loops have no tail. */
-static void
-pad_block(abut_block *b)
-{
-  float *box = b->box.data;
-  b->n_padded = (b->n + PAD - 1) / PAD * PAD;
-  for (int32_t i = b->n; i < b->n_padded; ++i)
-    for (int d = 0; d < 3; ++d)
-    {
-      box[d * b->slot.capacity + i] = FLT_MAX;
-      box[(3 + d) * b->slot.capacity + i] = -FLT_MAX;
-    }
 }
 
 /* Ask for all records of short runs at once: they lie here and there in
@@ -75,191 +75,254 @@ prefetch_runs(const abut_record *records, const abut_runs *runs)
   }
 }
 
-abut_status
-abut_block_fill(abut_search *s, const abut_runs *runs, const double *lower,
-                const double *upper, double skin)
+/* Slots of the records of the runs that touch the box; returns their number. */
+static int32_t
+select_records(const abut_record *records, const abut_runs *runs,
+               const double *lower, const double *upper, double skin,
+               int32_t *restrict slot)
 {
-  abut_block *b = &s->block;
-  int64_t n_facets = 0;
-  for (int32_t r = 0; r < runs->n; ++r)
-    n_facets += runs->run[r].last - runs->run[r].first;
-  s->statistics.n_block_tests += n_facets;
-  abut_status status = reserve_block(s->context, b, n_facets);
-  if (status == ABUT_SUCCESS)
-    status = reserve_block(s->context, &s->part, n_facets);
-  if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &s->hit, 0, n_facets + PAD);
-  if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &s->near, 0,
-                                ABUT_PART * (n_facets + PAD));
-  if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &s->owner, 0,
-                                ABUT_PART * (n_facets + PAD));
-  if (status != ABUT_SUCCESS)
-    return status;
-  const int64_t stride = b->slot.capacity;
-  const abut_record *records = s->records.data;
-  float *box = b->box.data;
-  int32_t *slot = b->slot.data;
   int32_t n = 0;
-  for (int d = 0; d < 3; ++d)
-    s->block_origin[d] = 0.5 * (lower[d] + upper[d]);
-  prefetch_runs(records, runs);
   for (int32_t r = 0; r < runs->n; ++r)
     for (int32_t i = runs->run[r].first; i < runs->run[r].last; ++i)
     {
       slot[n] = i;
       n += abut_record_near_box(records + i, lower, upper, skin);
     }
-  for (int32_t i = 0; i < n; ++i)
+  return n;
+}
+
+/* Put slots into ascending order of their facets. */
+static void
+sort_by_facet(const abut_record *records, abut_block *b)
+{
+  int32_t *slot = b->value.data;
+  uint64_t *key = b->keyed.data;
+  for (int32_t i = 0; i < b->n; ++i)
+    key[i] =
+        (uint64_t)records[slot[i]].facet << 32 | (uint64_t)(uint32_t)slot[i];
+  abut_order_sort_pairs(key, key + b->n, b->n);
+  for (int32_t i = 0; i < b->n; ++i)
+    slot[i] = (int32_t)(key[i] & UINT32_MAX);
+}
+
+/* -128 .. 127, monotone in v. */
+static inline int8_t
+step_of(double v, double origin, double scale)
+{
+  double s = (v - origin) * scale - 128;
+  s = s > -128 ? s : -128;
+  s = s < 127 ? s : 127;
+  return (int8_t)(int32_t)s;
+}
+
+/* Bounds and steps of the facets in value[n]; empty boxes up to a multiple of
+ * PAD, so that loops have no tail. */
+static void
+load_facets(const abut_record *records, abut_block *b, double skin)
+{
+  const int64_t stride = b->value.capacity;
+  const int32_t *slot = b->value.data;
+  int8_t *restrict step = b->step.data;
+  abut_exact *restrict exact = b->exact.data;
+  for (int32_t i = 0; i < b->n; ++i)
   {
-    const abut_record *f = records + slot[i];
-    const double reach = f->reach + skin;
+    const abut_record *r = records + slot[i];
+    const double reach = r->reach + skin, limit = reach + r->radius;
     for (int d = 0; d < 3; ++d)
     {
-      const double o = s->block_origin[d];
-      box[d * stride + i] = round_down(f->lower[d] - reach - o);
-      box[(3 + d) * stride + i] = round_up(f->upper[d] + reach - o);
+      const double lower = r->lower[d] - reach, upper = r->upper[d] + reach;
+      exact[i].bound[d] = lower;
+      exact[i].bound[3 + d] = -upper;
+      exact[i].centre[d] = r->centre[d];
+      step[d * stride + i] = step_of(lower, b->origin[d], b->scale[d]);
+      step[(3 + d) * stride + i] = step_of(upper, b->origin[d], b->scale[d]);
     }
+    exact[i].limit = limit * limit;
   }
-  b->n = n;
-  pad_block(b);
+  b->n_padded = (b->n + PAD - 1) / PAD * PAD;
+  for (int32_t i = b->n; i < b->n_padded; ++i)
+    for (int d = 0; d < 3; ++d)
+    {
+      step[d * stride + i] = 127;
+      step[(3 + d) * stride + i] = -128;
+    }
+}
+
+abut_status
+abut_block_fill(abut_search *s, const abut_runs *runs, const double *lower,
+                const double *upper, double skin, bool of_facets)
+{
+  abut_block *b = &s->block;
+  const abut_record *records = s->records.data;
+  int64_t n_facets = 0;
+  for (int32_t r = 0; r < runs->n; ++r)
+    n_facets += runs->run[r].last - runs->run[r].first;
+  s->statistics.n_block_tests += n_facets;
+  const abut_status status = reserve_block(s->context, b, n_facets);
+  if (status != ABUT_SUCCESS)
+    return status;
+  for (int d = 0; d < 3; ++d)
+  {
+    const double extent = upper[d] - lower[d];
+    b->origin[d] = lower[d];
+    b->scale[d] = extent > 1e-290 ? 255 / extent : 0;
+  }
+  prefetch_runs(records, runs);
+  b->n = select_records(records, runs, lower, upper, skin, b->value.data);
+  if (of_facets)
+    sort_by_facet(records, b);
+  load_facets(records, b, skin);
+  if (of_facets)
+    for (int32_t i = 0; i < b->n; ++i)
+    {
+      int32_t *value = (int32_t *)b->value.data + i;
+      *value = records[*value].facet;
+    }
   return ABUT_SUCCESS;
 }
 
-/* hit[i] = whether box i touches the query's; n is a multiple of PAD. */
-static void
-test_boxes(const float *restrict box, int64_t stride, int32_t n,
-           const float *restrict q, int32_t *restrict hit)
+typedef int8_t lanes __attribute__((vector_size(PAD)));
+
+static inline lanes
+load(const int8_t *p)
 {
-  const float *restrict l0 = box, *restrict l1 = box + stride;
-  const float *restrict l2 = box + 2 * stride;
-  const float *restrict u0 = box + 3 * stride, *restrict u1 = box + 4 * stride;
-  const float *restrict u2 = box + 5 * stride;
-  const float a0 = q[0], a1 = q[1], a2 = q[2], b0 = q[3], b1 = q[4], b2 = q[5];
-  for (int32_t i = 0; i < n; i += PAD)
-    for (int32_t j = i; j < i + PAD; ++j)
-      hit[j] = (l0[j] <= b0) & (u0[j] >= a0) & (l1[j] <= b1) & (u1[j] >= a1)
-               & (l2[j] <= b2) & (u2[j] >= a2);
+  lanes v;
+  memcpy(&v, p, sizeof(v));
+  return v;
 }
 
-/* Append the places of the boxes of b that a box touches to near, beginning
- * at near[n], and the query's number to owner; returns the new n. */
-static int32_t
-touch(abut_search *s, const abut_block *b, const double *lower,
-      const double *upper, uint8_t query, int32_t n)
+/* Bit k % 8 of hit[k] is set if box k touches the query's: q has the steps of
+ * its upper and lower bounds. n is a multiple of PAD. */
+static inline void
+test_boxes(const int8_t *step, int64_t stride, int32_t n, const int8_t *q,
+           uint8_t *hit)
 {
-  const int32_t *restrict hit = s->hit.data;
-  int32_t *restrict near = s->near.data;
-  uint8_t *restrict owner = s->owner.data;
-  float bounds[6];
+  const lanes bit = {1, 2, 4, 8, 16, 32, 64, -128,
+                     1, 2, 4, 8, 16, 32, 64, -128};
+  const lanes zero = {0};
+  const lanes b0 = zero + q[0], b1 = zero + q[1], b2 = zero + q[2];
+  const lanes a0 = zero + q[3], a1 = zero + q[4], a2 = zero + q[5];
+  for (int32_t i = 0; i < n; i += PAD)
+  {
+    const int8_t *l = step + i, *u = l + 3 * stride;
+    const lanes out = (load(l) > b0) | (load(u) < a0) | (load(l + stride) > b1)
+                      | (load(u + stride) < a1) | (load(l + 2 * stride) > b2)
+                      | (load(u + 2 * stride) < a2);
+    const lanes in = ~out & bit;
+    memcpy(hit + i, &in, sizeof(in));
+  }
+}
+
+/* Places, counted from `first`, of the boxes first .. first + n - 1 that touch
+ * the query's; returns how many. n is a multiple of PAD and at most CHUNK. */
+static int32_t
+find_places(const abut_block *b, int32_t first, int32_t n, const int8_t *q,
+            uint8_t *near)
+{
+  uint8_t hit[CHUNK];
+  int32_t n_near = 0;
+  test_boxes((const int8_t *)b->step.data + first, b->value.capacity, n, q,
+             hit);
+  for (int32_t k = 0; k < n; k += 8)
+  {
+    uint64_t eight, places;
+    memcpy(&eight, hit + k, 8);
+    const int bits = (int)(eight * UINT64_C(0x0101010101010101) >> 56);
+    memcpy(&places, b->place[bits], 8);
+    places += (uint64_t)k * UINT64_C(0x0101010101010101);
+    memcpy(near + n_near, &places, 8);
+    n_near += b->n_places[bits];
+  }
+  return n_near;
+}
+
+static void
+query_steps(const abut_block *b, const double *lower, const double *upper,
+            int8_t *q)
+{
   for (int d = 0; d < 3; ++d)
   {
-    bounds[d] = round_down(lower[d] - s->block_origin[d]);
-    bounds[3 + d] = round_up(upper[d] - s->block_origin[d]);
+    q[d] = step_of(upper[d], b->origin[d], b->scale[d]);
+    q[3 + d] = step_of(lower[d], b->origin[d], b->scale[d]);
   }
-  test_boxes(b->box.data, b->slot.capacity, b->n_padded, bounds, s->hit.data);
-  for (int32_t i = 0; i < b->n; ++i)
-  {
-    near[n] = i;
-    owner[n] = query;
-    n += hit[i];
-  }
-  return n;
 }
 
-void
-abut_block_narrow(abut_search *s, const double *lower, const double *upper)
+typedef double two __attribute__((vector_size(16)));
+
+static inline two
+load_two(const double *p)
 {
-  const abut_block *b = &s->block;
-  abut_block *p = &s->part;
-  p->n = touch(s, b, lower, upper, 0, 0);
-  const int32_t *near = s->near.data;
-  const int32_t *slot = b->slot.data;
-  int32_t *to_slot = p->slot.data;
-  for (int32_t i = 0; i < p->n; ++i)
-    to_slot[i] = slot[near[i]];
-  for (int k = 0; k < 6; ++k)
-  {
-    const float *restrict from =
-        (const float *)b->box.data + k * b->slot.capacity;
-    float *restrict to = (float *)p->box.data + k * p->slot.capacity;
-    for (int32_t i = 0; i < p->n; ++i)
-      to[i] = from[near[i]];
-  }
-  pad_block(p);
+  two v;
+  memcpy(&v, p, sizeof(v));
+  return v;
 }
 
-/* The exact tests of all queries of a part in one loop, because how many there
- * are for a single query cannot be predicted either. */
-static int32_t
-test_points(const abut_search *s, int32_t n_near, const double (*x)[3],
-            double skin, int32_t *count, int32_t *restrict slots)
+/* abut_record_near_point() two numbers at a time; sides: x, -x. */
+static inline int
+is_near(const abut_exact *e, const double *sides, double *square)
 {
-  const abut_record *records = s->records.data;
-  const int32_t *slot = s->part.slot.data, *near = s->near.data;
-  const uint8_t *owner = s->owner.data;
-  double least[ABUT_PART];
-  int32_t nearest[ABUT_PART], n = 0;
-  for (int q = 0; q < ABUT_PART; ++q)
-    least[q] = INFINITY;
-  for (int32_t i = 0; i < n_near; ++i)
-  {
-    const int q = owner[i];
-    const int32_t at = slot[near[i]];
-    double square;
-    const int in = abut_record_near_point(records + at, x[q], skin, &square);
-    const int better = in & (square < least[q]);
-    slots[n] = at;
-    least[q] = better ? square : least[q];
-    nearest[q] = better ? n : nearest[q];
-    count[q] += in;
-    n += in;
-  }
-  int32_t first = 0;
-  for (int q = 0; q < ABUT_PART; first += count[q++])
-    if (count[q] > 0)
-    {
-      const int32_t swap = slots[first];
-      slots[first] = slots[nearest[q]];
-      slots[nearest[q]] = swap;
-      abut_prefetch_facet(s->surface, records[slots[first]].facet);
-    }
-  return n;
+  const two c = load_two(sides) - load_two(e->centre);
+  const double z = sides[2] - e->centre[2];
+  const two cc = c * c;
+  const double d2 = cc[0] + cc[1] + z * z;
+  const __typeof__(c < c) in =
+      (load_two(sides) >= load_two(e->bound))
+      & (load_two(sides + 2) >= load_two(e->bound + 2))
+      & (load_two(sides + 4) >= load_two(e->bound + 4));
+  *square = d2;
+  return (int)(in[0] & in[1]) & (d2 <= e->limit);
 }
 
-static int32_t
-test_other_boxes(const abut_search *s, int32_t n_near, const double (*lower)[3],
-                 const double (*upper)[3], double skin, int32_t *count,
-                 int32_t *restrict slots)
+int32_t
+abut_block_near_point(const abut_block *b, const double *x,
+                      int32_t *restrict values)
 {
-  const abut_record *records = s->records.data;
-  const int32_t *slot = s->part.slot.data, *near = s->near.data;
-  const uint8_t *owner = s->owner.data;
+  const int32_t *value = b->value.data;
+  const double sides[6] = {x[0], x[1], x[2], -x[0], -x[1], -x[2]};
+  uint8_t near[CHUNK + 8];
+  int8_t q[6];
   int32_t n = 0;
-  for (int32_t i = 0; i < n_near; ++i)
+  query_steps(b, x, x, q);
+  for (int32_t first = 0; first < b->n_padded; first += CHUNK)
   {
-    const int q = owner[i];
-    slots[n] = slot[near[i]];
-    const int in =
-        abut_record_near_box(records + slots[n], lower[q], upper[q], skin);
-    count[q] += in;
-    n += in;
+    const int32_t left = b->n_padded - first;
+    const int32_t n_near =
+        find_places(b, first, left < CHUNK ? left : CHUNK, q, near);
+    const abut_exact *exact = (const abut_exact *)b->exact.data + first;
+    for (int32_t i = 0; i < n_near; ++i)
+    {
+      double square;
+      values[n] = value[first + near[i]];
+      n += is_near(exact + near[i], sides, &square);
+    }
   }
   return n;
 }
 
 int32_t
-abut_block_answer(abut_search *s, int32_t n_queries, const double (*lower)[3],
-                  const double (*upper)[3], bool points, double skin,
-                  int32_t *count, int32_t *slots)
+abut_block_near_box(const abut_block *b, const double *lower,
+                    const double *upper, int32_t *restrict values)
 {
-  int32_t n_near = 0;
-  for (int q = 0; q < ABUT_PART; ++q)
-    count[q] = 0;
-  for (int32_t q = 0; q < n_queries; ++q)
-    n_near = touch(s, &s->part, lower[q], upper[q], (uint8_t)q, n_near);
-  s->statistics.n_box_tests += (int64_t)n_queries * s->part.n;
-  return points ? test_points(s, n_near, lower, skin, count, slots)
-                : test_other_boxes(s, n_near, lower, upper, skin, count, slots);
+  const int32_t *value = b->value.data;
+  uint8_t near[CHUNK + 8];
+  int8_t q[6];
+  int32_t n = 0;
+  query_steps(b, lower, upper, q);
+  for (int32_t first = 0; first < b->n_padded; first += CHUNK)
+  {
+    const int32_t left = b->n_padded - first;
+    const int32_t n_near =
+        find_places(b, first, left < CHUNK ? left : CHUNK, q, near);
+    for (int32_t i = 0; i < n_near; ++i)
+    {
+      const int32_t at = first + near[i];
+      const double *bound = ((const abut_exact *)b->exact.data)[at].bound;
+      int in = 1;
+      for (int d = 0; d < 3; ++d)
+        in &= (upper[d] >= bound[d]) & (-lower[d] >= bound[3 + d]);
+      values[n] = value[at];
+      n += in;
+    }
+  }
+  return n;
 }

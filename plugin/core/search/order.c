@@ -86,3 +86,38 @@ abut_order_sort(abut_keyed *items, abut_keyed *room, int32_t n)
   if (from != items)
     memcpy(items, from, (size_t)n * sizeof(*items));
 }
+
+/* Digits of eight bits of the difference to the least key, because the tables
+ * of larger ones take longer than few items. */
+void
+abut_order_sort_pairs(uint64_t *pairs, uint64_t *room, int32_t n)
+{
+  uint64_t least = UINT64_MAX, most = 0;
+  for (int32_t i = 0; i < n; ++i)
+  {
+    const uint64_t key = pairs[i] >> 32;
+    least = key < least ? key : least;
+    most = key > most ? key : most;
+  }
+  uint64_t *from = pairs, *to = room;
+  for (int shift = 0; shift < 32 && n > 1 && (most - least) >> shift != 0;
+       shift += 8)
+  {
+    int32_t start[256] = {0}, sum = 0;
+    for (int32_t i = 0; i < n; ++i)
+      ++start[((from[i] >> 32) - least) >> shift & 255];
+    for (int b = 0; b < 256; ++b)
+    {
+      const int32_t count = start[b];
+      start[b] = sum;
+      sum += count;
+    }
+    for (int32_t i = 0; i < n; ++i)
+      to[start[((from[i] >> 32) - least) >> shift & 255]++] = from[i];
+    uint64_t *swap = from;
+    from = to;
+    to = swap;
+  }
+  if (from != pairs)
+    memcpy(pairs, from, (size_t)n * sizeof(*pairs));
+}

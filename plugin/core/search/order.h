@@ -64,4 +64,8 @@ abut_lattice_key(const abut_lattice *l, const double *x)
  * items. O(n) per eleven bits in which keys differ. */
 void abut_order_sort(abut_keyed *items, abut_keyed *room, int32_t n);
 
+/* Sort few pairs[n] by their upper 32 bits, with room[n] of scratch; the result
+ * is in pairs. */
+void abut_order_sort_pairs(uint64_t *pairs, uint64_t *room, int32_t n);
+
 #endif

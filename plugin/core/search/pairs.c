@@ -3,6 +3,7 @@
 #include "search/reuse.h"
 
 #include <math.h>
+#include <string.h>
 
 struct abut_pairs
 {
@@ -106,40 +107,57 @@ sort_facets(int32_t *v, int64_t n)
   }
 }
 
-/* The list by query instead of by order of search. */
+/* Places of the pairs of each query: start[i + 1] first has its number. */
 static abut_status
-arrange(abut_pairs *p, const abut_search *s, const abut_list *l, int32_t n)
+place_queries(abut_pairs *p, abut_context *context, const abut_list *l,
+              int32_t n)
 {
   const int32_t *order = l->order.data;
   const int64_t *from = l->start.data;
-  const int32_t *slot = l->slot.data;
-  const abut_record *records = s->records.data;
   abut_status status =
-      abut_array_reserve(s->context, &p->start, 0, (int64_t)n + 1);
+      abut_array_reserve(context, &p->start, 0, (int64_t)n + 1);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &p->facet, 0, from[l->n]);
+    status = abut_array_reserve(context, &p->facet, 0, from[l->n]);
   if (status != ABUT_SUCCESS)
     return status;
   int64_t *start = p->start.data;
-  int32_t *facet = p->facet.data;
-  for (int32_t i = 0; i <= n; ++i)
-    start[i] = 0;
+  memset(start, 0, ((size_t)n + 1) * sizeof(*start));
   for (int32_t k = 0; k < l->n; ++k)
     start[order[k] + 1] = from[k + 1] - from[k];
   for (int32_t i = 0; i < n; ++i)
     start[i + 1] += start[i];
-  for (int32_t k = 0; k < l->n; ++k)
-  {
-    if (from[k] == from[k + 1])
-      continue;
-    int32_t *to = facet + start[order[k]];
-    for (int64_t e = from[k]; e < from[k + 1]; ++e)
-      to[e - from[k]] = records[slot[e]].facet;
-    sort_facets(to, from[k + 1] - from[k]);
-  }
   p->view.n_queries = n;
   p->view.start = start;
-  p->view.facet = facet;
+  p->view.facet = p->facet.data;
+  return ABUT_SUCCESS;
+}
+
+/* The list by query instead of by order of search. */
+static abut_status
+arrange(abut_pairs *p, const abut_search *s, const abut_list *l, int32_t n)
+{
+  const abut_status status = place_queries(p, s->context, l, n);
+  if (status != ABUT_SUCCESS)
+    return status;
+  const int32_t *order = l->order.data, *slot = l->slot.data;
+  const int64_t *from = l->start.data, *start = p->start.data;
+  const abut_record *records = s->records.data;
+  int32_t *facet = p->facet.data;
+  for (int32_t k = 0; k < l->n; ++k)
+  {
+    int32_t *restrict to = facet + start[order[k]];
+    const int32_t *restrict of = slot + from[k];
+    const int64_t count = from[k + 1] - from[k];
+    if (l->of_facets)
+      for (int64_t e = 0; e < count; ++e)
+        to[e] = of[e];
+    else
+    {
+      for (int64_t e = 0; e < count; ++e)
+        to[e] = records[of[e]].facet;
+      sort_facets(to, count);
+    }
+  }
   return ABUT_SUCCESS;
 }
 
@@ -184,6 +202,7 @@ filter(abut_search *s, const abut_list *l, const abut_query *q)
   }
   start[l->n] = n;
   out->n = l->n;
+  out->of_facets = false;
   return ABUT_SUCCESS;
 }
 
@@ -205,6 +224,7 @@ search_surface(abut_search *s, const abut_surface *secondary, bool facets,
     status = abut_skin_list_make(&p->skin, s, secondary, facets);
   if (status == ABUT_SUCCESS)
     status = abut_search_query_of(s, secondary, facets, &query);
+  s->list.of_facets = true;
   if (status == ABUT_SUCCESS)
     status = s->skin > 0 ? filter(s, &p->skin.list, &query)
                          : abut_search_list(s, &query, 0, &s->list, NULL, NULL);
@@ -273,6 +293,7 @@ abut_search_points(abut_search *search, int32_t n, const double *points,
       return ABUT_NOT_FINITE;
     }
   const abut_query query = {n, dimension, points, NULL};
+  s->list.of_facets = true;
   abut_status status = abut_search_update(s);
   if (status == ABUT_SUCCESS)
     status = abut_search_list(s, &query, 0, &s->list, NULL, NULL);

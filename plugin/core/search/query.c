@@ -3,11 +3,10 @@
  *
  * Queries are sorted along Morton's curve and taken in blocks of at most BLOCK
  * that fill a cell of the binary tree behind the curve. For a block the
- * buckets are visited once, and the facets near it gathered (block.c); of
- * these, those near ABUT_PART queries at a time; each query is tested against
- * the few that remain. So the numbering of nodes and facets does not matter,
- * trees and tables are read once per block, and the answer is that of the exact
- * test. */
+ * buckets are visited once, and the facets near it gathered (block.c); each
+ * query is tested against these. So the numbering of nodes and facets does not
+ * matter, trees and tables are read once per block, and the answer is that of
+ * the exact test. */
 #include "search/search.h"
 
 #include <math.h>
@@ -119,30 +118,25 @@ load_batch(const abut_query *q, const abut_keyed *items, int32_t n, batch *b)
   }
 }
 
-/* Answer queries first .. last - 1 of the batch, which are near each other. */
+/* Pairs of query i of the batch, to the end of the list. */
 static void
-answer_part(abut_search *s, const abut_query *q, const batch *b, int32_t first,
-            int32_t last, double skin, abut_list *list)
+answer_query(abut_search *s, const abut_query *q, const batch *b, int32_t i,
+             abut_list *list)
 {
-  double lower[3], upper[3];
-  int64_t *start = list->start.data;
-  int32_t *slot = list->slot.data;
-  for (int d = 0; d < 3; ++d)
+  int64_t *start = (int64_t *)list->start.data + list->n++;
+  int32_t *slot = (int32_t *)list->slot.data + start[0];
+  if (q->points == NULL)
   {
-    lower[d] = b->lower[first][d];
-    upper[d] = b->upper[first][d];
-    for (int32_t i = first + 1; i < last; ++i)
-    {
-      lower[d] = b->lower[i][d] < lower[d] ? b->lower[i][d] : lower[d];
-      upper[d] = b->upper[i][d] > upper[d] ? b->upper[i][d] : upper[d];
-    }
+    start[1] = start[0]
+               + abut_block_near_box(&s->block, b->lower[i], b->upper[i], slot);
+    return;
   }
-  abut_block_narrow(s, lower, upper);
-  int32_t count[ABUT_PART];
-  abut_block_answer(s, last - first, b->lower + first, b->upper + first,
-                    q->points != NULL, skin, count, slot + start[list->n]);
-  for (int32_t i = first; i < last; ++i, ++list->n)
-    start[list->n + 1] = start[list->n] + count[i - first];
+  const int32_t n = abut_block_near_point(&s->block, b->lower[i], slot);
+  start[1] = start[0] + n;
+  if (n == 0 || list->of_facets)
+    return;
+  abut_prefetch_facet(s->surface,
+                      ((abut_record *)s->records.data)[slot[0]].facet);
 }
 
 /* Ask for the queries of the next block. */
@@ -176,17 +170,19 @@ answer_block(abut_search *s, const abut_query *q, const batch *b, double skin,
     abut_grid_gather(&s->grid, lower, upper, &runs);
   else
     abut_tree_gather(&s->tree, lower, upper, &runs);
-  abut_status status =
-      abut_block_fill(s, &runs, b->block_lower, b->block_upper, skin);
+  abut_status status = abut_block_fill(s, &runs, b->block_lower, b->block_upper,
+                                       skin, list->of_facets);
   if (status != ABUT_SUCCESS)
     return status;
   const int64_t used = ((const int64_t *)list->start.data)[list->n];
   status = abut_array_reserve(s->context, &list->slot, used,
                               used + (int64_t)b->n * (s->block.n + 1));
-  for (int32_t i = 0; i < b->n && status == ABUT_SUCCESS; i += ABUT_PART)
-    answer_part(s, q, b, i, i + ABUT_PART < b->n ? i + ABUT_PART : b->n, skin,
-                list);
-  return status;
+  if (status != ABUT_SUCCESS)
+    return status;
+  for (int32_t i = 0; i < b->n; ++i)
+    answer_query(s, q, b, i, list);
+  s->statistics.n_box_tests += (int64_t)b->n * s->block.n;
+  return ABUT_SUCCESS;
 }
 
 /* Every query against every facet, in their order: nothing but the exact
@@ -313,6 +309,7 @@ void
 abut_list_prepare(abut_list *list)
 {
   const abut_list empty = {0,
+                           false,
                            {NULL, 0, sizeof(int32_t)},
                            {NULL, 0, sizeof(int64_t)},
                            {NULL, 0, sizeof(int32_t)}};

@@ -73,17 +73,11 @@ prepare(abut_search *s)
                     {&s->grid.cell_key, sizeof(uint64_t)},
                     {&s->grid.cell_start, sizeof(int32_t)},
                     {&s->grid.table, sizeof(int32_t)},
-                    {&s->query_box, sizeof(double)},
-                    {&s->block.box, sizeof(float)},
-                    {&s->block.slot, sizeof(int32_t)},
-                    {&s->part.box, sizeof(float)},
-                    {&s->part.slot, sizeof(int32_t)},
-                    {&s->near, sizeof(int32_t)},
-                    {&s->owner, sizeof(uint8_t)},
-                    {&s->hit, sizeof(int32_t)}};
+                    {&s->query_box, sizeof(double)}};
   for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
     list[i].array->element = list[i].element;
   abut_list_prepare(&s->list);
+  abut_block_prepare(&s->block);
 }
 
 abut_status
@@ -122,26 +116,14 @@ abut_search_destroy(abut_search **search)
   abut_search *s = *search;
   if (s == NULL)
     return ABUT_SUCCESS;
-  abut_array *arrays[] = {&s->records,
-                          &s->sites,
-                          &s->items,
-                          &s->room,
-                          &s->runs,
-                          &s->query_box,
-                          &s->tree.groups,
-                          &s->grid.cell_key,
-                          &s->grid.table,
-                          &s->block.box,
-                          &s->grid.cell_start,
-                          &s->block.slot,
-                          &s->part.box,
-                          &s->part.slot,
-                          &s->hit,
-                          &s->near,
-                          &s->owner};
+  abut_array *arrays[] = {&s->records,        &s->sites,         &s->items,
+                          &s->room,           &s->runs,          &s->query_box,
+                          &s->tree.groups,    &s->grid.cell_key, &s->grid.table,
+                          &s->grid.cell_start};
   for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); ++i)
     abut_array_release(s->context, arrays[i]);
   abut_list_release(s->context, &s->list);
+  abut_block_release(s->context, &s->block);
   abut_object_destroy(s->context, s, sizeof(*s));
   *search = NULL;
   return ABUT_SUCCESS;
@@ -448,11 +430,10 @@ abut_search_get_statistics(const abut_search *search,
       + bytes_of(&s->tree.groups) + bytes_of(&s->grid.cell_key)
       + bytes_of(&s->grid.cell_start) + bytes_of(&s->grid.table);
   statistics->record_bytes = bytes_of(&s->records) + bytes_of(&s->sites);
-  statistics->query_bytes = bytes_of(&s->list.order) + bytes_of(&s->list.start)
-                            + bytes_of(&s->list.slot) + bytes_of(&s->query_box)
-                            + bytes_of(&s->block.box) + bytes_of(&s->block.slot)
-                            + bytes_of(&s->part.box) + bytes_of(&s->part.slot)
-                            + bytes_of(&s->hit) + bytes_of(&s->near)
-                            + bytes_of(&s->owner);
+  statistics->query_bytes =
+      bytes_of(&s->list.order) + bytes_of(&s->list.start)
+      + bytes_of(&s->list.slot) + bytes_of(&s->query_box)
+      + bytes_of(&s->block.step) + bytes_of(&s->block.exact)
+      + bytes_of(&s->block.value) + bytes_of(&s->block.keyed);
   return ABUT_SUCCESS;
 }

@@ -9,30 +9,39 @@
 
 #include <abut/search.h>
 
-enum
-{
-  ABUT_PART = 8 /* queries that are answered together */
-};
-
 /* Pairs in the order in which queries were answered: query order[k] has the
  * records slot[start[k]] .. slot[start[k + 1] - 1]. Queries without pairs may
  * be missing. */
 typedef struct abut_list
 {
   int32_t n;
+  bool of_facets;   /* slot has ascending numbers of facets instead of slots */
   abut_array order; /* int32_t */
   abut_array start; /* int64_t, [n + 1] */
   abut_array slot;  /* int32_t */
 } abut_list;
 
-/* Facets near some queries: their boxes as single-precision numbers relative
- * to a common origin, rounded outwards. */
+/* What decides whether a point or box is near a facet. */
+typedef struct abut_exact
+{
+  double bound[6]; /* lower and, negative, upper bounds of the inflated box */
+  double centre[3];
+  double limit; /* square of reach and radius */
+} abut_exact;
+
+/* Facets near a block of queries. */
 typedef struct abut_block
 {
   int32_t n;
   int32_t n_padded; /* with empty boxes at the end */
-  abut_array box;   /* float, [6][capacity]: lower x, y, z, upper x, y, z */
-  abut_array slot;  /* int32_t */
+  double origin[3]; /* of the steps (block.c) */
+  double scale[3];
+  abut_array step;  /* int8_t, [6][capacity]: lower x, y, z, upper x, y, z */
+  abut_array exact; /* abut_exact */
+  abut_array value; /* int32_t, slots, or facets in ascending order */
+  abut_array keyed; /* uint64_t, [2][capacity], to sort them */
+  uint8_t place[256][8]; /* places of the bits of a byte that are set */
+  uint8_t n_places[256]; /* how many are */
 } abut_block;
 
 struct abut_search
@@ -57,14 +66,9 @@ struct abut_search
   abut_array runs;           /* abut_run */
   abut_tree tree;
   abut_grid grid;
-  abut_list list;         /* of the last query */
-  abut_array query_box;   /* double, boxes of queries in query order */
-  double block_origin[3]; /* of the two blocks */
-  abut_block block;       /* near a block of queries */
-  abut_block part;        /* near a few of them */
-  abut_array hit;         /* int32_t, whether a box of a block is touched */
-  abut_array near;        /* int32_t, places of hits */
-  abut_array owner;       /* uint8_t, whose hits they are */
+  abut_list list;       /* of the last query */
+  abut_array query_box; /* double, boxes of queries in query order */
+  abut_block block;     /* near a block of queries */
   abut_search_statistics statistics;
 };
 
@@ -78,7 +82,7 @@ typedef struct abut_query
 } abut_query;
 
 /* Answers to a few queries: query order[k] has the records slot[start[k]] ..
- * slot[start[k + 1] - 1]; the one with the nearest centre comes first. */
+ * slot[start[k + 1] - 1]. */
 typedef struct abut_answers
 {
   int32_t n;
@@ -90,20 +94,21 @@ typedef struct abut_answers
 /* Takes answers while they are in the cache. */
 typedef abut_status (*abut_consume)(void *user, const abut_answers *answers);
 
-/* Facets of the runs whose inflated box touches the box of a block of queries;
- * then, of these, those near a part of the queries; then, of these, the pairs
- * of each query of the part into slots, one query after the other, which has
- * room for all. count[ABUT_PART] receives how many each has; of a point the
- * one with the nearest centre comes first. Returns their sum. */
+void abut_block_prepare(abut_block *block);
+void abut_block_release(abut_context *context, abut_block *block);
+
+/* The facets of the runs whose inflated box touches the box of a block of
+ * queries: as slots, or as numbers of facets in ascending order. */
 abut_status abut_block_fill(abut_search *search, const abut_runs *runs,
                             const double *lower, const double *upper,
-                            double skin);
-void abut_block_narrow(abut_search *search, const double *lower,
-                       const double *upper);
-int32_t abut_block_answer(abut_search *search, int32_t n_queries,
-                          const double (*lower)[3], const double (*upper)[3],
-                          bool points, double skin, int32_t *count,
-                          int32_t *slots);
+                            double skin, bool of_facets);
+
+/* Those that are pairs of a query of the block, in the same order, into values,
+ * which has room for all of the block; returns their number. */
+int32_t abut_block_near_point(const abut_block *block, const double *x,
+                              int32_t *values);
+int32_t abut_block_near_box(const abut_block *block, const double *lower,
+                            const double *upper, int32_t *values);
 
 /* Bring the records up to date, not the buckets: enough to use a list. */
 abut_status abut_search_refresh(abut_search *search);
