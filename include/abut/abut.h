@@ -8,6 +8,7 @@
  */
 
 #include <abut/context.h>
+#include <abut/coupling.h>
 #include <abut/dense_model.h>
 #include <abut/detect.h>
 #include <abut/export.h>

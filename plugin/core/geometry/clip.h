@@ -22,6 +22,9 @@ typedef struct abut_part
 /* Number of linear parts: 2 for line3, 4 for tri6 and quad9, else 1. */
 int abut_facet_n_parts(abut_facet_kind kind);
 
+/* The facet's nodes at the corners of a part. */
+const int8_t *abut_facet_part_corners(abut_facet_kind kind, int part);
+
 /* Part number `part` of a facet. */
 void abut_facet_part(abut_facet_kind kind, const double *nodes, int part,
                      abut_part *result);
@@ -47,7 +50,7 @@ int abut_clip2_segments(const double *secondary, const double *primary,
 
 enum
 {
-  abut_clip_max = 8
+  abut_clip_max = 12 /* two quadrilaterals give 8; differences of those more */
 };
 
 /* Common polygon of two facets in a plane with the points origin + u e1 + v e2;
@@ -74,6 +77,21 @@ typedef enum abut_clip_result
 abut_clip_result abut_clip3_parts(const abut_part *s, const abut_part *m,
                                   const double *origin, const double *normal,
                                   abut_clip3 *clip);
+
+/* Common polygon of two polygons of one plane; nonzero if its area is more than
+ * the given part of the smaller one. */
+int abut_clip3_intersect(const abut_clip3 *a, const abut_clip3 *b, double part,
+                         abut_clip3 *common);
+
+/* Convex pieces of a without b (of one plane), dropped below `part` of a; at
+ * most b->n. Returns their number. */
+int abut_clip3_subtract(const abut_clip3 *a, const abut_clip3 *b, double part,
+                        abut_clip3 *pieces);
+
+/* First corner of the diagonal (0 or 1) along which a quadrilateral is cut into
+ * triangles: the one that lies within it. Triangle i has the corners (first +
+ * 2 i + 0, 1, 2) modulo 4. */
+int abut_part_diagonal(const abut_part *quad);
 
 /* Common length or area of two facets of the same dimension, summed over
  * their parts, each in the plane of the secondary's part; 0 if there is none.

@@ -4,6 +4,7 @@
  * is cut by the half-plane of each edge of the convex clip polygon (Sutherland
  * and Hodgman, Commun. ACM 17, 1974). Each cut adds at most one vertex. */
 #include "geometry/clip.h"
+#include "geometry/pull_back.h"
 #include "geometry/vector.h"
 #include <string.h>
 
@@ -12,21 +13,6 @@ typedef struct polygon
   int n;
   double x[abut_clip_max][2];
 } polygon;
-
-/* Two unit vectors e1, e2 with e1 x e2 = normal. */
-static void
-set_basis(abut_clip3 *c)
-{
-  int k = 0;
-  for (int d = 1; d < 3; ++d)
-    if (fabs(c->normal[d]) < fabs(c->normal[k]))
-      k = d;
-  double axis[3] = {0., 0., 0.};
-  axis[k] = 1.;
-  cross3(c->normal, axis, c->e1);
-  unit3(c->e1, ABUT_TINY);
-  cross3(c->normal, c->e1, c->e2);
-}
 
 static double
 signed_area(const polygon *p)
@@ -130,7 +116,10 @@ abut_clip3_parts(const abut_part *s, const abut_part *m, const double *origin,
   polygon p = {0}, q = {0};
   memcpy(c->origin, origin, sizeof(c->origin));
   memcpy(c->normal, normal, sizeof(c->normal));
-  set_basis(c);
+  double e[2][3];
+  abut_plane_basis(3, c->normal, e);
+  memcpy(c->e1, e[0], sizeof(c->e1));
+  memcpy(c->e2, e[1], sizeof(c->e2));
   c->n = 0;
   c->area = c->centroid[0] = c->centroid[1] = 0.;
   const double area_s = project(c, s, &p), area_m = project(c, m, &q);
@@ -146,4 +135,45 @@ abut_clip3_parts(const abut_part *s, const abut_part *m, const double *origin,
   c->n = 0;
   c->area = c->centroid[0] = c->centroid[1] = 0.;
   return ABUT_CLIP_EMPTY;
+}
+
+static void
+set_polygon(const abut_clip3 *c, polygon *p)
+{
+  p->n = c->n;
+  memcpy(p->x, c->vertex, sizeof(p->x[0]) * (size_t)c->n);
+}
+
+int
+abut_clip3_intersect(const abut_clip3 *a, const abut_clip3 *b, double part,
+                     abut_clip3 *common)
+{
+  polygon p;
+  set_polygon(a, &p);
+  for (int i = 0; i < b->n && p.n > 0; ++i)
+    cut(&p, b->vertex[i], b->vertex[(i + 1) % b->n]);
+  *common = *a;
+  measure(&p, common);
+  return common->area > part * min2(a->area, b->area);
+}
+
+/* What is outside of one edge of b after another. */
+int
+abut_clip3_subtract(const abut_clip3 *a, const abut_clip3 *b, double part,
+                    abut_clip3 *pieces)
+{
+  polygon rest;
+  int n = 0;
+  set_polygon(a, &rest);
+  for (int i = 0; i < b->n && rest.n > 0; ++i)
+  {
+    const double *x = b->vertex[i], *y = b->vertex[(i + 1) % b->n];
+    polygon outside = rest;
+    cut(&outside, y, x);
+    cut(&rest, x, y);
+    pieces[n] = *a;
+    measure(&outside, &pieces[n]);
+    n += pieces[n].area > part * a->area;
+  }
+  return n;
 }

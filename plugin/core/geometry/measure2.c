@@ -3,15 +3,8 @@
  * contains it, so box and radius are bounds, not samples. */
 #include "geometry/kernels.h"
 #include "geometry/measure.h"
+#include "geometry/quadrature.h"
 #include "geometry/vector.h"
-
-/* Gauss, 5 points on [-1, 1]. */
-static const double gauss_point[5] = {-0.9061798459386640, -0.5384693101056831,
-                                      0., 0.5384693101056831,
-                                      0.9061798459386640};
-static const double gauss_weight[5] = {0.2369268850561891, 0.4786286704993665,
-                                       0.5688888888888889, 0.4786286704993665,
-                                       0.2369268850561891};
 
 static void
 tangent(abut_facet_kind kind, const double *nodes, double xi, double *t)
@@ -28,10 +21,11 @@ static double
 arc_length(abut_facet_kind kind, const double *nodes)
 {
   double sum = 0., t[2];
+  const double *point = abut_gauss_points(5), *weight = abut_gauss_weights(5);
   for (int q = 0; q < 5; ++q)
   {
-    tangent(kind, nodes, gauss_point[q], t);
-    sum += gauss_weight[q] * sqrt(t[0] * t[0] + t[1] * t[1]);
+    tangent(kind, nodes, point[q], t);
+    sum += weight[q] * sqrt(t[0] * t[0] + t[1] * t[1]);
   }
   return sum;
 }

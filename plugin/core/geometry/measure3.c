@@ -3,13 +3,8 @@
  * form contain the facet, so box and radius are bounds, not samples. */
 #include "geometry/kernels.h"
 #include "geometry/measure.h"
+#include "geometry/quadrature.h"
 #include "geometry/vector.h"
-
-/* Gauss, 4 points on [-1, 1]. */
-static const double gauss_point[4] = {-0.8611363115940526, -0.3399810435848563,
-                                      0.3399810435848563, 0.8611363115940526};
-static const double gauss_weight[4] = {0.3478548451374538, 0.6521451548625461,
-                                       0.6521451548625461, 0.3478548451374538};
 
 /* y_,xi x y_,eta */
 static void
@@ -34,10 +29,11 @@ integrate_area(abut_facet_kind kind, const double *nodes, double *vector)
   const int triangle = abut_facet_n_corners(kind) == 3;
   double area = 0.;
   vector[0] = vector[1] = vector[2] = 0.;
+  const double *point = abut_gauss_points(4), *weight = abut_gauss_weights(4);
   for (int q = 0; q < 16; ++q)
   {
-    const double u = gauss_point[q % 4], v = gauss_point[q / 4];
-    double w = gauss_weight[q % 4] * gauss_weight[q / 4], xi = u, eta = v, n[3];
+    const double u = point[q % 4], v = point[q / 4];
+    double w = weight[q % 4] * weight[q / 4], xi = u, eta = v, n[3];
     if (triangle)
     {
       xi = 0.25 * (1. + u) * (1. - v);

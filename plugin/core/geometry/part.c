@@ -31,16 +31,22 @@ abut_facet_n_parts(abut_facet_kind kind)
   return 1;
 }
 
+const int8_t *
+abut_facet_part_corners(abut_facet_kind kind, int part)
+{
+  return kind == ABUT_FACET_LINE3   ? line3_part[part]
+         : kind == ABUT_FACET_TRI6  ? tri6_part[part]
+         : kind == ABUT_FACET_QUAD9 ? quad9_part[part]
+         : kind == ABUT_FACET_QUAD4 ? quad4_part
+                                    : linear_part;
+}
+
 void
 abut_facet_part(abut_facet_kind kind, const double *nodes, int part,
                 abut_part *result)
 {
   const int dim = abut_facet_dimension(kind);
-  const int8_t *corner = kind == ABUT_FACET_LINE3   ? line3_part[part]
-                         : kind == ABUT_FACET_TRI6  ? tri6_part[part]
-                         : kind == ABUT_FACET_QUAD9 ? quad9_part[part]
-                         : kind == ABUT_FACET_QUAD4 ? quad4_part
-                                                    : linear_part;
+  const int8_t *corner = abut_facet_part_corners(kind, part);
   result->n = abut_facet_n_corners(kind);
   for (int a = 0; a < result->n; ++a)
     for (int d = 0; d < 3; ++d)
@@ -92,8 +98,22 @@ half(const abut_part *quad, int first, int which, abut_part *triangle)
       triangle->x[a][d] = quad->x[(first + a + 2 * which) % 4][d];
 }
 
-/* A quadrilateral as two triangles, cut along the diagonal that lies within
- * it: the two areas then add up to less. A triangle stays as it is. */
+/* The two triangles' areas add up to less if the diagonal lies within. */
+int
+abut_part_diagonal(const abut_part *quad)
+{
+  double area[2] = {0., 0.}, n[3];
+  for (int first = 0; first < 2; ++first)
+    for (int which = 0; which < 2; ++which)
+    {
+      abut_part triangle;
+      half(quad, first, which, &triangle);
+      area[first] += abut_part_area(&triangle, n);
+    }
+  return area[1] < area[0];
+}
+
+/* A quadrilateral as two triangles; a triangle stays as it is. */
 static int
 triangles(const abut_part *part, abut_part *result)
 {
@@ -102,18 +122,9 @@ triangles(const abut_part *part, abut_part *result)
     result[0] = *part;
     return 1;
   }
-  double area[2], n[3];
-  for (int first = 1; first >= 0; --first)
-  {
-    half(part, first, 0, &result[0]);
-    half(part, first, 1, &result[1]);
-    area[first] = abut_part_area(&result[0], n) + abut_part_area(&result[1], n);
-  }
-  if (area[1] < area[0])
-  {
-    half(part, 1, 0, &result[0]);
-    half(part, 1, 1, &result[1]);
-  }
+  const int first = abut_part_diagonal(part);
+  half(part, first, 0, &result[0]);
+  half(part, first, 1, &result[1]);
   return 2;
 }
 

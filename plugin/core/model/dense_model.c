@@ -7,7 +7,7 @@
  * as it stands, so that K may be singular as long as the active constraints
  * hold the body. */
 #include "base/memory.h"
-#include "model/dense_lu.h"
+#include "base/dense_lu.h"
 
 #include <abut/dense_model.h>
 #include <math.h>

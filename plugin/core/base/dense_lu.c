@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-#include "model/dense_lu.h"
+#include "base/dense_lu.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-#ifndef ABUT_MODEL_DENSE_LU_H
-#define ABUT_MODEL_DENSE_LU_H
+#ifndef ABUT_BASE_DENSE_LU_H
+#define ABUT_BASE_DENSE_LU_H
 
 /* Elimination with row scaling and partial pivoting (Golub and Van Loan,
  * Matrix Computations, section 3.4), n^3/3 multiplications. */

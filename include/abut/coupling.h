@@ -1,0 +1,303 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_COUPLING_H
+#define ABUT_COUPLING_H
+
+/** @file
+ * Coupling of two surfaces, or of a surface and a rigid obstacle: the contact
+ * condition discretised into rows over nodes.
+ *
+ * Row j has a weighting function psi_j on the secondary surface and
+ *
+ *     W_j  = integral of psi_j                       weight, area
+ *     D_jl = integral of psi_j phi_l                 l: secondary nodes
+ *     M_jl = integral of psi_j N_l                   l: primary nodes
+ *     g_j  = n_j . integral of psi_j (x_m - x_s) / W_j    gap, length
+ *
+ * where the integrals run over the part of the secondary surface that the
+ * primary covers, x_m is the point of the primary opposite the point x_s of
+ * the secondary, phi and N are the shape functions of the two sides, and n_j
+ * the outward unit normal of the secondary. The coefficients given are
+ * D_jl / W_j and M_jl / W_j; for small displacements u
+ *
+ *     g_j(u) = g_j - n_j . sum_l D_jl / W_j u_l + n_j . sum_l M_jl / W_j u_l
+ *
+ * Both sums of coefficients are one, and the weights of all rows add up to the
+ * covered area.
+ *
+ *   node to segment    psi_j is the node itself: one row per node, against the
+ *                      nearest point of the primary surface; n_j is minus the
+ *                      normal there. A constant pressure is not transferred
+ *                      exactly.
+ *   quadrature point   one row per point of a quadrature rule on each facet,
+ *                      against the primary along the secondary's normal.
+ *   mortar             psi_j = phi_j, integrals over the exact common
+ *                      segments (2D) or polygons (3D) of the facets: Puso and
+ *                      Laursen, Comput. Methods Appl. Mech. Engrg. 193 (2004)
+ *                      601 and 4891; quadratic facets are cut into linear
+ *                      parts for clipping: Puso, Laursen and Solberg, Comput.
+ *                      Methods Appl. Mech. Engrg. 197 (2008) 555.
+ *   dual mortar        psi_j biorthogonal to phi_j, on partly covered facets
+ *                      over the covered part: Wohlmuth, SIAM J. Numer. Anal.
+ *                      38 (2000) 989; Popp, Gitterle, Gee and Wall, Int. J.
+ *                      Numer. Meth. Engng 83 (2010) 1428; Cichosz and
+ *                      Bischoff, Comput. Methods Appl. Mech. Engrg. 200 (2011)
+ *                      1317. The row of a node has no other secondary node
+ *                      than its own and dropped neighbours.
+ *
+ * Rows are sums over facets in the order of the facets' numbers, so that they
+ * are bitwise independent of which other rows are wanted. Nothing here is
+ * collective: a process that holds all facets around its nodes (two layers of
+ * them for quadratic facets) builds complete rows by itself.
+ */
+
+#include <abut/context.h>
+#include <abut/export.h>
+#include <abut/obstacle.h>
+#include <abut/search.h>
+#include <abut/surface.h>
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+/** Name in the parameter file. */
+#define ABUT_DISCRETISATION_LIST(X)                                            \
+  X(NODE_TO_SEGMENT, "node to segment")                                        \
+  X(QUADRATURE_POINT, "quadrature point")                                      \
+  X(MORTAR, "mortar")                                                          \
+  X(DUAL_MORTAR, "dual mortar")
+
+  /** Ways of discretising the contact condition. */
+  typedef enum abut_discretisation
+  {
+#define ABUT_DISCRETISATION_ENTRY(name, text) ABUT_DISCRETISATION_##name,
+    ABUT_DISCRETISATION_LIST(ABUT_DISCRETISATION_ENTRY)
+#undef ABUT_DISCRETISATION_ENTRY
+    /** Number of discretisations; not one. */
+    ABUT_DISCRETISATION_N
+  } abut_discretisation;
+
+  /** Name of a discretisation ("dual mortar"); never NULL. */
+  ABUT_API const char *
+  abut_discretisation_name(abut_discretisation discretisation);
+
+  /** Discretisation by its name; INVALID_ARGUMENT if there is none. */
+  ABUT_API abut_status abut_discretisation_find(
+      const char *name, abut_discretisation *discretisation);
+
+  /** Options of a coupling. */
+  typedef struct abut_coupling_options
+  {
+    size_t struct_size; /**< sizeof(abut_coupling_options) */
+    /** Default: dual mortar. */
+    abut_discretisation discretisation;
+    /** Degree of the weighting functions: 0 (default) that of the facet; 1 on
+     * quadratic facets: linear between the corners, rows at corners only
+     * (mortar). */
+    int32_t multiplier_degree;
+    /** Polynomials up to this degree are integrated exactly on flat facets: 0
+     * (default) automatic, or 1 .. 8. */
+    int32_t quadrature_degree;
+    /** Integrate over the exact common parts of facets (default true). False:
+     * over whole facets with the points projected one by one; faster, but a
+     * constant pressure is only transferred to within some 1e-2. */
+    bool segments;
+    /** Integrals are those of the body of revolution about the axis x = 0: the
+     * weight of a point is multiplied by 2 pi x (2D only; x >= 0 at all
+     * nodes). Default false. */
+    bool axisymmetric;
+    /** Largest cosine of the angle between the two outward normals, in
+     * [-1, 1]; default -0.17: within 80 degrees of opposite. */
+    double normal_cosine;
+    /** Thickness of the primary's body, length: what is deeper than half of it
+     * is on the wrong side. 0 (default): no limit but the reach. */
+    double thickness;
+    /** Reach (of each primary facet; with an obstacle: of each secondary
+     * facet), algorithm and skin. Parts with a gap above the reach, or deeper
+     * than it, are not covered. */
+    abut_search_options search;
+  } abut_coupling_options;
+
+  /** Default options. */
+  static inline abut_coupling_options abut_coupling_defaults(void)
+  {
+    const abut_coupling_options options = {sizeof(abut_coupling_options),
+                                           ABUT_DISCRETISATION_DUAL_MORTAR,
+                                           0,
+                                           0,
+                                           true,
+                                           false,
+                                           -0.17,
+                                           0.,
+                                           abut_search_defaults()};
+    return options;
+  }
+
+  /** Whether a discretisation with weighting functions of this degree exists
+   * on facets of this kind. UNSUPPORTED, with the reason in *reason (may be
+   * NULL; a string that lives for ever), if not:
+   *
+   *   weighting functions of degree 0 per facet are never offered: they are
+   *   not stable on facets of degree 1;
+   *   dual functions of degree 1 on quadratic facets are not biorthogonal to
+   *   the shape functions;
+   *   the shape functions of tri6 have no weight at the corners: only mortar
+   *   with degree 1 and quadrature points are offered there. */
+  ABUT_API abut_status abut_coupling_check(abut_discretisation discretisation,
+                                           int32_t multiplier_degree,
+                                           abut_facet_kind kind,
+                                           const char **reason);
+
+  /** What is to be known of the nodes of the secondary surface; n_nodes is
+   * theirs. Arrays are read during abut_coupling_build() only. */
+  typedef struct abut_coupling_nodes
+  {
+    size_t struct_size; /**< sizeof(abut_coupling_nodes) */
+    /** [n_nodes] nonzero: the row of this node is wanted. NULL: all. Not used
+     * for quadrature points. */
+    const uint8_t *wanted;
+    /** [n_facets] nonzero: the rows of this facet are wanted (quadrature
+     * points only). NULL: all. */
+    const uint8_t *wanted_facet;
+    /** [n_nodes] nonzero: the node carries no multiplier (held in normal
+     * direction, or at a crosspoint); its share goes to the kept nodes of the
+     * same facet in equal parts. NULL: none. */
+    const uint8_t *dropped;
+    /** Hanging nodes: displacement of node hanging_node[h] is the sum over e =
+     * hanging_start[h] .. hanging_start[h + 1] - 1 of hanging_weight[e] times
+     * that of node hanging_parent[e]. Parents are nodes of the same surface
+     * that do not hang themselves; they may have no facet. Weights of a node
+     * add up to one. A hanging node has no row. */
+    int32_t n_hanging;
+    const int32_t *hanging_node;   /**< [n_hanging] each once */
+    const int32_t *hanging_start;  /**< [n_hanging + 1] */
+    const int32_t *hanging_parent; /**< [hanging_start[n_hanging]] */
+    const double *hanging_weight;  /**< [hanging_start[n_hanging]] */
+  } abut_coupling_nodes;
+
+  /** Defaults: all rows wanted, no node dropped, none hanging. */
+  static inline abut_coupling_nodes abut_coupling_nodes_defaults(void)
+  {
+    const abut_coupling_nodes nodes = {sizeof(abut_coupling_nodes),
+                                       NULL,
+                                       NULL,
+                                       NULL,
+                                       0,
+                                       NULL,
+                                       NULL,
+                                       NULL,
+                                       NULL};
+    return nodes;
+  }
+
+  /** Opaque coupling. */
+  typedef struct abut_coupling abut_coupling;
+
+  /** Create a coupling between two surfaces, which must outlive it. Node
+   * numbers exclude pairs of facets with a common node if both surfaces are
+   * the same object or both were given numbers. @p options may be NULL.
+   * UNSUPPORTED as in abut_coupling_check(). */
+  ABUT_API abut_status abut_coupling_create(
+      abut_context *context, abut_surface *secondary, abut_surface *primary,
+      const abut_coupling_options *options, abut_coupling **coupling);
+
+  /** Create a coupling between a surface and a rigid obstacle, which must
+   * outlive it. Rows have no primary entries; the gap is the weighted mean of
+   * the obstacle's signed distance, the normal that of minus its gradient. A
+   * facet takes part as a whole or not at all: if the obstacle faces its
+   * centre; rows with a gap above the reach are left out. */
+  ABUT_API abut_status abut_coupling_create_obstacle(
+      abut_context *context, abut_surface *secondary, abut_obstacle *obstacle,
+      const abut_coupling_options *options, abut_coupling **coupling);
+
+  /** Destroy a coupling and set the handle to NULL. */
+  ABUT_API abut_status abut_coupling_destroy(abut_coupling **coupling);
+
+  /** Build the rows at the present positions (and pose).
+   *
+   * @param nodes may be NULL: the defaults
+   * @param motion length >= 0: largest relative motion of the surfaces since
+   *   the last call (over all processes); the reach is at least 1.5 times as
+   *   large. 0 if unknown
+   *
+   * Nodes without coverage have no row; nor have nodes whose weight is below
+   * 1e-6 of their full weight. On quadratic facets, whose weighting functions
+   * change sign, a node of which only so little is covered that its weight is
+   * below 1/20 of the integral of |phi_j| is treated as dropped.
+   *
+   * 2D: about a microsecond per pair of facets; 3D: about ten. Allocates
+   * nothing once warmed up. */
+  ABUT_API abut_status abut_coupling_build(abut_coupling *coupling,
+                                           const abut_coupling_nodes *nodes,
+                                           double motion);
+
+  /** Read-only view of the rows; lives until the next build. Rows are in
+   * ascending order of the numbers of their nodes (quadrature points: of the
+   * facet, then of the point), entries in that of the numbers of nodes. */
+  typedef struct abut_coupling_view
+  {
+    int32_t dimension; /**< 2 or 3 */
+    int32_t n_rows;
+    const int32_t *node;  /**< [n_rows] secondary node; -1: quadrature point */
+    const int32_t *facet; /**< [n_rows] quadrature point: its secondary facet;
+                               node to segment: the primary facet; else -1 */
+    const int32_t *point; /**< [n_rows] quadrature point: number of the point
+                               within the facet; else 0 */
+    const double *weight; /**< [n_rows] W_j > 0, area (2D: length) */
+    /** [n_rows] weight if the whole surface were covered: the integral of
+     * phi_j plus the shares of dropped neighbours. */
+    const double *full_weight;
+    const double *gap;      /**< [n_rows] g_j, length; positive: open */
+    const double *normal;   /**< [n_rows * dimension] n_j = -dg_j/dx_s */
+    const double *position; /**< [n_rows * dimension] where the row sits: the
+                                 node, or the quadrature point */
+    /** Row j has the secondary entries secondary_start[j] ..
+     * secondary_start[j + 1] - 1. [n_rows + 1] */
+    const int64_t *secondary_start;
+    const int32_t *secondary_node;       /**< never a hanging node */
+    const double *secondary_coefficient; /**< D_jl / W_j */
+    const int64_t *primary_start;        /**< [n_rows + 1] */
+    const int32_t *primary_node;
+    const double *primary_coefficient; /**< M_jl / W_j */
+  } abut_coupling_view;
+
+  /** View of the rows. O(1). */
+  ABUT_API abut_status abut_coupling_get(const abut_coupling *coupling,
+                                         abut_coupling_view *view);
+
+  /** What a build met. Areas and numbers of rows add up over processes, if
+   * each row is wanted on one; the others count facets that a process had to
+   * look at. */
+  typedef struct abut_coupling_statistics
+  {
+    double covered_area; /**< sum of the weights of all rows */
+    double full_area;    /**< sum of the full weights of all wanted nodes */
+    int64_t n_facets;    /**< secondary facets looked at */
+    int64_t n_covered;   /**< of these, covered at least in part */
+    int64_t n_pairs;     /**< pairs of facets with a common part */
+    int64_t n_lumped;    /**< facets too little covered, or too distorted, for
+                              dual functions: lumped functions instead */
+    int64_t n_weak;      /**< wanted nodes with coverage, but without a row */
+    int64_t n_split;     /**< rows at a feature of the surface whose normal is
+                              that of the covered side only */
+    int64_t n_layers;    /**< common parts cut back because a nearer facet
+                              covers the same spot */
+    double largest_warping; /**< largest angle between the normals of a
+                                 secondary facet's nodes and its mean normal,
+                                 radian */
+    double size_ratio; /**< median facet size of secondary by primary; 0 with
+                            an obstacle or without facets. Far above 1: primary
+                            nodes may pass between secondary ones */
+  } abut_coupling_statistics;
+
+  /** Statistics of the last build. */
+  ABUT_API abut_status abut_coupling_get_statistics(
+      const abut_coupling *coupling, abut_coupling_statistics *statistics);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Creation of a coupling. */
+#include "contact/coupling.h"
+#include "contact/detect.h"
+#include "search/order.h"
+
+#include <string.h>
+
+typedef struct array_size
+{
+  abut_array *array;
+  size_t element;
+} array_size;
+
+enum
+{
+  N_ARRAYS = 48
+};
+
+/* All arrays with the sizes of their elements (segments: set by their users);
+ * returns their number. */
+static int
+list_arrays(abut_coupling *c, array_size *list)
+{
+  const array_size all[] = {{&c->facet_order, sizeof(int32_t)},
+                            {&c->node_rank, sizeof(int32_t)},
+                            {&c->node_order, sizeof(int32_t)},
+                            {&c->primary_facet_rank, sizeof(int32_t)},
+                            {&c->primary_node_rank, sizeof(int32_t)},
+                            {&c->keyed, sizeof(abut_keyed)},
+                            {&c->hanging, sizeof(int32_t)},
+                            {&c->dropped, sizeof(uint8_t)},
+                            {&c->purpose, sizeof(uint8_t)},
+                            {&c->full, sizeof(double)},
+                            {&c->covered, sizeof(double)},
+                            {&c->absolute, sizeof(double)},
+                            {&c->row_reach, sizeof(double)},
+                            {&c->node_flag, sizeof(uint8_t)},
+                            {&c->candidates, sizeof(int32_t)},
+                            {&c->segments, 0},
+                            {&c->points, sizeof(abut_coupling_point)},
+                            {&c->values, sizeof(double)},
+                            {&c->asked, sizeof(double)},
+                            {&c->distance, sizeof(double)},
+                            {&c->gradient, sizeof(double)},
+                            {&c->shares, sizeof(abut_coupling_share)},
+                            {&c->entries, sizeof(abut_coupling_entry)},
+                            {&c->share_start, sizeof(int64_t)},
+                            {&c->share_list, sizeof(int64_t)},
+                            {&c->sum[0], sizeof(double)},
+                            {&c->sum[1], sizeof(double)},
+                            {&c->seen[0], sizeof(uint8_t)},
+                            {&c->seen[1], sizeof(uint8_t)},
+                            {&c->touched, sizeof(int32_t)},
+                            {&c->row_node, sizeof(int32_t)},
+                            {&c->row_facet, sizeof(int32_t)},
+                            {&c->row_point, sizeof(int32_t)},
+                            {&c->row_weight, sizeof(double)},
+                            {&c->row_full, sizeof(double)},
+                            {&c->row_gap, sizeof(double)},
+                            {&c->row_normal, sizeof(double)},
+                            {&c->row_position, sizeof(double)},
+                            {&c->start[0], sizeof(int64_t)},
+                            {&c->start[1], sizeof(int64_t)},
+                            {&c->column[0], sizeof(int32_t)},
+                            {&c->column[1], sizeof(int32_t)},
+                            {&c->coefficient[0], sizeof(double)},
+                            {&c->coefficient[1], sizeof(double)}};
+  const int n = (int)(sizeof(all) / sizeof(all[0]));
+  memcpy(list, all, sizeof(all));
+  return n;
+}
+
+static const char *
+fault_of(const abut_coupling_options *o, int32_t dimension)
+{
+  if (o->struct_size != sizeof(*o))
+    return "options of another version";
+  if ((int)o->discretisation < 0 || o->discretisation >= ABUT_DISCRETISATION_N)
+    return "unknown discretisation";
+  if (o->quadrature_degree < 0 || o->quadrature_degree > 8)
+    return "quadrature_degree is not in 0 .. 8";
+  if (o->axisymmetric && dimension != 2)
+    return "axisymmetric is for two dimensions";
+  if (!(o->normal_cosine >= -1 && o->normal_cosine <= 1))
+    return "normal_cosine is not in [-1, 1]";
+  if (!(o->thickness >= 0 && o->thickness <= ABUT_FACET_LIMIT))
+    return "thickness is negative or not finite";
+  return NULL;
+}
+
+/* Every kind of the secondary's facets must be able to carry the
+ * multipliers. */
+static abut_status
+check_kinds(const abut_surface *s, const abut_coupling_options *o,
+            bool *quadratic, const char **reason)
+{
+  for (int32_t f = 0; f < s->view.n_facets; ++f)
+  {
+    const abut_facet_kind kind = (abut_facet_kind)s->view.kinds[f];
+    const abut_status status = abut_coupling_check(
+        o->discretisation, o->multiplier_degree, kind, reason);
+    if (status != ABUT_SUCCESS)
+      return status;
+    *quadratic |= abut_facet_n_nodes(kind) > abut_facet_n_corners(kind);
+  }
+  return ABUT_SUCCESS;
+}
+
+/* Sort 0 .. n - 1 by the caller's numbers; order and rank (its inverse) may be
+ * NULL. */
+static abut_status
+sort_numbers(abut_coupling *c, int32_t n, const int64_t *id, abut_array *order,
+             abut_array *rank)
+{
+  abut_status status =
+      abut_array_reserve(c->context, &c->keyed, 0, 2 * (int64_t)n + 1);
+  if (status == ABUT_SUCCESS && order != NULL)
+    status = abut_array_reserve(c->context, order, 0, (int64_t)n + 1);
+  if (status == ABUT_SUCCESS && rank != NULL)
+    status = abut_array_reserve(c->context, rank, 0, (int64_t)n + 1);
+  if (status != ABUT_SUCCESS)
+    return status;
+  abut_keyed *items = c->keyed.data;
+  for (int32_t i = 0; i < n; ++i)
+  {
+    const int64_t number = id != NULL ? id[i] : i;
+    items[i].key = (uint64_t)number ^ UINT64_C(0x8000000000000000);
+    items[i].index = i;
+    items[i].unused = 0;
+  }
+  abut_order_sort(items, items + n, n);
+  for (int32_t i = 0; i < n; ++i)
+  {
+    if (order != NULL)
+      ((int32_t *)order->data)[i] = items[i].index;
+    if (rank != NULL)
+      ((int32_t *)rank->data)[items[i].index] = i;
+  }
+  return ABUT_SUCCESS;
+}
+
+static abut_status
+sort_surfaces(abut_coupling *c)
+{
+  const abut_surface_view *s = &c->secondary->view;
+  abut_status status =
+      sort_numbers(c, s->n_facets, s->facet_id, &c->facet_order, NULL);
+  if (status == ABUT_SUCCESS)
+    status =
+        sort_numbers(c, s->n_nodes, s->node_id, &c->node_order, &c->node_rank);
+  if (c->primary == NULL || status != ABUT_SUCCESS)
+    return status;
+  const abut_surface_view *m = &c->primary->view;
+  status =
+      sort_numbers(c, m->n_facets, m->facet_id, NULL, &c->primary_facet_rank);
+  if (status == ABUT_SUCCESS)
+    status =
+        sort_numbers(c, m->n_nodes, m->node_id, NULL, &c->primary_node_rank);
+  return status;
+}
+
+/* Node to segment finds its pairs by the detection. All groups of the primary
+ * have the thickness. */
+static abut_status
+create_detection(abut_coupling *c)
+{
+  int32_t group[ABUT_MAX_GROUPS], n = 0;
+  double thickness[ABUT_MAX_GROUPS];
+  abut_detection_options o = abut_detection_defaults();
+  o.search = c->options.search;
+  o.normal_cosine = c->options.normal_cosine;
+  o.thickness_group = group;
+  o.thickness = thickness;
+  for (int32_t f = 0;
+       c->options.thickness > 0. && f < c->primary->view.n_facets; ++f)
+  {
+    const int32_t g = abut_surface_group(c->primary, f);
+    int32_t i = 0;
+    while (i < n && group[i] != g)
+      ++i;
+    if (i == ABUT_MAX_GROUPS)
+      return abut_fail(c->context, ABUT_UNSUPPORTED, "abut_coupling_create",
+                       "a thickness for more than 64 groups");
+    group[i] = g;
+    thickness[i] = c->options.thickness;
+    n = i == n ? n + 1 : n;
+  }
+  o.n_thicknesses = n;
+  return abut_detection_create(c->context, c->secondary, c->primary, &o,
+                               &c->detection);
+}
+
+static abut_status
+create_search(abut_coupling *c)
+{
+  if (c->primary == NULL)
+    return ABUT_SUCCESS;
+  if (c->options.discretisation == ABUT_DISCRETISATION_NODE_TO_SEGMENT)
+    return create_detection(c);
+  const abut_status status = abut_search_create(c->context, c->primary,
+                                                &c->options.search, &c->search);
+  return status == ABUT_SUCCESS ? abut_pairs_create(c->context, &c->pairs)
+                                : status;
+}
+
+abut_status
+abut_coupling_create_any(abut_context *context, const char *call,
+                         abut_surface *secondary, abut_surface *primary,
+                         abut_obstacle *obstacle,
+                         const abut_coupling_options *options,
+                         abut_coupling **coupling)
+{
+  const abut_coupling_options chosen =
+      options != NULL ? *options : abut_coupling_defaults();
+  const char *fault = fault_of(&chosen, secondary->view.dimension);
+  bool quadratic = false;
+  if (fault != NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call, fault);
+  abut_status status = check_kinds(secondary, &chosen, &quadratic, &fault);
+  if (status != ABUT_SUCCESS)
+    return abut_fail(context, status, call, fault);
+  abut_coupling *c = abut_object_create(context, sizeof(*c));
+  if (c == NULL)
+    return abut_fail(context, ABUT_OUT_OF_MEMORY, call, "no memory");
+  array_size arrays[N_ARRAYS];
+  c->view.dimension = secondary->view.dimension;
+  const int n = list_arrays(c, arrays);
+  for (int i = 0; i < n; ++i)
+    arrays[i].array->element = arrays[i].element;
+  c->context = context;
+  c->secondary = secondary;
+  c->primary = primary;
+  c->obstacle = obstacle;
+  c->options = chosen;
+  c->quadratic = quadratic;
+  c->compare_nodes = primary != NULL
+                     && (secondary == primary
+                         || (secondary->view.node_id != NULL
+                             && primary->view.node_id != NULL));
+  *coupling = c;
+  status = sort_surfaces(c);
+  if (status == ABUT_SUCCESS)
+    status = create_search(c);
+  if (status != ABUT_SUCCESS)
+    (void)abut_coupling_destroy(coupling);
+  return status;
+}
+
+abut_status
+abut_coupling_create(abut_context *context, abut_surface *secondary,
+                     abut_surface *primary,
+                     const abut_coupling_options *options,
+                     abut_coupling **coupling)
+{
+  static const char call[] = "abut_coupling_create";
+  if (context == NULL || secondary == NULL || primary == NULL
+      || coupling == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "context, surface or result is NULL");
+  if (secondary->view.dimension != primary->view.dimension)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "the surfaces have different dimensions");
+  return abut_coupling_create_any(context, call, secondary, primary, NULL,
+                                  options, coupling);
+}
+
+abut_status
+abut_coupling_destroy(abut_coupling **coupling)
+{
+  if (coupling == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_coupling *c = *coupling;
+  if (c == NULL)
+    return ABUT_SUCCESS;
+  array_size arrays[N_ARRAYS];
+  const int n = list_arrays(c, arrays);
+  for (int i = 0; i < n; ++i)
+    abut_array_release(c->context, arrays[i].array);
+  (void)abut_detection_destroy(&c->detection);
+  (void)abut_pairs_destroy(&c->pairs);
+  (void)abut_search_destroy(&c->search);
+  abut_object_destroy(c->context, c, sizeof(*c));
+  *coupling = NULL;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_coupling_get(const abut_coupling *coupling, abut_coupling_view *view)
+{
+  if (coupling == NULL || view == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  *view = coupling->view;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_coupling_get_statistics(const abut_coupling *coupling,
+                             abut_coupling_statistics *statistics)
+{
+  if (coupling == NULL || statistics == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  *statistics = coupling->statistics;
+  return ABUT_SUCCESS;
+}

@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_CONTACT_COUPLING_H
+#define ABUT_CONTACT_COUPLING_H
+
+/* The inside of a coupling. A build goes over the secondary facets in the
+ * order of their numbers; for each one
+ *
+ *   coupling_facet.c       points of integration on its covered part, with the
+ *                          opposite points (coupling_segment2.c and _segment3.c
+ *                          by clipping, coupling_ray.c point by point,
+ *                          coupling_obstacle.c)
+ *   coupling_functions.c   its free nodes, those that keep a multiplier, and
+ *                          the weighting functions psi
+ *   coupling_shares.c      its shares in the rows of its nodes
+ *
+ * and coupling_rows.c adds the shares of each node up to a row. Node to
+ * segment (coupling_nodal.c) takes its weights from the functions and its
+ * entries from a detection. */
+
+#include "geometry/surface.h"
+
+#include <abut/coupling.h>
+#include <abut/detect.h>
+
+enum
+{
+  /* Largest number of free nodes that the shape functions of a facet depend
+   * on; by hanging nodes they can be others than its own. */
+  ABUT_COUPLING_MAX_FREE = 32
+};
+
+/* A point of integration. Third components are zero in 2D. */
+typedef struct abut_coupling_point
+{
+  double local[2];                    /* on the secondary facet */
+  double weight;                      /* area, times 2 pi r if axisymmetric */
+  double position[3];                 /* x_s */
+  double gap[3];                      /* x_m - x_s; obstacle: zero */
+  double distance;                    /* obstacle: phi; else zero */
+  double normal[3];                   /* of the secondary facet; obstacle:
+                                         - grad phi */
+  int32_t primary;                    /* facet; obstacle: -1 */
+  int32_t number;                     /* in the rule of the whole facet */
+  double shape[ABUT_FACET_MAX_NODES]; /* of the secondary */
+  double opposite[ABUT_FACET_MAX_NODES]; /* shape functions N there */
+} abut_coupling_point;
+
+/* The secondary facet in work. */
+typedef struct abut_coupling_facet
+{
+  int32_t index;
+  abut_facet_kind kind;
+  int32_t n;                                    /* nodes */
+  double x[3 * ABUT_FACET_MAX_NODES];           /* [n * dimension] */
+  double normal[3];                             /* mean */
+  double node_normal[3 * ABUT_FACET_MAX_NODES]; /* [3 * n] averaged; at a
+                                                   feature the facet's own */
+  double size;                                  /* longest side */
+  double warping;                               /* radian */
+} abut_coupling_facet;
+
+/* The functions of one facet. base_a are the shape functions or, for
+ * multipliers of degree 1, the linear functions of the corners. */
+typedef struct abut_coupling_functions
+{
+  int32_t n; /* free nodes */
+  int32_t node[ABUT_COUPLING_MAX_FREE];
+  bool dropped[ABUT_COUPLING_MAX_FREE];
+  /* phi_l of free node l = sum_a phi[l][a] (shape function a) */
+  double phi[ABUT_COUPLING_MAX_FREE][ABUT_FACET_MAX_NODES];
+  int32_t n_base;
+  int32_t n_kept;
+  int32_t kept[ABUT_COUPLING_MAX_FREE]; /* which of the free nodes */
+  /* chi_j = sum_a chi[j][a] base_a: with the shares of dropped nodes */
+  double chi[ABUT_COUPLING_MAX_FREE][ABUT_FACET_MAX_NODES];
+  double psi[ABUT_COUPLING_MAX_FREE][ABUT_FACET_MAX_NODES]; /* likewise */
+  bool diagonal; /* D between kept nodes is diagonal */
+  bool lumped;   /* ... because it was lumped */
+} abut_coupling_functions;
+
+/* Share of a facet in the row of a node (or a whole row of a quadrature
+ * point); its entries follow those of the share before. */
+typedef struct abut_coupling_share
+{
+  int32_t node;  /* -1: quadrature point */
+  int32_t facet; /* secondary */
+  int32_t point;
+  int32_t n_secondary, n_primary;
+  int64_t first; /* entry: secondary ones, then primary ones */
+  double weight; /* integral of psi */
+  double gap[3]; /* integral of psi (x_m - x_s) */
+  double distance;
+  double normal[3];   /* integral of psi n */
+  double position[3]; /* quadrature point: where it is */
+} abut_coupling_share;
+
+typedef struct abut_coupling_entry
+{
+  double value;
+  int32_t node;
+  int32_t unused;
+} abut_coupling_entry;
+
+/* What a secondary facet is looked at for. */
+enum
+{
+  ABUT_COUPLING_FOR_ROWS = 1, /* it has a share in wanted rows */
+  ABUT_COUPLING_FOR_WEAK = 2  /* it tells which neighbours are weak */
+};
+
+struct abut_coupling
+{
+  abut_context *context;
+  abut_surface *secondary;
+  abut_surface *primary;   /* or NULL */
+  abut_obstacle *obstacle; /* or NULL */
+  abut_coupling_options options;
+  bool compare_nodes; /* node numbers of both surfaces mean the same nodes */
+  bool quadratic;     /* some secondary facet is */
+  abut_search *search;
+  abut_pairs *pairs;
+  abut_pairs_view pairs_view;
+  abut_detection *detection; /* node to segment */
+  double reach;              /* absolute part, of this build */
+
+  /* Orders by the caller's numbers; fixed. */
+  abut_array facet_order;        /* int32_t, secondary facets */
+  abut_array node_rank;          /* int32_t, of secondary nodes */
+  abut_array node_order;         /* int32_t, its inverse */
+  abut_array primary_facet_rank; /* int32_t */
+  abut_array primary_node_rank;  /* int32_t */
+  abut_array keyed;              /* abut_keyed */
+
+  /* Of the nodes of this build. */
+  const abut_coupling_nodes *nodes;
+  const double *normals;
+  abut_array hanging;   /* int32_t, [n_nodes] number h or -1 */
+  abut_array dropped;   /* uint8_t, [n_nodes] as given, and weak nodes */
+  abut_array purpose;   /* uint8_t, [n_facets] */
+  abut_array full;      /* double, [n_nodes] integral of chi, whole facets */
+  abut_array covered;   /* double, [n_nodes] integral of chi, covered part */
+  abut_array absolute;  /* double, [n_nodes] integral of |chi|, covered part */
+  abut_array row_reach; /* double, [n_nodes] obstacles */
+  abut_array node_flag; /* uint8_t, [n_nodes] */
+
+  /* Of the facet in work. */
+  abut_array candidates; /* int32_t, primary facets in order */
+  abut_array segments;   /* of coupling_segment2.c or _segment3.c */
+  abut_array points;     /* abut_coupling_point */
+  abut_array values;     /* double, psi times weight at the points */
+  int32_t n_points;
+
+  /* Obstacles: points asked for, in the order in which the answers are taken.
+   */
+  abut_array asked, distance, gradient; /* double */
+  int64_t n_asked, n_answered;
+
+  abut_array shares;  /* abut_coupling_share */
+  abut_array entries; /* abut_coupling_entry */
+  int64_t n_shares, n_entries;
+
+  /* Adding up rows. */
+  abut_array share_start; /* int64_t, [n_nodes + 1] */
+  abut_array share_list;  /* int64_t */
+  abut_array sum[2];      /* double, [nodes of the side] */
+  abut_array seen[2];     /* uint8_t, [nodes of the side] */
+  abut_array touched;     /* int32_t */
+
+  /* Rows. */
+  abut_array row_node, row_facet, row_point; /* int32_t */
+  abut_array row_weight, row_full, row_gap, row_normal, row_position;
+  abut_array start[2], column[2], coefficient[2];
+  abut_coupling_view view;
+  abut_coupling_statistics statistics;
+};
+
+static inline bool
+abut_coupling_is_mortar(const abut_coupling *c)
+{
+  return c->options.discretisation == ABUT_DISCRETISATION_MORTAR
+         || c->options.discretisation == ABUT_DISCRETISATION_DUAL_MORTAR;
+}
+
+/* Gather facet f at the present positions. */
+void abut_coupling_load(const abut_coupling *c, int32_t f,
+                        abut_coupling_facet *facet);
+
+/* Degree of the rule for the common parts of facets of two kinds. */
+int abut_coupling_degree(const abut_coupling *c, abut_facet_kind secondary,
+                         abut_facet_kind primary);
+
+/* Rule of the whole facet: points, with weights and shape functions of the
+ * secondary only, in c->points. */
+abut_status abut_coupling_whole(abut_coupling *c,
+                                const abut_coupling_facet *facet);
+
+/* Points on the covered part, in the order of the primary facets' numbers, in
+ * c->points; counts statistics if @p count. */
+abut_status abut_coupling_make_points(abut_coupling *c,
+                                      const abut_coupling_facet *facet,
+                                      bool count);
+
+/* The ways of abut_coupling_make_points(); the first three find the opposite
+ * points on the candidates. */
+abut_status abut_coupling_segments2(abut_coupling *c,
+                                    const abut_coupling_facet *facet,
+                                    bool count);
+abut_status abut_coupling_segments3(abut_coupling *c,
+                                    const abut_coupling_facet *facet,
+                                    bool count);
+abut_status abut_coupling_rays(abut_coupling *c,
+                               const abut_coupling_facet *facet, bool count);
+abut_status abut_coupling_face_obstacle(abut_coupling *c,
+                                        const abut_coupling_facet *facet,
+                                        bool count);
+
+/* Candidates of a facet: the *n primary facets within reach of its box that
+ * share no node with it, in c->candidates. */
+abut_status abut_coupling_find_candidates(abut_coupling *c, int32_t facet,
+                                          int32_t *n);
+
+/* Whether a gap is within the reach of a primary facet of this size, and not
+ * too deep. */
+bool abut_coupling_in_reach(const abut_coupling *c, double gap, double size);
+
+/* Make room for one more point; NULL without memory. */
+abut_coupling_point *abut_coupling_new_point(abut_coupling *c);
+
+/* Complete a point of which local, shape, weight without 2 pi r, primary and
+ * opposite are set. */
+void abut_coupling_finish_point(const abut_coupling *c,
+                                const abut_coupling_facet *facet,
+                                abut_coupling_point *point);
+
+/* Shape functions of a facet at local coordinates; tangents [2][3] or NULL. */
+void abut_coupling_shape(abut_facet_kind kind, const double *nodes,
+                         const double *local, double *shape,
+                         double (*tangents)[3]);
+
+/* Tangents of a facet in the plane, nodes [n * 2]; only [2][2] are set. */
+void abut_coupling_plane_tangents(abut_facet_kind kind, const double *nodes,
+                                  const double *local, double (*tangents)[3]);
+
+/* Unit normal of a facet at local coordinates; third component 0 in 2D. */
+void abut_coupling_normal(abut_facet_kind kind, const double *nodes,
+                          const double *local, double *normal);
+
+/* Local coordinates of node a of a kind; two numbers. */
+const double *abut_coupling_node_local(abut_facet_kind kind, int32_t a);
+
+/* Free nodes and the functions phi and chi of a facet. UNSUPPORTED if they are
+ * more than ABUT_COUPLING_MAX_FREE. */
+abut_status abut_coupling_make_functions(abut_coupling *c,
+                                         const abut_coupling_facet *facet,
+                                         abut_coupling_functions *functions);
+
+/* Weighting functions psi from the points of the covered part; whole: area of
+ * the whole facet by the same measure. */
+void abut_coupling_make_psi(abut_coupling *c, const abut_coupling_facet *facet,
+                            double whole, abut_coupling_functions *functions);
+
+/* The base functions at a point. */
+void abut_coupling_base(const abut_coupling *c, abut_facet_kind kind,
+                        const abut_coupling_point *point, double *base);
+
+/* Append an empty share (NULL without memory), or an entry to the last one,
+ * counted in *count. */
+abut_coupling_share *abut_coupling_new_share(abut_coupling *c);
+abut_status abut_coupling_new_entry(abut_coupling *c, int32_t *count,
+                                    int32_t node, double value);
+
+/* Append the shares of a facet in the rows of its nodes, or its rows of
+ * quadrature points. */
+abut_status abut_coupling_add_shares(abut_coupling *c,
+                                     const abut_coupling_facet *facet,
+                                     const abut_coupling_functions *functions);
+abut_status abut_coupling_add_points(abut_coupling *c,
+                                     const abut_coupling_facet *facet,
+                                     const abut_coupling_functions *functions);
+
+/* Ask for the distances of all points of the build; then the share of a node.
+ */
+abut_status abut_coupling_measure_obstacle(abut_coupling *c);
+abut_status abut_coupling_add_node_obstacle(abut_coupling *c, int32_t node);
+
+/* Create a coupling with a surface or with an obstacle, the other is NULL. */
+abut_status abut_coupling_create_any(abut_context *context, const char *call,
+                                     abut_surface *secondary,
+                                     abut_surface *primary,
+                                     abut_obstacle *obstacle,
+                                     const abut_coupling_options *options,
+                                     abut_coupling **coupling);
+
+/* Shares of node to segment: the entries of nodes against the contact elements
+ * of the detection, or against the obstacle. */
+abut_status abut_coupling_add_nodal(abut_coupling *c);
+
+/* Whether so little of a node's function is covered that it gets no row. */
+bool abut_coupling_is_weak(const abut_coupling *c, int32_t node);
+
+/* Add the shares up to rows. */
+abut_status abut_coupling_make_rows(abut_coupling *c);
+
+/* Check and spread what is known of the nodes; decide which facets to look
+ * at. */
+abut_status abut_coupling_read_nodes(abut_coupling *c);
+
+/* Whether weak nodes are looked for: quadratic weighting functions. */
+bool abut_coupling_has_weak(const abut_coupling *c);
+
+#endif

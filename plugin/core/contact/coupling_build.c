@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* The course of a build: search, on quadratic surfaces a first pass that finds
+ * weak nodes, the pass that makes the shares of all facets, and the rows. */
+#include "contact/coupling.h"
+#include "geometry/vector.h"
+
+#include <string.h>
+
+/* Pairs of facets, or contact elements of nodes. */
+static abut_status
+search(abut_coupling *c, double motion)
+{
+  const abut_search_options *o = &c->options.search;
+  c->reach = max2(o->reach, 1.5 * motion);
+  if (c->primary == NULL)
+    return abut_coupling_measure_obstacle(c);
+  if (c->detection != NULL)
+    return abut_detection_run(c->detection, motion);
+  abut_status status =
+      abut_search_set_reach(c->search, c->reach, o->relative_reach, o->skin);
+  if (status == ABUT_SUCCESS)
+    status = abut_search_facets(c->search, c->secondary, c->pairs);
+  return status == ABUT_SUCCESS ? abut_pairs_get(c->pairs, &c->pairs_view)
+                                : status;
+}
+
+/* Add the integrals of chi, or of |chi|, over the points in work to the sums
+ * of the nodes; returns the area of the points. */
+static double
+add_integrals(abut_coupling *c, const abut_coupling_facet *facet,
+              const abut_coupling_functions *f, double *sum, double *absolute)
+{
+  const abut_coupling_point *p = c->points.data;
+  double area = 0.;
+  for (int32_t q = 0; q < c->n_points; ++q)
+  {
+    double base[ABUT_FACET_MAX_NODES];
+    abut_coupling_base(c, facet->kind, p + q, base);
+    area += p[q].weight;
+    for (int32_t j = 0; j < f->n_kept; ++j)
+    {
+      double chi = 0.;
+      for (int32_t a = 0; a < f->n_base; ++a)
+        chi += f->chi[j][a] * base[a];
+      const int32_t node = f->node[f->kept[j]];
+      sum[node] += p[q].weight * chi;
+      if (absolute != NULL)
+        absolute[node] += p[q].weight * fabs(chi);
+    }
+  }
+  return area;
+}
+
+/* First pass over quadratic facets: how much of each node is covered. */
+static abut_status
+find_weak(abut_coupling *c)
+{
+  const int32_t *order = c->facet_order.data, *hanging = c->hanging.data;
+  const uint8_t *purpose = c->purpose.data;
+  abut_status status = ABUT_SUCCESS;
+  for (int32_t i = 0; i < c->secondary->view.n_facets && status == ABUT_SUCCESS;
+       ++i)
+  {
+    abut_coupling_facet facet;
+    abut_coupling_functions f;
+    if (!(purpose[order[i]] & ABUT_COUPLING_FOR_WEAK))
+      continue;
+    abut_coupling_load(c, order[i], &facet);
+    status = abut_coupling_make_functions(c, &facet, &f);
+    if (status == ABUT_SUCCESS)
+      status = abut_coupling_whole(c, &facet);
+    if (status != ABUT_SUCCESS)
+      break;
+    add_integrals(c, &facet, &f, c->full.data, NULL);
+    status = abut_coupling_make_points(c, &facet, false);
+    if (status == ABUT_SUCCESS)
+      add_integrals(c, &facet, &f, c->covered.data, c->absolute.data);
+  }
+  uint8_t *dropped = c->dropped.data;
+  const double *absolute = c->absolute.data;
+  for (int32_t n = 0; n < c->secondary->view.n_nodes; ++n)
+    if (hanging[n] < 0 && absolute[n] > 0. && !dropped[n]
+        && abut_coupling_is_weak(c, n))
+    {
+      dropped[n] = 1;
+      c->statistics.n_weak += c->nodes->wanted == NULL || c->nodes->wanted[n];
+    }
+  if (c->secondary->view.n_nodes > 0)
+    memset(c->full.data, 0,
+           sizeof(double) * (size_t)c->secondary->view.n_nodes);
+  return status;
+}
+
+/* Second pass, for one facet. */
+static abut_status
+take_facet(abut_coupling *c, int32_t index)
+{
+  abut_coupling_facet facet;
+  abut_coupling_functions f;
+  abut_coupling_load(c, index, &facet);
+  ++c->statistics.n_facets;
+  c->statistics.largest_warping =
+      max2(c->statistics.largest_warping, facet.warping);
+  abut_status status = abut_coupling_make_functions(c, &facet, &f);
+  if (status == ABUT_SUCCESS)
+    status = abut_coupling_whole(c, &facet);
+  if (status != ABUT_SUCCESS)
+    return status;
+  const double whole = add_integrals(c, &facet, &f, c->full.data, NULL);
+  if (c->detection != NULL)
+    return ABUT_SUCCESS;
+  status = abut_coupling_make_points(c, &facet, true);
+  if (status != ABUT_SUCCESS || c->n_points == 0)
+    return status;
+  ++c->statistics.n_covered;
+  if (c->options.discretisation == ABUT_DISCRETISATION_NODE_TO_SEGMENT)
+  {
+    add_integrals(c, &facet, &f, c->covered.data, NULL);
+    return ABUT_SUCCESS;
+  }
+  if (c->options.discretisation == ABUT_DISCRETISATION_QUADRATURE_POINT)
+    return abut_coupling_add_points(c, &facet, &f);
+  abut_coupling_make_psi(c, &facet, whole, &f);
+  c->statistics.n_lumped += f.lumped;
+  return abut_coupling_add_shares(c, &facet, &f);
+}
+
+static abut_status
+add_full_area(abut_coupling *c)
+{
+  const double *full = c->full.data;
+  const uint8_t *wanted = c->nodes->wanted;
+  for (int32_t n = 0; n < c->secondary->view.n_nodes; ++n)
+    if (wanted == NULL || wanted[n])
+      c->statistics.full_area += full[n];
+  if (c->primary == NULL || c->primary->view.n_facets == 0
+      || c->secondary->view.n_facets == 0)
+    return ABUT_SUCCESS;
+  abut_surface_sizes s, m;
+  abut_status status = abut_surface_measure(c->secondary, &s);
+  if (status == ABUT_SUCCESS)
+    status = abut_surface_measure(c->primary, &m);
+  if (status == ABUT_SUCCESS)
+    c->statistics.size_ratio = s.median / m.median;
+  return status;
+}
+
+static abut_status
+build(abut_coupling *c, double motion)
+{
+  const int32_t *order = c->facet_order.data;
+  abut_status status = abut_coupling_read_nodes(c);
+  if (status == ABUT_SUCCESS)
+    status = abut_surface_normals(c->secondary, &c->normals);
+  if (status == ABUT_SUCCESS)
+    status = search(c, motion);
+  if (status == ABUT_SUCCESS && abut_coupling_has_weak(c))
+    status = find_weak(c);
+  const uint8_t *purpose = c->purpose.data;
+  for (int32_t i = 0; i < c->secondary->view.n_facets && status == ABUT_SUCCESS;
+       ++i)
+    if (purpose[order[i]] & ABUT_COUPLING_FOR_ROWS)
+      status = take_facet(c, order[i]);
+  if (status == ABUT_SUCCESS
+      && c->options.discretisation == ABUT_DISCRETISATION_NODE_TO_SEGMENT)
+    status = abut_coupling_add_nodal(c);
+  if (status == ABUT_SUCCESS)
+    status = add_full_area(c);
+  return status == ABUT_SUCCESS ? abut_coupling_make_rows(c) : status;
+}
+
+/* On the axis of revolution or on its positive side. */
+static bool
+has_radii(const abut_surface *s)
+{
+  abut_surface_view v = s->view;
+  double largest = 0., least = 0.;
+  for (int32_t e = 0; e < v.facet_start[v.n_facets]; ++e)
+  {
+    const double x = v.position[2 * (int64_t)v.connectivity[e]];
+    largest = max2(largest, x);
+    least = min2(least, x);
+  }
+  return least >= -1e-12 * largest;
+}
+
+abut_status
+abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
+                    double motion)
+{
+  static const char call[] = "abut_coupling_build";
+  if (coupling == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_coupling *c = coupling;
+  const abut_coupling_nodes chosen =
+      nodes != NULL ? *nodes : abut_coupling_nodes_defaults();
+  if (chosen.struct_size != sizeof(chosen))
+    return abut_fail(c->context, ABUT_INVALID_ARGUMENT, call,
+                     "nodes of another version");
+  if (!(motion >= 0 && motion <= ABUT_FACET_LIMIT))
+    return abut_fail(c->context, ABUT_INVALID_ARGUMENT, call,
+                     "motion is negative or not finite");
+  if (c->options.axisymmetric && !has_radii(c->secondary))
+    return abut_fail(c->context, ABUT_INVALID_ARGUMENT, call,
+                     "axisymmetric: a node of the secondary surface has a "
+                     "negative radius x");
+  const abut_coupling_statistics none = {0};
+  c->nodes = &chosen;
+  c->statistics = none;
+  c->view.n_rows = 0;
+  c->n_shares = c->n_entries = 0;
+  const abut_status status = build(c, motion);
+  c->nodes = NULL;
+  if (status != ABUT_SUCCESS)
+    c->view.n_rows = 0;
+  return status;
+}

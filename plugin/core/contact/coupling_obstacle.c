@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Points of a rule over the whole facet, and nodes, against a rigid obstacle:
+ * signed distance phi for the gap, minus its gradient for the normal. All
+ * points of a build are asked for in one call, because obstacles made of facets
+ * search for many points at once; the answers are taken in the same order. */
+#include "contact/coupling.h"
+#include "geometry/vector.h"
+
+#include <string.h>
+
+/* Append a point, dimension numbers of x. */
+static abut_status
+ask(abut_coupling *c, const double *x)
+{
+  const int64_t dim = c->view.dimension, n = c->n_asked;
+  const abut_status status =
+      abut_array_reserve(c->context, &c->asked, n * dim, (n + 1) * dim);
+  if (status != ABUT_SUCCESS)
+    return status;
+  memcpy((double *)c->asked.data + n * dim, x, sizeof(double) * (size_t)dim);
+  ++c->n_asked;
+  return ABUT_SUCCESS;
+}
+
+/* The points of a facet, then their mean. */
+static abut_status
+ask_facet(abut_coupling *c, int32_t f)
+{
+  abut_coupling_facet facet;
+  double mean[3] = {0., 0., 0.};
+  abut_coupling_load(c, f, &facet);
+  abut_status status = abut_coupling_whole(c, &facet);
+  const abut_coupling_point *points = c->points.data;
+  for (int32_t q = 0; q < c->n_points && status == ABUT_SUCCESS; ++q)
+  {
+    axpy3(mean, 1. / c->n_points, points[q].position, mean);
+    status = ask(c, points[q].position);
+  }
+  return status == ABUT_SUCCESS ? ask(c, mean) : status;
+}
+
+abut_status
+abut_coupling_measure_obstacle(abut_coupling *c)
+{
+  const int32_t dim = c->view.dimension, *order = c->facet_order.data;
+  const uint8_t *purpose = c->purpose.data;
+  const abut_surface_view *v = &c->secondary->view;
+  abut_status status = ABUT_SUCCESS;
+  c->n_asked = c->n_answered = 0;
+  if (c->options.discretisation == ABUT_DISCRETISATION_NODE_TO_SEGMENT)
+    for (int32_t i = 0; i < v->n_nodes && status == ABUT_SUCCESS; ++i)
+      status = ask(c, v->position + (int64_t)dim * i);
+  c->n_answered = c->n_asked;
+  for (int32_t i = 0; i < v->n_facets && status == ABUT_SUCCESS; ++i)
+    if (purpose[order[i]] & ABUT_COUPLING_FOR_ROWS)
+      status = ask_facet(c, order[i]);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(c->context, &c->distance, 0, c->n_asked + 1);
+  if (status == ABUT_SUCCESS)
+    status =
+        abut_array_reserve(c->context, &c->gradient, 0, c->n_asked * dim + 1);
+  if (status != ABUT_SUCCESS || c->n_asked == 0)
+    return status;
+  return abut_obstacle_distance(c->obstacle, (int32_t)c->n_asked, c->asked.data,
+                                c->distance.data, c->gradient.data, NULL);
+}
+
+/* Answer number i: signed distance and normal. */
+static void
+answer(const abut_coupling *c, int64_t i, double *distance, double *normal)
+{
+  const int dim = c->view.dimension;
+  const double *gradient = (const double *)c->gradient.data + i * dim;
+  *distance = ((const double *)c->distance.data)[i];
+  for (int d = 0; d < 3; ++d)
+    normal[d] = d < dim ? -gradient[d] : 0.;
+}
+
+/* Keep the rows of the facet's nodes as far as the largest reach. */
+static void
+set_reach(abut_coupling *c, const abut_coupling_facet *facet)
+{
+  const abut_surface_view *v = &c->secondary->view;
+  const int32_t *hanging = c->hanging.data;
+  double *reach = c->row_reach.data;
+  const double own =
+      max2(c->reach, c->options.search.relative_reach * facet->size);
+  for (int32_t e = v->facet_start[facet->index];
+       e < v->facet_start[facet->index + 1]; ++e)
+  {
+    const int32_t node = v->connectivity[e], h = hanging[node];
+    if (h < 0)
+      reach[node] = max2(reach[node], own);
+    for (int32_t k = h < 0 ? 0 : c->nodes->hanging_start[h];
+         h >= 0 && k < c->nodes->hanging_start[h + 1]; ++k)
+    {
+      const int32_t parent = c->nodes->hanging_parent[k];
+      reach[parent] = max2(reach[parent], own);
+    }
+  }
+}
+
+/* A point of quadrature keeps its row by itself. */
+static bool
+is_kept(const abut_coupling *c, const abut_coupling_facet *facet,
+        const abut_coupling_point *p)
+{
+  return c->options.discretisation != ABUT_DISCRETISATION_QUADRATURE_POINT
+         || abut_coupling_in_reach(c, p->distance, facet->size);
+}
+
+abut_status
+abut_coupling_face_obstacle(abut_coupling *c, const abut_coupling_facet *facet,
+                            bool count)
+{
+  double normal[3], distance;
+  int32_t n = 0;
+  const abut_status status = abut_coupling_whole(c, facet);
+  if (status != ABUT_SUCCESS)
+    return status;
+  const int64_t first = c->n_answered, n_points = c->n_points;
+  abut_coupling_point *p = c->points.data;
+  c->n_answered += n_points + 1;
+  c->n_points = 0;
+  answer(c, first + n_points, &distance, normal);
+  if (!(-dot3(normal, facet->normal) <= c->options.normal_cosine))
+    return ABUT_SUCCESS;
+  for (int64_t q = 0; q < n_points; ++q)
+  {
+    answer(c, first + q, &p[q].distance, p[q].normal);
+    if (is_kept(c, facet, p + q))
+      p[n++] = p[q];
+  }
+  c->n_points = n;
+  set_reach(c, facet);
+  c->statistics.n_pairs += count;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_coupling_add_node_obstacle(abut_coupling *c, int32_t node)
+{
+  const double weight = ((const double *)c->covered.data)[node];
+  double normal[3], distance;
+  answer(c, node, &distance, normal);
+  abut_coupling_share *s = abut_coupling_new_share(c);
+  if (s == NULL)
+    return ABUT_OUT_OF_MEMORY;
+  s->node = node;
+  s->facet = -1;
+  s->weight = weight;
+  s->distance = weight * distance;
+  for (int d = 0; d < 3; ++d)
+    s->normal[d] = weight * normal[d];
+  return abut_coupling_new_entry(c, &s->n_secondary, node, weight);
+}
+
+abut_status
+abut_coupling_create_obstacle(abut_context *context, abut_surface *secondary,
+                              abut_obstacle *obstacle,
+                              const abut_coupling_options *options,
+                              abut_coupling **coupling)
+{
+  static const char call[] = "abut_coupling_create_obstacle";
+  abut_obstacle_view view;
+  if (context == NULL || secondary == NULL || obstacle == NULL
+      || coupling == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "context, surface, obstacle or result is NULL");
+  const abut_status status = abut_obstacle_get(obstacle, &view);
+  if (status != ABUT_SUCCESS)
+    return status;
+  if (view.dimension != secondary->view.dimension)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "surface and obstacle have different dimensions");
+  return abut_coupling_create_any(context, call, secondary, NULL, obstacle,
+                                  options, coupling);
+}

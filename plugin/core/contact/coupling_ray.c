@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Points of a rule over the whole facet, each against the nearest primary
+ * facet on the line through it along the secondary's mean normal. Lines that
+ * miss all facets leave their points uncovered. O(points * candidates). */
+#include "contact/coupling.h"
+#include "geometry/measure.h"
+#include "geometry/pull_back.h"
+#include "geometry/vector.h"
+
+#include <string.h>
+
+/* Local coordinates outside by less than this are inside: a line through the
+ * common edge of two facets must not fall between them by round-off. */
+static const double edge_tolerance = 1e-10;
+
+/* Where the line x + t normal meets a facet: local coordinates and t. */
+static int
+meet(const abut_coupling_facet *facet, double (*e)[3], abut_facet_kind kind,
+     const double *nodes, const double *x, double *local, double *gap)
+{
+  const int n = abut_facet_n_nodes(kind), dim = abut_facet_dimension(kind);
+  double flat[2 * ABUT_FACET_MAX_NODES], shape[ABUT_FACET_MAX_NODES];
+  const double origin[2] = {0., 0.};
+  for (int a = 0; a < n; ++a)
+    for (int k = 0; k < dim - 1; ++k)
+    {
+      double *f = flat + a * (dim - 1) + k;
+      *f = 0.;
+      for (int d = 0; d < dim; ++d)
+        *f += e[k][d] * (nodes[a * dim + d] - x[d]);
+    }
+  if (!abut_pull_back(kind, flat, origin, local, NULL)
+      || abut_local_violation(kind, local) > edge_tolerance)
+    return 0;
+  abut_coupling_shape(kind, NULL, local, shape, NULL);
+  *gap = 0.;
+  for (int a = 0; a < n; ++a)
+    for (int d = 0; d < dim; ++d)
+      *gap += shape[a] * facet->normal[d] * (nodes[a * dim + d] - x[d]);
+  return 1;
+}
+
+/* Give a point its opposite point, or leave it without. */
+static void
+find_opposite(const abut_coupling *c, const abut_coupling_facet *facet,
+              double (*e)[3], int32_t n_candidates, abut_coupling_point *p)
+{
+  const int32_t *candidate = c->candidates.data;
+  double least = INFINITY;
+  for (int32_t k = 0; k < n_candidates; ++k)
+  {
+    double nodes[3 * ABUT_FACET_MAX_NODES], local[2], gap, normal[3];
+    const int32_t m = candidate[k];
+    const abut_facet_kind kind = (abut_facet_kind)c->primary->view.kinds[m];
+    abut_surface_gather(c->primary, m, nodes);
+    if (!meet(facet, e, kind, nodes, p->position, local, &gap)
+        || !(fabs(gap) < least)
+        || !abut_coupling_in_reach(c, gap,
+                                   abut_surface_longest_side(kind, nodes)))
+      continue;
+    abut_coupling_normal(kind, nodes, local, normal);
+    if (!(dot3(normal, facet->normal) <= c->options.normal_cosine))
+      continue;
+    least = fabs(gap);
+    p->primary = m;
+    abut_coupling_shape(kind, NULL, local, p->opposite, NULL);
+    for (int d = 0; d < 3; ++d)
+      p->gap[d] = gap * facet->normal[d];
+  }
+}
+
+abut_status
+abut_coupling_rays(abut_coupling *c, const abut_coupling_facet *facet,
+                   bool count)
+{
+  int32_t n_candidates, n = 0;
+  double e[2][3];
+  abut_status status =
+      abut_coupling_find_candidates(c, facet->index, &n_candidates);
+  if (status == ABUT_SUCCESS)
+    status = abut_coupling_whole(c, facet);
+  if (status != ABUT_SUCCESS)
+    return status;
+  abut_coupling_point *points = c->points.data;
+  abut_plane_basis(c->view.dimension, facet->normal, e);
+  for (int32_t q = 0; q < c->n_points; ++q)
+  {
+    find_opposite(c, facet, e, n_candidates, points + q);
+    if (points[q].primary >= 0)
+      points[n++] = points[q];
+  }
+  c->n_points = n;
+  c->statistics.n_pairs += count ? n : 0;
+  return ABUT_SUCCESS;
+}

@@ -1,0 +1,479 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Integration over the common polygons of two surfaces (Puso and Laursen,
+ * Comput. Methods Appl. Mech. Engrg. 193 (2004) 601; quadratic facets: Puso,
+ * Laursen and Solberg, ibid. 197 (2008) 555).
+ *
+ * Each facet is cut into linear patches: quadratic facets along their middle
+ * nodes, secondary quadrilaterals warped by more than 20 degrees at their
+ * middle. For each pair
+ *
+ *   1  the plane of the secondary patch: its centre and mean normal
+ *   2  both patches projected into it, and clipped
+ *   3  the polygon cut into triangles, a rule on each of them
+ *   4  points taken back along the normal to both patches, and from there to
+ *      the parameters of the facets, at which shape functions and positions
+ *      are evaluated
+ *
+ * Areas are those of the secondary facet: da = |X,xi x X,eta| dxi deta with
+ * dxi deta from the plane by the derivatives of the projection. Where facets
+ * that share no node cover one spot, the nearest has it and the polygons of
+ * the others are cut back. O(pairs), and the square of the pairs of one patch
+ * for the boxes of its polygons. */
+#include "contact/coupling.h"
+#include "geometry/clip.h"
+#include "geometry/pull_back.h"
+#include "geometry/quadrature.h"
+#include "geometry/vector.h"
+
+#include <string.h>
+
+enum
+{
+  MAX_PATCHES = 4,
+  MAX_FRAGMENTS = 64
+};
+
+static const double split_warping = 0.349;      /* radian: 20 degrees */
+static const double smallest_overlap = 1e-6;    /* of the smaller polygon */
+static const double largest_area_ratio = 1000.; /* of facet by plane */
+
+/* Linear patch of a facet: corners in the order of tri3 or quad4. */
+typedef struct patch
+{
+  abut_facet_kind kind;
+  double x[4][3];
+  double local[4][2]; /* on the facet */
+  double flat[8];     /* in the plane */
+} patch;
+
+typedef struct segment
+{
+  patch s, m;
+  abut_clip3 polygon;
+  int32_t primary;
+} segment;
+
+/* A pair of patches, with what it is part of. */
+typedef struct work
+{
+  abut_coupling *c;
+  const abut_coupling_facet *facet;
+  double origin[3], normal[3], e[2][3];
+  int32_t n; /* segments */
+} work;
+
+static int
+n_corners(const patch *p)
+{
+  return p->kind == ABUT_FACET_QUAD4 ? 4 : 3;
+}
+
+/* Corners walked around, for clipping. */
+static void
+walk(const patch *p, abut_part *part)
+{
+  part->n = n_corners(p);
+  for (int k = 0; k < part->n; ++k)
+    memcpy(part->x[k], p->x[abut_facet_loop(part->n, k)], sizeof(part->x[k]));
+}
+
+/* Quarter number `which` of the reference square. */
+static void
+quarter(const double *nodes, int which, patch *p)
+{
+  p->kind = ABUT_FACET_QUAD4;
+  for (int k = 0; k < 4; ++k)
+  {
+    double shape[ABUT_FACET_MAX_NODES];
+    p->local[k][0] = k % 2 + which % 2 - 1.;
+    p->local[k][1] = k / 2 + which / 2 - 1.;
+    abut_coupling_shape(p->kind, NULL, p->local[k], shape, NULL);
+    for (int d = 0; d < 3; ++d)
+    {
+      p->x[k][d] = 0.;
+      for (int a = 0; a < 4; ++a)
+        p->x[k][d] += shape[a] * nodes[3 * a + d];
+    }
+  }
+}
+
+static void
+part_patch(abut_facet_kind kind, const double *nodes, int which, patch *p)
+{
+  const int8_t *corner = abut_facet_part_corners(kind, which);
+  const int n = abut_facet_n_corners(kind);
+  p->kind = n == 4 ? ABUT_FACET_QUAD4 : ABUT_FACET_TRI3;
+  for (int k = 0; k < n; ++k)
+  {
+    const int to = abut_facet_loop(n, k), from = corner[k];
+    memcpy(p->x[to], nodes + 3 * from, sizeof(p->x[to]));
+    memcpy(p->local[to], abut_coupling_node_local(kind, from),
+           sizeof(p->local[to]));
+  }
+}
+
+static int
+make_patches(abut_facet_kind kind, const double *nodes, bool split,
+             patch *patches)
+{
+  if (split)
+  {
+    for (int i = 0; i < 4; ++i)
+      quarter(nodes, i, patches + i);
+    return 4;
+  }
+  const int n = abut_facet_n_parts(kind);
+  for (int i = 0; i < n; ++i)
+    part_patch(kind, nodes, i, patches + i);
+  return n;
+}
+
+static void
+flatten(const work *w, patch *p)
+{
+  for (int k = 0; k < n_corners(p); ++k)
+  {
+    double r[3];
+    sub3(p->x[k], w->origin, r);
+    p->flat[2 * k] = dot3(r, w->e[0]);
+    p->flat[2 * k + 1] = dot3(r, w->e[1]);
+  }
+}
+
+/* The triangles of a patch in the plane; a triangle is its own. */
+static int
+triangles(const patch *p, patch *result)
+{
+  if (p->kind == ABUT_FACET_TRI3)
+  {
+    *result = *p;
+    return 1;
+  }
+  abut_part flat = {.n = 4};
+  for (int k = 0; k < 4; ++k)
+    for (int d = 0; d < 2; ++d)
+      flat.x[k][d] = p->flat[2 * abut_facet_loop(4, k) + d];
+  const int first = abut_part_diagonal(&flat);
+  for (int i = 0; i < 2; ++i)
+  {
+    result[i].kind = ABUT_FACET_TRI3;
+    for (int k = 0; k < 3; ++k)
+    {
+      const int from = abut_facet_loop(4, (first + 2 * i + k) % 4);
+      memcpy(result[i].x[k], p->x[from], sizeof(p->x[0]));
+      memcpy(result[i].local[k], p->local[from], sizeof(p->local[0]));
+      memcpy(result[i].flat + 2 * k, p->flat + 2 * from, 2 * sizeof(double));
+    }
+  }
+  return 2;
+}
+
+/* Place on a patch over a point of the plane: local coordinates on the facet
+ * and position; ratio: area of local coordinates by area of the plane. */
+static int
+lift(const patch *p, const double *uv, double *local, double *x, double *ratio)
+{
+  double own[2], j[4], shape[4], t[2][3] = {{0.}}, corner[8];
+  const int n = n_corners(p);
+  if (!abut_pull_back(p->kind, p->flat, uv, own, j))
+    return 0;
+  abut_coupling_shape(p->kind, NULL, own, shape, NULL);
+  local[0] = local[1] = x[0] = x[1] = x[2] = 0.;
+  for (int a = 0; a < n; ++a)
+  {
+    for (int d = 0; d < 2; ++d)
+      local[d] += shape[a] * p->local[a][d];
+    for (int d = 0; d < 3; ++d)
+      x[d] += shape[a] * p->x[a][d];
+  }
+  if (ratio == NULL)
+    return 1;
+  for (int a = 0; a < n; ++a)
+    for (int d = 0; d < 2; ++d)
+      corner[2 * a + d] = p->local[a][d];
+  abut_coupling_plane_tangents(p->kind, corner, own, t);
+  *ratio = fabs((t[0][0] * t[1][1] - t[0][1] * t[1][0])
+                / (j[0] * j[3] - j[1] * j[2]));
+  return 1;
+}
+
+/* Gap along the normal over a point of the plane. */
+static int
+gap_at(const work *w, const segment *g, const double *uv, double *gap)
+{
+  double local[2], x[3], y[3], r[3];
+  if (!lift(&g->s, uv, local, x, NULL) || !lift(&g->m, uv, local, y, NULL))
+    return 0;
+  sub3(y, x, r);
+  *gap = dot3(r, w->normal);
+  return 1;
+}
+
+/* Keep the common polygon of two patches if it is within reach. */
+static abut_status
+keep(work *w, const segment *g, double size)
+{
+  double gap;
+  if (!gap_at(w, g, g->polygon.centroid, &gap)
+      || !abut_coupling_in_reach(w->c, gap, size))
+    return ABUT_SUCCESS;
+  const abut_status status = abut_array_reserve(w->c->context, &w->c->segments,
+                                                w->n, (int64_t)w->n + 1);
+  if (status == ABUT_SUCCESS)
+    ((segment *)w->c->segments.data)[w->n++] = *g;
+  return status;
+}
+
+/* Common polygons of the secondary patch with one of a primary facet. */
+static abut_status
+intersect(work *w, const patch *s, const patch *m, int32_t primary, double size)
+{
+  abut_part a, b;
+  double normal[3];
+  segment g = {.s = *s, .m = *m, .primary = primary};
+  walk(s, &a);
+  walk(m, &b);
+  abut_part_area(&b, normal);
+  if (!(dot3(normal, w->normal) <= w->c->options.normal_cosine))
+    return ABUT_SUCCESS;
+  flatten(w, &g.m);
+  const abut_clip_result result =
+      abut_clip3_parts(&a, &b, w->origin, w->normal, &g.polygon);
+  if (result == ABUT_CLIP_EMPTY)
+    return ABUT_SUCCESS;
+  if (result == ABUT_CLIP_POLYGON)
+    return keep(w, &g, size);
+  patch u[2], v[2];
+  const int n_u = triangles(s, u), n_v = triangles(&g.m, v);
+  for (int i = 0; i < n_u; ++i)
+    for (int k = 0; k < n_v; ++k)
+    {
+      g.s = u[i];
+      g.m = v[k];
+      walk(&u[i], &a);
+      walk(&v[k], &b);
+      if (abut_clip3_parts(&a, &b, w->origin, w->normal, &g.polygon)
+          != ABUT_CLIP_POLYGON)
+        continue;
+      const abut_status status = keep(w, &g, size);
+      if (status != ABUT_SUCCESS)
+        return status;
+    }
+  return ABUT_SUCCESS;
+}
+
+/* All common polygons of a secondary patch. */
+static abut_status
+collect(work *w, const patch *s, int32_t n_candidates)
+{
+  const int32_t *candidate = w->c->candidates.data;
+  w->n = 0;
+  for (int32_t k = 0; k < n_candidates; ++k)
+  {
+    double nodes[3 * ABUT_FACET_MAX_NODES];
+    patch m[MAX_PATCHES];
+    const abut_facet_kind kind =
+        (abut_facet_kind)w->c->primary->view.kinds[candidate[k]];
+    abut_surface_gather(w->c->primary, candidate[k], nodes);
+    const double size = abut_surface_longest_side(kind, nodes);
+    const int n = make_patches(kind, nodes, false, m);
+    for (int i = 0; i < n; ++i)
+    {
+      const abut_status status = intersect(w, s, &m[i], candidate[k], size);
+      if (status != ABUT_SUCCESS)
+        return status;
+    }
+  }
+  return ABUT_SUCCESS;
+}
+
+static void
+box_of(const abut_clip3 *p, double *lower, double *upper)
+{
+  for (int d = 0; d < 2; ++d)
+  {
+    lower[d] = upper[d] = p->vertex[0][d];
+    for (int i = 1; i < p->n; ++i)
+    {
+      lower[d] = min2(lower[d], p->vertex[i][d]);
+      upper[d] = max2(upper[d], p->vertex[i][d]);
+    }
+  }
+}
+
+/* Whether the boxes of two polygons overlap by more than round-off. */
+static bool
+boxes_overlap(const abut_clip3 *p, const abut_clip3 *q)
+{
+  double a[2], b[2], u[2], v[2];
+  box_of(p, a, b);
+  box_of(q, u, v);
+  for (int d = 0; d < 2; ++d)
+  {
+    const double overlap = min2(b[d], v[d]) - max2(a[d], u[d]);
+    if (!(overlap > smallest_overlap * min2(b[d] - a[d], v[d] - u[d])))
+      return false;
+  }
+  return true;
+}
+
+static bool
+share_node(const abut_surface_view *v, int32_t f, int32_t g)
+{
+  for (int32_t e = v->facet_start[f]; e < v->facet_start[f + 1]; ++e)
+    for (int32_t k = v->facet_start[g]; k < v->facet_start[g + 1]; ++k)
+      if (v->connectivity[e] == v->connectivity[k])
+        return true;
+  return false;
+}
+
+/* Whether segment j has the spot that it shares with segment i. */
+static bool
+is_before(const work *w, int32_t j, int32_t i)
+{
+  const segment *list = w->c->segments.data;
+  abut_clip3 common;
+  double gap_i, gap_j;
+  if (list[i].primary == list[j].primary
+      || !boxes_overlap(&list[i].polygon, &list[j].polygon)
+      || share_node(&w->c->primary->view, list[i].primary, list[j].primary)
+      || !abut_clip3_intersect(&list[i].polygon, &list[j].polygon,
+                               smallest_overlap, &common)
+      || !gap_at(w, &list[i], common.centroid, &gap_i)
+      || !gap_at(w, &list[j], common.centroid, &gap_j))
+    return false;
+  return fabs(gap_j) < fabs(gap_i) || (fabs(gap_j) == fabs(gap_i) && j < i);
+}
+
+/* What is left of polygon i when all that are nearer have had their part;
+ * returns the number of fragments. */
+static int
+cut_back(const work *w, int32_t i, abut_clip3 *fragments)
+{
+  const segment *list = w->c->segments.data;
+  int n = 1;
+  fragments[0] = list[i].polygon;
+  for (int32_t j = 0; j < w->n; ++j)
+  {
+    if (j == i || !is_before(w, j, i))
+      continue;
+    abut_clip3 pieces[MAX_FRAGMENTS + abut_clip_max];
+    int n_pieces = 0;
+    for (int k = 0; k < n && n_pieces <= MAX_FRAGMENTS; ++k)
+      n_pieces += abut_clip3_subtract(&fragments[k], &list[j].polygon,
+                                      smallest_overlap, pieces + n_pieces);
+    n = n_pieces < MAX_FRAGMENTS ? n_pieces : MAX_FRAGMENTS;
+    memcpy(fragments, pieces, sizeof(pieces[0]) * (size_t)n);
+  }
+  return n;
+}
+
+static abut_status
+add_point(work *w, const segment *g, const double *uv, double area)
+{
+  const abut_facet_kind kind =
+      (abut_facet_kind)w->c->primary->view.kinds[g->primary];
+  double local[2], opposite[2], x[3], n[3], t[2][3], ratio;
+  if (!lift(&g->s, uv, local, x, &ratio) || !lift(&g->m, uv, opposite, x, NULL))
+    return ABUT_SUCCESS;
+  abut_coupling_point *p = abut_coupling_new_point(w->c);
+  if (p == NULL)
+    return ABUT_OUT_OF_MEMORY;
+  p->primary = g->primary;
+  memcpy(p->local, local, sizeof(local));
+  abut_coupling_shape(w->facet->kind, w->facet->x, local, p->shape, t);
+  abut_coupling_shape(kind, NULL, opposite, p->opposite, NULL);
+  cross3(t[0], t[1], n);
+  ratio *= norm3(n);
+  p->weight = area * (ratio <= largest_area_ratio ? ratio : 1.);
+  abut_coupling_finish_point(w->c, w->facet, p);
+  return ABUT_SUCCESS;
+}
+
+/* A polygon as a fan of triangles. */
+static abut_status
+integrate(work *w, const segment *g, const abut_clip3 *polygon,
+          const abut_rule *rule)
+{
+  const double *a = polygon->vertex[0];
+  for (int i = 2; i < polygon->n; ++i)
+  {
+    const double *b = polygon->vertex[i - 1], *d = polygon->vertex[i];
+    const double area = (b[0] - a[0]) * (d[1] - a[1])
+                        - (b[1] - a[1]) * (d[0] - a[0]); /* twice */
+    if (!(area > 0.))
+      continue;
+    for (int q = 0; q < rule->n; ++q)
+    {
+      const double u = rule->local[q][0], v = rule->local[q][1];
+      const double uv[2] = {a[0] + u * (b[0] - a[0]) + v * (d[0] - a[0]),
+                            a[1] + u * (b[1] - a[1]) + v * (d[1] - a[1])};
+      const abut_status status = add_point(w, g, uv, rule->weight[q] * area);
+      if (status != ABUT_SUCCESS)
+        return status;
+    }
+  }
+  return ABUT_SUCCESS;
+}
+
+/* Points of all polygons of a secondary patch. */
+static abut_status
+integrate_all(work *w, bool count)
+{
+  int degree = -1;
+  abut_rule rule;
+  for (int32_t i = 0; i < w->n; ++i)
+  {
+    const segment *g = (const segment *)w->c->segments.data + i;
+    abut_clip3 fragments[MAX_FRAGMENTS];
+    const int n = cut_back(w, i, fragments);
+    const int wanted = abut_coupling_degree(
+        w->c, w->facet->kind,
+        (abut_facet_kind)w->c->primary->view.kinds[g->primary]);
+    if (wanted != degree)
+      abut_rule_facet(ABUT_FACET_TRI3, wanted, &rule);
+    degree = wanted;
+    for (int k = 0; k < n; ++k)
+    {
+      const abut_status status = integrate(w, g, &fragments[k], &rule);
+      if (status != ABUT_SUCCESS)
+        return status;
+    }
+    w->c->statistics.n_pairs += count;
+    w->c->statistics.n_layers +=
+        count && (n != 1 || fragments[0].area < g->polygon.area);
+  }
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_coupling_segments3(abut_coupling *c, const abut_coupling_facet *facet,
+                        bool count)
+{
+  int32_t n_candidates;
+  patch s[MAX_PATCHES];
+  work w = {.c = c, .facet = facet};
+  c->n_points = 0;
+  c->segments.element = sizeof(segment);
+  abut_status status =
+      abut_coupling_find_candidates(c, facet->index, &n_candidates);
+  const bool split =
+      facet->kind == ABUT_FACET_QUAD4 && facet->warping > split_warping;
+  const int n = make_patches(facet->kind, facet->x, split, s);
+  for (int i = 0; i < n && n_candidates > 0 && status == ABUT_SUCCESS; ++i)
+  {
+    abut_part part;
+    walk(&s[i], &part);
+    if (!(abut_part_area(&part, w.normal) > 0.))
+      continue;
+    w.origin[0] = w.origin[1] = w.origin[2] = 0.;
+    for (int k = 0; k < part.n; ++k)
+      axpy3(w.origin, 1. / part.n, part.x[k], w.origin);
+    abut_plane_basis(3, w.normal, w.e);
+    flatten(&w, &s[i]);
+    status = collect(&w, &s[i], n_candidates);
+    if (status == ABUT_SUCCESS)
+      status = integrate_all(&w, count);
+  }
+  return status;
+}

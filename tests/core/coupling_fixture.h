@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_TESTS_CORE_COUPLING_FIXTURE_H
+#define ABUT_TESTS_CORE_COUPLING_FIXTURE_H
+
+/* What the tests of couplings share: a pair of surfaces with a coupling, and
+ * checks that every set of rows must pass. */
+
+#include "surface_fixture.h"
+
+#include <abut/coupling.h>
+
+typedef struct couple
+{
+  abut_surface *secondary, *primary;
+  abut_coupling *coupling;
+  abut_coupling_view view;
+  abut_coupling_statistics statistics;
+} couple;
+
+static inline void
+near(double value, double expected, double tolerance, const char *what)
+{
+  if (!(fabs(value - expected) <= tolerance))
+    fail_msg("%s: %.17g is not %.17g (difference %.3g)", what, value, expected,
+             value - expected);
+}
+
+static inline void
+couple_build(couple *c, const abut_coupling_nodes *nodes)
+{
+  require(abut_coupling_build(c->coupling, nodes, 0.));
+  require(abut_coupling_get(c->coupling, &c->view));
+  require(abut_coupling_get_statistics(c->coupling, &c->statistics));
+}
+
+/* Surfaces from two meshes, a coupling, and its rows. */
+static inline couple
+couple_meshes(const scene_mesh *secondary, const scene_mesh *primary,
+              const abut_coupling_options *options,
+              const abut_coupling_nodes *nodes)
+{
+  couple c;
+  memset(&c, 0, sizeof(c));
+  c.secondary = surface_of(secondary);
+  c.primary = surface_of(primary);
+  require(abut_coupling_create(context, c.secondary, c.primary, options,
+                               &c.coupling));
+  couple_build(&c, nodes);
+  return c;
+}
+
+static inline void
+couple_destroy(couple *c)
+{
+  require(abut_coupling_destroy(&c->coupling));
+  require(abut_surface_destroy(&c->secondary));
+  if (c->primary != NULL)
+    require(abut_surface_destroy(&c->primary));
+}
+
+static inline double
+sum_of(const double *value, int64_t from, int64_t to)
+{
+  double sum = 0.;
+  for (int64_t e = from; e < to; ++e)
+    sum += value[e];
+  return sum;
+}
+
+/* Finite, with positive weights and unit normals; the coefficients of each
+ * side add up to one. */
+static inline void
+check_rows(const couple *c)
+{
+  const abut_coupling_view *v = &c->view;
+  const int dim = v->dimension;
+  for (int32_t j = 0; j < v->n_rows; ++j)
+  {
+    assert_true(v->weight[j] > 0. && v->weight[j] < 1e30);
+    assert_true(fabs(v->gap[j]) < 1e30);
+    near(sum_of(v->secondary_coefficient, v->secondary_start[j],
+                v->secondary_start[j + 1]),
+         1., 2e-14, "sum of secondary coefficients");
+    if (c->primary != NULL)
+    {
+      double size = 1.;
+      for (int64_t e = v->primary_start[j]; e < v->primary_start[j + 1]; ++e)
+        size = fmax(size, fabs(v->primary_coefficient[e]));
+      near(sum_of(v->primary_coefficient, v->primary_start[j],
+                  v->primary_start[j + 1]),
+           1., 2e-14 * size, "sum of primary coefficients");
+    }
+    double length = 0.;
+    for (int d = 0; d < dim; ++d)
+      length += v->normal[dim * j + d] * v->normal[dim * j + d];
+    near(length, 1., 1e-14, "length of a normal");
+    if (j > 0 && v->node[j] >= 0)
+      assert_true(v->node[j] > v->node[j - 1]);
+  }
+}
+
+/* Nodal forces of the pressure one: out[l] = sum_j W_j c_jl n_j on the primary
+ * (side 1), minus that on the secondary (side 0). [n_nodes * dimension] */
+static inline void
+nodal_forces(const abut_coupling_view *v, int side, double *out)
+{
+  const int64_t *start = side == 0 ? v->secondary_start : v->primary_start;
+  const int32_t *node = side == 0 ? v->secondary_node : v->primary_node;
+  const double *value =
+      side == 0 ? v->secondary_coefficient : v->primary_coefficient;
+  for (int32_t j = 0; j < v->n_rows; ++j)
+    for (int64_t e = start[j]; e < start[j + 1]; ++e)
+      for (int d = 0; d < v->dimension; ++d)
+        out[v->dimension * node[e] + d] += (side == 0 ? -1. : 1.) * v->weight[j]
+                                           * value[e]
+                                           * v->normal[v->dimension * j + d];
+}
+
+/* Integral of shape function a over a flat facet of area one. */
+static inline double
+shape_integral(abut_facet_kind kind, int a)
+{
+  switch (kind)
+  {
+  case ABUT_FACET_LINE2:
+    return 1. / 2.;
+  case ABUT_FACET_LINE3:
+    return a < 2 ? 1. / 6. : 4. / 6.;
+  case ABUT_FACET_TRI3:
+    return 1. / 3.;
+  case ABUT_FACET_TRI6:
+    return a < 3 ? 0. : 1. / 3.;
+  case ABUT_FACET_QUAD4:
+    return 1. / 4.;
+  case ABUT_FACET_QUAD9:
+    return a < 4 ? 1. / 36. : a < 8 ? 4. / 36. : 16. / 36.;
+  case ABUT_FACET_N_KINDS:
+    break;
+  }
+  return 0.;
+}
+
+/* Consistent nodal areas of a mesh whose facets are parallelograms, triangles
+ * or straight lines with their middle nodes in the middle. */
+static inline void
+nodal_areas(const abut_surface *surface, double *out)
+{
+  abut_surface_view v;
+  require(abut_surface_get(surface, &v));
+  memset(out, 0, sizeof(double) * (size_t)v.n_nodes);
+  for (int32_t f = 0; f < v.n_facets; ++f)
+  {
+    const abut_facet_kind kind = (abut_facet_kind)v.kinds[f];
+    const int32_t *node = v.connectivity + v.facet_start[f];
+    double x[27];
+    abut_facet_measures m;
+    for (int a = 0; a < abut_facet_n_nodes(kind); ++a)
+      for (int d = 0; d < v.dimension; ++d)
+        x[a * v.dimension + d] = v.position[v.dimension * node[a] + d];
+    require(abut_facet_measure(kind, x, &m));
+    for (int a = 0; a < abut_facet_n_nodes(kind); ++a)
+      out[node[a]] += m.area * shape_integral(kind, a);
+  }
+}
+
+/* A uniform pressure gives the consistent nodal forces of a flat mesh that is
+ * covered completely; normal: of the secondary. */
+static inline double
+force_error(const couple *c, int side, const double *normal)
+{
+  abut_surface_view v;
+  require(abut_surface_get(side == 0 ? c->secondary : c->primary, &v));
+  const size_t n = (size_t)v.n_nodes * (size_t)v.dimension;
+  double *force = calloc(n, sizeof(double)), *area = calloc(n, sizeof(double)),
+         error = 0.;
+  nodal_forces(&c->view, side, force);
+  nodal_areas(side == 0 ? c->secondary : c->primary, area);
+  for (int32_t l = 0; l < v.n_nodes; ++l)
+    for (int d = 0; d < v.dimension; ++d)
+      error = fmax(error, fabs(force[v.dimension * l + d]
+                               - (side == 0 ? -1. : 1.) * area[l] * normal[d]));
+  free(force);
+  free(area);
+  return error;
+}
+
+/* Sum of the forces of both sides, and of their moments about the origin, for
+ * row pressures p_j = 1 + j. */
+static inline void
+check_balance(const couple *c, double force_tolerance, double moment_tolerance)
+{
+  const abut_coupling_view *v = &c->view;
+  const int dim = v->dimension;
+  abut_surface_view s[2];
+  double force[3] = {0.}, moment[3] = {0.};
+  require(abut_surface_get(c->secondary, &s[0]));
+  require(abut_surface_get(c->primary, &s[1]));
+  for (int side = 0; side < 2; ++side)
+  {
+    const int64_t *start = side == 0 ? v->secondary_start : v->primary_start;
+    const int32_t *node = side == 0 ? v->secondary_node : v->primary_node;
+    const double *value =
+        side == 0 ? v->secondary_coefficient : v->primary_coefficient;
+    for (int32_t j = 0; j < v->n_rows; ++j)
+      for (int64_t e = start[j]; e < start[j + 1]; ++e)
+      {
+        double f[3] = {0.}, x[3] = {0.};
+        for (int d = 0; d < dim; ++d)
+        {
+          f[d] = (side == 0 ? -1. : 1.) * (1 + j) * v->weight[j] * value[e]
+                 * v->normal[dim * j + d];
+          x[d] = s[side].position[dim * node[e] + d];
+          force[d] += f[d];
+        }
+        for (int d = 0; d < 3; ++d)
+          moment[d] +=
+              x[(d + 1) % 3] * f[(d + 2) % 3] - x[(d + 2) % 3] * f[(d + 1) % 3];
+      }
+  }
+  for (int d = 0; d < 3; ++d)
+  {
+    near(force[d], 0., force_tolerance, "sum of forces");
+    near(moment[d], 0., moment_tolerance, "sum of moments");
+  }
+}
+
+#endif
