@@ -3,6 +3,7 @@
 #include "pictures.h"
 
 #include "gnuplot.h"
+#include "picture_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,153 +12,13 @@
 
 namespace abut::app
 {
-  namespace
-  {
-    /** Viridis: evenly bright steps that every kind of colour vision tells
-     * apart, and that survive a grey print. */
-    constexpr const char *palette =
-        "set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', "
-        "3 '#2c728e', 4 '#21918c', 5 '#28ae80', 6 '#5ec962', 7 '#addc30', "
-        "8 '#fde725')\n";
-
-    std::string quoted(const std::string &text)
-    {
-      std::string result = "'";
-      for (const char c : text)
-        result += c == '\'' ? "''" : std::string(1, c);
-      return result + "'";
-    }
-
-    double smallest(const std::vector<double> &values)
-    {
-      double result = std::numeric_limits<double>::infinity();
-      for (const double value : values)
-        result = std::isnan(value) ? result : std::min(result, value);
-      return result;
-    }
-
-    double largest(const std::vector<double> &values)
-    {
-      double result = -std::numeric_limits<double>::infinity();
-      for (const double value : values)
-        result = std::isnan(value) ? result : std::max(result, value);
-      return result;
-    }
-
-    /** The title, and in 3D the plane that is shown. */
-    std::string full_title(const std::string &title, const Raster &raster)
-    {
-      if (std::isnan(raster.z))
-        return quoted(title);
-      std::ostringstream text;
-      text << title << ", plane z = " << raster.z;
-      return quoted(text.str());
-    }
-
-    /** The point with a value that is nearest to (i, j), at most @p reach
-     * away in each direction; (i, j) itself if there is none. */
-    std::pair<std::size_t, std::size_t>
-    nearest_value(const Raster &raster, const std::vector<double> &values,
-                  const std::size_t i, const std::size_t j,
-                  const std::size_t reach)
-    {
-      std::pair<std::size_t, std::size_t> best = {i, j};
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t b = j - std::min(j, reach);
-           b < std::min(raster.ny, j + reach + 1); ++b)
-        for (std::size_t a = i - std::min(i, reach);
-             a < std::min(raster.nx, i + reach + 1); ++a)
-        {
-          const double distance =
-              std::hypot(double(a) - double(i), double(b) - double(j));
-          if (distance < least && !std::isnan(values[b * raster.nx + a]))
-          {
-            least = distance;
-            best = {a, b};
-          }
-        }
-      return best;
-    }
-
-    /** Data block of lines "x y value", an empty line after each row; every
-     * @p stride -th point, the outermost included. A point outside the mesh
-     * moves to its border if that is nearer than @p snap points. */
-    std::string grid_block(const std::string &name, const Raster &raster,
-                           const std::vector<double> &values,
-                           const std::size_t stride, const std::size_t snap = 0)
-    {
-      const auto indices = [stride](const std::size_t n)
-      {
-        std::vector<std::size_t> result;
-        for (std::size_t i = 0; i < n; i += stride)
-          result.push_back(i);
-        if (result.back() != n - 1)
-          result.push_back(n - 1);
-        return result;
-      };
-      std::ostringstream out;
-      out.precision(5);
-      out << '$' << name << " << EOD\n";
-      for (const std::size_t row : indices(raster.ny))
-      {
-        for (const std::size_t column : indices(raster.nx))
-        {
-          const auto [i, j] =
-              std::isnan(values[row * raster.nx + column])
-                  ? nearest_value(raster, values, column, row, snap)
-                  : std::pair(column, row);
-          const double value = values[j * raster.nx + i];
-          out << raster.x(i) << ' ' << raster.y(j) << ' ';
-          if (std::isnan(value))
-            out << "NaN\n";
-          else
-            out << value << '\n';
-        }
-        out << '\n';
-      }
-      out << "EOD\n";
-      return out.str();
-    }
-
-    std::string ranges(const Raster &raster)
-    {
-      std::ostringstream out;
-      out.precision(12);
-      out << "set xrange [" << raster.x_min << ':' << raster.x_max
-          << "]\nset yrange [" << raster.y_min << ':' << raster.y_max << "]\n";
-      return out.str();
-    }
-
-    /** Picture height for a map of the raster's aspect in a given width. */
-    unsigned int map_height(const Raster &raster, const unsigned int map_width,
-                            const unsigned int rest)
-    {
-      const double aspect =
-          (raster.y_max - raster.y_min) / (raster.x_max - raster.x_min);
-      return rest
-             + static_cast<unsigned int>(map_width
-                                         * std::clamp(aspect, 0.15, 1.6));
-    }
-
-    /** Gap between level lines: a tenth of the range, rounded to 1, 2, 5. */
-    double level_step(const double range)
-    {
-      const double raw = range / 10;
-      const double power = std::pow(10., std::floor(std::log10(raw)));
-      for (const double digit : {1., 2., 5.})
-        if (raw <= digit * power)
-          return digit * power;
-      return 10 * power;
-    }
-  } // namespace
 
   bool draw_solution(Report &report, const std::filesystem::path &folder,
                      const std::string &name, const Raster &raster,
                      const std::size_t field, const std::string &title)
   {
     const std::vector<double> &values = raster.fields.at(field);
-    const double low = smallest(values);
-    const double high = largest(values);
+    const auto [low, high] = value_range(values);
     if (!(low <= high))
       return false;
     const double range = high > low ? high - low : 1.;
@@ -173,7 +34,7 @@ namespace abut::app
            << grid_block("fine", raster, values, 1)
            << grid_block("coarse", raster, values, surface_stride,
                          surface_stride)
-           << grid_block("middle", raster, values, lines_stride) << palette
+           << grid_block("middle", raster, values, lines_stride) << palette()
            << "set multiplot title " << full_title(title, raster)
            << " font ',16'\n"
            << "unset key\nunset grid\nset format z '%g'\nset format cb '%g'\n"

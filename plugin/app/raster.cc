@@ -5,6 +5,7 @@
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/tensor.h>
 #include <deal.II/fe/fe.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@ namespace abut::app
 
     template <int dim>
     dealii::BoundingBox<dim>
-    bounding_box(const dealii::DoFHandler<dim> &dof_handler)
+    bounding_box(const dealii::Mapping<dim> &mapping,
+                 const dealii::DoFHandler<dim> &dof_handler)
     {
       dealii::Point<dim> low;
       dealii::Point<dim> high;
@@ -29,11 +31,11 @@ namespace abut::app
       }
       for (const auto &cell : dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
-          for (const unsigned int v : cell->vertex_indices())
+          for (const dealii::Point<dim> &vertex : mapping.get_vertices(cell))
             for (unsigned int d = 0; d < dim; ++d)
             {
-              low[d] = std::min(low[d], cell->vertex(v)[d]);
-              high[d] = std::max(high[d], cell->vertex(v)[d]);
+              low[d] = std::min(low[d], vertex[d]);
+              high[d] = std::max(high[d], vertex[d]);
             }
       const MPI_Comm communicator = dof_handler.get_communicator();
       for (unsigned int d = 0; d < dim; ++d)
@@ -58,22 +60,50 @@ namespace abut::app
               std::size_t(std::clamp(last + 1, 0., top))};
     }
 
-    /** Whether the affine map through the first vertices hits all vertices,
-     * so that it can be inverted without Newton's method. */
-    template <int dim, typename Cell> bool is_parallelotope(const Cell &cell)
+    /** The affine map through the first vertices of a cell. */
+    template <int dim> class AffineMap
     {
-      const double tolerance = 1e-10 * cell->diameter();
-      for (const unsigned int v : cell->vertex_indices())
+    public:
+      template <typename Cell>
+      void reinit(const dealii::Mapping<dim> &mapping, const Cell &cell)
       {
-        dealii::Tensor<1, dim> affine = cell->vertex(0);
+        const auto vertices = mapping.get_vertices(cell);
+        origin = vertices[0];
+        dealii::Tensor<2, dim> sides;
         for (unsigned int d = 0; d < dim; ++d)
-          if ((v >> d & 1U) != 0U)
-            affine += cell->vertex(1U << d) - cell->vertex(0);
-        if ((cell->vertex(v) - affine).norm() > tolerance)
-          return false;
+          for (unsigned int i = 0; i < dim; ++i)
+            sides[i][d] = vertices[1U << d][i] - origin[i];
+        const double tolerance = 1e-10 * sides.norm();
+        hits = true;
+        for (unsigned int v = 0; v < vertices.size(); ++v)
+        {
+          dealii::Tensor<1, dim> unit;
+          for (unsigned int d = 0; d < dim; ++d)
+            unit[d] = v >> d & 1U;
+          hits =
+              hits && (origin + sides * unit - vertices[v]).norm() <= tolerance;
+        }
+        if (hits)
+          inverse = invert(sides);
       }
-      return true;
-    }
+
+      /** Whether it hits all vertices, so that it can be inverted without
+       * Newton's method. */
+      bool is_exact() const
+      {
+        return hits;
+      }
+
+      dealii::Point<dim> to_unit(const dealii::Point<dim> &point) const
+      {
+        return dealii::Point<dim>(inverse * (point - origin));
+      }
+
+    private:
+      dealii::Point<dim> origin;
+      dealii::Tensor<2, dim> inverse;
+      bool hits = false;
+    };
 
     template <int dim> class CellSampler
     {
@@ -93,7 +123,7 @@ namespace abut::app
       void reinit(const Cell &new_cell)
       {
         cell = new_cell;
-        affine = is_parallelotope<dim>(cell);
+        affine.reinit(mapping, cell);
         for (std::size_t f = 0; f < fields.size(); ++f)
           cell->get_dof_values(*fields[f].values, values[f]);
       }
@@ -117,8 +147,8 @@ namespace abut::app
       bool to_unit(const dealii::Point<dim> &point,
                    dealii::Point<dim> &unit) const
       {
-        if (affine)
-          unit = cell->real_to_unit_cell_affine_approximation(point);
+        if (affine.is_exact())
+          unit = affine.to_unit(point);
         else
           try
           {
@@ -156,7 +186,7 @@ namespace abut::app
       const dealii::FiniteElement<dim> &fe;
       const std::vector<RasterField> &fields;
       Cell cell;
-      bool affine = false;
+      AffineMap<dim> affine;
       std::vector<dealii::Vector<double>> values;
     };
   } // namespace
@@ -167,7 +197,7 @@ namespace abut::app
                        const std::vector<RasterField> &fields,
                        const unsigned int n, const double z)
   {
-    const dealii::BoundingBox<dim> box = bounding_box(dof_handler);
+    const dealii::BoundingBox<dim> box = bounding_box(mapping, dof_handler);
     const double longer = std::max(box.side_length(0), box.side_length(1));
     const auto count = [&](const unsigned int d)
     {

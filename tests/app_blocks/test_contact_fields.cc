@@ -2,6 +2,8 @@
 //
 // Stresses and contact fields in files, and meshes that follow contact.
 
+#include "app/body_pictures.h"
+#include "app/contact_line.h"
 #include "app/contact_output.h"
 #include "app/contact_refinement.h"
 #include "app/field_output.h"
@@ -291,6 +293,98 @@ namespace
       Expect::near(fields[1](dof), second(dof), 1e-14, "second field");
     }
   }
+
+  /** The lower side and the right one of a square as one line, p = 1 + x and
+   * 3, with hanging nodes inside and nodes of degree @p degree. */
+  void lines(const unsigned int degree)
+  {
+    Problem<2> problem(degree, 2);
+    unit_cube(problem, 1);
+    refine_corner(problem);
+    const la::Vector traction =
+        problem.interpolate("if(x > 1 - 1e-9, -3, 0); if(y < 1e-9, 1 + x, 0)");
+    const la::Vector gap = problem.interpolate("0; if(y < 1e-9, -x, 0)");
+    const la::Vector status = problem.interpolate("x; x");
+    const std::vector<ContactLine> both =
+        contact_lines(problem.mapping, problem.dof_handler, {1, 2},
+                      {traction, nullptr, nullptr});
+    const std::vector<ContactLine> two =
+        contact_lines(problem.mapping, problem.dof_handler, {0, 1},
+                      {traction, &gap, &status});
+    const std::vector<ContactLine> below = contact_lines(
+        problem.mapping, problem.dof_handler, {2}, {traction, &gap, &status});
+    const std::vector<ContactLine> all =
+        contact_lines(problem.mapping, problem.dof_handler, {0, 1, 2, 3},
+                      {traction, nullptr, nullptr});
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) > 0)
+    {
+      Expect::that(both.empty() && all.empty(), "result on rank 0");
+      return;
+    }
+    Expect::that(both.size() == 1 && two.size() == 2 && below.size() == 1
+                     && all.size() == 1,
+                 "number of lines");
+    Expect::near(both[0].back().arc, 2, 1e-14, "length around a corner");
+    Expect::near(both[0].back().place.distance(Point<2>(1, 1)), 0, 1e-14,
+                 "begins at the smaller x");
+    Expect::near(all[0].back().arc, 4, 1e-14, "closed line");
+    Expect::near(all[0].back().place.distance(all[0].front().place), 0, 1e-14,
+                 "ends where it begins");
+    // 2 fine faces and 1 coarse one
+    Expect::that(below[0].size() == 3 * degree + 1, "nodes");
+    for (const ContactLineNode &node : below[0])
+      if (node.place[0] < 1 - 1e-9)
+      {
+        Expect::near(node.arc, node.place[0], 1e-14, "arc");
+        Expect::near(node.pressure, 1 + node.place[0], 1e-14, "pressure");
+        Expect::near(node.gap, node.place[0], 1e-14, "gap");
+        Expect::near(node.status, node.place[0], 1e-14, "status");
+      }
+    write_contact_lines(folder / "line.csv", two);
+    std::istringstream table(content(folder / "line.csv"));
+    std::string row;
+    std::getline(table, row);
+    Expect::that(row == "line,arc,x,y,pressure,gap,status", "columns");
+    unsigned int rows = 0;
+    while (std::getline(table, row))
+      ++rows;
+    Expect::that(rows == two[0].size() + two[1].size(), "rows");
+  }
+
+  void picture()
+  {
+    Problem<2> problem(2, 2);
+    two_bodies(problem, 4);
+    problem.mesh.refine_global(2);
+    problem.distribute();
+    const la::Vector u = problem.interpolate("-0.001*x*y; -0.002*y");
+    const la::Vector traction = problem.interpolate("0; -sin(pi*x)");
+    const std::vector<PressureCurve> curves = {
+        {"pair 1", contact_lines(problem.mapping, problem.dof_handler, {3},
+                                 {traction, nullptr, nullptr})}};
+    Report report(MPI_COMM_WORLD, true);
+    const bool root =
+        dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    Expect::that(draw_bodies(report, folder, "bodies", problem.mapping,
+                             problem.dof_handler, u, {{0, {7., 0.3}}}, curves,
+                             "Two bodies")
+                     == root,
+                 "bodies are drawn");
+    Expect::that(draw_bodies(report, folder, "bodies-alone", problem.mapping,
+                             problem.dof_handler, u, {{0, {7., 0.3}}}, {},
+                             "Two bodies")
+                     == root,
+                 "bodies are drawn without contact");
+    if (!root)
+      return;
+    const std::string script = content(folder / "bodies.gp");
+    Expect::that(script.find("drawn 50 times") != std::string::npos,
+                 "factor of the displacement");
+    const std::string svg = content(folder / "bodies.svg");
+    Expect::that(svg.find("</svg>") != std::string::npos, "picture complete");
+    Expect::that(svg.size() < 300000,
+                 "picture is small: " + std::to_string(svg.size()));
+  }
 } // namespace
 
 int
@@ -308,5 +402,8 @@ main(int argc, char **argv)
   size_ratio();
   transfer<2>();
   transfer<3>();
+  lines(1);
+  lines(2);
+  picture();
   return Expect::failures() > 0 ? 1 : 0;
 }

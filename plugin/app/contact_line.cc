@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Each rank lists the edges between neighbouring nodes of its faces; rank 0
+// chains them, beginning at nodes that end only one edge, then anywhere on
+// what is left (closed lines).
+
+#include "contact_line.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/fe.h>
+
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/utility.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace abut::app
+{
+  namespace
+  {
+    using Key = dealii::types::global_dof_index;
+    /** x, y, pressure, gap, status */
+    using Values = std::array<double, 5>;
+    using Node = std::pair<Key, Values>;
+    using Edge = std::pair<Node, Node>;
+
+    class FaceReader
+    {
+    public:
+      using Cell = dealii::DoFHandler<2>::active_cell_iterator;
+
+      FaceReader(const dealii::Mapping<2> &mapping,
+                 const dealii::FiniteElement<2> &fe,
+                 const ContactLineFields &fields)
+          : mapping(mapping), fe(fe), fields(fields), dofs(fe.n_dofs_per_cell())
+      {
+      }
+
+      /** Append the edges of a face from node to node. */
+      void read(const Cell &cell, const unsigned int f, std::vector<Edge> &out)
+      {
+        cell->get_dof_indices(dofs);
+        const auto face = cell->face(f);
+        const dealii::Tensor<1, 2> along = face->vertex(1) - face->vertex(0);
+        const dealii::Tensor<1, 2> outward = face->center() - cell->center();
+        std::map<double, Node> ordered;
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          if (fe.has_support_on_face(i, f)
+              && fe.system_to_component_index(i).first == 0)
+          {
+            const dealii::Point<2> x = mapping.transform_unit_to_real_cell(
+                cell, fe.unit_support_point(i));
+            ordered[(x - face->vertex(0)) * along] = {
+                dofs[i], values(x, node_dofs(i), outward)};
+          }
+        for (auto next = ordered.begin(); std::next(next) != ordered.end();
+             ++next)
+          out.emplace_back(next->second, std::next(next)->second);
+      }
+
+    private:
+      /** Both unknowns of the node of shape function @p i. */
+      std::array<Key, 2> node_dofs(const unsigned int i) const
+      {
+        std::array<Key, 2> result = {{dofs[i], dofs[i]}};
+        for (unsigned int j = 0; j < dofs.size(); ++j)
+          if (fe.system_to_component_index(j).first == 1
+              && fe.unit_support_point(j).distance(fe.unit_support_point(i))
+                     < 1e-10)
+            result[1] = dofs[j];
+        return result;
+      }
+
+      /** Signed length of a nodal vector, positive outwards. */
+      static double length(const la::Vector &field,
+                           const std::array<Key, 2> &node,
+                           const dealii::Tensor<1, 2> &outward)
+      {
+        const dealii::Tensor<1, 2> vector({field(node[0]), field(node[1])});
+        return std::copysign(vector.norm(), vector * outward);
+      }
+
+      Values values(const dealii::Point<2> &x, const std::array<Key, 2> &node,
+                    const dealii::Tensor<1, 2> &outward) const
+      {
+        const double gap =
+            fields.gap != nullptr ? length(*fields.gap, node, outward) : 0.;
+        const double status =
+            fields.status != nullptr ? (*fields.status)(node[0]) : 0.;
+        return {
+            {x[0], x[1], -length(fields.traction, node, outward), gap, status}};
+      }
+
+      const dealii::Mapping<2> &mapping;
+      const dealii::FiniteElement<2> &fe;
+      const ContactLineFields &fields;
+      std::vector<Key> dofs;
+    };
+
+    /** Nodes and who is next to whom. */
+    struct Graph
+    {
+      std::map<Key, Values> node;
+      std::map<Key, std::vector<Key>> neighbors;
+
+      explicit Graph(const std::vector<Edge> &edges)
+      {
+        for (const auto &[a, b] : edges)
+        {
+          node.insert(a);
+          node.insert(b);
+          neighbors[a.first].push_back(b.first);
+          neighbors[b.first].push_back(a.first);
+        }
+      }
+
+      /** Walk from @p start over edges not used so far, which are removed. */
+      ContactLine walk(const Key start)
+      {
+        ContactLine line;
+        for (Key at = start;;)
+        {
+          const Values &v = node.at(at);
+          const dealii::Point<2> place(v[0], v[1]);
+          const double arc =
+              line.empty()
+                  ? 0.
+                  : line.back().arc + line.back().place.distance(place);
+          line.push_back({arc, place, v[2], v[3], v[4]});
+          std::vector<Key> &next = neighbors.at(at);
+          if (next.empty())
+            return line;
+          const Key to = next.back();
+          next.pop_back();
+          std::vector<Key> &back = neighbors.at(to);
+          back.erase(std::find(back.begin(), back.end(), at));
+          at = to;
+        }
+      }
+
+      /** Node from which to walk next: an end if there is one, the one with
+       * the smallest x, then y, of several; or none. */
+      const Key *next_start() const
+      {
+        const Key *best = nullptr;
+        const auto rank = [this](const Key key)
+        {
+          const Values &v = node.at(key);
+          return std::make_tuple(neighbors.at(key).size() != 1, v[0], v[1]);
+        };
+        for (const auto &[key, others] : neighbors)
+          if (!others.empty() && (best == nullptr || rank(key) < rank(*best)))
+            best = &key;
+        return best;
+      }
+    };
+  } // namespace
+
+  std::vector<ContactLine>
+  contact_lines(const dealii::Mapping<2> &mapping,
+                const dealii::DoFHandler<2> &dof_handler,
+                const std::set<dealii::types::boundary_id> &ids,
+                const ContactLineFields &fields)
+  {
+    FaceReader reader(mapping, dof_handler.get_fe(), fields);
+    std::vector<Edge> mine;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary()
+              && ids.count(cell->face(f)->boundary_id()) > 0)
+            reader.read(cell, f, mine);
+    std::vector<Edge> edges;
+    for (const auto &part :
+         dealii::Utilities::MPI::gather(dof_handler.get_communicator(), mine))
+      edges.insert(edges.end(), part.begin(), part.end());
+
+    Graph graph(edges);
+    std::vector<ContactLine> lines;
+    while (const Key *start = graph.next_start())
+      lines.push_back(graph.walk(*start));
+    std::stable_sort(lines.begin(), lines.end(),
+                     [](const ContactLine &a, const ContactLine &b)
+                     { return a.back().arc > b.back().arc; });
+    return lines;
+  }
+
+  void write_contact_lines(const std::filesystem::path &file,
+                           const std::vector<ContactLine> &lines)
+  {
+    std::ofstream out(file);
+    out << "line,arc,x,y,pressure,gap,status\n" << std::setprecision(17);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      for (const ContactLineNode &node : lines[i])
+        out << i + 1 << ',' << node.arc << ',' << node.place[0] << ','
+            << node.place[1] << ',' << node.pressure << ',' << node.gap << ','
+            << node.status << '\n';
+    if (!out.flush())
+      throw std::runtime_error("cannot write " + file.string());
+  }
+} // namespace abut::app

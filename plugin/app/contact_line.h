@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_CONTACT_LINE_H
+#define ABUT_APP_CONTACT_LINE_H
+
+/** @file
+ * Values along the contact boundary of a plane body, in the order of its
+ * nodes.
+ */
+
+#include <abut/dealii/linear_algebra.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/types.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+
+#include <array>
+#include <filesystem>
+#include <set>
+#include <vector>
+
+namespace abut::app
+{
+  /** A node of a contact boundary. */
+  struct ContactLineNode
+  {
+    double arc = 0.;        /**< length along the line from its first node */
+    dealii::Point<2> place; /**< of the reference configuration */
+    double pressure = 0.;   /**< > 0: compression */
+    double gap = 0.;        /**< > 0: open; 0 where there is no row */
+    double status = 0.;     /**< as ContactAssembler::status() */
+  };
+
+  /** A connected piece of boundary; a closed one ends where it begins. */
+  using ContactLine = std::vector<ContactLineNode>;
+
+  /** Nodal fields of a contact boundary, ghosted, all of the displacement's
+   * unknowns. */
+  struct ContactLineFields
+  {
+    const la::Vector &traction; /**< force per area on the body */
+    const la::Vector *gap;      /**< g n, or null */
+    const la::Vector *status;   /**< the same in all components, or null */
+  };
+
+  /** The pieces of the boundary with ids @p ids, in walking order, longest
+   * first; begins at the end with the smaller x (then y). Result on rank 0,
+   * empty on others. Collective; O(n log n) on rank 0. */
+  std::vector<ContactLine>
+  contact_lines(const dealii::Mapping<2> &mapping,
+                const dealii::DoFHandler<2> &dof_handler,
+                const std::set<dealii::types::boundary_id> &ids,
+                const ContactLineFields &fields);
+
+  /** Write pieces one after the other as the table @p file with the columns
+   * line, arc, x, y, pressure, gap, status. Throws where the file cannot be
+   * written. Not collective: for the rank that has them. */
+  void write_contact_lines(const std::filesystem::path &file,
+                           const std::vector<ContactLine> &lines);
+} // namespace abut::app
+
+#endif
