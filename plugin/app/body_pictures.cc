@@ -158,7 +158,7 @@ namespace abut::app
       return false;
 
     const unsigned int below = pressures.empty() ? 0 : 280;
-    const unsigned int height = map_height(raster, 560, 110) + below;
+    const unsigned int height = map_height(raster, 440, 110) + below;
     std::ostringstream text;
     text << title;
     if (factor > 1.)
