@@ -49,21 +49,13 @@ namespace abut::app
   template <int dim>
   BoundaryExpressions<dim>::BoundaryExpressions(const std::string &text,
                                                 const std::string &parameter,
-                                                const unsigned int n_components)
+                                                const unsigned int n_components,
+                                                const bool may_be_free)
       : parameter(parameter)
   {
     std::set<Id> seen;
     bool seen_others = false;
-    // With several components the semicolon separates those, so that a new
-    // entry begins only where a part has a colon.
-    std::vector<std::string> parts;
     for (const std::string &part : split_list(text, ';'))
-      if (n_components > 1 && !parts.empty()
-          && split_list(part, ':').size() < 2)
-        parts.back() += "; " + part;
-      else
-        parts.push_back(part);
-    for (const std::string &part : parts)
     {
       if (part.empty())
         continue;
@@ -73,7 +65,7 @@ namespace abut::app
                          "'" + part
                              + "' has no boundary id; write 'id: formula', "
                                "entries separated by ';', or '*: formula'.");
-      Entry entry = {false, {}, nullptr};
+      Entry entry = {false, {}, nullptr, {}};
       for (const std::string &word : split_list(part.substr(0, colon), ','))
         if (word == "*")
           entry.others = true;
@@ -88,10 +80,62 @@ namespace abut::app
       if (!entry.others && entry.ids.empty())
         throw InputError(parameter, "'" + part + "' has no boundary id.");
       seen_others = seen_others || entry.others;
-      entry.expression = std::make_unique<Expression<dim>>(
-          part.substr(colon + 1), parameter, n_components);
+      set_formulas(entry, part.substr(colon + 1), n_components, may_be_free);
       entries.push_back(std::move(entry));
     }
+  }
+
+  template <int dim>
+  void BoundaryExpressions<dim>::set_formulas(Entry &entry,
+                                              const std::string &text,
+                                              const unsigned int n_components,
+                                              const bool may_be_free) const
+  {
+    if (n_components == 1)
+    {
+      entry.expression = std::make_unique<Expression<dim>>(text, parameter);
+      entry.components = dealii::ComponentMask(1, true);
+      return;
+    }
+    const std::vector<std::string> words = split_list(text, ',');
+    if (words.size() != n_components)
+      throw InputError(parameter,
+                       "'" + text + "' is not " + std::to_string(n_components)
+                           + " formulas separated by commas"
+                           + (may_be_free ? ", or the word free." : "."));
+    std::string formulas;
+    std::vector<bool> counts(n_components, true);
+    for (unsigned int c = 0; c < n_components; ++c)
+    {
+      counts[c] = !may_be_free || words[c] != "free";
+      formulas += (c > 0 ? "; " : "") + (counts[c] ? words[c] : "0");
+    }
+    entry.expression =
+        std::make_unique<Expression<dim>>(formulas, parameter, n_components);
+    entry.components = dealii::ComponentMask(counts);
+  }
+
+  template <int dim>
+  std::map<Id, BoundaryCondition<dim>>
+  BoundaryExpressions<dim>::conditions(const std::vector<Id> &existing,
+                                       const std::set<Id> &without) const
+  {
+    std::map<Id, BoundaryCondition<dim>> result;
+    const auto set = [&result](const Id id, const Entry &entry) {
+      result[id] = {entry.expression.get(), entry.components};
+    };
+    for (const Entry &entry : entries)
+      if (entry.others)
+        for (const Id id : existing)
+          if (without.count(id) == 0)
+            set(id, entry);
+    for (const Entry &entry : entries)
+      for (const Id id : entry.ids)
+      {
+        check_id(id, existing, parameter);
+        set(id, entry);
+      }
+    return result;
   }
 
   template <int dim>
@@ -100,19 +144,10 @@ namespace abut::app
       const dealii::Triangulation<dim> &triangulation,
       const std::set<Id> &without) const
   {
-    const std::vector<Id> existing = triangulation.get_boundary_ids();
     std::map<Id, const dealii::Function<dim> *> result;
-    for (const Entry &entry : entries)
-      if (entry.others)
-        for (const Id id : existing)
-          if (without.count(id) == 0)
-            result[id] = entry.expression.get();
-    for (const Entry &entry : entries)
-      for (const Id id : entry.ids)
-      {
-        check_id(id, existing, parameter);
-        result[id] = entry.expression.get();
-      }
+    for (const auto &[id, condition] :
+         conditions(triangulation.get_boundary_ids(), without))
+      result[id] = condition.function;
     return result;
   }
 
@@ -129,12 +164,10 @@ namespace abut::app
                        { return entry.expression->depends_on_time(); });
   }
 
-  template <int dim>
-  std::set<Id>
-  parse_boundary_ids(const std::string &text, const std::string &parameter,
-                     const dealii::Triangulation<dim> &triangulation)
+  std::set<Id> parse_boundary_ids(const std::string &text,
+                                  const std::string &parameter,
+                                  const std::vector<Id> &existing)
   {
-    const std::vector<Id> existing = triangulation.get_boundary_ids();
     std::set<Id> ids;
     for (const std::string &word : split_list(text, ','))
       if (word == "*")
@@ -150,10 +183,4 @@ namespace abut::app
 
   template class BoundaryExpressions<2>;
   template class BoundaryExpressions<3>;
-  template std::set<Id> parse_boundary_ids<2>(const std::string &,
-                                              const std::string &,
-                                              const dealii::Triangulation<2> &);
-  template std::set<Id> parse_boundary_ids<3>(const std::string &,
-                                              const std::string &,
-                                              const dealii::Triangulation<3> &);
 } // namespace abut::app

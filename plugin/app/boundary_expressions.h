@@ -9,6 +9,7 @@
 #include "expression.h"
 
 #include <deal.II/base/types.h>
+#include <deal.II/fe/component_mask.h>
 #include <deal.II/grid/tria.h>
 
 #include <map>
@@ -19,20 +20,35 @@
 
 namespace abut::app
 {
+  /** A function on a part of the boundary and its components that count. */
+  template <int dim> struct BoundaryCondition
+  {
+    const Expression<dim> *function;
+    dealii::ComponentMask components;
+  };
+
   /** A list such as `0: 0; 1, 3: x^2; *: sin(pi*y)`: what stands for an id
    * itself wins over `*`, which means all other ids of the mesh. Empty: none.
-   */
+   * The components of a vector are separated by commas, `0: x, y; 1: 0, 5`,
+   * and the word `free` stands for one without condition, `2: 0, free`. */
   template <int dim> class BoundaryExpressions
   {
   public:
-    /** Read the list; throws InputError that names @p parameter. */
+    /** Read the list; throws InputError that names @p parameter.
+     * @param may_be_free whether the word `free` is allowed */
     BoundaryExpressions(const std::string &text, const std::string &parameter,
-                        unsigned int n_components = 1);
+                        unsigned int n_components = 1,
+                        bool may_be_free = false);
 
-    /** Functions by id, as deal.II's interpolate_boundary_values() wants them;
-     * they live as long as this object. Throws InputError for an id that the
-     * mesh does not have, with those that it has.
+    /** Conditions by id; they live as long as this object. Throws InputError
+     * for an id that is not among @p existing, with those that are.
      * @param without ids that `*` does not mean (those of other conditions) */
+    std::map<dealii::types::boundary_id, BoundaryCondition<dim>>
+    conditions(const std::vector<dealii::types::boundary_id> &existing,
+               const std::set<dealii::types::boundary_id> &without = {}) const;
+
+    /** The functions of conditions() for the ids of a mesh, as deal.II's
+     * interpolate_boundary_values() wants them. */
     std::map<dealii::types::boundary_id, const dealii::Function<dim> *>
     functions(const dealii::Triangulation<dim> &triangulation,
               const std::set<dealii::types::boundary_id> &without = {}) const;
@@ -54,17 +70,20 @@ namespace abut::app
       bool others; /**< `*` */
       std::set<dealii::types::boundary_id> ids;
       std::unique_ptr<Expression<dim>> expression;
+      dealii::ComponentMask components;
     };
+    void set_formulas(Entry &entry, const std::string &text,
+                      unsigned int n_components, bool may_be_free) const;
+
     std::string parameter;
     std::vector<Entry> entries;
   };
 
-  /** Boundary ids `0, 2`, or `*` for all of the mesh; throws InputError that
-   * names @p parameter for what is not one or what the mesh does not have. */
-  template <int dim>
+  /** Boundary ids `0, 2`, or `*` for all; throws InputError that
+   * names @p parameter for what is not one or is not among @p existing. */
   std::set<dealii::types::boundary_id>
   parse_boundary_ids(const std::string &text, const std::string &parameter,
-                     const dealii::Triangulation<dim> &triangulation);
+                     const std::vector<dealii::types::boundary_id> &existing);
 } // namespace abut::app
 
 #endif

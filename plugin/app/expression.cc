@@ -169,15 +169,18 @@ namespace abut::app
         parameter_name(parameter),
         uses_time(false)
   {
-    const std::vector<std::string> formulas = split_list(text, ';');
+    std::vector<std::string> formulas = split_list(text, ';');
+    if (n_components > 1 && formulas.size() == 1)
+      formulas = split_list(text, ',');
     if (formulas.size() != n_components
         || std::find(formulas.begin(), formulas.end(), "") != formulas.end())
-      throw InputError(parameter,
-                       "'" + text + "' is not "
-                           + (n_components == 1
-                                  ? std::string("a formula.")
-                                  : std::to_string(n_components)
-                                        + " formulas separated by ';'."));
+      throw InputError(
+          parameter,
+          "'" + text + "' is not "
+              + (n_components == 1
+                     ? std::string("a formula.")
+                     : std::to_string(n_components)
+                           + " formulas separated by commas or ';'."));
     auto all = make_parser<dim>(formulas, text, parameter);
 
     bool any_varies = false;

@@ -17,7 +17,7 @@ namespace abut::app
 {
   /** A formula in the coordinates x, y (and z in 3D) and the time t, with the
    * constant pi, the functions of muParser and `if(condition, then, else)`.
-   * Components are separated by semicolons.
+   * Components are separated by commas or semicolons.
    *
    * A component without variables is evaluated once, at construction; then
    * value_list() only fills, since parsed formulas cost about 0.1 us per point

@@ -6,10 +6,8 @@
 #include "input_error.h"
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools.h>
 
 namespace abut::app
@@ -18,53 +16,33 @@ namespace abut::app
   Membrane<dim>::Membrane(
       dealii::parallel::distributed::Triangulation<dim> &triangulation,
       const unsigned int degree)
-      : fe(degree),
-        mapping(degree),
-        dof_handler(triangulation),
-        communicator(triangulation.get_communicator())
+      : DiscreteProblem<dim>(triangulation,
+                             std::make_unique<dealii::FE_Q<dim>>(degree))
   {
-  }
-
-  template <int dim> la::Vector Membrane<dim>::vector() const
-  {
-    return la::Vector(dof_handler.locally_owned_dofs(), communicator);
   }
 
   template <int dim> void Membrane<dim>::setup(const MembraneData<dim> &data)
   {
-    dof_handler.distribute_dofs(fe);
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-
-    hanging.reinit(relevant);
-    dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging);
-    constraints.reinit(relevant);
-    constraints.merge(hanging);
-    dealii::VectorTools::interpolate_boundary_values(
-        mapping, dof_handler, data.dirichlet, constraints);
-    constraints.close();
-    hanging.close();
-
-    stiffness.clear();
-    const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
-    dealii::DynamicSparsityPattern pattern(relevant);
-    dealii::DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints,
-                                            false);
-    dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned,
-                                                       communicator, relevant);
-    stiffness.reinit(owned, owned, pattern, communicator);
+    this->distribute(
+        [&](dealii::AffineConstraints<double> &values)
+        {
+          dealii::VectorTools::interpolate_boundary_values(
+              this->mapping, this->dof_handler, data.dirichlet, values);
+        });
   }
 
   template <int dim>
-  void Membrane<dim>::assemble_cells(const MembraneData<dim> &data)
+  void Membrane<dim>::assemble_cells(const MembraneData<dim> &data,
+                                     la::Vector &open)
   {
-    const dealii::QGauss<dim> quadrature(fe.degree + 1);
+    const dealii::QGauss<dim> quadrature(this->fe.degree + 1);
     dealii::UpdateFlags flags = dealii::update_values | dealii::update_gradients
                                 | dealii::update_JxW_values;
     if (!data.constant_load || !data.constant_conductivity)
       flags |= dealii::update_quadrature_points;
-    dealii::FEValues<dim> values(mapping, fe, quadrature, flags);
+    dealii::FEValues<dim> values(this->mapping, this->fe, quadrature, flags);
 
-    const unsigned int n = fe.n_dofs_per_cell();
+    const unsigned int n = this->fe.n_dofs_per_cell();
     dealii::FullMatrix<double> cell_matrix(n, n);
     dealii::Vector<double> cell_load(n);
     std::vector<dealii::types::global_dof_index> dofs(n);
@@ -73,7 +51,7 @@ namespace abut::app
     std::vector<double> f(quadrature.size(),
                           data.load->value(dealii::Point<dim>()));
 
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : this->dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
       {
         values.reinit(cell);
@@ -104,23 +82,25 @@ namespace abut::app
           for (unsigned int j = i + 1; j < n; ++j)
             cell_matrix(i, j) = cell_matrix(j, i);
         cell->get_dof_indices(dofs);
-        constraints.distribute_local_to_global(cell_matrix, cell_load, dofs,
-                                               stiffness, load);
+        this->constraints.distribute_local_to_global(
+            cell_matrix, cell_load, dofs, this->stiffness, open);
       }
   }
 
   template <int dim>
-  void Membrane<dim>::assemble_neumann(const MembraneData<dim> &data)
+  void Membrane<dim>::assemble_neumann(const MembraneData<dim> &data,
+                                       la::Vector &open)
   {
-    const dealii::QGauss<dim - 1> quadrature(fe.degree + 1);
-    dealii::FEFaceValues<dim> values(mapping, fe, quadrature,
+    const dealii::QGauss<dim - 1> quadrature(this->fe.degree + 1);
+    dealii::FEFaceValues<dim> values(this->mapping, this->fe, quadrature,
                                      dealii::update_values
                                          | dealii::update_JxW_values
                                          | dealii::update_quadrature_points);
-    dealii::Vector<double> cell_load(fe.n_dofs_per_cell());
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    dealii::Vector<double> cell_load(this->fe.n_dofs_per_cell());
+    std::vector<dealii::types::global_dof_index> dofs(
+        this->fe.n_dofs_per_cell());
     std::vector<double> flux(quadrature.size());
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : this->dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const auto &face : cell->face_iterators())
         {
@@ -137,58 +117,24 @@ namespace abut::app
               cell_load(i) +=
                   flux[q] * values.JxW(q) * values.shape_value(i, q);
           cell->get_dof_indices(dofs);
-          constraints.distribute_local_to_global(cell_load, dofs, load);
+          this->constraints.distribute_local_to_global(cell_load, dofs, open);
         }
   }
 
   template <int dim> void Membrane<dim>::assemble(const MembraneData<dim> &data)
   {
-    stiffness = 0.;
-    load.reinit(dof_handler.locally_owned_dofs(), relevant, communicator, true);
-    collective(communicator,
+    this->stiffness = 0.;
+    la::Vector open = this->open_load();
+    collective(this->communicator,
                [&]
                {
-                 assemble_cells(data);
+                 assemble_cells(data, open);
                  if (!data.neumann.empty())
-                   assemble_neumann(data);
+                   assemble_neumann(data, open);
                });
-    stiffness.compress(dealii::VectorOperation::add);
-    load.compress(dealii::VectorOperation::add);
-    la::Vector owned = vector();
-    owned = load;
-    load.swap(owned);
-  }
-
-  template <int dim>
-  void Membrane<dim>::residual(const la::Vector &u, la::Vector &result) const
-  {
-    stiffness.vmult(result, u);
-    result.add(-1., load);
-    constraints.set_zero(result);
-  }
-
-  template <int dim>
-  la::Vector
-  Membrane<dim>::ghosted(const la::Vector &owned,
-                         const dealii::AffineConstraints<double> &rules) const
-  {
-    la::Vector distributed(owned);
-    rules.distribute(distributed);
-    la::Vector result(dof_handler.locally_owned_dofs(), relevant, communicator);
-    result = distributed;
-    return result;
-  }
-
-  template <int dim>
-  la::Vector Membrane<dim>::ghosted(const la::Vector &owned) const
-  {
-    return ghosted(owned, constraints);
-  }
-
-  template <int dim>
-  la::Vector Membrane<dim>::ghosted_field(const la::Vector &owned) const
-  {
-    return ghosted(owned, hanging);
+    this->stiffness.compress(dealii::VectorOperation::add);
+    la::Vector closed = this->close_load(open);
+    this->load.swap(closed);
   }
 
   template class Membrane<2>;

@@ -2,8 +2,7 @@
 #include "obstacle_parameters.h"
 
 #include "input_error.h"
-
-#include <limits>
+#include "parameters.h"
 
 namespace abut::app
 {
@@ -48,41 +47,6 @@ namespace abut::app
       prm.leave_subsection();
     }
 
-    void declare_refinement(ParameterHandler &prm)
-    {
-      prm.enter_subsection("Refinement");
-      prm.declare_entry("Level", "5", Patterns::Integer(0, 30),
-                        "Uniform refinements of the coarse mesh.");
-      prm.declare_entry("Coarsest level", "3", Patterns::Integer(0, 30),
-                        "Level on which nested iteration begins; at most "
-                        "`Level`.");
-      prm.declare_entry("Nested iteration", "true", Patterns::Bool(),
-                        "Solve on all levels from the coarsest on, each "
-                        "started from the one before. Off: solve on `Level` "
-                        "from displacement 0.");
-      prm.declare_entry("Coarse level tolerance", "1e-3",
-                        Patterns::Double(0., 1.),
-                        "Linear, gap and pressure tolerance in the end on all "
-                        "meshes but the last, whose results are only a start "
-                        "(a thousandth of it for the barrier). Meshes whose "
-                        "results "
-                        "are wanted (an exact solution is given, or `All "
-                        "levels`) are solved to `Method/Final linear "
-                        "tolerance`.");
-      prm.declare_entry("Relaxation sweeps", "3", Patterns::Integer(0),
-                        "Symmetric projected Gauss-Seidel sweeps that improve "
-                        "each start of nested iteration.");
-      prm.declare_entry("Adaptive cycles", "0", Patterns::Integer(0),
-                        "Further meshes, refined where the error estimate is "
-                        "large.");
-      prm.declare_entry("Refine fraction", "0.6", Patterns::Double(0., 1.),
-                        "Part of the squared error estimate whose cells are "
-                        "refined in an adaptive cycle.");
-      prm.declare_entry("Coarsen fraction", "0.02", Patterns::Double(0., 1.),
-                        "Part of it whose cells are coarsened.");
-      prm.leave_subsection();
-    }
-
     void declare_results(ParameterHandler &prm)
     {
       prm.enter_subsection("Exact solution");
@@ -113,23 +77,6 @@ namespace abut::app
                         "median.");
       prm.leave_subsection();
     }
-
-    double number_or_nan(const std::string &text, const std::string &parameter)
-    {
-      if (text == "nan" || text.empty())
-        return std::numeric_limits<double>::quiet_NaN();
-      try
-      {
-        std::size_t end = 0;
-        const double value = std::stod(text, &end);
-        if (end == text.size())
-          return value;
-      }
-      catch (const std::exception &)
-      {
-      }
-      throw InputError(parameter, "'" + text + "' is not a number.");
-    }
   } // namespace
 
   void ObstacleParameters::declare(ParameterHandler &prm)
@@ -139,7 +86,7 @@ namespace abut::app
     prm.leave_subsection();
     declare_membrane(prm);
     declare_contact(prm);
-    declare_refinement(prm);
+    RefinementParameters::declare(prm, "5", "3");
     declare_results(prm);
   }
 
@@ -171,28 +118,15 @@ namespace abut::app
                        "There is no obstacle: give a formula, a height map or "
                        "an upper obstacle.");
 
-    prm.enter_subsection("Refinement");
-    level = prm.get_integer("Level");
-    coarsest_level = prm.get_integer("Coarsest level");
-    nested = prm.get_bool("Nested iteration");
-    relaxation_sweeps = prm.get_integer("Relaxation sweeps");
-    coarse_tolerance = prm.get_double("Coarse level tolerance");
-    adaptive_cycles = prm.get_integer("Adaptive cycles");
-    refine_fraction = prm.get_double("Refine fraction");
-    coarsen_fraction = prm.get_double("Coarsen fraction");
-    prm.leave_subsection();
-    coarsest_level = std::min(coarsest_level, level);
-    if (refine_fraction + coarsen_fraction > 1.)
-      throw InputError("Refinement/Coarsen fraction",
-                       "The fractions that are refined and coarsened add up "
-                       "to more than 1.");
+    refinement.parse(prm);
 
     prm.enter_subsection("Exact solution");
     exact_displacement = prm.get("Displacement");
     exact_gradient = prm.get("Gradient");
-    exact_energy = number_or_nan(prm.get("Energy"), "Exact solution/Energy");
-    exact_force =
-        number_or_nan(prm.get("Contact force"), "Exact solution/Contact force");
+    exact_energy =
+        parse_number_or_nan(prm.get("Energy"), "Exact solution/Energy");
+    exact_force = parse_number_or_nan(prm.get("Contact force"),
+                                      "Exact solution/Contact force");
     prm.leave_subsection();
 
     prm.enter_subsection("Output");

@@ -4,6 +4,7 @@
 
 #include "height_map.h"
 #include "mesh.h"
+#include "refinement_parameters.h"
 
 #include <abut/dealii/contact_assembler.h>
 
@@ -22,15 +23,7 @@ namespace abut::app
     std::string obstacle, upper_obstacle, boundary_ids;
     HeightMapParameters height_map;
 
-    // Refinement
-    unsigned int level = 0;
-    unsigned int coarsest_level = 0;
-    bool nested = true;
-    double coarse_tolerance = 1e-3;
-    unsigned int relaxation_sweeps = 3;
-    unsigned int adaptive_cycles = 0;
-    double refine_fraction = 0.6;
-    double coarsen_fraction = 0.02;
+    RefinementParameters refinement;
 
     // Exact solution
     std::string exact_displacement, exact_gradient;

@@ -18,10 +18,6 @@ namespace abut::app
 
   namespace
   {
-    const std::vector<std::string> step_columns = {
-        "level",  "step",    "n_active", "n_changes",   "linear_iterations",
-        "setups", "penalty", "barrier",  "penetration", "outer"};
-
     // In the order of draw_status()'s colours: two quiet ones first.
     const std::vector<StatusWord> status_words = {{-1, "no constraint"},
                                                   {0, "open"},
@@ -43,28 +39,6 @@ namespace abut::app
                             "energy", "contact_force", "penetration",
                             "l2_error", "h1_error", "estimate", "setup_seconds",
                             "krylov_seconds", "seconds"});
-  }
-
-  template <int dim> void ObstacleRun<dim>::write_steps() const
-  {
-    collective(communicator,
-               [&]
-               {
-                 if (MPI::this_mpi_process(communicator) != 0)
-                   return;
-                 std::ofstream out(options.output_folder / "steps.csv");
-                 for (std::size_t i = 0; i < step_columns.size(); ++i)
-                   out << (i > 0 ? "," : "") << step_columns[i];
-                 out << '\n' << std::setprecision(17);
-                 for (const auto &row : steps)
-                 {
-                   for (std::size_t i = 0; i < row.size(); ++i)
-                     out << (i > 0 ? "," : "") << row[i];
-                   out << '\n';
-                 }
-                 if (!out)
-                   throw std::runtime_error("Cannot write steps.csv.");
-               });
   }
 
   template <int dim> void ObstacleRun<dim>::write_fields()
@@ -243,12 +217,13 @@ namespace abut::app
     report.model("search", false,
                  "the obstacle is a function: its gap needs no search");
     report.model("friction", false, "a scalar field has no tangent to slide");
-    report.model("nested iteration", parameters.nested,
-                 parameters.nested
+    report.model("nested iteration", parameters.refinement.nested,
+                 parameters.refinement.nested
                      ? "each level starts from the one before"
                      : "switched off: the start is displacement 0");
-    report.model("adaptive refinement", parameters.adaptive_cycles > 0,
-                 parameters.adaptive_cycles > 0
+    report.model("adaptive refinement",
+                 parameters.refinement.adaptive_cycles > 0,
+                 parameters.refinement.adaptive_cycles > 0
                      ? "refined where the estimate is large"
                      : "no Adaptive cycles were asked for");
     const LinearReport &linear = levels.back().linear;
@@ -259,7 +234,6 @@ namespace abut::app
   }
 
   template void ObstacleRun<2>::declare_tables();
-  template void ObstacleRun<2>::write_steps() const;
   template void ObstacleRun<2>::write_fields();
   template void ObstacleRun<2>::write_nodal_values();
   template void ObstacleRun<2>::compare_with_linear_solves();
@@ -267,7 +241,6 @@ namespace abut::app
   template void ObstacleRun<2>::report_result(const ObstacleLevel &, bool);
   template void ObstacleRun<2>::report_model();
   template void ObstacleRun<3>::declare_tables();
-  template void ObstacleRun<3>::write_steps() const;
   template void ObstacleRun<3>::write_fields();
   template void ObstacleRun<3>::write_nodal_values();
   template void ObstacleRun<3>::compare_with_linear_solves();

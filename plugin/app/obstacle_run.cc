@@ -38,11 +38,11 @@ namespace abut::app
   {
     SectionTimes::Scope scope(report.times, "mesh");
     create_mesh(parameters.mesh, options, triangulation);
-    const double factor = std::pow(2., dim * double(parameters.level));
+    const double factor =
+        std::pow(2., dim * double(parameters.refinement.level));
     check_memory(dim, factor * triangulation.n_global_active_cells(),
                  parameters.degree, communicator, "Refinement/Level");
-    triangulation.refine_global(parameters.nested ? parameters.coarsest_level
-                                                  : parameters.level);
+    triangulation.refine_global(parameters.refinement.first_level());
   }
 
   template <int dim> void ObstacleRun<dim>::create_functions()
@@ -63,8 +63,9 @@ namespace abut::app
   template <int dim> void ObstacleRun<dim>::set_obstacle()
   {
     if (!parameters.boundary_ids.empty())
-      contact_ids = parse_boundary_ids<dim>(
-          parameters.boundary_ids, "Contact/Boundary ids", triangulation);
+      contact_ids =
+          parse_boundary_ids(parameters.boundary_ids, "Contact/Boundary ids",
+                             triangulation.get_boundary_ids());
 
     Obstacle<dim> obstacle;
     obstacle.boundary_ids = contact_ids;
@@ -171,9 +172,10 @@ namespace abut::app
       SectionTimes::Scope scope(report.times, "mesh");
       if (adaptive)
         dealii::parallel::distributed::GridRefinement::
-            refine_and_coarsen_fixed_fraction(triangulation, squared_estimate,
-                                              parameters.refine_fraction,
-                                              parameters.coarsen_fraction);
+            refine_and_coarsen_fixed_fraction(
+                triangulation, squared_estimate,
+                parameters.refinement.refine_fraction,
+                parameters.refinement.coarsen_fraction);
       else
         for (const auto &cell : triangulation.active_cell_iterators())
           if (cell->is_locally_owned())
@@ -196,24 +198,9 @@ namespace abut::app
 
   template <int dim> void ObstacleRun<dim>::set_tolerance(const bool last)
   {
-    MethodParameters here = method;
-    if (!last && !exact && !parameters.all_levels)
-    {
-      const double coarse = parameters.coarse_tolerance;
-      abut_strategy_options &o = here.options;
-      // Outer steps need linear solves that are finer than what they look at,
-      // and so do gaps that only the linear solver closes.
-      const bool rough = o.law->outer == ABUT_OUTER_NONE
-                         && here.system != System::saddle_point;
-      const double linear = rough ? coarse : 1e-2 * coarse;
-      o.final_linear_tolerance = std::max(o.final_linear_tolerance,
-                                          std::min(linear, o.linear_tolerance));
-      o.gap_tolerance = std::max(o.gap_tolerance, coarse);
-      o.pressure_tolerance = std::max(o.pressure_tolerance, coarse);
-      o.barrier_end =
-          std::max(o.barrier_end, std::min(1e-3 * coarse, o.barrier_start));
-    }
-    contact.set_parameters(here, solver);
+    const bool loose = !last && !exact && !parameters.all_levels;
+    contact.set_parameters(
+        loose ? parameters.refinement.loosened(method) : method, solver);
   }
 
   template <int dim>
@@ -238,31 +225,20 @@ namespace abut::app
       throw InputError("Contact/Obstacle", error.what());
     }
     const bool feasible = method.options.law->outer == ABUT_OUTER_BARRIER;
-    if (feasible || (warm && parameters.relaxation_sweeps > 0))
+    if (feasible || (warm && parameters.refinement.relaxation_sweeps > 0))
     {
       membrane.residual(u, residual);
-      contact.relax(membrane.stiffness, residual, parameters.relaxation_sweeps,
-                    u);
+      contact.relax(membrane.stiffness, residual,
+                    parameters.refinement.relaxation_sweeps, u);
     }
   }
 
   template <int dim>
   void ObstacleRun<dim>::record_step(const LinearReport &linear)
   {
-    const abut_progress progress = contact.progress();
     present.linear += linear;
     present.steps += linear.n_systems;
-    steps.push_back({double(present.level), double(present.steps),
-                     double(progress.n_active), double(progress.n_changes),
-                     double(linear.n_iterations), double(linear.n_setups),
-                     progress.penalty, progress.barrier, progress.penetration,
-                     double(progress.outer)});
-    std::string line = "  step " + std::to_string(present.steps) + ": "
-                       + std::to_string(progress.n_active) + " in contact, "
-                       + std::to_string(progress.n_changes) + " changed, "
-                       + std::to_string(linear.n_iterations)
-                       + " linear iterations";
-    report.progress(line);
+    steps.add(report, present.level, present.steps, contact.progress(), linear);
   }
 
   template <int dim> void ObstacleRun<dim>::iterate(la::Vector &residual)
@@ -386,25 +362,25 @@ namespace abut::app
     declare_tables();
     setup_level();
 
-    const unsigned int first =
-        parameters.nested ? parameters.coarsest_level : parameters.level;
-    const unsigned int last = parameters.level + parameters.adaptive_cycles;
+    const unsigned int first = parameters.refinement.first_level();
+    const unsigned int last = parameters.refinement.last_mesh();
     bool converged = true;
     for (unsigned int number = first; number <= last && converged; ++number)
     {
       if (number > first)
-        refine(number > parameters.level);
+        refine(number > parameters.refinement.level);
       present = ObstacleLevel();
       present.level = number;
       set_tolerance(number == last);
       converged = solve_level(number > first);
-      if (number >= parameters.level && parameters.adaptive_cycles > 0)
+      if (number >= parameters.refinement.level
+          && parameters.refinement.adaptive_cycles > 0)
         estimate();
       finish_level(number);
       if (parameters.all_levels || number == last || !converged)
         write_fields();
     }
-    write_steps();
+    steps.write(communicator, options.output_folder);
     if (parameters.nodal_values)
       write_nodal_values();
     if (parameters.linear_solves > 0)

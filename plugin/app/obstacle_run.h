@@ -8,6 +8,7 @@
 #include "membrane.h"
 #include "obstacle_parameters.h"
 #include "scene.h"
+#include "step_table.h"
 
 #include <abut/dealii/contact_assembler.h>
 
@@ -69,7 +70,6 @@ namespace abut::app
     void write_fields();
     void write_nodal_values();
     void draw();
-    void write_steps() const;
     void report_result(const ObstacleLevel &last, bool converged);
     void report_model();
     double counted_seconds() const;
@@ -96,7 +96,7 @@ namespace abut::app
     dealii::Vector<float> squared_estimate;
     ObstacleLevel present;
     std::vector<ObstacleLevel> levels;
-    std::vector<std::vector<double>> steps; ///< rows of steps.csv
+    StepTable steps;
     FieldSeries series;
     double counted_before = 0.;
   };

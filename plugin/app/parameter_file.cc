@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -266,5 +267,16 @@ namespace abut::app
       numbers.push_back(value);
     }
     return numbers;
+  }
+
+  double parse_number_or_nan(const std::string &text,
+                             const std::string &parameter)
+  {
+    if (text == "nan" || text.empty())
+      return std::numeric_limits<double>::quiet_NaN();
+    const std::vector<double> numbers = parse_numbers(text, parameter);
+    if (numbers.size() != 1)
+      throw InputError(parameter, "'" + text + "' is not a number.");
+    return numbers[0];
   }
 } // namespace abut::app

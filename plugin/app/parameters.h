@@ -82,6 +82,11 @@ namespace abut::app
    * @p parameter. "1 2, 3" gives {1, 2, 3}. */
   std::vector<double> parse_numbers(const std::string &text,
                                     const std::string &parameter);
+
+  /** A number, or NaN for `nan` and for an empty text (a value that is not
+   * known); throws InputError that names @p parameter. */
+  double parse_number_or_nan(const std::string &text,
+                             const std::string &parameter);
 } // namespace abut::app
 
 #endif

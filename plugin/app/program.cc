@@ -53,6 +53,7 @@ namespace abut::app
                                           "facets.");
         const unsigned int dimension = scene_dimension(file, kind);
         scene = kind.create(dimension);
+        scene->count(file);
         declare_all(prm, kind, *scene);
         file.apply(prm);
         parse();

@@ -6,6 +6,7 @@
  * Scenes: what the program can run.
  */
 
+#include "parameters.h"
 #include "report.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -47,6 +48,14 @@ namespace abut::app
   {
   public:
     virtual ~Scene() = default;
+
+    /** Take from the file what decides which parameters there are, such as
+     * the number of bodies. Called before declare(), and not at all for the
+     * reference, which shows one section of each kind. Throws InputError. Not
+     * collective. */
+    virtual void count(const ParameterFile &)
+    {
+    }
 
     /** Declare all parameters of this kind. `Scene`, `Dimension`, `Title` and
      * the section `Output` with `Pictures` are declared by the program (a

@@ -4,6 +4,7 @@
 #include "point_mass.h"
 #include "scene.h"
 #include "search_scene.h"
+#include "solid_scene.h"
 
 namespace abut::app
 {
@@ -28,7 +29,8 @@ namespace abut::app
         {"search",
          "contact search between two surfaces (or one and itself), by itself",
          {3, 2},
-         create_search_scene}};
+         create_search_scene},
+        {"solid", "elastic bodies", {2, 3}, create_solid_scene}};
     return kinds;
   }
 } // namespace abut::app

@@ -176,8 +176,9 @@ namespace abut::app
       const MeshParameters &mesh = parameters.mesh;
       dealii::Triangulation<dim> triangulation;
       create_mesh<dim>(mesh, options, triangulation);
-      const Ids ids = parse_boundary_ids<dim>(
-          parameters.surface_ids, mesh.section + "/Surface ids", triangulation);
+      const Ids ids = parse_boundary_ids(parameters.surface_ids,
+                                         mesh.section + "/Surface ids",
+                                         triangulation.get_boundary_ids());
       refine<dim>(parameters, ids, triangulation);
       SurfaceArrays surface;
       surface.dimension = dim;

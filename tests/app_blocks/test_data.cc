@@ -87,13 +87,27 @@ namespace
     Expect::near(map.at(0)->value({3, -1}), 2, 0, "value on 0");
     Expect::near(double(values.functions(mesh, {0}).size()), 3, 0,
                  "number of ids without 0");
-    const BoundaryExpressions<2> vectors("0: x; y; 1: 0; 5", "BC", 2);
+    const BoundaryExpressions<2> vectors("0: x, y; 1: 0, 5", "BC", 2);
     Expect::near(vectors.functions(mesh).at(1)->value({0, 0}, 1), 5, 0,
                  "second component on 1");
+    const BoundaryExpressions<2> supports("0: max(x, y), free; *: 0, 0", "BC",
+                                          2, true);
+    const auto conditions = supports.conditions({0, 1});
+    Expect::that(conditions.at(0).components[0]
+                     && !conditions.at(0).components[1]
+                     && conditions.at(1).components[1],
+                 "components that are free");
+    Expect::near(conditions.at(0).function->value({3, 7}), 7, 0,
+                 "commas within parentheses");
+    Expect::input_error([]() { BoundaryExpressions<2>("0: 1", "BC", 2); }, "BC",
+                        {"2 formulas separated by commas"});
+    Expect::input_error([]() { BoundaryExpressions<2>("0: 1, free", "BC", 2); },
+                        "BC", {"free"});
     Expect::that(BoundaryExpressions<2>(" ", "BC").empty(), "empty list");
-    Expect::that(parse_boundary_ids("0, 2", "B", mesh).size() == 2
-                     && parse_boundary_ids("*", "B", mesh).size() == 4
-                     && parse_boundary_ids("", "B", mesh).empty(),
+    const auto ids = mesh.get_boundary_ids();
+    Expect::that(parse_boundary_ids("0, 2", "B", ids).size() == 2
+                     && parse_boundary_ids("*", "B", ids).size() == 4
+                     && parse_boundary_ids("", "B", ids).empty(),
                  "lists of ids");
 
     Expect::input_error(
@@ -107,7 +121,7 @@ namespace
                         "BC", {"twice"});
     Expect::input_error([]() { BoundaryExpressions<2>("0: sin(", "BC"); }, "BC",
                         {"sin("});
-    Expect::input_error([&]() { parse_boundary_ids("9", "B", mesh); }, "B",
+    Expect::input_error([&]() { parse_boundary_ids("9", "B", ids); }, "B",
                         {"no boundary id 9"});
   }
 

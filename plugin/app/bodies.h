@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_BODIES_H
+#define ABUT_APP_BODIES_H
+
+/** @file
+ * Several bodies on one distributed mesh.
+ */
+
+#include "body_parameters.h"
+
+#include <deal.II/distributed/tria.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace abut::app
+{
+  /** The meshes of all bodies side by side in one triangulation: vertices,
+   * cells and boundary faces one body after the other, nothing merged, so
+   * that bodies that touch stay apart. Cells have the body's number, from 0,
+   * as material id.
+   *
+   * Boundary ids are the user's own, body by body; in the triangulation they
+   * are numbered anew so that each belongs to one body. */
+  template <int dim> class Bodies
+  {
+  public:
+    using BoundaryId = dealii::types::boundary_id;
+    using BoundaryIds = std::set<BoundaryId>;
+
+    explicit Bodies(const std::vector<BodyParameters> &parameters);
+
+    /** Make the coarse mesh of all bodies in the empty @p triangulation and
+     * refine each by its own `Refinements`. Throws InputError as
+     * create_mesh() does. @p further_levels of refinement are counted when
+     * memory is checked. Collective. */
+    void
+    create(const RunOptions &options, unsigned int degree,
+           unsigned int further_levels,
+           dealii::parallel::distributed::Triangulation<dim> &triangulation);
+
+    unsigned int size() const
+    {
+      return static_cast<unsigned int>(parameters.size());
+    }
+
+    const BodyParameters &operator[](const unsigned int body) const
+    {
+      return parameters[body];
+    }
+
+    /** Boundary ids that the user knows of a body, sorted. */
+    const std::vector<BoundaryId> &ids(const unsigned int body) const
+    {
+      return user_ids[body];
+    }
+
+    /** Number in the triangulation of a body's boundary id. */
+    BoundaryId number(unsigned int body, BoundaryId id) const;
+
+    /** "body 2, boundary 3" for a number of the triangulation. */
+    std::string name(BoundaryId number) const;
+
+    /** Body that a boundary number of the triangulation belongs to. */
+    unsigned int body_of(BoundaryId number) const;
+
+    /** The boundary numbers that a text such as `1: 3, 4; 2: *` names (body:
+     * its boundary ids). Throws InputError that names @p parameter. */
+    BoundaryIds surface(const std::string &text,
+                        const std::string &parameter) const;
+
+    /** The body, from 0, that the text before a colon names, and the rest of
+     * the text. Throws InputError that names @p parameter. */
+    std::pair<unsigned int, std::string>
+    split_body(const std::string &text, const std::string &parameter) const;
+
+  private:
+    using Mesh = dealii::Triangulation<dim>;
+
+    void merge(const std::vector<Mesh> &meshes, Mesh &all);
+    void refine_bodies(
+        dealii::parallel::distributed::Triangulation<dim> &triangulation) const;
+
+    const std::vector<BodyParameters> &parameters;
+    std::vector<std::vector<BoundaryId>> user_ids;
+    std::vector<std::pair<unsigned int, BoundaryId>> origin; ///< by number
+    std::map<std::pair<unsigned int, BoundaryId>, BoundaryId> numbers;
+  };
+} // namespace abut::app
+
+#endif

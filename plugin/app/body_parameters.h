@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_BODY_PARAMETERS_H
+#define ABUT_APP_BODY_PARAMETERS_H
+
+#include "mesh.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace abut::app
+{
+  /** A section `Body N` of a scene: shape, material, supports and loads. */
+  struct BodyParameters
+  {
+    std::string section; ///< "Body 1"
+    MeshParameters mesh;
+    unsigned int refinements = 0;
+    double young_modulus = 1.;
+    double poisson_ratio = 0.3;
+    double density = 0.;
+    std::string support, traction, pressure, body_force;
+
+    /** Declare the section of this name. */
+    static void declare(dealii::ParameterHandler &prm,
+                        const std::string &section);
+
+    /** Read it; throws InputError for a material that does not exist. */
+    void parse(dealii::ParameterHandler &prm, const std::string &section);
+
+    /** Full name of a parameter, for messages. */
+    std::string parameter(const std::string &name) const
+    {
+      return section + "/" + name;
+    }
+  };
+} // namespace abut::app
+
+#endif

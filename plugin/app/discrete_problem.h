@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_DISCRETE_PROBLEM_H
+#define ABUT_APP_DISCRETE_PROBLEM_H
+
+#include <abut/dealii/linear_algebra.h>
+
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+
+namespace abut::app
+{
+  /** Functions by boundary id. */
+  template <int dim>
+  using BoundaryFunctions =
+      std::map<dealii::types::boundary_id, const dealii::Function<dim> *>;
+
+  /** A linear problem K u = f on a mesh: unknowns, constraints, matrix and
+   * load vector. What K and f are is the matter of derived classes. */
+  template <int dim> class DiscreteProblem
+  {
+  public:
+    /** Adds prescribed values to constraints that hold hanging nodes. */
+    using Prescribe = std::function<void(dealii::AffineConstraints<double> &)>;
+
+    DiscreteProblem(
+        dealii::parallel::distributed::Triangulation<dim> &triangulation,
+        std::unique_ptr<dealii::FiniteElement<dim>> element);
+
+    /** Residual K u - f, 0 at constrained unknowns. */
+    void residual(const la::Vector &u, la::Vector &result) const;
+
+    /** Copy with the ghosts of this rank's cells, constraints applied. */
+    la::Vector ghosted(const la::Vector &owned) const;
+
+    /** The same for fields without prescribed values (pressure, gap): only
+     * hanging nodes are interpolated. */
+    la::Vector ghosted_field(const la::Vector &owned) const;
+
+    la::Vector vector() const;
+
+  private:
+    la::Vector ghosted(const la::Vector &owned,
+                       const dealii::AffineConstraints<double> &rules) const;
+
+    std::unique_ptr<dealii::FiniteElement<dim>> element;
+
+  public:
+    const dealii::FiniteElement<dim> &fe;
+    dealii::MappingQ<dim> mapping;
+    dealii::DoFHandler<dim> dof_handler;
+    dealii::AffineConstraints<double> constraints;
+    dealii::AffineConstraints<double> hanging;
+    dealii::IndexSet relevant;
+    la::Matrix stiffness;
+    la::Vector load;
+
+  protected:
+    /** Number unknowns, build constraints and the matrix's pattern for the
+     * present mesh. Collective. */
+    void distribute(const Prescribe &prescribe);
+
+    /** Build the constraints again, with other prescribed values for the same
+     * unknowns. Collective. */
+    void set_constraints(const Prescribe &prescribe);
+
+    /** A load vector that takes contributions to unknowns of other ranks. */
+    la::Vector open_load() const;
+
+    /** Sum the contributions of all ranks. Collective. */
+    la::Vector close_load(la::Vector &open) const;
+
+    const MPI_Comm communicator;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "nearest_node.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <array>
+#include <limits>
+
+namespace abut::app
+{
+  template <int dim>
+  NodalValue<dim> nearest_node(const dealii::Mapping<dim> &mapping,
+                               const dealii::DoFHandler<dim> &dof_handler,
+                               const la::Vector &field, const unsigned int body,
+                               const dealii::Point<dim> &point)
+  {
+    // Distance, position, value: compared in this order.
+    using Candidate = std::array<double, 1 + 2 * dim>;
+    Candidate best;
+    best.fill(0.);
+    best[0] = std::numeric_limits<double>::infinity();
+    const auto &fe = dof_handler.get_fe();
+    const auto &element = fe.base_element(0);
+    dealii::FEValues<dim> nodes(
+        mapping, element,
+        dealii::Quadrature<dim>(element.get_unit_support_points()),
+        dealii::update_quadrature_points);
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned() || cell->material_id() != body)
+        continue;
+      nodes.reinit(
+          static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+              cell));
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < nodes.n_quadrature_points; ++i)
+      {
+        const dealii::Point<dim> &x = nodes.quadrature_point(i);
+        Candidate candidate;
+        candidate[0] = x.distance(point);
+        if (candidate[0] > best[0])
+          continue;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          candidate[1 + d] = x[d];
+          candidate[1 + dim + d] =
+              field(dofs[fe.component_to_system_index(d, i)]);
+        }
+        best = std::min(best, candidate);
+      }
+    }
+    const auto all = dealii::Utilities::MPI::all_gather(
+        dof_handler.get_communicator(), best);
+    best = *std::min_element(all.begin(), all.end());
+    NodalValue<dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      result.position[d] = best[1 + d];
+      result.value[d] = best[1 + dim + d];
+    }
+    return result;
+  }
+
+  template NodalValue<2> nearest_node<2>(const dealii::Mapping<2> &,
+                                         const dealii::DoFHandler<2> &,
+                                         const la::Vector &, unsigned int,
+                                         const dealii::Point<2> &);
+  template NodalValue<3> nearest_node<3>(const dealii::Mapping<3> &,
+                                         const dealii::DoFHandler<3> &,
+                                         const la::Vector &, unsigned int,
+                                         const dealii::Point<3> &);
+} // namespace abut::app

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_RIGID_MODES_H
+#define ABUT_APP_RIGID_MODES_H
+
+#include "elastic_material.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace abut::app
+{
+  /** How a body can move without strain and without moving a support. */
+  struct RigidFreedom
+  {
+    unsigned int n_modes = 0;
+    /** Directions of a free translation, "x", or "a rotation". */
+    std::string description;
+  };
+
+  /** The rigid motions that supports leave to each body (by material id): the
+   * null space of the supported components of the nodes under the 3 or 6
+   * rigid motions (1 for axisymmetric bodies).
+   * @param supports components held, by boundary id. Collective. */
+  template <int dim>
+  std::vector<RigidFreedom>
+  rigid_freedom(const dealii::Mapping<dim> &mapping,
+                const dealii::DoFHandler<dim> &dof_handler,
+                unsigned int n_bodies, PlaneModel plane,
+                const std::map<dealii::types::boundary_id,
+                               dealii::ComponentMask> &supports);
+} // namespace abut::app
+
+#endif

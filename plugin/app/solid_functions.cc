@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_functions.h"
+
+#include <algorithm>
+
+namespace abut::app
+{
+  using dealii::types::boundary_id;
+
+  template <int dim>
+  SolidFunctions<dim>::SolidFunctions(const SolidParameters &parameters)
+      : parameters(parameters)
+  {
+    if (!parameters.gravity.empty())
+      gravity = std::make_unique<Expression<dim>>(parameters.gravity,
+                                                  "Solid/Gravity", dim);
+    for (const BodyParameters &body : parameters.bodies)
+      of_body.push_back(
+          {BoundaryExpressions<dim>(body.support, body.parameter("Support"),
+                                    dim, true),
+           BoundaryExpressions<dim>(body.traction, body.parameter("Traction"),
+                                    dim),
+           BoundaryExpressions<dim>(body.pressure, body.parameter("Pressure")),
+           std::make_unique<VolumeForce<dim>>(body.density, gravity.get(),
+                                              body.body_force,
+                                              body.parameter("Body force"))});
+  }
+
+  template <int dim>
+  ElasticData<dim>
+  SolidFunctions<dim>::data(const Bodies<dim> &bodies,
+                            const std::set<boundary_id> &surfaces) const
+  {
+    ElasticData<dim> result;
+    result.name = [&bodies](const boundary_id id) { return bodies.name(id); };
+    for (unsigned int body = 0; body < bodies.size(); ++body)
+    {
+      std::set<boundary_id> taken;
+      for (const boundary_id id : bodies.ids(body))
+        if (surfaces.count(bodies.number(body, id)) > 0)
+          taken.insert(id);
+      const auto add = [&](const BoundaryExpressions<dim> &list, auto &to)
+      {
+        for (const auto &[id, condition] :
+             list.conditions(bodies.ids(body), taken))
+        {
+          to[bodies.number(body, id)] = condition;
+        }
+      };
+      const OfBody &own = of_body[body];
+      add(own.traction, result.tractions);
+      add(own.pressure, result.pressures);
+      for (const auto &list :
+           {own.traction.conditions(bodies.ids(body), taken),
+            own.pressure.conditions(bodies.ids(body), taken)})
+        for (const auto &entry : list)
+          taken.insert(entry.first);
+      add(own.support, result.supports);
+      if (own.force->is_present())
+        result.body_force[body] = own.force.get();
+      const BodyParameters &given = parameters.bodies[body];
+      result.materials[body] = {given.young_modulus, given.poisson_ratio,
+                                parameters.plane};
+    }
+    return result;
+  }
+
+  template <int dim> void SolidFunctions<dim>::set_time(const double time)
+  {
+    if (gravity)
+      gravity->set_time(time);
+    for (OfBody &body : of_body)
+    {
+      for (BoundaryExpressions<dim> *list :
+           {&body.support, &body.traction, &body.pressure})
+        list->set_time(time);
+      body.force->set_time(time);
+    }
+  }
+
+  template <int dim> bool SolidFunctions<dim>::supports_move() const
+  {
+    return std::any_of(of_body.begin(), of_body.end(),
+                       [](const OfBody &body)
+                       { return body.support.depends_on_time(); });
+  }
+
+  template class SolidFunctions<2>;
+  template class SolidFunctions<3>;
+} // namespace abut::app

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_parameters.h"
+
+#include "input_error.h"
+
+namespace abut::app
+{
+  namespace
+  {
+    using dealii::ParameterHandler;
+    namespace Patterns = dealii::Patterns;
+
+    /** Numbered sections that a file may have of one kind. */
+    constexpr unsigned int most = 100;
+
+    unsigned int count(const ParameterFile &file, const std::string &parameter,
+                       const unsigned int smallest,
+                       const unsigned int otherwise)
+    {
+      const std::string text = file.get(parameter, std::to_string(otherwise));
+      const std::vector<double> value = parse_numbers(text, parameter);
+      if (value.size() != 1 || value[0] < smallest || value[0] > most
+          || value[0] != static_cast<unsigned int>(value[0]))
+        throw InputError(parameter, "'" + text + "' is not a whole number from "
+                                        + std::to_string(smallest) + " to "
+                                        + std::to_string(most) + ".");
+      return static_cast<unsigned int>(value[0]);
+    }
+
+    std::string body_section(const unsigned int body)
+    {
+      return "Body " + std::to_string(body + 1);
+    }
+
+    void declare_solid(ParameterHandler &prm)
+    {
+      prm.enter_subsection("Solid");
+      prm.declare_entry("Bodies", "1", Patterns::Integer(1, most),
+                        "Number of bodies: there are as many sections `Body "
+                        "1`, `Body 2`, ...");
+      prm.declare_entry("Degree", "1", Patterns::Integer(1, 2),
+                        "Polynomial degree of the displacement: 1 or 2.");
+      // Known in both dimensions, so that one reference tells of it.
+      prm.declare_entry("Plane", "strain",
+                        Patterns::Selection("strain|stress|axisymmetric"),
+                        "What 2D stands for: plane strain, plane stress (per "
+                        "unit of thickness), or a body of revolution about x "
+                        "= 0, whose forces are those of the full circle. "
+                        "Without meaning in 3D.");
+      prm.declare_entry("Gravity", "", Patterns::Anything(),
+                        "Acceleration: a formula for each component, separated "
+                        "by commas. Empty: none.");
+      prm.leave_subsection();
+    }
+
+    void declare_results(ParameterHandler &prm)
+    {
+      prm.enter_subsection("Exact solution");
+      prm.declare_entry("Displacement", "", Patterns::Anything(),
+                        "A formula for each component, separated by commas; if "
+                        "given, errors are computed.");
+      prm.declare_entry("Gradient", "", Patterns::Anything(),
+                        "Its gradient, `du_x/dx, du_x/dy, du_y/dx, du_y/dy`. "
+                        "Empty: by differences.");
+      prm.declare_entry("Energy", "nan", Patterns::Anything(),
+                        "Energy of the exact solution; nan: not known.");
+      prm.leave_subsection();
+
+      prm.enter_subsection("Output");
+      prm.declare_entry("Fields", "true", Patterns::Bool(),
+                        "Write displacement and stress as VTU and PVD files "
+                        "for ParaView.");
+      prm.declare_entry("All levels", "false", Patterns::Bool(),
+                        "Write fields on every level, not only on the last.");
+      prm.declare_entry("Points", "", Patterns::Anything(),
+                        "Where displacements are wanted: the summary gets "
+                        "those of the nodes nearest to the points `1: 0, 0; 2: "
+                        "1, 0.5` (body: coordinates without load) as point_1, "
+                        "point_2, ...");
+      prm.leave_subsection();
+    }
+  } // namespace
+
+  SolidCounts SolidCounts::read(const ParameterFile &file)
+  {
+    SolidCounts counts;
+    counts.bodies = count(file, "Solid/Bodies", 1, 1);
+    return counts;
+  }
+
+  void SolidParameters::declare(ParameterHandler &prm,
+                                const SolidCounts &counts)
+  {
+    declare_solid(prm);
+    for (unsigned int body = 0; body < counts.bodies; ++body)
+      BodyParameters::declare(prm, body_section(body));
+    LoadStepParameters::declare(prm);
+    RefinementParameters::declare(prm, "2", "0");
+    declare_results(prm);
+  }
+
+  void SolidParameters::parse(ParameterHandler &prm, const SolidCounts &counts)
+  {
+    prm.enter_subsection("Solid");
+    degree = prm.get_integer("Degree");
+    const std::string word = prm.get("Plane");
+    plane = word == "strain"   ? PlaneModel::strain
+            : word == "stress" ? PlaneModel::stress
+                               : PlaneModel::axisymmetric;
+    gravity = prm.get("Gravity");
+    prm.leave_subsection();
+    bodies.resize(counts.bodies);
+    for (unsigned int body = 0; body < counts.bodies; ++body)
+      bodies[body].parse(prm, body_section(body));
+    load_steps.parse(prm);
+    refinement.parse(prm);
+
+    prm.enter_subsection("Exact solution");
+    exact_displacement = prm.get("Displacement");
+    exact_gradient = prm.get("Gradient");
+    exact_energy =
+        parse_number_or_nan(prm.get("Energy"), "Exact solution/Energy");
+    prm.leave_subsection();
+
+    prm.enter_subsection("Output");
+    fields = prm.get_bool("Fields");
+    all_levels = prm.get_bool("All levels");
+    points = prm.get("Points");
+    prm.leave_subsection();
+  }
+} // namespace abut::app

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a run of the scene `solid` leaves behind.
+#include "input_error.h"
+#include "nearest_node.h"
+#include "solid_run.h"
+
+#include <deal.II/base/mpi.h>
+
+namespace abut::app
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  template <int dim> void SolidRun<dim>::declare_tables()
+  {
+    report.declare_columns({"load_step", "time", "level", "cells", "dofs",
+                            "constraints", "active", "steps",
+                            "linear_iterations", "matvecs", "setups", "energy",
+                            "l2_error", "h1_error", "energy_norm_error",
+                            "setup_seconds", "krylov_seconds", "seconds"});
+  }
+
+  template <int dim> void SolidRun<dim>::finish_state()
+  {
+    const double counted = counted_seconds();
+    present.seconds = counted - counted_before;
+    counted_before = counted;
+    SectionTimes::Scope scope(report.times, "results");
+    present.cells = triangulation.n_global_active_cells();
+    present.dofs = elasticity.dof_handler.n_dofs();
+    present.energy = elasticity.energy(u);
+    if (exact)
+      present.errors =
+          error_norms(elasticity.mapping, elasticity.dof_handler,
+                      elasticity.ghosted(u), *exact, &data.materials);
+    std::map<std::string, double> row = {
+        {"load_step", present.load_step},
+        {"time", present.time},
+        {"level", present.level},
+        {"cells", double(present.cells)},
+        {"dofs", double(present.dofs)},
+        {"constraints", double(present.rows)},
+        {"active", double(present.active)},
+        {"steps", present.steps},
+        {"linear_iterations", present.linear.n_iterations},
+        {"matvecs", present.linear.n_matvecs},
+        {"setups", present.linear.n_setups},
+        {"energy", present.energy},
+        {"setup_seconds", present.linear.setup_seconds},
+        {"krylov_seconds", present.linear.solve_seconds},
+        {"seconds", present.seconds}};
+    if (present.errors)
+    {
+      row["l2_error"] = present.errors->l2;
+      row["h1_error"] = present.errors->h1_seminorm;
+      row["energy_norm_error"] = *present.errors->energy;
+    }
+    report.add_row(row);
+    states.push_back(present);
+    report.add("nonlinear_iterations", present.steps);
+    report.add("linear_iterations", present.linear.n_iterations);
+    report.add("matvecs", present.linear.n_matvecs);
+    report.progress(
+        "time " + short_number(present.time, 6) + ", level "
+        + std::to_string(present.level) + ": " + std::to_string(present.dofs)
+        + " unknowns, " + std::to_string(present.linear.n_iterations)
+        + " linear iterations, energy " + short_number(present.energy, 8));
+  }
+
+  template <int dim> void SolidRun<dim>::write_fields()
+  {
+    if (!parameters.fields)
+      return;
+    SectionTimes::Scope scope(report.times, "output");
+    const la::Vector displacement = elasticity.ghosted(u);
+    dealii::Vector<float> body(triangulation.n_active_cells());
+    for (const auto &cell : triangulation.active_cell_iterators())
+      body(cell->active_cell_index()) = float(cell->material_id() + 1);
+    Fields<dim> fields{elasticity.mapping,
+                       elasticity.dof_handler,
+                       {{"displacement", &displacement}},
+                       {{"body", &body}}};
+    // Coarser meshes come before the time of the first load step.
+    const double last = parameters.refinement.last_mesh();
+    series.write(is_last_mesh() ? present.time : present.level - last, fields);
+  }
+
+  template <int dim> void SolidRun<dim>::report_points()
+  {
+    const la::Vector displacement = elasticity.ghosted(u);
+    unsigned int number = 0;
+    for (const std::string &part : split_list(parameters.points, ';'))
+    {
+      const auto [body, text] = bodies.split_body(part, "Output/Points");
+      const std::vector<double> x = parse_numbers(text, "Output/Points");
+      if (x.size() != dim)
+        throw InputError("Output/Points", "'" + part + "' does not have "
+                                              + std::to_string(dim)
+                                              + " coordinates.");
+      dealii::Point<dim> point;
+      for (unsigned int d = 0; d < dim; ++d)
+        point[d] = x[d];
+      const NodalValue<dim> node =
+          nearest_node(elasticity.mapping, elasticity.dof_handler, displacement,
+                       body, point);
+      const std::string key = "point_" + std::to_string(++number);
+      report.set(key, std::vector<double>(node.value.begin_raw(),
+                                          node.value.end_raw()));
+      report.set(key + "_node", std::vector<double>(node.position.begin_raw(),
+                                                    node.position.end_raw()));
+    }
+  }
+
+  template <int dim> void SolidRun<dim>::report_reactions()
+  {
+    const la::Vector forces = elasticity.unbalanced_forces(u);
+    const dealii::IndexSet &owned = elasticity.dof_handler.locally_owned_dofs();
+    std::vector<bool> seen(owned.n_elements(), false);
+    std::vector<double> sums(dim * bodies.size(), 0.);
+    const auto &fe = elasticity.fe;
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    for (const auto &cell : elasticity.dof_handler.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        if (!owned.is_element(dofs[i])
+            || !elasticity.constraints.is_constrained(dofs[i]))
+          continue;
+        const auto local = owned.index_within_set(dofs[i]);
+        if (seen[local])
+          continue;
+        seen[local] = true;
+        sums[cell->material_id() * dim
+             + fe.system_to_component_index(i).first] += forces(dofs[i]);
+      }
+    }
+    MPI::sum(sums, communicator, sums);
+    for (unsigned int body = 0; body < bodies.size(); ++body)
+      report.set("reaction_" + std::to_string(body + 1),
+                 std::vector<double>(sums.begin() + body * dim,
+                                     sums.begin() + (body + 1) * dim));
+  }
+
+  template <int dim> void SolidRun<dim>::report_result(const bool converged)
+  {
+    SectionTimes::Scope scope(report.times, "results");
+    report.set("converged", converged);
+    report.set("bodies", bodies.size());
+    report.set("load_steps", load_steps.n_accepted);
+    report.set("load_steps_cut_back", load_steps.n_rejected);
+    if (states.empty())
+      return;
+    const SolidState &last = states.back();
+    report.set("time", last.time);
+    report.set("cells", last.cells);
+    report.set("dofs", last.dofs);
+    report.set("constraints", last.rows);
+    report.set("active", last.active);
+    report.set("energy", last.energy);
+    report.set("steps_on_last_level", last.steps);
+    report.set("linear_iterations_on_last_level", last.linear.n_iterations);
+    if (last.errors)
+    {
+      report.set("l2_error", last.errors->l2);
+      report.set("h1_error", last.errors->h1_seminorm);
+      report.set("energy_norm_error", *last.errors->energy);
+      report.set("nodal_error", last.errors->largest_node);
+    }
+    if (!std::isnan(parameters.exact_energy))
+      report.set("energy_error",
+                 std::abs(last.energy - parameters.exact_energy));
+    report_points();
+    report_reactions();
+  }
+
+  template <int dim> void SolidRun<dim>::report_model()
+  {
+    report.model("contact", false, "no pairs were given");
+    report.model("nested iteration", parameters.refinement.nested,
+                 parameters.refinement.nested
+                     ? "each level starts from the one before"
+                     : "switched off: the start is displacement 0");
+    report.model("load steps", parameters.load_steps.steps > 1,
+                 std::to_string(load_steps.n_accepted) + " of "
+                     + std::to_string(parameters.load_steps.steps)
+                     + " asked for");
+    report.model("inertia", false, "each load step is in equilibrium");
+    report.model("large strain", false,
+                 "strains are linear in the displacement");
+  }
+
+  template void SolidRun<2>::declare_tables();
+  template void SolidRun<2>::finish_state();
+  template void SolidRun<2>::write_fields();
+  template void SolidRun<2>::report_points();
+  template void SolidRun<2>::report_reactions();
+  template void SolidRun<2>::report_result(bool);
+  template void SolidRun<2>::report_model();
+  template void SolidRun<3>::declare_tables();
+  template void SolidRun<3>::finish_state();
+  template void SolidRun<3>::write_fields();
+  template void SolidRun<3>::report_points();
+  template void SolidRun<3>::report_reactions();
+  template void SolidRun<3>::report_result(bool);
+  template void SolidRun<3>::report_model();
+} // namespace abut::app

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_run.h"
+
+#include "collective.h"
+#include "input_error.h"
+
+#include <deal.II/distributed/solution_transfer.h>
+
+namespace abut::app
+{
+  using dealii::types::boundary_id;
+
+  template <int dim>
+  SolidRun<dim>::SolidRun(const SolidParameters &parameters,
+                          const MethodParameters &method,
+                          const SolverParameters &solver,
+                          const RunOptions &options, Report &report)
+      : parameters(parameters),
+        method(method),
+        solver(solver),
+        options(options),
+        report(report),
+        communicator(options.communicator),
+        bodies(parameters.bodies),
+        triangulation(communicator),
+        elasticity(triangulation, parameters.degree),
+        linear_solver(solver),
+        load_steps(parameters.load_steps),
+        series(options.output_folder, "fields", communicator)
+  {
+  }
+
+  template <int dim> void SolidRun<dim>::create_functions()
+  {
+    functions = std::make_unique<SolidFunctions<dim>>(parameters);
+    if (!parameters.exact_displacement.empty())
+      exact = std::make_unique<ExactSolution<dim>>(
+          parameters.exact_displacement, "Exact solution/Displacement",
+          parameters.exact_gradient, "Exact solution/Gradient", dim);
+  }
+
+  template <int dim> void SolidRun<dim>::create_mesh()
+  {
+    SectionTimes::Scope scope(report.times, "mesh");
+    const RefinementParameters &levels = parameters.refinement;
+    bodies.create(options, parameters.degree, levels.level, triangulation);
+    mesh_number = levels.first_level();
+    triangulation.refine_global(mesh_number);
+  }
+
+  template <int dim> void SolidRun<dim>::set_data()
+  {
+    data = functions->data(bodies, {});
+  }
+
+  template <int dim> void SolidRun<dim>::check_supports()
+  {
+    std::map<boundary_id, dealii::ComponentMask> held;
+    for (const auto &[id, support] : data.supports)
+      held[id] = support.components;
+    freedom = rigid_freedom(elasticity.mapping, elasticity.dof_handler,
+                            bodies.size(), parameters.plane, held);
+    for (unsigned int body = 0; body < bodies.size(); ++body)
+      if (freedom[body].n_modes > 0)
+        throw InputError(bodies[body].parameter("Support"),
+                         "body " + std::to_string(body + 1)
+                             + " is held too little: its supports allow "
+                             + freedom[body].description
+                             + ", and it has no contact.");
+  }
+
+  template <int dim> void SolidRun<dim>::prepare()
+  {
+    collective(communicator, [&] { create_functions(); });
+    create_mesh();
+    collective(communicator, [&] { set_data(); });
+    functions->set_time(load_steps.target());
+    setup_mesh();
+    check_supports();
+    u = elasticity.vector();
+  }
+
+  template <int dim> void SolidRun<dim>::check()
+  {
+    prepare();
+    assemble_load();
+    report.set("dofs", elasticity.dof_handler.n_dofs());
+    report.set("bodies", bodies.size());
+  }
+
+  template <int dim> void SolidRun<dim>::setup_mesh()
+  {
+    {
+      SectionTimes::Scope scope(report.times, "unknowns and pattern");
+      elasticity.setup(data);
+    }
+    SectionTimes::Scope scope(report.times, "assembly");
+    elasticity.assemble_stiffness(data);
+    linear_solver.reinit(elasticity.stiffness);
+  }
+
+  template <int dim> void SolidRun<dim>::assemble_load()
+  {
+    SectionTimes::Scope scope(report.times, "assembly");
+    elasticity.assemble_load(data);
+  }
+
+  template <int dim> void SolidRun<dim>::set_time(const double time)
+  {
+    functions->set_time(time);
+    if (exact)
+      exact->set_time(time);
+    if (functions->supports_move())
+      elasticity.set_supports(data);
+  }
+
+  template <int dim> void SolidRun<dim>::refine()
+  {
+    using Transfer =
+        dealii::parallel::distributed::SolutionTransfer<dim, la::Vector>;
+    const la::Vector u_old = elasticity.ghosted(u);
+    Transfer transfer(elasticity.dof_handler);
+    {
+      SectionTimes::Scope scope(report.times, "mesh");
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          cell->set_refine_flag();
+      triangulation.prepare_coarsening_and_refinement();
+      transfer.prepare_for_coarsening_and_refinement(u_old);
+      triangulation.execute_coarsening_and_refinement();
+    }
+    setup_mesh();
+    SectionTimes::Scope scope(report.times, "transfer");
+    u = elasticity.vector();
+    transfer.interpolate(u);
+    ++mesh_number;
+  }
+
+  template <int dim> bool SolidRun<dim>::is_last_mesh() const
+  {
+    return mesh_number >= parameters.refinement.last_mesh();
+  }
+
+  template <int dim> bool SolidRun<dim>::solve_without_contact()
+  {
+    SectionTimes::Scope scope(report.times, "solve");
+    la::Vector residual = elasticity.vector();
+    elasticity.constraints.distribute(u);
+    elasticity.residual(u, residual);
+    residual *= -1.;
+    solve::Mask nothing;
+    nothing.held.assign(la::n_owned(u), 0);
+    la::Vector load(elasticity.load);
+    elasticity.constraints.set_zero(load);
+    la::Vector increment = elasticity.vector();
+    const LinearReport linear = linear_solver.solve(
+        nothing, residual,
+        method.options.final_linear_tolerance * load.l2_norm(), increment,
+        true);
+    u += increment;
+    elasticity.constraints.distribute(u);
+    present.linear += linear;
+    ++present.steps;
+    return true;
+  }
+
+  template <int dim> bool SolidRun<dim>::solve()
+  {
+    present = SolidState();
+    present.load_step = load_steps.n_accepted + 1;
+    present.time = load_steps.target();
+    present.level = mesh_number;
+    assemble_load();
+    try
+    {
+      return solve_without_contact();
+    }
+    catch (const SolverFailure &failure)
+    {
+      report.warn(failure.what());
+      return false;
+    }
+  }
+
+  template <int dim> bool SolidRun<dim>::solve_on_hierarchy()
+  {
+    while (solve())
+    {
+      finish_state();
+      if (is_last_mesh())
+        return true;
+      if (parameters.all_levels)
+        write_fields();
+      refine();
+    }
+    return false;
+  }
+
+  template <int dim> double SolidRun<dim>::counted_seconds() const
+  {
+    return report.times.seconds("assembly") + report.times.seconds("transfer")
+           + report.times.seconds("solve");
+  }
+
+  template <int dim> Outcome SolidRun<dim>::run()
+  {
+    prepare();
+    declare_tables();
+    bool goes_on = true;
+    while (goes_on && !load_steps.is_finished())
+    {
+      const la::Vector before(u);
+      set_time(load_steps.target());
+      const bool first = load_steps.n_accepted == 0;
+      const bool solved = first ? solve_on_hierarchy() : solve();
+      if (solved)
+      {
+        if (!first)
+          finish_state();
+        write_fields();
+        load_steps.accept();
+        continue;
+      }
+      u = first ? elasticity.vector() : before;
+      goes_on = load_steps.reject();
+      if (goes_on)
+        report.progress("load step cut back, next time "
+                        + std::to_string(load_steps.target()));
+    }
+    steps.write(communicator, options.output_folder);
+    report_result(goes_on);
+    report_model();
+    return goes_on ? Outcome::converged : Outcome::unusable;
+  }
+
+  template class SolidRun<2>;
+  template class SolidRun<3>;
+} // namespace abut::app

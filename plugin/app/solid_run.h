@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_SOLID_RUN_H
+#define ABUT_APP_SOLID_RUN_H
+
+#include "error_norms.h"
+#include "field_output.h"
+#include "rigid_modes.h"
+#include "solid_functions.h"
+#include "step_table.h"
+
+#include <abut/dealii/contact_assembler.h>
+
+#include "solve/masked_solver.h"
+
+#include <deal.II/distributed/tria.h>
+
+#include <memory>
+#include <optional>
+
+namespace abut::app
+{
+  /** Results of one mesh, or of one load step on the last mesh. */
+  struct SolidState
+  {
+    unsigned int load_step = 0;
+    double time = 0.;
+    unsigned int level = 0;
+    unsigned int steps = 0;
+    LinearReport linear;
+    abut_progress progress = {};
+    dealii::types::global_dof_index cells = 0, dofs = 0, rows = 0, active = 0;
+    double energy = 0.;
+    std::optional<ErrorNorms> errors;
+    std::optional<double> estimate;
+    double seconds = 0.; ///< since the end of the state before, counted parts
+  };
+
+  /** One run of the scene `solid`: the first load step by nested iteration
+   * over uniform levels and adaptive cycles, the others on the last mesh. */
+  template <int dim> class SolidRun
+  {
+  public:
+    SolidRun(const SolidParameters &parameters, const MethodParameters &method,
+             const SolverParameters &solver, const RunOptions &options,
+             Report &report);
+
+    /** Everything up to the first solve: meshes, supports, loads. */
+    void check();
+
+    /** Solve; results into the report and the output folder. */
+    Outcome run();
+
+  private:
+    void create_functions();
+    void create_mesh();
+    void set_data();
+    void check_supports();
+    void prepare();
+    void set_time(double time);
+    void setup_mesh();
+    void assemble_load();
+    void refine();
+    bool solve_on_hierarchy();
+    bool solve();
+    bool solve_without_contact();
+    bool is_last_mesh() const;
+    double counted_seconds() const;
+
+    // Results, in solid_results.cc
+    void declare_tables();
+    void finish_state();
+    void write_fields();
+    void report_points();
+    void report_reactions();
+    void report_result(bool converged);
+    void report_model();
+
+    const SolidParameters &parameters;
+    const MethodParameters &method;
+    const SolverParameters &solver;
+    const RunOptions &options;
+    Report &report;
+    const MPI_Comm communicator;
+
+    Bodies<dim> bodies;
+    dealii::parallel::distributed::Triangulation<dim> triangulation;
+    Elasticity<dim> elasticity;
+    solve::MaskedSolver linear_solver;
+
+    std::unique_ptr<SolidFunctions<dim>> functions;
+    std::unique_ptr<ExactSolution<dim>> exact;
+    ElasticData<dim> data;
+    std::vector<RigidFreedom> freedom; ///< by body
+    LoadSteps load_steps;
+
+    la::Vector u; ///< displacement, owned
+    unsigned int mesh_number = 0;
+    SolidState present;
+    std::vector<SolidState> states;
+    StepTable steps;
+    FieldSeries series;
+    double counted_before = 0.;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_scene.h"
+
+#include "solid_run.h"
+
+namespace abut::app
+{
+  namespace
+  {
+    template <int dim> class SolidScene : public Scene
+    {
+    public:
+      void count(const ParameterFile &file) override
+      {
+        counts = SolidCounts::read(file);
+      }
+
+      void declare(dealii::ParameterHandler &prm) const override
+      {
+        SolidParameters::declare(prm, counts);
+        ContactAssembler<dim>::declare_parameters(prm);
+      }
+
+      void parse(dealii::ParameterHandler &prm) override
+      {
+        parameters.parse(prm, counts);
+        method.parse_parameters(prm);
+        solver.parse_parameters(prm);
+      }
+
+      void check(const RunOptions &options, Report &report) override
+      {
+        SolidRun<dim>(parameters, method, solver, options, report).check();
+      }
+
+      Outcome run(const RunOptions &options, Report &report) override
+      {
+        return SolidRun<dim>(parameters, method, solver, options, report).run();
+      }
+
+    private:
+      SolidCounts counts;
+      SolidParameters parameters;
+      MethodParameters method;
+      SolverParameters solver;
+    };
+  } // namespace
+
+  std::unique_ptr<Scene> create_solid_scene(const unsigned int dimension)
+  {
+    if (dimension == 3)
+      return std::make_unique<SolidScene<3>>();
+    return std::make_unique<SolidScene<2>>();
+  }
+} // namespace abut::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_STEP_TABLE_H
+#define ABUT_APP_STEP_TABLE_H
+
+#include "report.h"
+
+#include <abut/dealii/solver_parameters.h>
+#include <abut/strategy.h>
+
+#include <filesystem>
+#include <vector>
+
+namespace abut::app
+{
+  /** `steps.csv`: a row per linear system of a contact iteration. */
+  class StepTable
+  {
+  public:
+    /** Note a step and print a line of progress.
+     * @param level of the mesh or number of the load step
+     * @param step number within it */
+    void add(Report &report, unsigned int level, unsigned int step,
+             const abut_progress &progress, const LinearReport &linear);
+
+    /** Write the table into @p folder. Collective. */
+    void write(MPI_Comm communicator,
+               const std::filesystem::path &folder) const;
+
+  private:
+    std::vector<std::vector<double>> rows;
+  };
+} // namespace abut::app
+
+#endif

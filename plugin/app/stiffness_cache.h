@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_STIFFNESS_CACHE_H
+#define ABUT_APP_STIFFNESS_CACHE_H
+
+/** @file
+ * Stiffness matrices of cells, computed once for cells of the same shape.
+ */
+
+#include "elastic_material.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+
+namespace abut::app
+{
+  /** Computes the stiffness matrix of a cell of an isotropic elastic body,
+   *
+   *     K_(i,a)(j,b) = int lambda d_a phi_i d_b phi_j + mu d_b phi_i d_a phi_j
+   *                      + mu delta_ab grad phi_i . grad phi_j
+   *
+   * and for axisymmetric ones the terms of the hoop strain, with 2 pi r in
+   * the integral.
+   *
+   * Cells whose edges are straight and equal up to 1e-11 of their size, a
+   * shift and a common factor share one matrix, scaled by size^(dim-2): most
+   * of the cells of meshes made of bricks. Where hardly any two are alike,
+   * nothing is kept. */
+  template <int dim> class StiffnessCache
+  {
+  public:
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+    /** @p fe is a system of dim equal components; all arguments must outlive
+     * this object. */
+    StiffnessCache(const dealii::Mapping<dim> &mapping,
+                   const dealii::FiniteElement<dim> &fe,
+                   const ElasticMaterials &materials);
+
+    /** Matrix of @p cell, valid until the next call. */
+    const dealii::FullMatrix<double> &matrix(const Cell &cell);
+
+  private:
+    /** Material, then the vertices relative to the first one. */
+    using Key =
+        std::array<std::int64_t,
+                   1 + dim *(dealii::GeometryInfo<dim>::vertices_per_cell - 1)>;
+
+    bool has_shape(const Cell &cell) const;
+    Key key(const Cell &cell, double size) const;
+    void compute(const Cell &cell, dealii::FullMatrix<double> &result);
+
+    const ElasticMaterials &materials;
+    const dealii::FiniteElement<dim> &fe;
+    dealii::FEValues<dim> values; ///< of one component
+    std::map<Key, std::pair<double, dealii::FullMatrix<double>>> known;
+    dealii::FullMatrix<double> result;
+    const dealii::FullMatrix<double> *last = nullptr;
+    std::size_t n_asked = 0;
+  };
+} // namespace abut::app
+
+#endif
