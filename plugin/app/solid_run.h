@@ -85,7 +85,7 @@ namespace abut::app
     Bodies<dim> bodies;
     dealii::parallel::distributed::Triangulation<dim> triangulation;
     Elasticity<dim> elasticity;
-    solve::MaskedSolver linear_solver;
+    std::unique_ptr<solve::MaskedSolver> linear_solver;
 
     std::unique_ptr<SolidFunctions<dim>> functions;
     std::unique_ptr<ExactSolution<dim>> exact;
