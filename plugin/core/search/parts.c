@@ -16,16 +16,21 @@ box_facets(const abut_surface *s, abut_box *facet_box, abut_box *all)
     all->lower[d] = INFINITY;
     all->upper[d] = -INFINITY;
   }
-  for (int32_t f = 0; f < s->view.n_facets; ++f)
+  const int32_t n = s->view.n_facets;
+  for (int32_t f = 0; f < n; f += ABUT_LANES)
   {
-    double size;
-    abut_box *b = facet_box + f;
-    abut_record_extent(s, f, b->lower, b->upper, &size);
-    for (int d = 0; d < 3; ++d)
-    {
-      all->lower[d] = fmin(all->lower[d], b->lower[d]);
-      all->upper[d] = fmax(all->upper[d], b->upper[d]);
-    }
+    abut_lanes m;
+    const int32_t some = n - f < ABUT_LANES ? n - f : ABUT_LANES;
+    abut_lanes_bound(s, f, some, &m);
+    for (int32_t l = 0; l < some; ++l)
+      for (int d = 0; d < 3; ++d)
+      {
+        abut_box *b = facet_box + f + l;
+        b->lower[d] = m.lower[d][l];
+        b->upper[d] = m.upper[d][l];
+        all->lower[d] = fmin(all->lower[d], b->lower[d]);
+        all->upper[d] = fmax(all->upper[d], b->upper[d]);
+      }
   }
 }
 

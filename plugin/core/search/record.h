@@ -67,13 +67,39 @@ abut_record_near_box(const abut_record *r, const double *lower,
   return in;
 }
 
-/* The record of facet f at the present positions. */
-void abut_record_compute(const abut_surface *surface, int32_t f,
-                         const abut_reach *reach, abut_record *record);
+enum
+{
+  ABUT_LANES = 8 /* facets that are measured together */
+};
 
-/* Box and longest side of facet f: what sorting needs. */
-void abut_record_extent(const abut_surface *surface, int32_t f, double *lower,
-                        double *upper, double *size);
+/* Measures of some facets, side by side for vector instructions. */
+typedef struct abut_lanes
+{
+  double lower[3][ABUT_LANES];
+  double upper[3][ABUT_LANES];
+  double centre[3][ABUT_LANES];
+  double normal[3][ABUT_LANES];
+  double radius[ABUT_LANES];
+  double size[ABUT_LANES];
+} abut_lanes;
+
+/* Bounds of inflated boxes, and the smallest half of a largest extent. */
+typedef struct abut_bounds
+{
+  double lower[3];
+  double upper[3];
+  double smallest;
+} abut_bounds;
+
+/* Box and size of the n facets from `first` on at the present positions, 1 <=
+ * n <= ABUT_LANES; lanes beyond n repeat the last one. */
+void abut_lanes_bound(const abut_surface *surface, int32_t first, int32_t n,
+                      abut_lanes *lanes);
+
+/* The records of facets[n], 1 <= n <= ABUT_LANES; bounds are extended. */
+void abut_records_compute(const abut_surface *surface, const int32_t *facets,
+                          int32_t n, const abut_reach *reach,
+                          abut_record *records, abut_bounds *bounds);
 
 /* Ask for the nodes of facet f: first stage the connectivity, then, some
  * facets later, the positions. */

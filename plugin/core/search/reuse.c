@@ -116,11 +116,17 @@ facet_boxes(abut_search *s, const abut_surface *secondary)
   if (status != ABUT_SUCCESS)
     return status;
   double *box = s->query_box.data;
-  for (int32_t f = 0; f < n; ++f)
+  for (int32_t f = 0; f < n; f += ABUT_LANES)
   {
-    double size;
-    abut_record_extent(secondary, f, box + 6 * (int64_t)f,
-                       box + 6 * (int64_t)f + 3, &size);
+    abut_lanes m;
+    const int32_t some = n - f < ABUT_LANES ? n - f : ABUT_LANES;
+    abut_lanes_bound(secondary, f, some, &m);
+    for (int32_t l = 0; l < some; ++l, box += 6)
+      for (int d = 0; d < 3; ++d)
+      {
+        box[d] = m.lower[d][l];
+        box[3 + d] = m.upper[d][l];
+      }
   }
   return ABUT_SUCCESS;
 }

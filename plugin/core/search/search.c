@@ -5,11 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-enum
-{
-  AHEAD = 8 /* facets between a prefetch and its use */
-};
-
 static const char *const names[ABUT_SEARCH_N_ALGORITHMS] = {
     "all pairs", "uniform buckets", "adaptive buckets"};
 
@@ -152,13 +147,14 @@ abut_search_set_reach(abut_search *search, double reach, double relative_reach,
 static double
 median_size(const abut_search *s)
 {
-  double size[1023], lower[3], upper[3];
+  double size[1023];
+  abut_lanes lanes;
   const int32_t n = s->n < 1023 ? s->n : 1023;
   for (int32_t i = 0; i < n; ++i)
   {
     const int32_t f = (int32_t)((int64_t)i * s->n / n);
-    double v;
-    abut_record_extent(s->surface, f, lower, upper, &v);
+    abut_lanes_bound(s->surface, f, 1, &lanes);
+    const double v = lanes.size[0];
     int32_t j = i;
     for (; j > 0 && size[j - 1] > v; --j)
       size[j] = size[j - 1];
@@ -182,20 +178,29 @@ choose_capacity(const abut_search *s)
 static void
 compute_sites(abut_search *s)
 {
-  abut_site *sites = s->sites.data;
-  for (int32_t f = 0; f < s->n; ++f)
+  for (int32_t f = 0; f < s->n; f += ABUT_LANES)
   {
-    double lower[3], upper[3], size, half = 0;
-    if (f + AHEAD < s->n)
-      abut_prefetch_nodes(s->surface, f + AHEAD);
-    abut_record_extent(s->surface, f, lower, upper, &size);
+    const int32_t n = s->n - f < ABUT_LANES ? s->n - f : ABUT_LANES;
+    abut_site *sites = (abut_site *)s->sites.data + f;
+    abut_lanes m;
+    double half[ABUT_LANES] = {0};
+    for (int32_t l = 0; l < n && f + n + l < s->n; ++l)
+      abut_prefetch_nodes(s->surface, f + n + l);
+    abut_lanes_bound(s->surface, f, n, &m);
     for (int d = 0; d < 3; ++d)
+      for (int l = 0; l < ABUT_LANES; ++l)
+      {
+        const double h = 0.5 * (m.upper[d][l] - m.lower[d][l]);
+        half[l] = h > half[l] ? h : half[l];
+      }
+    for (int l = 0; l < ABUT_LANES; ++l)
+      half[l] += abut_reach_of(&s->reach, m.size[l]);
+    for (int32_t l = 0; l < n; ++l)
     {
-      sites[f].centre[d] = 0.5 * (lower[d] + upper[d]);
-      const double h = 0.5 * (upper[d] - lower[d]);
-      half = h > half ? h : half;
+      for (int d = 0; d < 3; ++d)
+        sites[l].centre[d] = 0.5 * (m.lower[d][l] + m.upper[d][l]);
+      sites[l].half = half[l];
     }
-    sites[f].half = half + abut_reach_of(&s->reach, size);
   }
 }
 
@@ -219,30 +224,29 @@ reserve(abut_search *s)
   return ABUT_SUCCESS;
 }
 
-/* Boxes of the records first .. last - 1, inflated by their reach, in one; and
- * the smallest inflated half-extent so far. */
-static void
-bound_records(const abut_record *r, int32_t first, int32_t last, double *lower,
-              double *upper, double *smallest)
+/* Numbers of the n facets from place i of the search order on. */
+static inline void
+facets_at(const abut_record *records, const abut_keyed *items, int32_t i,
+          int32_t n, int32_t *facets)
 {
-  for (int d = 0; d < 3; ++d)
-  {
-    lower[d] = INFINITY;
-    upper[d] = -INFINITY;
-  }
-  for (int32_t i = first; i < last; ++i)
-  {
-    double extent = 0;
-    for (int d = 0; d < 3; ++d)
-    {
-      const double l = r[i].lower[d] - r[i].reach;
-      const double u = r[i].upper[d] + r[i].reach;
-      lower[d] = l < lower[d] ? l : lower[d];
-      upper[d] = u > upper[d] ? u : upper[d];
-      extent = u - l > extent ? u - l : extent;
-    }
-    *smallest = 0.5 * extent < *smallest ? 0.5 * extent : *smallest;
-  }
+  for (int32_t l = 0; l < n; ++l)
+    facets[l] = items != NULL ? items[i + l].index : records[i + l].facet;
+}
+
+/* Ask for the facets that will be needed soon. */
+static void
+prefetch_ahead(const abut_search *s, const abut_keyed *items, int32_t i)
+{
+  int32_t facets[ABUT_LANES];
+  const abut_record *records = s->records.data;
+  if (i + 3 * ABUT_LANES > s->n)
+    return;
+  facets_at(records, items, i + 2 * ABUT_LANES, ABUT_LANES, facets);
+  for (int l = 0; l < ABUT_LANES; ++l)
+    abut_prefetch_facet(s->surface, facets[l]);
+  facets_at(records, items, i + ABUT_LANES, ABUT_LANES, facets);
+  for (int l = 0; l < ABUT_LANES; ++l)
+    abut_prefetch_nodes(s->surface, facets[l]);
 }
 
 /* Compute the records of all facets, in the order of the sorted items or (NULL)
@@ -254,39 +258,35 @@ compute_records(abut_search *s, const abut_keyed *items)
   abut_record *records = s->records.data;
   const bool adaptive = s->options.algorithm == ABUT_SEARCH_ADAPTIVE_BUCKETS;
   const int32_t chunk = adaptive ? s->tree.capacity : 64;
+  const abut_bounds none = {{INFINITY, INFINITY, INFINITY},
+                            {-INFINITY, -INFINITY, -INFINITY},
+                            INFINITY};
+  abut_bounds all = none;
   double extent = 0;
-  s->smallest = s->n > 0 ? INFINITY : 0;
-  for (int d = 0; d < 3; ++d)
-  {
-    s->lower[d] = INFINITY;
-    s->upper[d] = -INFINITY;
-  }
   for (int32_t first = 0; first < s->n; first += chunk)
   {
-    const int32_t last = first + chunk < s->n ? first + chunk : s->n;
-    double lower[3], upper[3];
-    for (int32_t i = first; i < last; ++i)
+    const int32_t last = s->n - first < chunk ? s->n : first + chunk;
+    abut_bounds b = none;
+    for (int32_t i = first; i < last; i += ABUT_LANES)
     {
-      if (i + 2 * AHEAD < s->n)
-      {
-        const int32_t k = i + AHEAD, l = i + 2 * AHEAD;
-        abut_prefetch_facet(s->surface,
-                            items ? items[l].index : records[l].facet);
-        abut_prefetch_nodes(s->surface,
-                            items ? items[k].index : records[k].facet);
-      }
-      abut_record_compute(s->surface, items ? items[i].index : records[i].facet,
-                          &s->reach, records + i);
+      const int32_t n = last - i < ABUT_LANES ? last - i : ABUT_LANES;
+      int32_t facets[ABUT_LANES];
+      prefetch_ahead(s, items, i);
+      facets_at(records, items, i, n, facets);
+      abut_records_compute(s->surface, facets, n, &s->reach, records + i, &b);
     }
-    bound_records(records, first, last, lower, upper, &s->smallest);
     if (adaptive)
-      extent += abut_tree_fit_bucket(&s->tree, first / chunk, lower, upper);
+      extent += abut_tree_fit_bucket(&s->tree, first / chunk, b.lower, b.upper);
     for (int d = 0; d < 3; ++d)
     {
-      s->lower[d] = lower[d] < s->lower[d] ? lower[d] : s->lower[d];
-      s->upper[d] = upper[d] > s->upper[d] ? upper[d] : s->upper[d];
+      all.lower[d] = b.lower[d] < all.lower[d] ? b.lower[d] : all.lower[d];
+      all.upper[d] = b.upper[d] > all.upper[d] ? b.upper[d] : all.upper[d];
     }
+    all.smallest = b.smallest < all.smallest ? b.smallest : all.smallest;
   }
+  memcpy(s->lower, all.lower, sizeof(s->lower));
+  memcpy(s->upper, all.upper, sizeof(s->upper));
+  s->smallest = s->n > 0 ? all.smallest : 0;
   return extent;
 }
 
