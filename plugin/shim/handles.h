@@ -3,6 +3,7 @@
 #define ABUT_SHIM_HANDLES_H
 
 #include <abut/detect.h>
+#include <abut/obstacle.h>
 #include <abut/rows.h>
 #include <abut/search.h>
 #include <abut/strategy.h>
@@ -44,6 +45,10 @@ namespace abut::shim
     void operator()(abut_detection *object) const
     {
       abut_detection_destroy(&object);
+    }
+    void operator()(abut_obstacle *object) const
+    {
+      abut_obstacle_destroy(&object);
     }
   };
 

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_DEALII_RIGID_OBSTACLE_H
+#define ABUT_DEALII_RIGID_OBSTACLE_H
+
+/** @file
+ * Rigid obstacles for deal.II programs: shapes, functions and surfaces of
+ * facets, and their motion in time.
+ */
+
+#include <abut/obstacle.h>
+#include <abut/obstacle_surface.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace abut
+{
+  /** Where an obstacle is: a point X of its own frame is at R X + T. */
+  template <int dim> struct RigidPose
+  {
+    dealii::Tensor<2, dim> rotation;    /**< R */
+    dealii::Tensor<1, dim> translation; /**< T */
+
+    /** Turned by @p angle (radian) about @p centre and, in 3D, the direction
+     * @p axis (of any length but zero), then moved by @p translation. */
+    static RigidPose turned(double angle, const dealii::Point<dim> &centre,
+                            const dealii::Tensor<1, 3> &axis,
+                            const dealii::Tensor<1, dim> &translation);
+  };
+
+  /** A surface given as height over the plane orthogonal to a coordinate axis.
+   */
+  template <int dim> struct HeightObstacle
+  {
+    /** Height as a function of the point; its coordinate along the axis is
+     * zero. Gradients are asked for only if along_axis is false. */
+    std::shared_ptr<dealii::Function<dim>> height;
+    unsigned int axis = dim - 1; /**< 0 .. dim - 1 */
+    /** The material is above the height, seen along the axis: a die. */
+    bool material_above = false;
+    /** The gap is measured along the axis, and its gradient is the axis: an
+     * obstacle in the sense of a height above each point. Otherwise it is
+     * measured normal to the surface, to first order in the gap. */
+    bool along_axis = true;
+  };
+
+  /** A rigid obstacle: signed distances of points, positive outside its
+   * material.
+   *
+   * No function is collective: in parallel each rank has its own object, all
+   * made from the same data. One thread at a time. */
+  template <int dim> class RigidObstacle
+  {
+  public:
+    /** A shape; its dimension must be dim. Throws dealii::ExceptionBase with
+     * what the core says for a number out of range, as all constructors. */
+    explicit RigidObstacle(const abut_obstacle_shape &shape);
+
+    /** A height. */
+    explicit RigidObstacle(const HeightObstacle<dim> &height);
+
+    /** The material is where @p value is negative (@p hollow: positive). Value
+     * and gradient are divided by the length of the gradient: a signed distance
+     * stays what it is, any other function becomes one to first order near the
+     * surface. */
+    explicit RigidObstacle(std::shared_ptr<dealii::Function<dim>> value,
+                           bool hollow = false);
+
+    /** A surface of facets, which is copied. */
+    RigidObstacle(const abut_surface_data &surface,
+                  const abut_obstacle_surface &options);
+
+    ~RigidObstacle();
+    RigidObstacle(const RigidObstacle &) = delete;
+    RigidObstacle &operator=(const RigidObstacle &) = delete;
+
+    /** Put the obstacle in a place. */
+    void set_pose(const RigidPose<dim> &pose);
+
+    /** The place as a function of time, for set_time(). */
+    void set_motion(std::function<RigidPose<dim>(double)> motion);
+
+    /** Hand the time to the function of the obstacle, if it has one, and put
+     * the obstacle where its motion, if it has one, says. */
+    void set_time(double time);
+
+    /** Signed distances and, unless NULL, gradients of points; resized. */
+    void
+    distance(const std::vector<dealii::Point<dim>> &points,
+             std::vector<double> &distances,
+             std::vector<dealii::Tensor<1, dim>> *gradients = nullptr) const;
+
+    /** The core's obstacle, for abut_coupling_build_obstacle(); owned. */
+    abut_obstacle *handle() const;
+
+    /** What it is, where, and what it has found. */
+    abut_obstacle_view view() const;
+
+    /** Throw why the last call of the core with handle() failed: what a
+     * function threw, or the core's message. */
+    [[noreturn]] void throw_failure() const;
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation;
+  };
+} // namespace abut
+
+#endif

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "shim/handles.h"
+
+#include <abut/dealii/rigid_obstacle.h>
+
+#include <cmath>
+#include <exception>
+#include <utility>
+
+namespace abut
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    template <int dim>
+    std::vector<Point<dim>> to_points(const std::int32_t n,
+                                      const double *numbers)
+    {
+      std::vector<Point<dim>> points(static_cast<std::size_t>(n));
+      for (Point<dim> &point : points)
+        for (unsigned int d = 0; d < dim; ++d)
+          point[d] = *numbers++;
+      return points;
+    }
+
+    /** A function of the host behind the core's callback. What it throws must
+     * not pass through C: it is kept. */
+    template <int dim> class HostFunction
+    {
+    public:
+      virtual ~HostFunction() = default;
+
+      virtual void set_time(double time) = 0;
+
+      static int evaluate(void *user, const std::int32_t n,
+                          const double *numbers, double *value,
+                          double *gradient) noexcept
+      {
+        auto &self = *static_cast<HostFunction *>(user);
+        self.thrown = nullptr;
+        try
+        {
+          self.fill(to_points<dim>(n, numbers), value, gradient);
+          return 0;
+        }
+        catch (...)
+        {
+          self.thrown = std::current_exception();
+          return 1;
+        }
+      }
+
+      /** What the last evaluation threw; once. */
+      std::exception_ptr take_exception()
+      {
+        return std::exchange(thrown, nullptr);
+      }
+
+    protected:
+      virtual void fill(const std::vector<Point<dim>> &points, double *value,
+                        double *gradient) = 0;
+
+    private:
+      std::exception_ptr thrown;
+    };
+
+    template <int dim> class DistanceFunction : public HostFunction<dim>
+    {
+    public:
+      explicit DistanceFunction(std::shared_ptr<dealii::Function<dim>> function)
+          : function(std::move(function))
+      {
+      }
+
+      void set_time(const double time) override
+      {
+        function->set_time(time);
+      }
+
+    protected:
+      void fill(const std::vector<Point<dim>> &points, double *value,
+                double *gradient) override
+      {
+        std::vector<double> values(points.size());
+        std::vector<Tensor<1, dim>> gradients(points.size());
+        function->value_list(points, values);
+        function->gradient_list(points, gradients);
+        for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          value[i] = values[i];
+          for (unsigned int d = 0; d < dim; ++d)
+            gradient[dim * i + d] = gradients[i][d];
+        }
+      }
+
+    private:
+      const std::shared_ptr<dealii::Function<dim>> function;
+    };
+
+    /** +-(x_axis - h), with the gradient +-(e_axis - grad h) or +-e_axis. */
+    template <int dim> class HeightFunction : public HostFunction<dim>
+    {
+    public:
+      explicit HeightFunction(const HeightObstacle<dim> &parameters)
+          : parameters(parameters)
+      {
+      }
+
+      void set_time(const double time) override
+      {
+        parameters.height->set_time(time);
+      }
+
+    protected:
+      void fill(const std::vector<Point<dim>> &points, double *value,
+                double *gradient) override
+      {
+        const unsigned int axis = parameters.axis;
+        const double sign = parameters.material_above ? -1. : 1.;
+        std::vector<Point<dim>> feet = points;
+        for (Point<dim> &foot : feet)
+          foot[axis] = 0.;
+        std::vector<double> heights(points.size());
+        std::vector<Tensor<1, dim>> slopes(points.size());
+        parameters.height->value_list(feet, heights);
+        if (!parameters.along_axis)
+          parameters.height->gradient_list(feet, slopes);
+        for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          value[i] = sign * (points[i][axis] - heights[i]);
+          for (unsigned int d = 0; d < dim; ++d)
+            gradient[dim * i + d] = d == axis ? sign : -sign * slopes[i][d];
+        }
+      }
+
+    private:
+      const HeightObstacle<dim> parameters;
+    };
+  } // namespace
+
+  template <int dim>
+  RigidPose<dim> RigidPose<dim>::turned(const double angle,
+                                        const Point<dim> &centre,
+                                        const Tensor<1, 3> &axis,
+                                        const Tensor<1, dim> &translation)
+  {
+    // in 2D about the direction out of the plane
+    Tensor<1, 3> u = axis;
+    if (dim == 2)
+      u = Tensor<1, 3>({0., 0., 1.});
+    AssertThrow(u.norm() > 0 && std::isfinite(u.norm()),
+                dealii::ExcMessage("the axis of a rotation is zero"));
+    u /= u.norm();
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double cross[3][3] = {
+        {0., -u[2], u[1]}, {u[2], 0., -u[0]}, {-u[1], u[0], 0.}};
+    RigidPose<dim> pose;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        pose.rotation[i][j] =
+            (i == j ? c : 0.) + (1. - c) * u[i] * u[j] + s * cross[i][j];
+    const Tensor<1, dim> from_origin = centre - Point<dim>();
+    pose.translation = translation + from_origin - pose.rotation * from_origin;
+    return pose;
+  }
+
+  template <int dim> class RigidObstacle<dim>::Implementation
+  {
+  public:
+    explicit Implementation(const abut_obstacle_shape &shape)
+        : context(shim::create_context())
+    {
+      AssertThrow(shape.dimension == dim,
+                  dealii::ExcMessage("the shape is of another dimension"));
+      abut_obstacle *made = nullptr;
+      shim::check(context.get(),
+                  abut_obstacle_create_shape(context.get(), &shape, &made));
+      obstacle.reset(made);
+    }
+
+    Implementation(std::unique_ptr<HostFunction<dim>> host, const bool hollow)
+        : context(shim::create_context()), function(std::move(host))
+    {
+      abut_obstacle_function data = abut_obstacle_function_defaults();
+      data.dimension = dim;
+      data.user = function.get();
+      data.evaluate = &HostFunction<dim>::evaluate;
+      data.hollow = hollow;
+      abut_obstacle *made = nullptr;
+      shim::check(context.get(),
+                  abut_obstacle_create_function(context.get(), &data, &made));
+      obstacle.reset(made);
+    }
+
+    Implementation(const abut_surface_data &data,
+                   const abut_obstacle_surface &options)
+        : context(shim::create_context())
+    {
+      AssertThrow(data.dimension == dim,
+                  dealii::ExcMessage("the surface is of another dimension"));
+      abut_surface_data copied = data;
+      copied.borrow = false;
+      surface = shim::create_surface(context.get(), copied);
+      abut_obstacle *made = nullptr;
+      shim::check(context.get(),
+                  abut_obstacle_create_surface(context.get(), surface.get(),
+                                               &options, &made));
+      obstacle.reset(made);
+    }
+
+    // destroyed in the opposite order
+    shim::Handle<abut_context> context;
+    shim::Handle<abut_surface> surface;
+    std::unique_ptr<HostFunction<dim>> function;
+    shim::Handle<abut_obstacle> obstacle;
+    std::function<RigidPose<dim>(double)> motion;
+  };
+
+  template <int dim>
+  RigidObstacle<dim>::RigidObstacle(const abut_obstacle_shape &shape)
+      : implementation(std::make_unique<Implementation>(shape))
+  {
+  }
+
+  template <int dim>
+  RigidObstacle<dim>::RigidObstacle(const HeightObstacle<dim> &height)
+  {
+    AssertThrow(height.height != nullptr && height.axis < dim,
+                dealii::ExcMessage("a height needs a function and an axis"));
+    implementation = std::make_unique<Implementation>(
+        std::make_unique<HeightFunction<dim>>(height), false);
+  }
+
+  template <int dim>
+  RigidObstacle<dim>::RigidObstacle(
+      std::shared_ptr<dealii::Function<dim>> value, const bool hollow)
+  {
+    AssertThrow(value != nullptr, dealii::ExcMessage("there is no function"));
+    implementation = std::make_unique<Implementation>(
+        std::make_unique<DistanceFunction<dim>>(std::move(value)), hollow);
+  }
+
+  template <int dim>
+  RigidObstacle<dim>::RigidObstacle(const abut_surface_data &surface,
+                                    const abut_obstacle_surface &options)
+      : implementation(std::make_unique<Implementation>(surface, options))
+  {
+  }
+
+  template <int dim> RigidObstacle<dim>::~RigidObstacle() = default;
+
+  template <int dim>
+  void RigidObstacle<dim>::set_pose(const RigidPose<dim> &pose)
+  {
+    double rotation[dim * dim], translation[dim];
+    for (unsigned int i = 0; i < dim; ++i)
+    {
+      translation[i] = pose.translation[i];
+      for (unsigned int j = 0; j < dim; ++j)
+        rotation[dim * i + j] = pose.rotation[i][j];
+    }
+    shim::check(implementation->context.get(),
+                abut_obstacle_set_pose(handle(), rotation, translation));
+  }
+
+  template <int dim>
+  void
+  RigidObstacle<dim>::set_motion(std::function<RigidPose<dim>(double)> motion)
+  {
+    implementation->motion = std::move(motion);
+  }
+
+  template <int dim> void RigidObstacle<dim>::set_time(const double time)
+  {
+    if (implementation->function != nullptr)
+      implementation->function->set_time(time);
+    if (implementation->motion)
+      set_pose(implementation->motion(time));
+  }
+
+  template <int dim>
+  void
+  RigidObstacle<dim>::distance(const std::vector<Point<dim>> &points,
+                               std::vector<double> &distances,
+                               std::vector<Tensor<1, dim>> *gradients) const
+  {
+    std::vector<double> numbers, slopes;
+    for (const Point<dim> &point : points)
+      for (unsigned int d = 0; d < dim; ++d)
+        numbers.push_back(point[d]);
+    distances.resize(points.size());
+    slopes.resize(numbers.size());
+    if (abut_obstacle_distance(
+            handle(), static_cast<std::int32_t>(points.size()), numbers.data(),
+            distances.data(), slopes.data(), nullptr)
+        != ABUT_SUCCESS)
+      throw_failure();
+    if (gradients == nullptr)
+      return;
+    gradients->resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        (*gradients)[i][d] = slopes[dim * i + d];
+  }
+
+  template <int dim> abut_obstacle *RigidObstacle<dim>::handle() const
+  {
+    return implementation->obstacle.get();
+  }
+
+  template <int dim> abut_obstacle_view RigidObstacle<dim>::view() const
+  {
+    abut_obstacle_view view;
+    shim::check(implementation->context.get(),
+                abut_obstacle_get(handle(), &view));
+    return view;
+  }
+
+  template <int dim> void RigidObstacle<dim>::throw_failure() const
+  {
+    if (implementation->function != nullptr)
+      if (const auto thrown = implementation->function->take_exception())
+        std::rethrow_exception(thrown);
+    throw dealii::ExcMessage(
+        abut_context_message(implementation->context.get()));
+  }
+
+  template struct RigidPose<2>;
+  template struct RigidPose<3>;
+  template class RigidObstacle<2>;
+  template class RigidObstacle<3>;
+} // namespace abut
