@@ -223,9 +223,9 @@ extern "C"
    *   large. 0 if unknown
    *
    * Nodes without coverage have no row; nor have nodes whose weight is below
-   * 1e-6 of their full weight. On quadratic facets, whose weighting functions
-   * change sign, a node of which only so little is covered that its weight is
-   * below 1/20 of the integral of |phi_j| is treated as dropped.
+   * 1e-6 of their full weight. On quadratic facets, whose shape functions
+   * change sign, a node of which less than about a quarter is covered is
+   * treated as dropped.
    *
    * 2D: about a microsecond per pair of facets; 3D: about ten. Allocates
    * nothing once warmed up. */

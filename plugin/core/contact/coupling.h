@@ -134,14 +134,16 @@ struct abut_coupling
   /* Of the nodes of this build. */
   const abut_coupling_nodes *nodes;
   const double *normals;
-  abut_array hanging;   /* int32_t, [n_nodes] number h or -1 */
-  abut_array dropped;   /* uint8_t, [n_nodes] as given, and weak nodes */
-  abut_array purpose;   /* uint8_t, [n_facets] */
-  abut_array full;      /* double, [n_nodes] integral of chi, whole facets */
-  abut_array covered;   /* double, [n_nodes] integral of chi, covered part */
-  abut_array absolute;  /* double, [n_nodes] integral of |chi|, covered part */
-  abut_array row_reach; /* double, [n_nodes] obstacles */
-  abut_array node_flag; /* uint8_t, [n_nodes] */
+  abut_array hanging;     /* int32_t, [n_nodes] number h or -1 */
+  abut_array given;       /* uint8_t, [n_nodes] dropped as given */
+  abut_array dropped;     /* uint8_t, [n_nodes] and weak nodes */
+  abut_array purpose;     /* uint8_t, [n_facets] */
+  abut_array full;        /* double, [n_nodes] integral of chi, whole facets */
+  abut_array covered;     /* double, [n_nodes] integral of chi, covered part */
+  abut_array hat;         /* double, [n_nodes] integral of hats, whole facets */
+  abut_array covered_hat; /* double, [n_nodes] the same, covered part */
+  abut_array row_reach;   /* double, [n_nodes] obstacles */
+  abut_array node_flag;   /* uint8_t, [n_nodes] */
 
   /* Of the facet in work. */
   abut_array candidates; /* int32_t, primary facets in order */
@@ -248,10 +250,12 @@ void abut_coupling_normal(abut_facet_kind kind, const double *nodes,
 /* Local coordinates of node a of a kind; two numbers. */
 const double *abut_coupling_node_local(abut_facet_kind kind, int32_t a);
 
-/* Free nodes and the functions phi and chi of a facet. UNSUPPORTED if they are
+/* Free nodes and the functions phi and chi of a facet, without multipliers at
+ * dropped nodes. UNSUPPORTED if they are
  * more than ABUT_COUPLING_MAX_FREE. */
 abut_status abut_coupling_make_functions(abut_coupling *c,
                                          const abut_coupling_facet *facet,
+                                         const uint8_t *dropped,
                                          abut_coupling_functions *functions);
 
 /* Weighting functions psi from the points of the covered part; whole: area of
@@ -295,8 +299,8 @@ abut_status abut_coupling_create_any(abut_context *context, const char *call,
  * of the detection, or against the obstacle. */
 abut_status abut_coupling_add_nodal(abut_coupling *c);
 
-/* Whether so little of a node's function is covered that it gets no row. */
-bool abut_coupling_is_weak(const abut_coupling *c, int32_t node);
+/* Mark weak nodes as dropped. */
+abut_status abut_coupling_drop_weak(abut_coupling *c);
 
 /* Add the shares up to rows. */
 abut_status abut_coupling_make_rows(abut_coupling *c);

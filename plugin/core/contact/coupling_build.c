@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* The course of a build: search, on quadratic surfaces a first pass that finds
- * weak nodes, the pass that makes the shares of all facets, and the rows. */
+/* The course of a build: search, on quadratic surfaces a pass that drops weak
+ * nodes, the pass that makes the shares of all facets, and the rows. */
 #include "contact/coupling.h"
 #include "geometry/vector.h"
 
@@ -24,11 +24,11 @@ search(abut_coupling *c, double motion)
                                 : status;
 }
 
-/* Add the integrals of chi, or of |chi|, over the points in work to the sums
- * of the nodes; returns the area of the points. */
+/* Add the integrals of chi over the points in work to the sums of the nodes;
+ * returns the area of the points. */
 static double
 add_integrals(abut_coupling *c, const abut_coupling_facet *facet,
-              const abut_coupling_functions *f, double *sum, double *absolute)
+              const abut_coupling_functions *f, double *sum)
 {
   const abut_coupling_point *p = c->points.data;
   double area = 0.;
@@ -42,56 +42,13 @@ add_integrals(abut_coupling *c, const abut_coupling_facet *facet,
       double chi = 0.;
       for (int32_t a = 0; a < f->n_base; ++a)
         chi += f->chi[j][a] * base[a];
-      const int32_t node = f->node[f->kept[j]];
-      sum[node] += p[q].weight * chi;
-      if (absolute != NULL)
-        absolute[node] += p[q].weight * fabs(chi);
+      sum[f->node[f->kept[j]]] += p[q].weight * chi;
     }
   }
   return area;
 }
 
-/* First pass over quadratic facets: how much of each node is covered. */
-static abut_status
-find_weak(abut_coupling *c)
-{
-  const int32_t *order = c->facet_order.data, *hanging = c->hanging.data;
-  const uint8_t *purpose = c->purpose.data;
-  abut_status status = ABUT_SUCCESS;
-  for (int32_t i = 0; i < c->secondary->view.n_facets && status == ABUT_SUCCESS;
-       ++i)
-  {
-    abut_coupling_facet facet;
-    abut_coupling_functions f;
-    if (!(purpose[order[i]] & ABUT_COUPLING_FOR_WEAK))
-      continue;
-    abut_coupling_load(c, order[i], &facet);
-    status = abut_coupling_make_functions(c, &facet, &f);
-    if (status == ABUT_SUCCESS)
-      status = abut_coupling_whole(c, &facet);
-    if (status != ABUT_SUCCESS)
-      break;
-    add_integrals(c, &facet, &f, c->full.data, NULL);
-    status = abut_coupling_make_points(c, &facet, false);
-    if (status == ABUT_SUCCESS)
-      add_integrals(c, &facet, &f, c->covered.data, c->absolute.data);
-  }
-  uint8_t *dropped = c->dropped.data;
-  const double *absolute = c->absolute.data;
-  for (int32_t n = 0; n < c->secondary->view.n_nodes; ++n)
-    if (hanging[n] < 0 && absolute[n] > 0. && !dropped[n]
-        && abut_coupling_is_weak(c, n))
-    {
-      dropped[n] = 1;
-      c->statistics.n_weak += c->nodes->wanted == NULL || c->nodes->wanted[n];
-    }
-  if (c->secondary->view.n_nodes > 0)
-    memset(c->full.data, 0,
-           sizeof(double) * (size_t)c->secondary->view.n_nodes);
-  return status;
-}
-
-/* Second pass, for one facet. */
+/* Shares of one facet. */
 static abut_status
 take_facet(abut_coupling *c, int32_t index)
 {
@@ -101,21 +58,25 @@ take_facet(abut_coupling *c, int32_t index)
   ++c->statistics.n_facets;
   c->statistics.largest_warping =
       max2(c->statistics.largest_warping, facet.warping);
-  abut_status status = abut_coupling_make_functions(c, &facet, &f);
+  abut_status status =
+      abut_coupling_make_functions(c, &facet, c->given.data, &f);
   if (status == ABUT_SUCCESS)
     status = abut_coupling_whole(c, &facet);
   if (status != ABUT_SUCCESS)
     return status;
-  const double whole = add_integrals(c, &facet, &f, c->full.data, NULL);
+  const double whole = add_integrals(c, &facet, &f, c->full.data);
   if (c->detection != NULL)
     return ABUT_SUCCESS;
-  status = abut_coupling_make_points(c, &facet, true);
+  if (abut_coupling_has_weak(c))
+    status = abut_coupling_make_functions(c, &facet, c->dropped.data, &f);
+  if (status == ABUT_SUCCESS)
+    status = abut_coupling_make_points(c, &facet, true);
   if (status != ABUT_SUCCESS || c->n_points == 0)
     return status;
   ++c->statistics.n_covered;
   if (c->options.discretisation == ABUT_DISCRETISATION_NODE_TO_SEGMENT)
   {
-    add_integrals(c, &facet, &f, c->covered.data, NULL);
+    add_integrals(c, &facet, &f, c->covered.data);
     return ABUT_SUCCESS;
   }
   if (c->options.discretisation == ABUT_DISCRETISATION_QUADRATURE_POINT)
@@ -155,7 +116,7 @@ build(abut_coupling *c, double motion)
   if (status == ABUT_SUCCESS)
     status = search(c, motion);
   if (status == ABUT_SUCCESS && abut_coupling_has_weak(c))
-    status = find_weak(c);
+    status = abut_coupling_drop_weak(c);
   const uint8_t *purpose = c->purpose.data;
   for (int32_t i = 0; i < c->secondary->view.n_facets && status == ABUT_SUCCESS;
        ++i)

@@ -93,9 +93,8 @@ has_base(const abut_coupling_functions *f, int32_t l)
 
 abut_status
 abut_coupling_make_functions(abut_coupling *c, const abut_coupling_facet *facet,
-                             abut_coupling_functions *f)
+                             const uint8_t *dropped, abut_coupling_functions *f)
 {
-  const uint8_t *dropped = c->dropped.data;
   if (!resolve(c, facet, f))
     return abut_fail(c->context, ABUT_UNSUPPORTED, "abut_coupling_build",
                      "the nodes of a facet hang on more than 32 others");

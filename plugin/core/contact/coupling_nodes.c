@@ -168,10 +168,11 @@ abut_coupling_read_nodes(abut_coupling *c)
     abut_array *array;
     int64_t n;
   } const list[] = {
-      {&c->hanging, n},   {&c->dropped, n},
-      {&c->full, n},      {&c->covered, n},
-      {&c->absolute, n},  {&c->row_reach, n},
-      {&c->node_flag, n}, {&c->purpose, c->secondary->view.n_facets}};
+      {&c->hanging, n},     {&c->given, n},
+      {&c->dropped, n},     {&c->full, n},
+      {&c->covered, n},     {&c->hat, n},
+      {&c->covered_hat, n}, {&c->row_reach, n},
+      {&c->node_flag, n},   {&c->purpose, c->secondary->view.n_facets}};
   abut_status status = check_ranges(c);
   for (size_t i = 0;
        i < sizeof(list) / sizeof(list[0]) && status == ABUT_SUCCESS; ++i)
@@ -185,8 +186,9 @@ abut_coupling_read_nodes(abut_coupling *c)
     status = check_hanging(c);
   if (status != ABUT_SUCCESS)
     return status;
-  if (c->nodes->dropped != NULL && n > 0)
-    memcpy(c->dropped.data, c->nodes->dropped, (size_t)n);
+  for (int64_t i = 0; c->nodes->dropped != NULL && i < n; ++i)
+    ((uint8_t *)c->given.data)[i] = ((uint8_t *)c->dropped.data)[i] =
+        c->nodes->dropped[i];
   set_purpose(c);
   return ABUT_SUCCESS;
 }

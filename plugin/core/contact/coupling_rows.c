@@ -8,20 +8,11 @@
 
 #include <string.h>
 
-/* Weight of a row relative to the full one below which there is none, and
- * relative to the integral of |chi|. */
-static const double smallest_weight = 1e-6, weak_weight = 0.05;
+/* Weight of a row relative to the full one below which there is none. */
+static const double smallest_weight = 1e-6;
 
 /* Coefficients below this are round-off: exact zeros of matching meshes. */
 static const double smallest_coefficient = 1e-15;
-
-bool
-abut_coupling_is_weak(const abut_coupling *c, int32_t node)
-{
-  const double w = ((const double *)c->covered.data)[node];
-  return w < smallest_weight * ((const double *)c->full.data)[node]
-         || w < weak_weight * ((const double *)c->absolute.data)[node];
-}
 
 /* Bucket the shares by node. */
 static abut_status
@@ -86,10 +77,12 @@ sort_by_rank(int32_t *v, int32_t n, const int32_t *rank)
   }
 }
 
-/* Write the entries of a side, divided by the weight. */
+/* Write the entries of a side, divided by their sum: the weight but for
+ * round-off, which the cancellation of dual functions may magnify. */
 static abut_status
-gather(abut_coupling *c, int side, double weight, int32_t n_touched)
+gather(abut_coupling *c, int side, int32_t n_touched)
 {
+  double weight = 0.;
   const int32_t row = c->view.n_rows;
   int64_t *start = c->start[side].data;
   int32_t *touched = c->touched.data;
@@ -108,6 +101,8 @@ gather(abut_coupling *c, int side, double weight, int32_t n_touched)
   double *coefficient = c->coefficient[side].data;
   int64_t end = start[row];
   for (int32_t i = 0; i < n_touched; ++i)
+    weight += sum[touched[i]];
+  for (int32_t i = 0; i < n_touched; ++i)
   {
     const double value = sum[touched[i]] / weight;
     seen[touched[i]] = 0;
@@ -121,8 +116,7 @@ gather(abut_coupling *c, int side, double weight, int32_t n_touched)
 }
 
 static abut_status
-add_entries(abut_coupling *c, int side, const int64_t *list, int64_t n,
-            double weight)
+add_entries(abut_coupling *c, int side, const int64_t *list, int64_t n)
 {
   const abut_coupling_share *shares = c->shares.data;
   const abut_coupling_entry *entries = c->entries.data;
@@ -136,7 +130,7 @@ add_entries(abut_coupling *c, int side, const int64_t *list, int64_t n,
     if (status != ABUT_SUCCESS)
       return status;
   }
-  return gather(c, side, weight, n_touched);
+  return gather(c, side, n_touched);
 }
 
 /* The averaged normal of the node; where it leans away from the mean normal of
@@ -213,7 +207,7 @@ add_row(abut_coupling *c, const int64_t *list, int64_t n,
     ((double *)c->row_position.data)[row * (int64_t)dim + d] = position[d];
   }
   for (int side = 0; side < 2 && status == ABUT_SUCCESS; ++side)
-    status = add_entries(c, side, list, n, total->weight);
+    status = add_entries(c, side, list, n);
   if (status != ABUT_SUCCESS)
     return status;
   c->statistics.covered_area += total->weight;
