@@ -174,8 +174,8 @@ extern "C"
    * function fails or gives NaN.
    *
    * One thread at a time per obstacle: room for points in its own frame is
-   * kept in it. Cost: shapes O(n); surfaces some microseconds for a point
-   * near the surface, some nanoseconds per facet for one far from it. */
+   * kept in it. Cost: shapes O(n); surfaces O(log n facets) for a point near
+   * the surface, more for one that many facets are equally near to. */
   ABUT_API abut_status abut_obstacle_distance(abut_obstacle *obstacle,
                                               int32_t n, const double *points,
                                               double *distance,

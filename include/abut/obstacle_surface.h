@@ -4,7 +4,7 @@
 
 /** @file
  * Rigid obstacles made of facets: the signed distance to the nearest facet,
- * found by a search.
+ * which a tree of boxes finds however far away it is.
  *
  * The sign comes from the normal at the nearest point: within a facet its
  * own, on an edge the sum of the two facets', at a corner the sum of those of
@@ -15,7 +15,6 @@
  */
 
 #include <abut/obstacle.h>
-#include <abut/search.h>
 #include <abut/surface.h>
 
 #ifdef __cplusplus
@@ -30,16 +29,13 @@ extern "C"
     /** Length > 0 up to which distances are looked for: a point farther from
      * the surface, on either side, counts as outside the material at this
      * distance, with a gradient away from the surface's middle, and is counted
-     * (abut_obstacle_view). 0 (default): none. Limit what you need, since far
-     * points cost most. */
+     * (abut_obstacle_view). 0 (default): none. */
     double limit;
     /** Whether the surface may have borders: a sheet with the material behind
      * it. The sign beyond a border is that of the half space of the nearest
      * facet. Default false: closed. */
     bool open;
     bool hollow; /**< the material is outside of the surface. Default false */
-    /** Algorithm, bucket size and capacity; reaches and skin are not read. */
-    abut_search_options search;
   } abut_obstacle_surface;
 
   /** Defaults: a closed surface, no limit. */
@@ -48,7 +44,6 @@ extern "C"
     abut_obstacle_surface options;
     memset(&options, 0, sizeof(options));
     options.struct_size = sizeof(abut_obstacle_surface);
-    options.search = abut_search_defaults();
     return options;
   }
 
@@ -59,7 +54,7 @@ extern "C"
    *
    * INVALID_MESH, with the number of a facet, for a surface without facets,
    * with a border although it is to be closed, with more than two facets at a
-   * side, or closed and turned inside out. O(n). */
+   * side, or closed and turned inside out. O(n log n). */
   ABUT_API abut_status abut_obstacle_create_surface(
       abut_context *context, abut_surface *surface,
       const abut_obstacle_surface *options, abut_obstacle **obstacle);

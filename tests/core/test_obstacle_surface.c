@@ -337,8 +337,8 @@ star_polygon(void **state)
   scene_free(&mesh);
 }
 
-/* Points at all distances at once give what each gives alone, by every
- * algorithm; hollow ones the opposite; moved surfaces move along. */
+/* Points at all distances at once give what each gives alone; hollow ones the
+ * opposite; moved surfaces move along. */
 static void
 batches_poses_and_updates(void **state)
 {
@@ -353,22 +353,17 @@ batches_poses_and_updates(void **state)
     x[i] = (scene_uniform(&seed) - 0.5) * pow(10, (i / 3) % 4 - 1) * 3;
   scene_mesh mesh = ball(12, true);
   abut_surface *surface = surface_of(&mesh);
-  for (int a = 0; a < ABUT_SEARCH_N_ALGORITHMS; ++a)
-  {
-    abut_obstacle_surface options = abut_obstacle_surface_defaults();
-    options.search.algorithm = (abut_search_algorithm)a;
-    abut_obstacle *o = obstacle_of(surface, &options);
-    require(abut_obstacle_distance(o, N, x, d, g, NULL));
-    for (int i = 0; i < N && a == 0; ++i)
-      require(
-          abut_obstacle_distance(o, 1, x + 3 * i, alone + i, h + 3 * i, NULL));
-    assert_memory_equal(d, alone, sizeof(d));
-    assert_memory_equal(g, h, sizeof(g));
-    require(abut_obstacle_destroy(&o));
-  }
+  abut_obstacle *o = obstacle_of(surface, NULL);
+  require(abut_obstacle_distance(o, N, x, d, g, NULL));
+  for (int i = 0; i < N; ++i)
+    require(
+        abut_obstacle_distance(o, 1, x + 3 * i, alone + i, h + 3 * i, NULL));
+  assert_memory_equal(d, alone, sizeof(d));
+  assert_memory_equal(g, h, sizeof(g));
+  require(abut_obstacle_destroy(&o));
   abut_obstacle_surface options = abut_obstacle_surface_defaults();
   options.hollow = true;
-  abut_obstacle *o = obstacle_of(surface, &options);
+  o = obstacle_of(surface, &options);
   const double turn[9] = {0, -1, 0, 0, 0, -1, 1, 0, 0}, shift[3] = {4, 5, 6};
   require(abut_obstacle_set_pose(o, turn, shift));
   for (int i = 0; i < N; ++i)
