@@ -373,7 +373,8 @@ namespace abut::app
       present.level = number;
       set_tolerance(number == last);
       converged = solve_level(number > first);
-      if (parameters.refinement.is_adaptive(number))
+      if (number >= parameters.refinement.level
+          && parameters.refinement.adaptive_cycles > 0)
         estimate();
       finish_level(number);
       if (parameters.all_levels || number == last || !converged)

@@ -24,6 +24,7 @@ namespace abut
   {
     MethodParameters::declare_parameters(prm);
     SolverParameters::declare_parameters(prm);
+    SearchParameters::declare_parameters(prm);
   }
 
   template <int dim>
@@ -31,9 +32,12 @@ namespace abut
   {
     MethodParameters method;
     SolverParameters solver;
+    SearchParameters search;
     method.parse_parameters(prm);
     solver.parse_parameters(prm);
+    search.parse_parameters(prm);
     set_parameters(method, solver);
+    set_search_parameters(search);
   }
 
   template <int dim>
@@ -43,12 +47,40 @@ namespace abut
     implementation->method = method;
     implementation->solver_parameters = solver;
     implementation->solver.reset();
+    // How rows of pairs are made is a matter of the method, too.
+    if (!implementation->pairs.empty())
+      implementation->source_is_outdated = true;
   }
 
   template <int dim>
   void ContactAssembler<dim>::set_obstacle(const Obstacle<dim> &obstacle)
   {
     implementation->obstacle = obstacle;
+    implementation->pairs.clear();
+    implementation->source_is_outdated = true;
+  }
+
+  template <int dim>
+  void
+  ContactAssembler<dim>::set_search_parameters(const SearchParameters &search)
+  {
+    implementation->search = search;
+    if (!implementation->pairs.empty())
+      implementation->source_is_outdated = true;
+  }
+
+  template <int dim>
+  void
+  ContactAssembler<dim>::set_pairs(const std::vector<ContactPair<dim>> &pairs)
+  {
+    implementation->pairs = pairs;
+    implementation->source_is_outdated = true;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::set_axisymmetric(const bool axisymmetric)
+  {
+    implementation->axisymmetric = axisymmetric;
     implementation->source_is_outdated = true;
   }
 
@@ -71,6 +103,8 @@ namespace abut
     i.mapping = &mapping;
     i.dof_handler = &dof_handler;
     i.constraints = &constraints;
+    i.source.reset();
+    i.surfaces = nullptr;
     i.source_is_outdated = true;
     i.solver_is_ready = false;
     i.start_field = la::Vector();

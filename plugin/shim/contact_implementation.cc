@@ -3,11 +3,11 @@
 #include "contact_implementation.h"
 
 #include "agree.h"
+#include "bodies.h"
 #include "nodal_obstacle_rows.h"
-#include "solve/nodal_condensation.h"
-#include "solve/saddle_point.h"
 
 #include <cmath>
+#include <cstring>
 
 namespace abut
 {
@@ -25,6 +25,33 @@ namespace abut
           MPI_IN_PLACE, values, n, MPI_DOUBLE,
           operation == ABUT_REDUCTION_SUM ? MPI_SUM : MPI_MAX, communicator);
       return status == MPI_SUCCESS ? ABUT_SUCCESS : ABUT_CALLBACK_FAILED;
+    }
+
+    /** Number that tells sets of rows apart (FNV-1a): places and values of
+     * their arrays, but gaps. */
+    std::uint64_t signature(const abut_rows_view &view)
+    {
+      std::uint64_t hash = 14695981039346656037u;
+      const auto add = [&](const auto *data, const std::size_t n)
+      {
+        const auto mix = [&](const std::uint64_t word)
+        { hash = (hash ^ word) * 1099511628211u; };
+        mix(reinterpret_cast<std::uintptr_t>(data));
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          std::uint64_t word = 0;
+          std::memcpy(&word, data + i, sizeof(data[i]));
+          mix(word);
+        }
+      };
+      const std::size_t n = view.n_rows;
+      const std::size_t n_entries = n > 0 ? view.row_start[n] : 0;
+      add(view.id, n);
+      add(view.weight, n);
+      add(view.row_start, n > 0 ? n + 1 : 0);
+      add(view.column, n_entries);
+      add(view.coefficient, n_entries);
+      return hash;
     }
   } // namespace
 
@@ -52,18 +79,44 @@ namespace abut
     return result;
   }
 
+  template <int dim>
+  const shim::RowSource &
+  ContactAssembler<dim>::Implementation::present_source() const
+  {
+    AssertThrow(source != nullptr,
+                ExcMessage("There are no rows: call detect() first."));
+    return *source;
+  }
+
   template <int dim> void ContactAssembler<dim>::Implementation::create_source()
   {
-    AssertThrow(obstacle.lower || obstacle.upper,
-                ExcMessage("There is no obstacle: call set_obstacle() first."));
-    AssertThrow(
-        dof_handler->get_fe().n_components() == 1,
-        ExcMessage("Obstacles need a scalar field: the finite element "
-                   "has "
-                   + std::to_string(dof_handler->get_fe().n_components())
-                   + " components."));
-    source = std::make_unique<shim::NodalObstacleRows<dim>>(
-        *mapping, *dof_handler, *constraints, obstacle);
+    surfaces = nullptr;
+    if (!pairs.empty())
+    {
+      auto made = std::make_unique<shim::SurfacePairRows<dim>>(
+          *mapping, *dof_handler, *constraints, pairs,
+          typename shim::SurfacePairRows<dim>::Settings{method, search,
+                                                        axisymmetric},
+          context.get());
+      surfaces = made.get();
+      source = std::move(made);
+      near_null_space = shim::make_near_null_space(*mapping, *dof_handler);
+    }
+    else
+    {
+      AssertThrow(obstacle.lower || obstacle.upper,
+                  ExcMessage("There is nothing to touch: call set_obstacle() "
+                             "or set_pairs() first."));
+      AssertThrow(
+          dof_handler->get_fe().n_components() == 1,
+          ExcMessage("Obstacles need a scalar field: the finite element has "
+                     + std::to_string(dof_handler->get_fe().n_components())
+                     + " components."));
+      source = std::make_unique<shim::NodalObstacleRows<dim>>(
+          *mapping, *dof_handler, *constraints, obstacle);
+      near_null_space = solve::NearNullSpace();
+    }
+    solver.reset();
     source_is_outdated = false;
     solver_is_ready = false;
   }
@@ -75,6 +128,13 @@ namespace abut
     source->find(displacement, rows.get());
     check(abut_rows_get(rows.get(), &view));
     n_rows = MPI::sum(static_cast<global_dof_index>(view.n_rows), communicator);
+    coefficients = solve::RowOperator(dof_handler->locally_owned_dofs(), view,
+                                      communicator);
+    // A solver is kept as long as it would be made of the same rows.
+    const std::uint64_t before = rows_signature;
+    rows_signature = signature(view);
+    if (MPI::logical_or(before != rows_signature, communicator))
+      solver_is_ready = false;
     start_pressure.clear();
     if (start_field.size() > 0)
     {
@@ -90,10 +150,7 @@ namespace abut
       const la::Vector &displacement)
   {
     gap.resize(view.n_rows);
-    const auto range = displacement.local_range();
-    check(abut_rows_gap(rows.get(), la::data(displacement),
-                        static_cast<std::int64_t>(range.first),
-                        la::n_owned(displacement), gap.data()));
+    coefficients.gap(displacement, gap.data());
   }
 
   template <int dim>
@@ -151,7 +208,8 @@ namespace abut
     method.options.user = const_cast<MPI_Comm *>(&communicator);
     strategy = shim::create_strategy(context.get(), method.options);
 
-    const std::vector<double> stiffness = solve::row_stiffness(matrix, view);
+    const std::vector<double> stiffness =
+        solve::row_stiffness(matrix, coefficients);
     check(abut_strategy_start(
         strategy.get(), view.n_rows, view.id, view.weight, stiffness.data(),
         view.bilateral, gap.data(),
@@ -169,10 +227,9 @@ namespace abut
       return;
     if (solver == nullptr)
     {
-      if (method.system == System::saddle_point)
-        solver = std::make_unique<solve::SaddlePoint>(solver_parameters);
-      else
-        solver = std::make_unique<solve::NodalCondensation>(solver_parameters);
+      solver = solve::make_row_solver(method.system, solver_parameters, matrix,
+                                      view);
+      solver->set_near_null_space(near_null_space);
     }
     solver->reinit(matrix, view);
     solver_is_ready = true;

@@ -4,7 +4,9 @@
 
 #include "handles.h"
 #include "row_source.h"
+#include "solve/row_operator.h"
 #include "solve/row_solver.h"
+#include "surface_pair_rows.h"
 
 #include <abut/dealii/contact_assembler.h>
 
@@ -20,6 +22,8 @@ namespace abut
     }
 
     void check(const abut_status status) const;
+    /** The source of the present rows; throws if there is none. */
+    const shim::RowSource &present_source() const;
     void create_source();
     void find_rows(const la::Vector &displacement);
     void compute_gap(const la::Vector &displacement);
@@ -34,7 +38,10 @@ namespace abut
 
     const MPI_Comm communicator;
     Obstacle<dim> obstacle;
+    std::vector<ContactPair<dim>> pairs;
+    bool axisymmetric = false;
     MethodParameters method;
+    SearchParameters search;
     SolverParameters solver_parameters;
     bool constant_matrix = false;
 
@@ -42,12 +49,15 @@ namespace abut
     const dealii::DoFHandler<dim> *dof_handler = nullptr;
     const dealii::AffineConstraints<double> *constraints = nullptr;
     std::unique_ptr<shim::RowSource> source;
+    /** The same object if it makes rows of pairs, else null. */
+    shim::SurfacePairRows<dim> *surfaces = nullptr;
     bool source_is_outdated = true;
 
     shim::Handle<abut_context> context = shim::create_context();
     shim::Handle<abut_rows> rows = shim::create_rows(context.get());
     shim::Handle<abut_strategy> strategy;
     abut_rows_view view = {};
+    solve::RowOperator coefficients; ///< B of these rows
     dealii::types::global_dof_index n_rows = 0;
 
     la::Vector start_field;                ///< pressure to start from; empty: 0
@@ -58,8 +68,10 @@ namespace abut
     std::vector<double> gap; ///< [rows] at the present displacement
     double smallest_residual = 0.;
 
+    solve::NearNullSpace near_null_space;
     std::unique_ptr<solve::RowSolver> solver;
     bool solver_is_ready = false;
+    std::uint64_t rows_signature = 0; ///< of the rows of the last detect()
     bool is_started = false;
     bool was_added = false; ///< by add(): the host solves
     abut_request request = {};

@@ -13,8 +13,11 @@ namespace abut
     const Implementation &i = *implementation;
     double force = 0.;
     for (int row = 0; row < i.view.n_rows; ++row)
-      force += i.view.weight[row] * i.row_pressure(row)
-               * i.view.coefficient[i.view.row_start[row]];
+      if (i.surfaces == nullptr)
+        force += i.view.weight[row] * i.row_pressure(row)
+                 * i.view.coefficient[i.view.row_start[row]];
+      else if (i.view.bilateral[row] == 0)
+        force += i.view.weight[row] * i.row_pressure(row);
     return MPI::sum(force, i.communicator);
   }
 
@@ -34,40 +37,74 @@ namespace abut
 
   template <int dim> double ContactAssembler<dim>::penetration() const
   {
+    const Implementation &i = *implementation;
     double largest = 0.;
-    for (const double g : implementation->gap)
-      largest = std::max(largest, -g);
-    return MPI::max(largest, implementation->communicator);
+    for (int row = 0; row < i.view.n_rows; ++row)
+      largest =
+          std::max(largest, i.view.bilateral[row] != 0 ? std::abs(i.gap[row])
+                                                       : -i.gap[row]);
+    return MPI::max(largest, i.communicator);
   }
 
   template <int dim> la::Vector ContactAssembler<dim>::pressure() const
   {
     const Implementation &i = *implementation;
-    return i.source->pressure(i.row_pressures().data());
+    return i.present_source().pressure(i.row_pressures().data());
   }
 
   template <int dim> la::Vector ContactAssembler<dim>::gap() const
   {
     const Implementation &i = *implementation;
-    return i.source->gap(i.gap.data());
+    return i.present_source().gap(i.gap.data());
   }
 
   template <int dim> la::Vector ContactAssembler<dim>::status() const
   {
     const Implementation &i = *implementation;
-    return i.source->status(i.is_started ? i.request.state : nullptr);
+    return i.present_source().status(i.is_started ? i.request.state : nullptr);
   }
 
-  template double ContactAssembler<2>::contact_force() const;
-  template double ContactAssembler<2>::complementarity() const;
-  template double ContactAssembler<2>::penetration() const;
-  template la::Vector ContactAssembler<2>::pressure() const;
-  template la::Vector ContactAssembler<2>::gap() const;
-  template la::Vector ContactAssembler<2>::status() const;
-  template double ContactAssembler<3>::contact_force() const;
-  template double ContactAssembler<3>::complementarity() const;
-  template double ContactAssembler<3>::penetration() const;
-  template la::Vector ContactAssembler<3>::pressure() const;
-  template la::Vector ContactAssembler<3>::gap() const;
-  template la::Vector ContactAssembler<3>::status() const;
+  template <int dim>
+  std::vector<PairCheck> ContactAssembler<dim>::pair_checks() const
+  {
+    const auto *surfaces = implementation->surfaces;
+    return surfaces == nullptr ? std::vector<PairCheck>() : surfaces->checks();
+  }
+
+  template <int dim>
+  std::vector<PairResult<dim>> ContactAssembler<dim>::pair_results() const
+  {
+    const Implementation &i = *implementation;
+    if (i.surfaces == nullptr)
+      return {};
+    return i.surfaces->results(i.row_pressures().data(), i.gap.data(),
+                               i.is_started ? i.request.state : nullptr);
+  }
+
+  template <int dim>
+  std::vector<Penetration<dim>>
+  ContactAssembler<dim>::check_penetration(const la::Vector &displacement,
+                                           const double tolerance)
+  {
+    auto *surfaces = implementation->surfaces;
+    if (surfaces == nullptr)
+      return {};
+    return surfaces->penetrations(displacement, tolerance);
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template double ContactAssembler<dim>::contact_force() const;                \
+  template double ContactAssembler<dim>::complementarity() const;              \
+  template double ContactAssembler<dim>::penetration() const;                  \
+  template la::Vector ContactAssembler<dim>::pressure() const;                 \
+  template la::Vector ContactAssembler<dim>::gap() const;                      \
+  template la::Vector ContactAssembler<dim>::status() const;                   \
+  template std::vector<PairCheck> ContactAssembler<dim>::pair_checks() const;  \
+  template std::vector<PairResult<dim>> ContactAssembler<dim>::pair_results()  \
+      const;                                                                   \
+  template std::vector<Penetration<dim>>                                       \
+  ContactAssembler<dim>::check_penetration(const la::Vector &, double);
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
 } // namespace abut

@@ -2,6 +2,7 @@
 #ifndef ABUT_SHIM_HANDLES_H
 #define ABUT_SHIM_HANDLES_H
 
+#include <abut/coupling.h>
 #include <abut/detect.h>
 #include <abut/obstacle.h>
 #include <abut/rows.h>
@@ -29,6 +30,10 @@ namespace abut::shim
     void operator()(abut_strategy *object) const
     {
       abut_strategy_destroy(&object);
+    }
+    void operator()(abut_coupling *object) const
+    {
+      abut_coupling_destroy(&object);
     }
     void operator()(abut_surface *object) const
     {

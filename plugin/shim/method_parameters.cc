@@ -17,6 +17,44 @@ namespace abut
     const double tiny = std::numeric_limits<double>::min();
     const double huge = std::numeric_limits<double>::max();
 
+    constexpr std::pair<Discretisation, const char *> discretisations[] = {
+        {Discretisation::automatic, "auto"},
+        {Discretisation::node_to_segment, "node to segment"},
+        {Discretisation::quadrature_point, "quadrature point"},
+        {Discretisation::mortar, "mortar"},
+        {Discretisation::dual_mortar, "dual mortar"}};
+
+    /** Names of all discretisations, separated by bars. */
+    std::string discretisation_names()
+    {
+      std::string names;
+      for (const auto &entry : discretisations)
+        names += (names.empty() ? "" : "|") + std::string(entry.second);
+      return names;
+    }
+
+    void declare_discretisation(ParameterHandler &prm)
+    {
+      prm.declare_entry(
+          "Discretisation", "auto", Patterns::Selection(discretisation_names()),
+          "How contact between surfaces of bodies is written down. `node to "
+          "segment`: at each node of the secondary surface against the nearest "
+          "point of the primary; simple, but a constant pressure is not "
+          "transferred exactly. `quadrature point`: at points of a quadrature "
+          "rule on each facet, for `penalty` and `augmented lagrangian`. "
+          "`mortar`: gaps in weighted mean. `dual mortar`: the same with "
+          "multipliers that can be eliminated node by node. `auto`: dual "
+          "mortar between two bodies, node to segment against rigid "
+          "obstacles. A membrane's obstacle always acts at nodes.");
+      prm.declare_entry("Multiplier degree", "0", Patterns::Integer(0, 2),
+                        "Degree of the multipliers of `mortar` on quadratic "
+                        "elements: 1, 2, or 0 for that of the elements.");
+      prm.declare_entry("Quadrature degree", "0", Patterns::Integer(0, 8),
+                        "Degree up to which polynomials are integrated exactly "
+                        "on each common part of two facets, or on each facet "
+                        "with `quadrature point`. 0: chosen by the elements.");
+    }
+
     /** Names of all built-in laws, separated by bars. */
     std::string law_names()
     {
@@ -126,6 +164,37 @@ namespace abut
     }
   } // namespace
 
+  std::string discretisation_name(const Discretisation discretisation)
+  {
+    return discretisations[static_cast<int>(discretisation)].second;
+  }
+
+  std::string refusal(const abut_law &law, const Discretisation discretisation,
+                      const System system, const bool tied)
+  {
+    const bool hard = (law.flags & ABUT_LAW_HARD) != 0;
+    const bool interior = (law.flags & ABUT_LAW_INTERIOR) != 0;
+    const std::string with = "Method/Enforcement = " + std::string(law.name);
+    if (tied && interior)
+      return with
+             + " cannot glue surfaces: an equality has no interior. Use "
+               "lagrange, penalty or augmented lagrangian.";
+    if (discretisation == Discretisation::quadrature_point
+        && (tied || hard || law.outer == ABUT_OUTER_PRIMAL_DUAL))
+      return (tied ? "Tied surfaces" : with)
+             + std::string(
+                 " with Method/Discretisation = quadrature point has more "
+                 "conditions than the surface has unknowns: it locks. Use "
+                 "dual mortar, or penalty or augmented lagrangian.");
+    if (discretisation == Discretisation::mortar && hard
+        && system == System::condensed)
+      return with
+             + " with Method/Discretisation = mortar couples all multipliers: "
+               "they cannot be eliminated row by row. Use Method/System = "
+               "saddle point, or dual mortar.";
+    return "";
+  }
+
   void MethodParameters::declare_parameters(ParameterHandler &prm)
   {
     const abut_strategy_options defaults = abut_strategy_defaults();
@@ -141,6 +210,7 @@ namespace abut
                       "penalty. `barrier`: from inside the feasible set, with "
                       "a barrier that goes to zero. `interior point`: the "
                       "same with primal-dual steps from any start.");
+    declare_discretisation(prm);
     declare_penalty(prm, defaults);
     declare_barrier(prm, defaults);
     declare_stopping(prm, defaults);
@@ -161,6 +231,12 @@ namespace abut
     system = word == "condensed"      ? System::condensed
              : word == "saddle point" ? System::saddle_point
                                       : System::automatic;
+    const std::string way = prm.get("Discretisation");
+    for (const auto &entry : discretisations)
+      if (way == entry.second)
+        discretisation = entry.first;
+    multiplier_degree = prm.get_integer("Multiplier degree");
+    quadrature_degree = prm.get_integer("Quadrature degree");
     prm.leave_subsection();
     AssertThrow(system != System::saddle_point
                     || (options.law->flags & ABUT_LAW_HARD) != 0,

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "row_solver.h"
 
-#include "condensation.h"
 #include "nodal_condensation.h"
 #include "row_operator.h"
 #include "saddle_point.h"
@@ -45,10 +44,8 @@ namespace abut::solve
                                              const la::Matrix &stiffness,
                                              const abut_rows_view &rows)
   {
-    if (system == System::saddle_point)
+    if (system == System::saddle_point || !are_nodal(stiffness, rows))
       return std::make_unique<SaddlePoint>(parameters);
-    if (are_nodal(stiffness, rows))
-      return std::make_unique<NodalCondensation>(parameters);
-    return std::make_unique<Condensation>(parameters);
+    return std::make_unique<NodalCondensation>(parameters);
   }
 } // namespace abut::solve

@@ -22,8 +22,10 @@
  * otherwise, and errors are thrown on all ranks.
  */
 
+#include <abut/dealii/contact_pair.h>
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/method_parameters.h>
+#include <abut/dealii/search_parameters.h>
 #include <abut/dealii/solver_parameters.h>
 #include <abut/strategy.h>
 
@@ -68,7 +70,7 @@ namespace abut
     explicit ContactAssembler(MPI_Comm communicator);
     ~ContactAssembler();
 
-    /** Declare the sections `Method` and `Solver`. Not collective. */
+    /** Declare the sections `Method`, `Solver` and `Search`. Not collective. */
     static void declare_parameters(dealii::ParameterHandler &prm);
 
     /** Read them. Not collective. */
@@ -78,9 +80,27 @@ namespace abut
     void set_parameters(const MethodParameters &method,
                         const SolverParameters &solver);
 
+    /** How the surfaces of pairs are searched. Takes effect at detect(). Not
+     * collective. */
+    void set_search_parameters(const SearchParameters &search);
+
     /** What the field may not penetrate. Takes effect at detect(). Not
      * collective. */
     void set_obstacle(const Obstacle<dim> &obstacle);
+
+    /** The other kind of contact: pairs of surfaces of elastic bodies, or of a
+     * surface and a rigid obstacle. The displacement is the first dim
+     * components of the finite element, FESystem(FE_Q(degree), dim) of degree
+     * 1 or 2. Where pairs overlap, the first one has the node. The geometry is
+     * that of the undeformed bodies, so that gaps are linear in the
+     * displacement. Takes effect at detect(); replaces an obstacle. Not
+     * collective. */
+    void set_pairs(const std::vector<ContactPair<dim>> &pairs);
+
+    /** Whether the bodies of pairs are rotated about the axis x = 0 (2D):
+     * weights are then areas of the whole turn, as integrals with 2 pi x are.
+     * Default: false. Not collective. */
+    void set_axisymmetric(bool axisymmetric);
 
     /** Say that the matrix given to solve() is the same until the next
      * reinit(): preconditioners are then kept. Default: false. Not
@@ -96,25 +116,30 @@ namespace abut
 
     /** Find the constraint rows and begin a new solve at @p displacement
      * (owned entries). Throws ObstacleError if a prescribed value violates
-     * an obstacle, if obstacles cross or have a value that is not a number.
-     * Pressures of the last solve, or those of set_pressure(), are its
-     * start. */
+     * an obstacle, if obstacles cross or have a value that is not a number,
+     * and ContactError for pairs that cannot be solved; pair_checks() tells
+     * what is odd but no error. Surfaces look for each other within half a
+     * facet, one and a half times their relative motion in @p displacement,
+     * or the reach given, whichever is most. Pressures of the last solve, or
+     * those of set_pressure(), are its start. */
     void detect(const la::Vector &displacement);
 
-    /** Nodal pressure to start from, for example interpolated from a coarser
-     * mesh: positive on the lower obstacle, negative on the upper. Call
-     * between reinit() and detect(). */
+    /** Pressure to start from, in the form of pressure(), for example
+     * interpolated from a coarser mesh. Call between reinit() and detect(). */
     void set_pressure(const la::Vector &pressure);
 
-    /** Add the couplings that add() needs. Rows on single unknowns, as those
-     * of obstacles, need none. */
+    /** Add the couplings that add() needs: those of all rows, in contact or
+     * not. Rows on single unknowns, as those of a membrane's obstacle, need
+     * none. The pattern must take rows of other ranks, and be distributed
+     * afterwards. Not collective. */
     void add_to_sparsity(dealii::DynamicSparsityPattern &pattern) const;
 
     /** Improve the start by @p n_sweeps symmetric projected Gauss-Seidel
      * sweeps, and take the set of active rows from them: nested iteration
      * needs a third of the steps then. Only between detect() and the first
      * solve(), for symmetric positive definite @p matrix. Changes
-     * @p displacement; its residual must be computed again. */
+     * @p displacement; its residual must be computed again. Does nothing for
+     * pairs, except with the law `barrier`, whose gaps are opened. */
     void relax(const la::Matrix &matrix, const la::Vector &residual,
                unsigned int n_sweeps, la::Vector &displacement);
 
@@ -153,8 +178,9 @@ namespace abut
      * for interior methods those with pressure / stiffness > gap. */
     dealii::types::global_dof_index n_active() const;
 
-    /** Sum of w p B over rows: the contact force on the lower obstacle minus
-     * that on the upper. */
+    /** Of a membrane: the contact force on the lower obstacle minus that on
+     * the upper. Of pairs: the sum of the magnitudes of the normal forces of
+     * all rows that are not ties; see pair_results() for vectors. */
     double contact_force() const;
 
     /** sum w |p g| / sum w |p|: mean gap under pressure, length. */
@@ -163,15 +189,39 @@ namespace abut
     /** Largest penetration max(0, -g), length. */
     double penetration() const;
 
-    /** Nodal pressure, signed as in set_pressure(), 0 where there is no row
-     * (hanging nodes: distribute your hanging-node constraints). No ghosts. */
+    /** Of a membrane: nodal pressure, positive on the lower obstacle, negative
+     * on the upper, 0 where there is no row (hanging nodes: distribute your
+     * hanging-node constraints).
+     *
+     * Of pairs: the vector p n at the nodes of the secondary surface, where -p
+     * n is the force per area on it, so that it can be interpolated to another
+     * mesh; for ties likewise with the shear. Hanging nodes have the value of
+     * their parents. No ghosts. */
     la::Vector pressure() const;
 
-    /** Nodal gap to the nearer obstacle, 0 where there is no row. */
+    /** Nodal gap to the nearer obstacle, 0 where there is no row. Of pairs: in
+     * each of the first dim components. */
     la::Vector gap() const;
 
-    /** 1 on the lower, 2 on the upper obstacle, 0 open, -1 without a row. */
+    /** 1 on the lower, 2 on the upper obstacle, 0 open, -1 without a row. Of
+     * pairs: 1 in contact, in each of the first dim components. */
     la::Vector status() const;
+
+    /** What detect() met on each pair; empty without pairs. Not collective. */
+    std::vector<PairCheck> pair_checks() const;
+
+    /** Forces, moments and extremes on each pair; empty without pairs. */
+    std::vector<PairResult<dim>> pair_results() const;
+
+    /** Search the bodies displaced by @p displacement, without regard to
+     * rows, for nodes of either side that are inside the other body (or
+     * obstacle) by more than @p tolerance, length > 0, although no row of the
+     * pair holds them. To be called after convergence; if something is found,
+     * call detect() with this displacement, whose reach follows the motion, and
+     * solve on. The same list on all ranks; empty without pairs. As costly as
+     * detect(). */
+    std::vector<Penetration<dim>>
+    check_penetration(const la::Vector &displacement, double tolerance);
 
     /** Cost of all linear solves since the last reinit(). */
     const LinearReport &linear_report() const;

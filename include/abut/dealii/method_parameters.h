@@ -10,6 +10,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <string>
+
 namespace abut
 {
   /** Linear system in which contact is enforced. */
@@ -19,6 +21,26 @@ namespace abut
     condensed,   /**< pressures eliminated row by row */
     saddle_point /**< pressures are unknowns of the linear system */
   };
+
+  /** How contact between two surfaces, or of a surface with a rigid obstacle,
+   * is written down as rows. */
+  enum class Discretisation
+  {
+    automatic,        /**< dual mortar for two surfaces, nodes against rigid
+                           obstacles */
+    node_to_segment,  /**< one row per secondary node, nearest point */
+    quadrature_point, /**< one row per quadrature point of a secondary facet */
+    mortar,           /**< weighted gaps, standard multipliers */
+    dual_mortar       /**< weighted gaps, biorthogonal multipliers */
+  };
+
+  /** The word of a parameter file for a discretisation. */
+  std::string discretisation_name(Discretisation discretisation);
+
+  /** Why a law (or a tie) is not offered with a discretisation, with what to
+   * take instead; empty if it is. @p discretisation must not be automatic. */
+  std::string refusal(const abut_law &law, Discretisation discretisation,
+                      System system, bool tied);
 
   /** The section `Method` of a parameter file.
    *
@@ -35,6 +57,17 @@ namespace abut
 
     /** Which linear system is solved. */
     System system = System::automatic;
+
+    /** How rows between surfaces are made; membranes have no choice. */
+    Discretisation discretisation = Discretisation::automatic;
+
+    /** Degree of mortar multipliers on quadratic facets: 1 or 2; 0 takes the
+     * degree of the facets. */
+    unsigned int multiplier_degree = 0;
+
+    /** Degree of the quadrature on each mortar segment; 0: exact for flat
+     * parallelograms. For `quadrature point`, of the rule on each facet. */
+    unsigned int quadrature_degree = 0;
 
     /** Declare the section `Method` in the present section of @p prm. */
     static void declare_parameters(dealii::ParameterHandler &prm);

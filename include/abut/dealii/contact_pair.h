@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_DEALII_CONTACT_PAIR_H
+#define ABUT_DEALII_CONTACT_PAIR_H
+
+/** @file
+ * Which surfaces of elastic bodies may touch each other or a rigid obstacle,
+ * and what was found there.
+ */
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/base/types.h>
+
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace abut
+{
+  template <int dim> class RigidObstacle;
+
+  /** Two surfaces, or a surface and a rigid obstacle. */
+  template <int dim> struct ContactPair
+  {
+    /** Name in messages and tables. */
+    std::string name;
+
+    /** Boundary ids of the secondary surface: the one that carries the rows,
+     * usually the finer and softer side. */
+    std::set<dealii::types::boundary_id> secondary;
+
+    /** Boundary ids of the primary surface; empty if there is an obstacle. */
+    std::set<dealii::types::boundary_id> primary;
+
+    /** What the secondary surface may not penetrate instead of a primary
+     * surface; or null. */
+    std::shared_ptr<const RigidObstacle<dim>> obstacle;
+
+    /** Added to the gap of the geometry, length: > 0 clearance, < 0
+     * interference. */
+    double gap = 0.;
+
+    /** The surfaces are glued: no relative displacement in any direction. */
+    bool tied = false;
+
+    /** Distance within which the surfaces are looked for, length; 0: half a
+     * facet, or one and a half times the motion since the last search if that
+     * is more. */
+    double reach = 0.;
+  };
+
+  /** What is known of a pair before anything is solved. Global over ranks. */
+  struct PairCheck
+  {
+    std::string name;                  /**< of the pair */
+    unsigned int secondary_facets = 0; /**< on all ranks */
+    unsigned int primary_facets = 0;   /**< on all ranks; 0: obstacle */
+    dealii::types::global_dof_index n_rows = 0; /**< constraint rows */
+    double area = 0.;                           /**< of the secondary surface */
+    double covered_area = 0.;   /**< part of it that has a partner: the sum of
+                                     the weights of the rows */
+    double overlap = 0.;        /**< largest initial penetration, length >= 0 */
+    unsigned int n_dropped = 0; /**< nodes without a multiplier: prescribed
+                                     along the normal, or taken by another
+                                     pair */
+    unsigned int n_reversed = 0; /**< nodes that only found facets with a
+                                      normal that points the same way */
+    double size_ratio = 0.;      /**< median facet size, secondary by primary */
+    std::vector<std::string> warnings; /**< in words, with what to do */
+  };
+
+  /** What a solve found on a pair. Global over ranks. */
+  template <int dim> struct PairResult
+  {
+    std::string name;                             /**< of the pair */
+    dealii::types::global_dof_index n_rows = 0;   /**< constraint rows */
+    dealii::types::global_dof_index n_active = 0; /**< of these in contact */
+    double covered_area = 0.; /**< sum of the weights of the rows */
+    double penetration = 0.;  /**< largest, length >= 0; of a tie the largest
+                                   opening in any direction */
+    double pressure = 0.;     /**< largest */
+    /** Resultant contact forces on the two sides. Against an obstacle the
+     * second is minus the first. */
+    dealii::Tensor<1, dim> secondary_force, primary_force;
+    /** Moments about the origin, of the forces at the reference positions; in
+     * 2D the third component alone is not 0. */
+    dealii::Tensor<1, 3> secondary_moment, primary_moment;
+    /** |sum of the forces| / |force|, and |sum of the moments| / (|force| *
+     * diameter of the surface); 0 where there is no force. */
+    double force_imbalance = 0., moment_imbalance = 0.;
+  };
+
+  /** A point that has penetrated although no row holds it. */
+  template <int dim> struct Penetration
+  {
+    std::string pair;         /**< name of the pair */
+    dealii::Point<dim> point; /**< present position of the node */
+    double depth = 0.;        /**< length > 0 */
+    bool on_primary = false;  /**< a node of the primary surface */
+  };
+
+  /** Contact pairs that cannot be solved as they are: the message names the
+   * pair and says what to do. Thrown on all ranks. */
+  class ContactError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+} // namespace abut
+
+#endif

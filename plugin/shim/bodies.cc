@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "bodies.h"
+
+#include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/tria.h>
+
+#include <map>
+#include <numeric>
+
+namespace abut::shim
+{
+  namespace
+  {
+    /** Body of each coarse cell, by its index. All ranks know all coarse
+     * cells. */
+    template <int dim>
+    std::vector<int>
+    number_bodies(const dealii::Triangulation<dim> &triangulation,
+                  unsigned int &n_bodies)
+    {
+      // Union-find over vertices: cells with a common vertex are one body.
+      std::vector<unsigned int> root(triangulation.n_vertices());
+      std::iota(root.begin(), root.end(), 0u);
+      const auto find = [&](unsigned int v)
+      {
+        while (root[v] != v)
+          v = root[v] = root[root[v]];
+        return v;
+      };
+      for (const auto &cell : triangulation.cell_iterators_on_level(0))
+        for (const unsigned int v : cell->vertex_indices())
+          root[find(cell->vertex_index(v))] = find(cell->vertex_index(0));
+
+      std::map<unsigned int, int> number;
+      std::vector<int> body(triangulation.n_cells(0));
+      for (const auto &cell : triangulation.cell_iterators_on_level(0))
+        body[cell->index()] =
+            number.emplace(find(cell->vertex_index(0)), number.size())
+                .first->second;
+      n_bodies = static_cast<unsigned int>(number.size());
+      return body;
+    }
+  } // namespace
+
+  template <int dim>
+  solve::NearNullSpace
+  make_near_null_space(const dealii::Mapping<dim> &mapping,
+                       const dealii::DoFHandler<dim> &dof_handler)
+  {
+    const auto &fe = dof_handler.get_fe();
+    const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+    solve::NearNullSpace space;
+    space.n_components = fe.n_components();
+    const std::vector<int> bodies =
+        number_bodies(dof_handler.get_triangulation(), space.n_bodies);
+    space.component.resize(owned.n_elements());
+    space.body.resize(owned.n_elements());
+    space.point.resize(owned.n_elements());
+
+    dealii::FEValues<dim> values(
+        mapping, fe, dealii::Quadrature<dim>(fe.get_unit_support_points()),
+        dealii::update_quadrature_points);
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    // An unknown of this rank may lie on ghost cells only.
+    for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      if (cell->is_artificial())
+        continue;
+      values.reinit(cell);
+      cell->get_dof_indices(dofs);
+      auto ancestor = cell;
+      while (ancestor->level() > 0)
+        ancestor = ancestor->parent();
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        if (!owned.is_element(dofs[i]))
+          continue;
+        const auto k = owned.index_within_set(dofs[i]);
+        space.component[k] = fe.system_to_component_index(i).first;
+        space.body[k] = bodies[ancestor->index()];
+        for (unsigned int d = 0; d < dim; ++d)
+          space.point[k][d] = values.quadrature_point(i)[d];
+      }
+    }
+    return space;
+  }
+
+  template solve::NearNullSpace
+  make_near_null_space(const dealii::Mapping<2> &,
+                       const dealii::DoFHandler<2> &);
+  template solve::NearNullSpace
+  make_near_null_space(const dealii::Mapping<3> &,
+                       const dealii::DoFHandler<3> &);
+} // namespace abut::shim

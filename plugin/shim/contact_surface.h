@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_CONTACT_SURFACE_H
+#define ABUT_SHIM_CONTACT_SURFACE_H
+
+#include <abut/facet.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/types.h>
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace abut::shim
+{
+  /** Boundary facets of a displacement field with all that rows need to know
+   * of their nodes. Facets are sorted by cell and face, nodes numbered as the
+   * facets meet them, so that numbers do not depend on how the mesh is
+   * distributed; a node whose facets are elsewhere (a parent of hanging nodes)
+   * comes after the others. */
+  template <int dim> struct ContactSurface
+  {
+    using Index = dealii::types::global_dof_index;
+
+    /** Most nodes of a facet. */
+    static constexpr unsigned int max_nodes = dim == 2 ? 3 : 9;
+
+    /** A support point of the field. */
+    struct Node
+    {
+      dealii::Point<dim> point;   ///< in the reference configuration
+      std::array<Index, dim> dof; ///< unknown of each component
+    };
+
+    /** A term of a constraint: factor times an unknown (or a node). */
+    struct Term
+    {
+      Index index;
+      double factor;
+    };
+
+    /** What the host's constraints make of an unknown: the sum of terms over
+     * free unknowns and a constant. */
+    struct Line
+    {
+      std::vector<Term> terms;
+      double constant = 0.;
+    };
+
+    /** A boundary face of an active cell. */
+    struct Facet
+    {
+      std::array<std::uint32_t, 4> cell; ///< binary CellId
+      std::uint32_t face;
+      dealii::types::boundary_id boundary_id;
+      std::uint32_t owner; ///< rank of the cell
+      /** In the order of abut/facet.h, outward. */
+      std::array<std::int32_t, max_nodes> node;
+    };
+
+    abut_facet_kind kind = dim == 2 ? ABUT_FACET_LINE2 : ABUT_FACET_QUAD4;
+    std::vector<Facet> facets;
+    std::vector<Node> nodes;
+    /** [nodes * dim] of each component. */
+    std::vector<Line> lines;
+    /** [nodes] parents of a hanging node, by number; empty: does not hang. */
+    std::vector<std::vector<Term>> parents;
+
+    /** Nodes of a facet. */
+    unsigned int nodes_per_facet() const
+    {
+      return static_cast<unsigned int>(abut_facet_n_nodes(kind));
+    }
+  };
+} // namespace abut::shim
+
+#endif

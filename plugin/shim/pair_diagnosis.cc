@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "pair_diagnosis.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace abut::shim
+{
+  namespace
+  {
+    /** A pass over all nodes with a reach that no body exceeds. */
+    struct Nearest
+    {
+      double above = INFINITY; ///< smallest distance of an open node
+      double below = INFINITY; ///< smallest depth of a node inside
+    };
+
+    template <int dim>
+    Nearest nearest(abut_context *context, const SurfaceSide<dim> &secondary,
+                    const SurfaceSide<dim> &primary,
+                    const SearchParameters &search, const double cosine)
+    {
+      abut_detection_options options = search.detection;
+      options.normal_cosine = cosine;
+      options.search.reach =
+          10. * (secondary.extent() + primary.extent() + 1e-30);
+      const auto detection = create_detection(context, secondary.surface.get(),
+                                              primary.surface.get(), options);
+      check(context, abut_detection_run(detection.get(), 0.));
+      abut_detection_view view;
+      check(context, abut_detection_get(detection.get(), &view));
+      Nearest result;
+      for (std::int32_t n = 0; n < view.n_nodes; ++n)
+        if (view.contact[n].facet >= 0)
+        {
+          double &side =
+              view.contact[n].gap >= 0. ? result.above : result.below;
+          side = std::min(side, view.contact[n].distance);
+        }
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  std::string why_no_rows(abut_context *context,
+                          const SurfaceSide<dim> &secondary,
+                          const SurfaceSide<dim> &primary,
+                          const SearchParameters &search, const double reach)
+  {
+    const double facing = search.detection.normal_cosine;
+    const Nearest opposed =
+        nearest(context, secondary, primary, search, facing);
+    std::ostringstream text;
+    if (opposed.above < INFINITY && opposed.above <= opposed.below)
+      text << "the surfaces are too far apart: the smallest distance is "
+           << opposed.above << ", the reach is " << reach
+           << ". Move the bodies together, or give the pair a larger reach.";
+    else if (opposed.below < INFINITY)
+      text << "the bodies overlap by at least " << opposed.below
+           << ", more than the reach of " << reach
+           << ". Move them apart, or give the pair a larger reach if the "
+              "overlap is meant as interference.";
+    else
+    {
+      const Nearest any = nearest(context, secondary, primary, search, 1.);
+      if (std::min(any.above, any.below) < INFINITY)
+        text << "the outward normals of the two surfaces point the same way. "
+                "Take the sides that face each other, or turn the mesh whose "
+                "cells are inside out.";
+      else
+        text << "no point of one surface lies opposite the other. Check the "
+                "boundary ids and the position of the bodies.";
+    }
+    return text.str();
+  }
+
+  template std::string why_no_rows(abut_context *, const SurfaceSide<2> &,
+                                   const SurfaceSide<2> &,
+                                   const SearchParameters &, double);
+  template std::string why_no_rows(abut_context *, const SurfaceSide<3> &,
+                                   const SurfaceSide<3> &,
+                                   const SearchParameters &, double);
+} // namespace abut::shim

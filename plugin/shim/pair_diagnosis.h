@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_PAIR_DIAGNOSIS_H
+#define ABUT_SHIM_PAIR_DIAGNOSIS_H
+
+#include "surface_side.h"
+
+#include <string>
+
+namespace abut::shim
+{
+  /** Why two surfaces have no part in contact range: too far apart, deeper in
+   * each other than the reach, or turned the wrong way; in words, with what to
+   * do. Searches at any distance, so only for pairs that found nothing. */
+  template <int dim>
+  std::string why_no_rows(abut_context *context,
+                          const SurfaceSide<dim> &secondary,
+                          const SurfaceSide<dim> &primary,
+                          const SearchParameters &search, double reach);
+} // namespace abut::shim
+
+#endif

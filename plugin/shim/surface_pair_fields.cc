@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Values of rows between surfaces as fields on the unknowns, and back.
+#include "surface_pair_rows.h"
+
+#include <abut/strategy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace abut::shim
+{
+  using dealii::types::global_dof_index;
+
+  template <int dim> la::Vector SurfacePairRows<dim>::field() const
+  {
+    return la::Vector(dof_handler_.locally_owned_dofs(), communicator_);
+  }
+
+  template <int dim>
+  template <typename Function>
+  void SurfacePairRows<dim>::for_each_share(const Function &function) const
+  {
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (rows_[i].node >= 0)
+        function(i, rows_[i].node, 1.);
+      else
+        for (std::size_t e = rows_[i].first; e < rows_[i].first_primary; ++e)
+          function(i, entries_[e].node, -entries_[e].coefficient);
+  }
+
+  template <int dim>
+  std::vector<double>
+  SurfacePairRows<dim>::row_pressure(const la::Vector &field) const
+  {
+    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    std::vector<global_dof_index> others;
+    for_each_share(
+        [&](std::size_t, const Node node, double)
+        {
+          for (const auto dof : surface_.nodes[node].dof)
+            if (!owned.is_element(dof))
+              others.push_back(dof);
+        });
+    std::sort(others.begin(), others.end());
+    dealii::IndexSet needed(owned.size());
+    needed.add_indices(others.begin(), others.end());
+    la::Vector ghosted(owned, needed, communicator_);
+    ghosted = field;
+
+    std::vector<double> result(rows_.size(), 0.);
+    for_each_share(
+        [&](const std::size_t i, const Node node, const double share)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            result[i] += share * rows_[i].direction[d]
+                         * ghosted(surface_.nodes[node].dof[d]);
+        });
+    return result;
+  }
+
+  template <int dim>
+  la::Vector SurfacePairRows<dim>::pressure(const double *row_pressure) const
+  {
+    // At nodes as it is; from quadrature points by weighted means.
+    la::Vector result = field(), weight = field();
+    for_each_share(
+        [&](const std::size_t i, const Node node, const double share)
+        {
+          const double w = rows_[i].node >= 0 ? 1. : share * rows_[i].weight;
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            const auto dof = surface_.nodes[node].dof[d];
+            result(dof) += w * row_pressure[i] * rows_[i].direction[d];
+            if (rows_[i].node < 0)
+              weight(dof) += w;
+          }
+        });
+    result.compress(dealii::VectorOperation::add);
+    weight.compress(dealii::VectorOperation::add);
+    double *p = la::data(result);
+    const double *w = la::data(weight);
+    for (int i = 0; i < la::n_owned(result); ++i)
+      if (w[i] > 0.)
+        p[i] /= w[i];
+    hanging_.distribute(result);
+    return result;
+  }
+
+  template <int dim>
+  la::Vector SurfacePairRows<dim>::gap(const double *row_gap) const
+  {
+    // The weighted mean of the rows of a node.
+    la::Vector result = field(), weight = field();
+    for_each_share(
+        [&](const std::size_t i, const Node node, const double share)
+        {
+          const double w = share * rows_[i].weight;
+          for (const auto dof : surface_.nodes[node].dof)
+          {
+            result(dof) += w * row_gap[i];
+            weight(dof) += w;
+          }
+        });
+    result.compress(dealii::VectorOperation::add);
+    weight.compress(dealii::VectorOperation::add);
+    double *g = la::data(result);
+    const double *w = la::data(weight);
+    for (int i = 0; i < la::n_owned(result); ++i)
+      if (w[i] > 0.)
+        g[i] /= w[i];
+    hanging_.distribute(result);
+    return result;
+  }
+
+  template <int dim>
+  la::Vector SurfacePairRows<dim>::status(const std::uint8_t *row_state) const
+  {
+    // Rows and closed rows are counted, since counts add up over ranks.
+    la::Vector present = field(), closed = field();
+    for_each_share(
+        [&](const std::size_t i, const Node node, double)
+        {
+          const bool is_closed =
+              row_state != nullptr && row_state[i] != ABUT_STATE_OPEN;
+          for (const auto dof : surface_.nodes[node].dof)
+          {
+            present(dof) += 1.;
+            closed(dof) += is_closed ? 1. : 0.;
+          }
+        });
+    present.compress(dealii::VectorOperation::add);
+    closed.compress(dealii::VectorOperation::add);
+    la::Vector result = field();
+    double *s = la::data(result);
+    for (int i = 0; i < la::n_owned(result); ++i)
+      s[i] = la::data(closed)[i] > 0.    ? 1.
+             : la::data(present)[i] > 0. ? 0.
+                                         : -1.;
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+  template <int dim>
+  std::vector<std::uint8_t>
+  SurfacePairRows<dim>::relax(const la::Matrix &, const la::Vector &,
+                              const std::vector<double> &, unsigned int,
+                              la::Vector &) const
+  {
+    // Rows over several unknowns are not relaxed one by one.
+    return {};
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::push_inside(const std::vector<double> &gap,
+                                         std::vector<double> margin,
+                                         la::Vector &displacement) const
+  {
+    // Each row's own node steps back along the normal, as far as it is free.
+    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+    {
+      const Node node = rows_[i].node;
+      if (node < 0 || gap[i] >= margin[i])
+        continue;
+      double own = 0.;
+      for (std::size_t e = rows_[i].first; e < rows_[i].first_primary; ++e)
+        if (entries_[e].node == node)
+          own -= entries_[e].coefficient;
+      double free = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const auto &line = surface_.lines[node * dim + d];
+        if (line.terms.size() == 1
+            && line.terms[0].index == surface_.nodes[node].dof[d])
+          free += rows_[i].direction[d] * rows_[i].direction[d];
+      }
+      if (own * free <= 0.)
+        continue;
+      const double step = (margin[i] - gap[i]) / (own * free);
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const auto dof = surface_.nodes[node].dof[d];
+        const auto &line = surface_.lines[node * dim + d];
+        if (line.terms.size() == 1 && line.terms[0].index == dof)
+          la::data(displacement)[owned.index_within_set(dof)] -=
+              step * rows_[i].direction[d];
+      }
+    }
+    displacement.compress(dealii::VectorOperation::insert);
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template la::Vector SurfacePairRows<dim>::field() const;                     \
+  template std::vector<double> SurfacePairRows<dim>::row_pressure(             \
+      const la::Vector &) const;                                               \
+  template la::Vector SurfacePairRows<dim>::pressure(const double *) const;    \
+  template la::Vector SurfacePairRows<dim>::gap(const double *) const;         \
+  template la::Vector SurfacePairRows<dim>::status(const std::uint8_t *)       \
+      const;                                                                   \
+  template std::vector<std::uint8_t> SurfacePairRows<dim>::relax(              \
+      const la::Matrix &, const la::Vector &, const std::vector<double> &,     \
+      unsigned int, la::Vector &) const;                                       \
+  template void SurfacePairRows<dim>::push_inside(                             \
+      const std::vector<double> &, std::vector<double>, la::Vector &) const;
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut::shim

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What was met on pairs of surfaces, and what a solve found there.
+#include "pair_diagnosis.h"
+#include "surface_pair_rows.h"
+
+#include <abut/strategy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /** Facets of the secondary as a multiple of those of the primary, above
+     * which nodes of the primary can pass between those of the secondary. */
+    constexpr double coarse_secondary = 2.5;
+
+    /** Initial overlap, in sizes of a facet, that is worth a word. */
+    constexpr double large_overlap = 0.3;
+
+    template <int dim>
+    abut_surface_sizes measure(const abut_context *context,
+                               const SurfaceSide<dim> &side)
+    {
+      abut_surface_sizes sizes;
+      check(context, abut_surface_measure(side.surface.get(), &sizes));
+      return sizes;
+    }
+
+    template <int dim>
+    Tensor<1, 3> cross(const dealii::Point<dim> &x, const Tensor<1, dim> &f)
+    {
+      Tensor<1, 3> a, b;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        a[d] = x[d];
+        b[d] = f[d];
+      }
+      return dealii::cross_product_3d(a, b);
+    }
+
+    template <typename Number> std::string text(const Number number)
+    {
+      std::ostringstream out;
+      out << number;
+      return out.str();
+    }
+  } // namespace
+
+  template <int dim>
+  void SurfacePairRows<dim>::make_check(const std::size_t number,
+                                        const unsigned int n_dropped)
+  {
+    const Pair &pair = pairs_[number];
+    abut_coupling_statistics statistics;
+    check(context_,
+          abut_coupling_get_statistics(pair.coupling.get(), &statistics));
+    const abut_surface_sizes sizes = measure(context_, pair.secondary);
+
+    PairCheck result;
+    result.name = pair.data.name;
+    result.secondary_facets = pair.secondary.n_facets();
+    result.primary_facets = pair.primary.n_facets();
+    result.n_dropped = n_dropped;
+    result.area = MPI::sum(statistics.full_area, communicator_);
+    if (result.area == 0.)
+      result.area = sizes.area;
+    result.size_ratio = statistics.size_ratio;
+    double covered = 0., overlap = 0.;
+    dealii::types::global_dof_index n_rows = 0;
+    for (const Row &row : rows_)
+      if (row.pair == number)
+      {
+        ++n_rows;
+        covered += row.weight / (pair.data.tied ? dim : 1.);
+        overlap = std::max(overlap, pair.data.tied ? 0. : -row.gap);
+      }
+    result.n_rows = MPI::sum(n_rows, communicator_);
+    result.covered_area = MPI::sum(covered, communicator_);
+    result.overlap = MPI::max(overlap, communicator_);
+
+    if (result.size_ratio > coarse_secondary)
+      result.warnings.push_back(
+          "The secondary surface is " + text(result.size_ratio)
+          + " times as coarse as the primary, whose nodes can pass between "
+            "those of the secondary: exchange the two sides, or refine the "
+            "secondary.");
+    if (result.overlap > large_overlap * sizes.median)
+      result.warnings.push_back(
+          "The surfaces overlap by " + text(result.overlap)
+          + " before anything is loaded, " + text(result.overlap / sizes.median)
+          + " times the size of a facet. If that is not meant as interference, "
+            "move the bodies apart.");
+    if (result.n_rows == 0)
+    {
+      const double reach =
+          std::max(settings_.search.detection.search.reach, pair.data.reach);
+      const double relative =
+          settings_.search.detection.search.relative_reach
+          * (pair.data.obstacle ? sizes : measure(context_, pair.primary))
+                .largest;
+      result.warnings.push_back(
+          pair.data.obstacle
+              ? "no node of the surface is within reach of the obstacle."
+              : why_no_rows(context_, pair.secondary, pair.primary,
+                            settings_.search, std::max(reach, relative)));
+    }
+    checks_.push_back(result);
+    // Rigid obstacles may come nearer in later steps; the reference
+    // configuration of bodies stays as it is.
+    if (result.n_rows == 0 && !pair.data.obstacle)
+      throw ContactError("Pair '" + pair.data.name
+                         + "': " + result.warnings.back());
+  }
+
+  template <int dim>
+  std::vector<PairResult<dim>>
+  SurfacePairRows<dim>::results(const double *row_pressure,
+                                const double *row_gap,
+                                const std::uint8_t *row_state) const
+  {
+    std::vector<PairResult<dim>> results(pairs_.size());
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      results[p].name = pairs_[p].data.name;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+    {
+      const Row &row = rows_[i];
+      const bool tied = pairs_[row.pair].data.tied;
+      PairResult<dim> &result = results[row.pair];
+      ++result.n_rows;
+      if (row_state != nullptr && row_state[i] != ABUT_STATE_OPEN)
+        ++result.n_active;
+      result.covered_area += row.weight / (tied ? dim : 1.);
+      result.penetration = std::max(result.penetration,
+                                    tied ? std::abs(row_gap[i]) : -row_gap[i]);
+      result.pressure = std::max(result.pressure, row_pressure[i]);
+      for (std::size_t e = row.first; e < row.end; ++e)
+      {
+        const Direction force = row.weight * row_pressure[i]
+                                * entries_[e].coefficient * row.direction;
+        const auto moment =
+            cross(surface_.nodes[entries_[e].node].point, force);
+        const bool secondary = e < row.first_primary;
+        (secondary ? result.secondary_force : result.primary_force) += force;
+        (secondary ? result.secondary_moment : result.primary_moment) += moment;
+      }
+    }
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
+      PairResult<dim> &result = results[p];
+      result.n_rows = MPI::sum(result.n_rows, communicator_);
+      result.n_active = MPI::sum(result.n_active, communicator_);
+      result.covered_area = MPI::sum(result.covered_area, communicator_);
+      result.penetration = MPI::max(result.penetration, communicator_);
+      result.pressure = MPI::max(result.pressure, communicator_);
+      result.secondary_force = MPI::sum(result.secondary_force, communicator_);
+      result.primary_force = MPI::sum(result.primary_force, communicator_);
+      result.secondary_moment =
+          MPI::sum(result.secondary_moment, communicator_);
+      result.primary_moment = MPI::sum(result.primary_moment, communicator_);
+      if (pairs_[p].data.obstacle)
+      {
+        result.primary_force = -result.secondary_force;
+        result.primary_moment = -result.secondary_moment;
+      }
+      const double force = result.secondary_force.norm();
+      if (force > 0.)
+      {
+        result.force_imbalance =
+            (result.secondary_force + result.primary_force).norm() / force;
+        result.moment_imbalance =
+            (result.secondary_moment + result.primary_moment).norm()
+            / (force * pairs_[p].secondary.extent());
+      }
+    }
+    return results;
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template void SurfacePairRows<dim>::make_check(std::size_t, unsigned int);   \
+  template std::vector<PairResult<dim>> SurfacePairRows<dim>::results(         \
+      const double *, const double *, const std::uint8_t *) const;
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut::shim

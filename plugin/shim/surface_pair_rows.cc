@@ -1,0 +1,452 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// From pairs of surfaces to rows.
+#include "surface_pair_rows.h"
+
+#include "agree.h"
+
+#include <abut/dealii/rigid_obstacle.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+  using dealii::types::global_dof_index;
+
+  namespace
+  {
+    /** A node that can move along a direction only this little (1: freely)
+     * is held there. */
+    constexpr double least_freedom = 0.5;
+
+    /** More than the points of any rule on a facet. */
+    constexpr std::int64_t points_per_facet = 256;
+
+    abut_discretisation core_word(const Discretisation discretisation)
+    {
+      switch (discretisation)
+      {
+      case Discretisation::node_to_segment:
+        return ABUT_DISCRETISATION_NODE_TO_SEGMENT;
+      case Discretisation::quadrature_point:
+        return ABUT_DISCRETISATION_QUADRATURE_POINT;
+      case Discretisation::mortar:
+        return ABUT_DISCRETISATION_MORTAR;
+      default:
+        return ABUT_DISCRETISATION_DUAL_MORTAR;
+      }
+    }
+
+    template <int dim>
+    std::set<dealii::types::boundary_id>
+    all_ids(const std::vector<ContactPair<dim>> &pairs)
+    {
+      std::set<dealii::types::boundary_id> ids;
+      for (const auto &pair : pairs)
+      {
+        ids.insert(pair.secondary.begin(), pair.secondary.end());
+        ids.insert(pair.primary.begin(), pair.primary.end());
+      }
+      return ids;
+    }
+
+    template <int dim>
+    dealii::AffineConstraints<double>
+    hanging_nodes(const dealii::DoFHandler<dim> &dof_handler)
+    {
+      dealii::IndexSet relevant;
+      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+      dealii::AffineConstraints<double> hanging;
+      hanging.reinit(relevant);
+      dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging);
+      hanging.close();
+      return hanging;
+    }
+  } // namespace
+
+  template <int dim>
+  SurfacePairRows<dim>::SurfacePairRows(
+      const dealii::Mapping<dim> &mapping,
+      const dealii::DoFHandler<dim> &dof_handler,
+      const dealii::AffineConstraints<double> &constraints,
+      const std::vector<ContactPair<dim>> &pairs, const Settings &settings,
+      abut_context *context)
+      : dof_handler_(dof_handler),
+        communicator_(dof_handler.get_communicator()),
+        settings_(settings),
+        context_(context),
+        hanging_(hanging_nodes(dof_handler)),
+        exchange_(mapping, dof_handler, constraints, hanging_),
+        surface_(exchange_.gather(all_ids(pairs)))
+  {
+    std::string message;
+    try
+    {
+      for (const auto &pair : pairs)
+        create_pair(pair);
+    }
+    catch (const std::exception &error)
+    {
+      message = error.what();
+    }
+    throw_everywhere<ContactError>(communicator_, message);
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::create_pair(const ContactPair<dim> &data)
+  {
+    Pair pair;
+    pair.data = data;
+    pair.discretisation = settings_.method.discretisation;
+    if (pair.discretisation == Discretisation::automatic)
+      pair.discretisation = data.obstacle ? Discretisation::node_to_segment
+                                          : Discretisation::dual_mortar;
+    const std::string reason =
+        refusal(*settings_.method.options.law, pair.discretisation,
+                settings_.method.system, data.tied);
+    if (!reason.empty())
+      throw ContactError("Pair '" + data.name + "': " + reason);
+    if (!pairs_.empty())
+      pair.first_id =
+          pairs_.back().first_id
+          + std::max<std::int64_t>(surface_.nodes.size() * dim,
+                                   surface_.facets.size() * points_per_facet);
+    try
+    {
+      pair.secondary =
+          make_side(context_, surface_, data.secondary, settings_.search);
+      pair.primary =
+          make_side(context_, surface_, data.primary, settings_.search);
+      check_sides(pair);
+      create_coupling(pair);
+    }
+    catch (const dealii::ExceptionBase &error)
+    {
+      const char *text = error.what();
+      throw ContactError("Pair '" + data.name + "': " + text);
+    }
+    pairs_.push_back(std::move(pair));
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::check_sides(const Pair &pair) const
+  {
+    const auto &data = pair.data;
+    const auto refuse = [&](const std::string &what)
+    { throw ContactError("Pair '" + data.name + "': " + what); };
+    if (data.obstacle && !data.primary.empty())
+      refuse("it has both a primary surface and an obstacle; leave one out.");
+    if (!data.obstacle && data.primary.empty())
+      refuse("it has neither a primary surface nor an obstacle.");
+    if (data.obstacle && data.tied)
+      refuse("a body cannot be tied to an obstacle; prescribe its displacement "
+             "there instead.");
+    if (pair.secondary.n_facets() == 0)
+      refuse("no facet of the mesh has a boundary id of the secondary "
+             "surface.");
+    if (!data.obstacle && pair.primary.n_facets() == 0)
+      refuse("no facet of the mesh has a boundary id of the primary surface.");
+    for (const auto id : data.secondary)
+      if (data.primary.count(id) != 0)
+        refuse("boundary id " + std::to_string(id)
+               + " is on both sides; give the two surfaces ids of their own.");
+  }
+
+  template <int dim> void SurfacePairRows<dim>::create_coupling(Pair &pair)
+  {
+    abut_coupling_options options = abut_coupling_defaults();
+    options.discretisation = core_word(pair.discretisation);
+    options.multiplier_degree =
+        pair.discretisation == Discretisation::mortar
+            ? static_cast<std::int32_t>(settings_.method.multiplier_degree)
+            : 0;
+    options.quadrature_degree =
+        static_cast<std::int32_t>(settings_.method.quadrature_degree);
+    options.axisymmetric = settings_.axisymmetric;
+    options.normal_cosine = settings_.search.detection.normal_cosine;
+    options.search = settings_.search.detection.search;
+    options.search.reach = std::max(options.search.reach, pair.data.reach);
+    abut_coupling *made = nullptr;
+    check(context_, pair.data.obstacle
+                        ? abut_coupling_create_obstacle(
+                            context_, pair.secondary.surface.get(),
+                            pair.data.obstacle->handle(), &options, &made)
+                        : abut_coupling_create(
+                            context_, pair.secondary.surface.get(),
+                            pair.primary.surface.get(), &options, &made));
+    pair.coupling.reset(made);
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  SurfacePairRows<dim>::node_displacements(const la::Vector &u) const
+  {
+    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    std::vector<global_dof_index> columns;
+    for (const auto &line : surface_.lines)
+      for (const auto &term : line.terms)
+        if (!owned.is_element(term.index))
+          columns.push_back(term.index);
+    std::sort(columns.begin(), columns.end());
+    dealii::IndexSet needed(owned.size());
+    needed.add_indices(columns.begin(), columns.end());
+    la::Vector ghosted(owned, needed, communicator_);
+    ghosted = u;
+
+    std::vector<Direction> result(surface_.nodes.size());
+    for (std::size_t n = 0; n < result.size(); ++n)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const auto &line = surface_.lines[n * dim + d];
+        result[n][d] = line.constant;
+        for (const auto &term : line.terms)
+          result[n][d] += term.factor * ghosted(term.index);
+      }
+    return result;
+  }
+
+  template <int dim>
+  double SurfacePairRows<dim>::motion(const Pair &pair,
+                                      const std::vector<Direction> &u) const
+  {
+    // Common translations of both sides do not count; obstacles stand still.
+    Direction lower, upper;
+    bool is_first = !pair.data.obstacle;
+    for (const auto *side : {&pair.secondary, &pair.primary})
+      for (const Node node : side->node)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = is_first ? u[node][d] : std::min(lower[d], u[node][d]);
+          upper[d] = is_first ? u[node][d] : std::max(upper[d], u[node][d]);
+        }
+        is_first = false;
+      }
+    return (upper - lower).norm();
+  }
+
+  template <int dim>
+  double SurfacePairRows<dim>::freedom(const Node node,
+                                       const Direction &direction) const
+  {
+    std::map<global_dof_index, Direction> columns;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const auto &term : surface_.lines[node * dim + d].terms)
+        columns[term.index][d] += term.factor;
+    double sum = 0.;
+    for (const auto &column : columns)
+      if (column.second.norm_square() > 0.)
+      {
+        const double along = column.second * direction;
+        sum += along * along / column.second.norm_square();
+      }
+    return sum;
+  }
+
+  template <int dim>
+  std::vector<std::uint8_t>
+  SurfacePairRows<dim>::dropped_nodes(const Pair &pair,
+                                      const std::vector<std::uint8_t> &taken,
+                                      const int component) const
+  {
+    const SurfaceSide<dim> &side = pair.secondary;
+    const double *normal = nullptr;
+    check(context_, abut_surface_normals(side.surface.get(), &normal));
+    std::vector<std::uint8_t> dropped(side.n_nodes(), 0);
+    for (int n = 0; n < side.n_nodes(); ++n)
+    {
+      const Node node = side.node[n];
+      if (!surface_.parents[node].empty())
+        continue;
+      Direction direction;
+      for (unsigned int d = 0; d < dim; ++d)
+        direction[d] = component < 0 ? normal[n * dim + d]
+                                     : (d == static_cast<unsigned>(component));
+      dropped[n] = taken[node] != 0
+                   || (direction.norm_square() > 0.
+                       && freedom(node, direction) < least_freedom);
+    }
+    return dropped;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::build(const Pair &pair,
+                                   const std::vector<std::uint8_t> &dropped,
+                                   const double motion)
+  {
+    const SurfaceSide<dim> &side = pair.secondary;
+    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    const auto me = MPI::this_mpi_process(communicator_);
+    std::vector<std::uint8_t> wanted(side.n_nodes()), facets(side.n_facets());
+    for (int n = 0; n < side.n_nodes(); ++n)
+      wanted[n] = owned.is_element(surface_.nodes[side.node[n]].dof[0]);
+    for (int f = 0; f < side.n_facets(); ++f)
+      facets[f] = surface_.facets[side.facet[f]].owner == me;
+
+    abut_coupling_nodes nodes = abut_coupling_nodes_defaults();
+    nodes.wanted = wanted.data();
+    nodes.wanted_facet = facets.data();
+    nodes.dropped = dropped.data();
+    nodes.n_hanging = static_cast<std::int32_t>(side.hanging_node.size());
+    nodes.hanging_node = side.hanging_node.data();
+    nodes.hanging_start = side.hanging_start.data();
+    nodes.hanging_parent = side.hanging_parent.data();
+    nodes.hanging_weight = side.hanging_weight.data();
+    const abut_status status =
+        abut_coupling_build(pair.coupling.get(), &nodes, motion);
+    std::string message;
+    if (status != ABUT_SUCCESS)
+      message =
+          "Pair '" + pair.data.name + "': " + message_of(context_, status);
+    throw_everywhere<ContactError>(communicator_, message);
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::take_rows(const std::size_t number,
+                                       const int component)
+  {
+    const Pair &pair = pairs_[number];
+    abut_coupling_view view;
+    check(context_, abut_coupling_get(pair.coupling.get(), &view));
+    for (std::int32_t i = 0; i < view.n_rows; ++i)
+    {
+      Row row;
+      row.pair = number;
+      row.node = view.node[i] < 0 ? -1 : pair.secondary.node[view.node[i]];
+      row.id = pair.first_id
+               + (row.node >= 0
+                      ? std::int64_t(row.node) * dim + std::max(component, 0)
+                      : pair.secondary.facet[view.facet[i]] * points_per_facet
+                            + view.point[i]);
+      row.weight = view.weight[i];
+      row.gap = component < 0 ? view.gap[i] + pair.data.gap : 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        row.direction[d] = component < 0
+                               ? view.normal[i * dim + d]
+                               : (d == static_cast<unsigned>(component));
+      row.first = entries_.size();
+      for (auto e = view.secondary_start[i]; e < view.secondary_start[i + 1];
+           ++e)
+        entries_.push_back({pair.secondary.node[view.secondary_node[e]],
+                            -view.secondary_coefficient[e]});
+      row.first_primary = entries_.size();
+      for (auto e = view.primary_start[i]; e < view.primary_start[i + 1]; ++e)
+        entries_.push_back({pair.primary.node[view.primary_node[e]],
+                            view.primary_coefficient[e]});
+      row.end = entries_.size();
+      rows_.push_back(row);
+    }
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::find_pair(const std::size_t number,
+                                       const double motion,
+                                       std::vector<std::uint8_t> &taken)
+  {
+    const Pair &pair = pairs_[number];
+    const std::size_t first = rows_.size();
+    std::vector<std::uint8_t> dropped;
+    unsigned int n_dropped = 0;
+    const auto count = [&]
+    { return std::count(dropped.begin(), dropped.end(), std::uint8_t(1)); };
+    if (!pair.data.tied)
+    {
+      dropped = dropped_nodes(pair, taken, -1);
+      n_dropped = count();
+      build(pair, dropped, motion);
+      take_rows(number, -1);
+    }
+    else
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const auto now = dropped_nodes(pair, taken, d);
+        if (d == 0 || now != dropped)
+        {
+          dropped = now;
+          n_dropped = std::max<unsigned int>(n_dropped, count());
+          build(pair, dropped, motion);
+        }
+        take_rows(number, d);
+      }
+    std::sort(rows_.begin() + first, rows_.end(),
+              [](const Row &a, const Row &b) { return a.id < b.id; });
+
+    // A node has rows of one pair only: two would constrain it twice. Several
+    // obstacles may hold one node in a corner.
+    if (!pair.data.obstacle)
+      for (std::size_t i = first; i < rows_.size(); ++i)
+        if (rows_[i].node >= 0)
+          taken[rows_[i].node] = 1;
+    exchange_.merge_marks(taken);
+    make_check(number, n_dropped);
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::append(const Row &row, abut_rows *rows,
+                                    std::string &message) const
+  {
+    std::map<global_dof_index, double> terms;
+    double gap = row.gap;
+    for (std::size_t e = row.first; e < row.end; ++e)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double factor = entries_[e].coefficient * row.direction[d];
+        const auto &line = surface_.lines[entries_[e].node * dim + d];
+        gap += factor * line.constant;
+        for (const auto &term : line.terms)
+          terms[term.index] += factor * term.factor;
+      }
+    std::vector<std::int64_t> column;
+    std::vector<double> coefficient;
+    for (const auto &term : terms)
+      if (std::abs(term.second) > 1e-14)
+      {
+        column.push_back(static_cast<std::int64_t>(term.first));
+        coefficient.push_back(term.second);
+      }
+    const abut_status status = abut_rows_append(
+        rows, row.id, row.weight, gap, pairs_[row.pair].data.tied ? 1 : 0,
+        static_cast<std::int32_t>(column.size()), column.data(),
+        coefficient.data());
+    if (status != ABUT_SUCCESS && message.empty())
+      message = "Pair '" + pairs_[row.pair].data.name
+                + "': " + message_of(context_, status);
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::find(const la::Vector &displacement,
+                                  abut_rows *rows)
+  {
+    rows_.clear();
+    entries_.clear();
+    checks_.clear();
+    const std::vector<Direction> u = node_displacements(displacement);
+    std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      find_pair(p, motion(pairs_[p], u), taken);
+
+    // Rows between nodes that cannot move say nothing.
+    rows_.erase(
+        std::remove_if(rows_.begin(), rows_.end(),
+                       [&](const Row &row)
+                       {
+                         for (std::size_t e = row.first; e < row.end; ++e)
+                           if (freedom(entries_[e].node, row.direction) > 1e-10)
+                             return false;
+                         return true;
+                       }),
+        rows_.end());
+    std::string message;
+    abut_rows_clear(rows);
+    for (const Row &row : rows_)
+      append(row, rows, message);
+    throw_everywhere<ContactError>(communicator_, message);
+  }
+
+  template class SurfacePairRows<2>;
+  template class SurfacePairRows<3>;
+} // namespace abut::shim

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_SURFACE_PAIR_ROWS_H
+#define ABUT_SHIM_SURFACE_PAIR_ROWS_H
+
+#include "row_source.h"
+#include "surface_exchange.h"
+#include "surface_side.h"
+
+#include <abut/dealii/contact_pair.h>
+#include <abut/dealii/method_parameters.h>
+#include <abut/rows.h>
+
+namespace abut::shim
+{
+  /** Rows between surfaces of bodies, and of surfaces against rigid obstacles,
+   * from the core's coupling.
+   *
+   * The geometry is that of the reference configuration (displacement 0), so
+   * that the gap is linear in the displacement. A row is on the rank that owns
+   * its secondary node, or for quadrature points the facet's cell. Its
+   * coefficients are those of free unknowns: what constraints make of an
+   * unknown is put in its place. */
+  template <int dim> class SurfacePairRows : public RowSource
+  {
+  public:
+    /** What does not depend on the pair. */
+    struct Settings
+    {
+      MethodParameters method;
+      SearchParameters search;
+      bool axisymmetric = false;
+    };
+
+    /** All references must outlive this object. Throws ContactError for pairs
+     * that make no sense. Collective. */
+    SurfacePairRows(const dealii::Mapping<dim> &mapping,
+                    const dealii::DoFHandler<dim> &dof_handler,
+                    const dealii::AffineConstraints<double> &constraints,
+                    const std::vector<ContactPair<dim>> &pairs,
+                    const Settings &settings, abut_context *context);
+
+    void find(const la::Vector &displacement, abut_rows *rows) override;
+    std::vector<double> row_pressure(const la::Vector &field) const override;
+    la::Vector pressure(const double *row_pressure) const override;
+    la::Vector gap(const double *row_gap) const override;
+    la::Vector status(const std::uint8_t *row_state) const override;
+    std::vector<std::uint8_t> relax(const la::Matrix &matrix,
+                                    const la::Vector &residual,
+                                    const std::vector<double> &gap,
+                                    unsigned int n_sweeps,
+                                    la::Vector &displacement) const override;
+    void push_inside(const std::vector<double> &gap, std::vector<double> margin,
+                     la::Vector &displacement) const override;
+
+    /** What find() met, by pair. */
+    const std::vector<PairCheck> &checks() const
+    {
+      return checks_;
+    }
+
+    /** Results by pair for [rows] pressures, gaps and states (null: nothing
+     * solved). Collective. */
+    std::vector<PairResult<dim>> results(const double *row_pressure,
+                                         const double *row_gap,
+                                         const std::uint8_t *row_state) const;
+
+    /** Nodes of either side that have penetrated by more than @p tolerance
+     * (length) at @p displacement and are not held by a row. Collective. */
+    std::vector<Penetration<dim>> penetrations(const la::Vector &displacement,
+                                               double tolerance);
+
+  private:
+    using Node = std::int32_t;
+    using Direction = dealii::Tensor<1, dim>;
+
+    /** A pair with its two sides and their coupling. */
+    struct Pair
+    {
+      ContactPair<dim> data;
+      Discretisation discretisation = Discretisation::dual_mortar;
+      SurfaceSide<dim> secondary, primary;
+      Handle<abut_coupling> coupling;
+      std::int64_t first_id = 0;
+    };
+
+    /** A row before constraints are put in. Its entries are dg/du = direction
+     * * coefficient of nodes of the whole surface, those of the secondary
+     * first. */
+    struct Row
+    {
+      std::int64_t id;
+      std::size_t pair;
+      Node node; ///< -1: quadrature point
+      double weight;
+      double gap;                            ///< at displacement 0
+      Direction direction;                   ///< normal, or axis of a tie
+      std::size_t first, first_primary, end; ///< entries
+    };
+
+    struct Entry
+    {
+      Node node;
+      double coefficient;
+    };
+
+    void create_pair(const ContactPair<dim> &data);
+    void create_coupling(Pair &pair);
+    void check_sides(const Pair &pair) const;
+    std::vector<Direction> node_displacements(const la::Vector &u) const;
+    double motion(const Pair &pair, const std::vector<Direction> &u) const;
+    double freedom(Node node, const Direction &direction) const;
+    std::vector<std::uint8_t>
+    dropped_nodes(const Pair &pair, const std::vector<std::uint8_t> &taken,
+                  int component) const;
+    void build(const Pair &pair, const std::vector<std::uint8_t> &dropped,
+               double motion);
+    void take_rows(std::size_t pair, int component);
+    void find_pair(std::size_t pair, double motion,
+                   std::vector<std::uint8_t> &taken);
+    void append(const Row &row, abut_rows *rows, std::string &message) const;
+    void make_check(std::size_t pair, unsigned int n_dropped);
+    la::Vector field() const;
+    template <typename Function>
+    void for_each_share(const Function &function) const;
+
+    const dealii::DoFHandler<dim> &dof_handler_;
+    const MPI_Comm communicator_;
+    const Settings settings_;
+    abut_context *const context_;
+    dealii::AffineConstraints<double> hanging_;
+    SurfaceExchange<dim> exchange_;
+    ContactSurface<dim> surface_;
+    std::vector<Pair> pairs_;
+    std::vector<Row> rows_;
+    std::vector<Entry> entries_;
+    std::vector<PairCheck> checks_;
+  };
+} // namespace abut::shim
+
+#endif

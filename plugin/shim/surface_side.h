@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_SURFACE_SIDE_H
+#define ABUT_SHIM_SURFACE_SIDE_H
+
+#include "contact_surface.h"
+#include "handles.h"
+
+#include <abut/dealii/search_parameters.h>
+
+#include <set>
+
+namespace abut::shim
+{
+  /** One side of a pair as the core wants it: the facets of some boundary ids
+   * with a numbering of their own, in the order of the numbers in the whole
+   * surface. */
+  template <int dim> struct SurfaceSide
+  {
+    std::vector<std::int32_t> facet; ///< [facets] number in the whole
+    std::vector<std::int32_t> node;  ///< [nodes] number in the whole
+    std::vector<double> position;    ///< [nodes * dim], read by the core
+    /** Hanging nodes as in abut_coupling_nodes. */
+    std::vector<std::int32_t> hanging_node, hanging_start, hanging_parent;
+    std::vector<double> hanging_weight;
+    Handle<abut_surface> surface;
+
+    int n_facets() const
+    {
+      return static_cast<int>(facet.size());
+    }
+
+    int n_nodes() const
+    {
+      return static_cast<int>(node.size());
+    }
+
+    /** Number here of a node of the whole, or -1. O(log n). */
+    int local_node(std::int32_t number) const;
+
+    /** Longest extent of the box of all nodes, length. */
+    double extent() const;
+  };
+
+  /** Take the facets with these boundary ids. Throws what the core finds wrong
+   * with them. Not collective, but the same on all ranks. */
+  template <int dim>
+  SurfaceSide<dim> make_side(abut_context *context,
+                             const ContactSurface<dim> &whole,
+                             const std::set<dealii::types::boundary_id> &ids,
+                             const SearchParameters &search);
+
+  /** Move a side to @p positions of the nodes of the whole. */
+  template <int dim>
+  void move_side(const abut_context *context,
+                 const std::vector<dealii::Point<dim>> &positions,
+                 SurfaceSide<dim> &side);
+} // namespace abut::shim
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The patch test in space, with hanging nodes on both sides of the interface.
+#include "patch.h"
+
+using namespace abut;
+
+int
+main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  bool good = true;
+  const auto run = [&](hosts::Case one, const std::string &name)
+  {
+    for (const bool upper : {true, false})
+    {
+      one.upper_is_secondary = upper;
+      one.name = name + (upper ? ", upper side" : ", lower side");
+      good = hosts::passes<3>(one, 1e-11) && good;
+    }
+  };
+
+  hosts::Case one;
+  one.cells = {{2, 3}};
+  run(one, "dual mortar");
+  one.method = hosts::method("lagrange", Discretisation::mortar);
+  one.method.system = System::saddle_point;
+  run(one, "mortar");
+  return good ? 0 : 1;
+}

@@ -1,0 +1,516 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_TESTS_TWO_BLOCKS_H
+#define ABUT_TESTS_TWO_BLOCKS_H
+
+/** @file
+ * The patch test as a deal.II program: two unit blocks of different material
+ * and mesh, one on the other, in a frame that is turned by an odd angle. Top
+ * and bottom are moved as the exact solution moves them, the sides are free.
+ * The exact stress is -1 across the interface and 0 along it; its displacement
+ * is linear in each block, so that any error is one of contact.
+ */
+
+#include <abut/dealii/contact_assembler.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/lac/sparsity_tools.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <array>
+#include <cmath>
+#include <iostream>
+
+namespace abut::hosts
+{
+  using dealii::Point;
+  using dealii::Tensor;
+  namespace MPI = dealii::Utilities::MPI;
+
+  /** Boundary ids. */
+  enum Side : dealii::types::boundary_id
+  {
+    free_side = 0,
+    bottom = 1,
+    lower_interface = 2,
+    upper_interface = 3,
+    top = 4
+  };
+
+  /** Young's modulus and Poisson's ratio. */
+  struct Material
+  {
+    double young, poisson;
+
+    double mu() const
+    {
+      return young / (2. * (1. + poisson));
+    }
+
+    double lambda() const
+    {
+      return young * poisson / ((1. + poisson) * (1. - 2. * poisson));
+    }
+
+    /** Strain across and along the interface under unit pressure, in plane
+     * strain (2D) or with all sides free (3D). */
+    double normal_strain(const int dim) const
+    {
+      return -(dim == 2 ? 1. - poisson * poisson : 1.) / young;
+    }
+
+    double lateral_strain(const int dim) const
+    {
+      return (dim == 2 ? poisson * (1. + poisson) : poisson) / young;
+    }
+  };
+
+  /** The rotation from the blocks' own frame, in which the last axis is the
+   * normal of the interface. */
+  template <int dim> Tensor<2, dim> rotation()
+  {
+    Tensor<2, dim> r;
+    const double c = std::cos(0.37), s = std::sin(0.37);
+    if (dim == 2)
+    {
+      r[0][0] = r[1][1] = c;
+      r[0][1] = -s;
+      r[1][0] = s;
+      return r;
+    }
+    // First about the first axis, then about the last.
+    const double c2 = std::cos(1.1), s2 = std::sin(1.1);
+    Tensor<2, 3> a, b;
+    a[0][0] = 1.;
+    a[1][1] = a[2][2] = c;
+    a[1][2] = -s;
+    a[2][1] = s;
+    b[2][2] = 1.;
+    b[0][0] = b[1][1] = c2;
+    b[0][1] = -s2;
+    b[1][0] = s2;
+    const Tensor<2, 3> both = b * a;
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        r[i][j] = both[i][j];
+    return r;
+  }
+
+  /** Displacement of one block under unit pressure. */
+  template <int dim> class ExactDisplacement : public dealii::Function<dim>
+  {
+  public:
+    explicit ExactDisplacement(const Material &material)
+        : dealii::Function<dim>(dim), material_(material), r_(rotation<dim>())
+    {
+    }
+
+    Tensor<1, dim> displacement(const Point<dim> &p) const
+    {
+      Tensor<1, dim> x = transpose(r_) * Tensor<1, dim>(p);
+      for (int d = 0; d < dim; ++d)
+        x[d] *= d == dim - 1 ? material_.normal_strain(dim)
+                             : material_.lateral_strain(dim);
+      return r_ * x;
+    }
+
+    double value(const Point<dim> &p, const unsigned int c) const override
+    {
+      return displacement(p)[c];
+    }
+
+  private:
+    const Material material_;
+    const Tensor<2, dim> r_;
+  };
+
+  /** What is varied. */
+  struct Case
+  {
+    std::string name;
+    MethodParameters method;
+    bool upper_is_secondary = true;
+    unsigned int degree = 1;
+    bool tied = false;
+    /** The upper block is lifted by separation + tilt times the first
+     * coordinate of its own frame; 0 for the patch test. */
+    double separation = 0., tilt = 0.;
+    /** Cells of the lower and upper block along each axis. */
+    std::array<unsigned int, 2> cells = {{3, 4}};
+  };
+
+  /** Largest errors. */
+  struct Errors
+  {
+    double stress = 0.;       ///< of any component, exact stress 1
+    double displacement = 0.; ///< relative to the largest one
+    double pressure = 0.;     ///< of p n at secondary nodes
+    double area = 0., force = 0., imbalance = 0., moment_imbalance = 0.;
+    unsigned int steps = 0, hanging = 0;
+    abut_reason reason = ABUT_REASON_NONE;
+    dealii::types::global_dof_index n_rows = 0, n_active = 0;
+  };
+
+  /** The program. */
+  template <int dim> class TwoBlocks
+  {
+  public:
+    explicit TwoBlocks(const Case &run)
+        : run_(run),
+          triangulation_(MPI_COMM_WORLD),
+          fe_(dealii::FE_Q<dim>(run.degree), dim),
+          mapping_(1),
+          dof_handler_(triangulation_),
+          contact_(MPI_COMM_WORLD)
+    {
+    }
+
+    /** The pair of the two faces of the interface. */
+    ContactPair<dim> pair() const
+    {
+      ContactPair<dim> pair;
+      pair.name = "interface";
+      pair.secondary = {run_.upper_is_secondary ? upper_interface
+                                                : lower_interface};
+      pair.primary = {run_.upper_is_secondary ? lower_interface
+                                              : upper_interface};
+      pair.tied = run_.tied;
+      return pair;
+    }
+
+    /** All up to the search for pairs. */
+    void prepare(const std::vector<ContactPair<dim>> &pairs)
+    {
+      make_mesh();
+      setup();
+      assemble();
+      contact_.set_pairs(pairs);
+      SolverParameters solver;
+      solver.linear = SolverParameters::Linear::direct;
+      contact_.set_parameters(run_.method, solver);
+      contact_.reinit(mapping_, dof_handler_, constraints_);
+    }
+
+    /** Displacement 0, or @p lift of the upper block along the normal. */
+    la::Vector displacement(const double lift = 0.) const
+    {
+      la::Vector u(owned_, MPI_COMM_WORLD);
+      Tensor<1, dim> normal;
+      normal[dim - 1] = lift;
+      normal = rotation<dim>() * normal;
+      std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_cell());
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (!cell->is_artificial() && cell->material_id() == 1)
+        {
+          cell->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            if (owned_.is_element(dofs[i]))
+              u(dofs[i]) = normal[fe_.system_to_component_index(i).first];
+        }
+      u.compress(dealii::VectorOperation::insert);
+      return u;
+    }
+
+    /** The patch test. */
+    Errors solve()
+    {
+      prepare({pair()});
+      la::Vector u(owned_, MPI_COMM_WORLD), residual(u), increment(u);
+      constraints_.distribute(u);
+      contact_.detect(u);
+      Errors errors;
+      do
+      {
+        stiffness_.vmult(residual, u);
+        residual -= load_;
+        constraints_.set_zero(residual);
+        errors.steps +=
+            contact_.solve(stiffness_, residual, increment).n_systems;
+        u += increment;
+        constraints_.distribute(u);
+      } while (contact_.update(u));
+      measure(u, errors);
+      return errors;
+    }
+
+    ContactAssembler<dim> &contact()
+    {
+      return contact_;
+    }
+
+  private:
+    const Material &material(const bool upper) const
+    {
+      return materials_[upper ? 1 : 0];
+    }
+
+    void make_mesh()
+    {
+      std::vector<Point<dim>> vertices;
+      std::vector<dealii::CellData<dim>> cells;
+      dealii::SubCellData faces;
+      for (int block = 0; block < 2; ++block)
+      {
+        Point<dim> lower, upper;
+        for (int d = 0; d < dim; ++d)
+          upper[d] = 1.;
+        lower[dim - 1] = block - 1;
+        upper[dim - 1] = block;
+        dealii::Triangulation<dim> part;
+        dealii::GridGenerator::subdivided_hyper_rectangle(
+            part, std::vector<unsigned int>(dim, run_.cells[block]), lower,
+            upper);
+        for (const auto &face : part.active_face_iterators())
+          if (face->at_boundary())
+          {
+            const double z = face->center()[dim - 1];
+            if (std::abs(z - lower[dim - 1]) < 1e-12)
+              face->set_boundary_id(block == 0 ? bottom : upper_interface);
+            if (std::abs(z - upper[dim - 1]) < 1e-12)
+              face->set_boundary_id(block == 0 ? lower_interface : top);
+          }
+        part.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
+        auto [v, c, f] = dealii::GridTools::get_coarse_mesh_description(part);
+        if (block == 1)
+          for (Point<dim> &p : v)
+            p[dim - 1] += run_.separation + run_.tilt * p[0];
+        const auto shift = [&](auto &list)
+        {
+          for (auto &entity : list)
+            for (auto &vertex : entity.vertices)
+              vertex += vertices.size();
+        };
+        shift(c);
+        shift(f.boundary_lines);
+        shift(f.boundary_quads);
+        for (auto &cell : c)
+          cell.material_id = block;
+        cells.insert(cells.end(), c.begin(), c.end());
+        faces.boundary_lines.insert(faces.boundary_lines.end(),
+                                    f.boundary_lines.begin(),
+                                    f.boundary_lines.end());
+        faces.boundary_quads.insert(faces.boundary_quads.end(),
+                                    f.boundary_quads.begin(),
+                                    f.boundary_quads.end());
+        vertices.insert(vertices.end(), v.begin(), v.end());
+      }
+      const Tensor<2, dim> r = rotation<dim>();
+      for (Point<dim> &p : vertices)
+        p = Point<dim>(r * Tensor<1, dim>(p));
+      triangulation_.create_triangulation(vertices, cells, faces);
+      refine();
+    }
+
+    /** Some cells at the interface and in the bulk of both blocks. */
+    void refine()
+    {
+      const Tensor<2, dim> back = transpose(rotation<dim>());
+      for (int cycle = 0; cycle < 2; ++cycle)
+      {
+        for (const auto &cell : triangulation_.active_cell_iterators())
+          if (cell->is_locally_owned())
+          {
+            const Tensor<1, dim> x = back * Tensor<1, dim>(cell->center());
+            const double towards = cycle == 0 ? 0.9 : 0.35;
+            if (x[0] < towards && x[0] > 0.2 && std::abs(x[dim - 1]) < 0.5)
+              cell->set_refine_flag();
+          }
+        triangulation_.execute_coarsening_and_refinement();
+        if (dim == 3)
+          return;
+      }
+    }
+
+    void setup()
+    {
+      dof_handler_.distribute_dofs(fe_);
+      owned_ = dof_handler_.locally_owned_dofs();
+      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant_);
+      constraints_.reinit(relevant_);
+      dealii::DoFTools::make_hanging_node_constraints(dof_handler_,
+                                                      constraints_);
+      n_hanging_ = MPI::sum(constraints_.n_constraints(), MPI_COMM_WORLD);
+      dealii::VectorTools::interpolate_boundary_values(
+          mapping_, dof_handler_, bottom,
+          ExactDisplacement<dim>(material(false)), constraints_);
+      dealii::VectorTools::interpolate_boundary_values(
+          mapping_, dof_handler_, top, ExactDisplacement<dim>(material(true)),
+          constraints_);
+      constraints_.close();
+      dealii::DynamicSparsityPattern pattern(relevant_);
+      dealii::DoFTools::make_sparsity_pattern(dof_handler_, pattern,
+                                              constraints_, false);
+      dealii::SparsityTools::distribute_sparsity_pattern(
+          pattern, owned_, MPI_COMM_WORLD, relevant_);
+      stiffness_.reinit(owned_, owned_, pattern, MPI_COMM_WORLD);
+      load_.reinit(owned_, MPI_COMM_WORLD);
+    }
+
+    void assemble()
+    {
+      const dealii::QGauss<dim> quadrature(run_.degree + 1);
+      dealii::FEValues<dim> values(mapping_, fe_, quadrature,
+                                   dealii::update_gradients
+                                       | dealii::update_JxW_values);
+      const dealii::FEValuesExtractors::Vector displacement(0);
+      const unsigned int n = fe_.n_dofs_per_cell();
+      dealii::FullMatrix<double> matrix(n, n);
+      std::vector<dealii::types::global_dof_index> dofs(n);
+      dealii::AffineConstraints<double> homogeneous(relevant_);
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (cell->is_locally_owned())
+        {
+          const Material &m = material(cell->material_id() == 1);
+          values.reinit(cell);
+          matrix = 0.;
+          for (unsigned int q = 0; q < quadrature.size(); ++q)
+            for (unsigned int i = 0; i < n; ++i)
+            {
+              const auto e = values[displacement].symmetric_gradient(i, q);
+              for (unsigned int j = 0; j < n; ++j)
+              {
+                const auto f = values[displacement].symmetric_gradient(j, q);
+                matrix(i, j) +=
+                    (2. * m.mu() * (e * f) + m.lambda() * trace(e) * trace(f))
+                    * values.JxW(q);
+              }
+            }
+          cell->get_dof_indices(dofs);
+          constraints_.distribute_local_to_global(matrix, dofs, stiffness_);
+          // What prescribed displacements add to the load of free unknowns.
+          dealii::Vector<double> prescribed(n), force(n);
+          for (unsigned int i = 0; i < n; ++i)
+            if (constraints_.is_inhomogeneously_constrained(dofs[i]))
+              prescribed(i) = constraints_.get_inhomogeneity(dofs[i]);
+          matrix.vmult(force, prescribed);
+          force *= -1.;
+          constraints_.distribute_local_to_global(force, dofs, load_);
+        }
+      stiffness_.compress(dealii::VectorOperation::add);
+      load_.compress(dealii::VectorOperation::add);
+      constraints_.set_zero(load_);
+    }
+
+    void measure(const la::Vector &u, Errors &errors) const
+    {
+      la::Vector ghosted(owned_, relevant_, MPI_COMM_WORLD);
+      ghosted = u;
+      measure_stress(ghosted, errors);
+      const auto results = contact_.pair_results();
+      errors.reason = contact_.reason();
+      errors.area = results[0].covered_area;
+      errors.force = results[0].secondary_force.norm();
+      errors.imbalance = results[0].force_imbalance;
+      errors.moment_imbalance = results[0].moment_imbalance;
+      errors.n_rows = results[0].n_rows;
+      errors.n_active = results[0].n_active;
+      errors.hanging = n_hanging_;
+      measure_pressure(errors);
+    }
+
+    void measure_stress(const la::Vector &u, Errors &errors) const
+    {
+      const dealii::QGauss<dim> quadrature(run_.degree + 1);
+      dealii::FEValues<dim> values(mapping_, fe_, quadrature,
+                                   dealii::update_gradients
+                                       | dealii::update_values
+                                       | dealii::update_quadrature_points);
+      const dealii::FEValuesExtractors::Vector displacement(0);
+      std::vector<dealii::SymmetricTensor<2, dim>> strain(quadrature.size());
+      std::vector<Tensor<1, dim>> value(quadrature.size());
+      Tensor<1, dim> normal;
+      normal[dim - 1] = 1.;
+      normal = rotation<dim>() * normal;
+      double scale = 0.;
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (cell->is_locally_owned())
+        {
+          const Material &m = material(cell->material_id() == 1);
+          const ExactDisplacement<dim> exact(m);
+          values.reinit(cell);
+          values[displacement].get_function_symmetric_gradients(u, strain);
+          values[displacement].get_function_values(u, value);
+          for (unsigned int q = 0; q < quadrature.size(); ++q)
+          {
+            for (int i = 0; i < dim; ++i)
+              for (int j = 0; j < dim; ++j)
+                errors.stress = std::max(
+                    errors.stress,
+                    std::abs(2. * m.mu() * strain[q][i][j]
+                             + (i == j ? m.lambda() * trace(strain[q]) : 0.)
+                             + normal[i] * normal[j]));
+            const auto e = exact.displacement(values.quadrature_point(q));
+            scale = std::max(scale, e.norm());
+            errors.displacement =
+                std::max(errors.displacement, (value[q] - e).norm());
+          }
+        }
+      errors.stress = MPI::max(errors.stress, MPI_COMM_WORLD);
+      errors.displacement = MPI::max(errors.displacement, MPI_COMM_WORLD)
+                            / MPI::max(scale, MPI_COMM_WORLD);
+    }
+
+    /** p n must be the secondary's outward normal wherever there is a row. */
+    void measure_pressure(Errors &errors) const
+    {
+      const la::Vector p = contact_.pressure(), status = contact_.status();
+      la::Vector pressure(owned_, relevant_, MPI_COMM_WORLD), has(pressure);
+      pressure = p;
+      has = status;
+      Tensor<1, dim> normal;
+      normal[dim - 1] = run_.upper_is_secondary ? -1. : 1.;
+      normal = rotation<dim>() * normal;
+      const auto side =
+          run_.upper_is_secondary ? upper_interface : lower_interface;
+      std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_face());
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary() && face->boundary_id() == side)
+            {
+              face->get_dof_indices(dofs);
+              for (unsigned int i = 0; i < dofs.size(); ++i)
+                if (has(dofs[i]) > 0.)
+                  errors.pressure = std::max(
+                      errors.pressure,
+                      std::abs(pressure(dofs[i])
+                               - normal[fe_.face_system_to_component_index(i)
+                                            .first]));
+            }
+      errors.pressure = MPI::max(errors.pressure, MPI_COMM_WORLD);
+    }
+
+    const Case run_;
+    const std::array<Material, 2> materials_ = {{{7., 0.3}, {3., 0.2}}};
+    dealii::parallel::distributed::Triangulation<dim> triangulation_;
+    const dealii::FESystem<dim> fe_;
+    const dealii::MappingQ<dim> mapping_;
+    dealii::DoFHandler<dim> dof_handler_;
+    dealii::IndexSet owned_, relevant_;
+    dealii::AffineConstraints<double> constraints_;
+    la::Matrix stiffness_;
+    la::Vector load_;
+    ContactAssembler<dim> contact_;
+    unsigned int n_hanging_ = 0;
+  };
+
+  /** Print a failed check. */
+  inline bool is_at_most(const double value, const double bound,
+                         const std::string &what)
+  {
+    const bool good = value <= bound;
+    if (!good && MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << "FAILED: " << what << " is " << value << ", allowed are "
+                << bound << std::endl;
+    return good;
+  }
+} // namespace abut::hosts
+
+#endif
