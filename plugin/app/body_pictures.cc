@@ -110,7 +110,7 @@ namespace abut::app
              << (high > low ? high : low + 1)
              << "]\nset size ratio -1\nunset key\nunset grid\n"
              << "set format cb '%g'\nset xlabel 'x'\nset ylabel 'y'\n"
-             << "set cblabel 'von Mises stress'\n"
+             << "set cblabel 'von Mises stress' offset 2\n"
              << "plot $stress using 1:2:3 with image, "
              << "$outline using 1:2 with lines lc rgb '#303030' lw 0.8\n";
       return script.str();

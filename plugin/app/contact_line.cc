@@ -90,8 +90,7 @@ namespace abut::app
       Values values(const dealii::Point<2> &x, const std::array<Key, 2> &node,
                     const dealii::Tensor<1, 2> &outward) const
       {
-        const double gap =
-            fields.gap != nullptr ? length(*fields.gap, node, outward) : 0.;
+        const double gap = fields.gap != nullptr ? (*fields.gap)(node[0]) : 0.;
         const double status =
             fields.status != nullptr ? (*fields.status)(node[0]) : 0.;
         return {

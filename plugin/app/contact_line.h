@@ -38,8 +38,10 @@ namespace abut::app
   struct ContactLineFields
   {
     const la::Vector &traction; /**< force per area on the body */
-    const la::Vector *gap;      /**< g n, or null */
-    const la::Vector *status;   /**< the same in all components, or null */
+    /** As ContactAssembler::gap() and status(), the same in all components;
+     * null: 0. */
+    const la::Vector *gap;
+    const la::Vector *status;
   };
 
   /** The pieces of the boundary with ids @p ids, in walking order, longest

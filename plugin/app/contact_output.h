@@ -13,7 +13,7 @@
 
 namespace abut::app
 {
-  /** From nodal vectors along the surface normal, such as p n or g n, their
+  /** From nodal vectors along the surface normal, such as p n, their
    * signed length: on the nodal normals the length is exact, while the normal
    * of a facet only tells the sign. For faces. */
   template <int dim>

@@ -108,7 +108,7 @@ namespace abut::app
         for (unsigned int q = 0; q < n; ++q)
         {
           const double p = pressures[q] * points.normal_vector(q);
-          const double g = gaps[q] * points.normal_vector(q);
+          const double g = gaps[q][0];
           const double term =
               g < 0. ? material.young_modulus / h * g * g : std::max(p, 0.) * g;
           sum += term * points.JxW(q) * measure(points, q);

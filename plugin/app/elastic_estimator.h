@@ -46,8 +46,10 @@ namespace abut::app
      * the primary (see contact_traction()). Null: no contact. */
     std::set<dealii::types::boundary_id> contact = {};
     const la::Vector *contact_traction = nullptr;
-    /** Boundary ids of the secondary sides, with the nodal fields p n and g n
-     * (n: outward normal); null: without the two terms that they make. */
+    /** Boundary ids of the secondary sides, with the nodal fields p n (n:
+     * outward normal) and g, the latter in each component, as
+     * ContactAssembler::pressure() and gap() make them; null: without the two
+     * terms that they make. */
     std::set<dealii::types::boundary_id> secondary = {};
     const la::Vector *pressure = nullptr;
     const la::Vector *gap = nullptr;

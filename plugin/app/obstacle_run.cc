@@ -373,8 +373,7 @@ namespace abut::app
       present.level = number;
       set_tolerance(number == last);
       converged = solve_level(number > first);
-      if (number >= parameters.refinement.level
-          && parameters.refinement.adaptive_cycles > 0)
+      if (parameters.refinement.is_adaptive(number))
         estimate();
       finish_level(number);
       if (parameters.all_levels || number == last || !converged)

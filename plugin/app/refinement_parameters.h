@@ -44,6 +44,12 @@ namespace abut::app
       return level + adaptive_cycles;
     }
 
+    /** Whether the error on a mesh of this number decides where to refine. */
+    bool is_adaptive(const unsigned int mesh) const
+    {
+      return mesh >= level && adaptive_cycles > 0;
+    }
+
     /** The method with the tolerances that are enough on a mesh whose results
      * are only a start for the next one. */
     MethodParameters loosened(const MethodParameters &method) const;

@@ -3,6 +3,7 @@
 #include "input_error.h"
 #include "nearest_node.h"
 #include "solid_run.h"
+#include "stress_output.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -12,15 +13,17 @@ namespace abut::app
 
   template <int dim> void SolidRun<dim>::declare_tables()
   {
-    report.declare_columns({"load_step", "time", "level", "cells", "dofs",
-                            "constraints", "active", "steps",
-                            "linear_iterations", "matvecs", "setups", "energy",
-                            "l2_error", "h1_error", "energy_norm_error",
-                            "setup_seconds", "krylov_seconds", "seconds"});
+    report.declare_columns(
+        {"load_step", "time", "level", "cells", "dofs", "constraints", "active",
+         "steps", "linear_iterations", "matvecs", "setups", "energy",
+         "l2_error", "h1_error", "energy_norm_error", "estimate",
+         "setup_seconds", "krylov_seconds", "seconds"});
   }
 
   template <int dim> void SolidRun<dim>::finish_state()
   {
+    if (parameters.refinement.is_adaptive(mesh_number))
+      estimate();
     const double counted = counted_seconds();
     present.seconds = counted - counted_before;
     counted_before = counted;
@@ -54,6 +57,8 @@ namespace abut::app
       row["h1_error"] = present.errors->h1_seminorm;
       row["energy_norm_error"] = *present.errors->energy;
     }
+    if (present.estimate)
+      row["estimate"] = *present.estimate;
     report.add_row(row);
     states.push_back(present);
     report.add("nonlinear_iterations", present.steps);
@@ -79,6 +84,10 @@ namespace abut::app
                        elasticity.dof_handler,
                        {{"displacement", &displacement}},
                        {{"body", &body}}};
+    const StressPostprocessor<dim> stresses(data.materials);
+    fields.derived = {{&displacement, &stresses}};
+    if (present.estimate)
+      fields.cells.emplace_back("squared_error_estimate", &squared_estimate);
     // Coarser meshes come before the time of the first load step.
     const double last = parameters.refinement.last_mesh();
     series.write(is_last_mesh() ? present.time : present.level - last, fields);
@@ -168,6 +177,10 @@ namespace abut::app
       report.set("energy_norm_error", *last.errors->energy);
       report.set("nodal_error", last.errors->largest_node);
     }
+    if (last.estimate)
+      report.set("estimate", *last.estimate);
+    if (last.estimate && last.errors)
+      report.set("effectivity", *last.estimate / *last.errors->energy);
     if (!std::isnan(parameters.exact_energy))
       report.set("energy_error",
                  std::abs(last.energy - parameters.exact_energy));
@@ -182,6 +195,11 @@ namespace abut::app
                  parameters.refinement.nested
                      ? "each level starts from the one before"
                      : "switched off: the start is displacement 0");
+    report.model("adaptive refinement",
+                 parameters.refinement.adaptive_cycles > 0,
+                 parameters.refinement.adaptive_cycles > 0
+                     ? "refined where the estimate is large"
+                     : "no Adaptive cycles were asked for");
     report.model("load steps", parameters.load_steps.steps > 1,
                  std::to_string(load_steps.n_accepted) + " of "
                      + std::to_string(parameters.load_steps.steps)

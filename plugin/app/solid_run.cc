@@ -4,8 +4,6 @@
 #include "collective.h"
 #include "input_error.h"
 
-#include <deal.II/distributed/solution_transfer.h>
-
 namespace abut::app
 {
   using dealii::types::boundary_id;
@@ -116,28 +114,6 @@ namespace abut::app
       elasticity.set_supports(data);
   }
 
-  template <int dim> void SolidRun<dim>::refine()
-  {
-    using Transfer =
-        dealii::parallel::distributed::SolutionTransfer<dim, la::Vector>;
-    const la::Vector u_old = elasticity.ghosted(u);
-    Transfer transfer(elasticity.dof_handler);
-    {
-      SectionTimes::Scope scope(report.times, "mesh");
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          cell->set_refine_flag();
-      triangulation.prepare_coarsening_and_refinement();
-      transfer.prepare_for_coarsening_and_refinement(u_old);
-      triangulation.execute_coarsening_and_refinement();
-    }
-    setup_mesh();
-    SectionTimes::Scope scope(report.times, "transfer");
-    u = elasticity.vector();
-    transfer.interpolate(u);
-    ++mesh_number;
-  }
-
   template <int dim> bool SolidRun<dim>::is_last_mesh() const
   {
     return mesh_number >= parameters.refinement.last_mesh();
@@ -230,6 +206,8 @@ namespace abut::app
                         + std::to_string(load_steps.target()));
     }
     steps.write(communicator, options.output_folder);
+    if (options.pictures && !states.empty())
+      draw();
     report_result(goes_on);
     report_model();
     return goes_on ? Outcome::converged : Outcome::unusable;

@@ -59,12 +59,19 @@ namespace abut::app
     void set_time(double time);
     void setup_mesh();
     void assemble_load();
+    // Meshes, in solid_refinement.cc
+    void estimate();
     void refine();
+    void set_refine_flags();
+
     bool solve_on_hierarchy();
     bool solve();
     bool solve_without_contact();
     bool is_last_mesh() const;
     double counted_seconds() const;
+
+    // Pictures, in solid_pictures.cc
+    void draw();
 
     // Results, in solid_results.cc
     void declare_tables();
@@ -94,6 +101,7 @@ namespace abut::app
     LoadSteps load_steps;
 
     la::Vector u; ///< displacement, owned
+    dealii::Vector<float> squared_estimate;
     unsigned int mesh_number = 0;
     SolidState present;
     std::vector<SolidState> states;

@@ -27,6 +27,11 @@ namespace abut::solve
     }
   } // namespace
 
+  std::string DirectSolver::name()
+  {
+    return Amesos().Query("Amesos_Mumps") ? "direct (MUMPS)" : "direct (KLU)";
+  }
+
   DirectSolver::DirectSolver(const la::Matrix &matrix)
       : problem_(std::make_unique<Epetra_LinearProblem>())
   {

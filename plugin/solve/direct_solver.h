@@ -5,6 +5,7 @@
 #include <abut/dealii/linear_algebra.h>
 
 #include <memory>
+#include <string>
 
 class Amesos_BaseSolver;
 class Epetra_LinearProblem;
@@ -17,6 +18,9 @@ namespace abut::solve
   class DirectSolver
   {
   public:
+    /** What is used, in words. */
+    static std::string name();
+
     /** Factorise @p matrix, which must outlive this object and keep its
      * values. Throws SolverFailure if it is singular. Collective. */
     explicit DirectSolver(const la::Matrix &matrix);

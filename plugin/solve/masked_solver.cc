@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "masked_solver.h"
 
+#include "failures.h"
 #include "multigrid.h"
 
 #include <deal.II/base/timer.h>
@@ -30,25 +31,6 @@ namespace abut::solve
       return mask.diagonal.empty() ? 0. : mask.diagonal[i];
     }
   } // namespace
-
-  void throw_failure(const std::string &method,
-                     const dealii::SolverControl::NoConvergence &failure,
-                     const double tolerance)
-  {
-    std::ostringstream text;
-    text << method << " ended after " << failure.last_step
-         << " iterations with a residual of " << failure.last_residual
-         << " where " << tolerance << " was asked for. ";
-    if (std::isfinite(failure.last_residual))
-      text << "The matrix is badly conditioned or nearly singular: try "
-              "Solver/Linear solver = direct, a smaller Method/Penalty, or "
-              "more Solver/Maximum iterations; a body without supports needs "
-              "some.";
-    else
-      text << "A value is not a number: look for infinite data, or for a "
-              "matrix that is singular because nothing holds a body.";
-    throw SolverFailure(text.str());
-  }
 
   MaskedSolver::MaskedSolver(const SolverParameters &parameters)
       : parameters_(parameters)

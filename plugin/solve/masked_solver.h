@@ -172,11 +172,6 @@ namespace abut::solve
     std::unique_ptr<DirectSolver> direct_;
   };
 
-  /** Throw a SolverFailure that says what was seen. */
-  [[noreturn]] void
-  throw_failure(const std::string &method,
-                const dealii::SolverControl::NoConvergence &failure,
-                double tolerance);
 } // namespace abut::solve
 
 #endif

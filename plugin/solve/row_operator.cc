@@ -117,6 +117,14 @@ namespace abut::solve
         factor, [](const double b) { return b * b; }, d);
   }
 
+  void RowOperator::add_counts(const std::uint8_t *const wanted,
+                               la::Vector &d) const
+  {
+    const std::vector<double> factor(wanted, wanted + n_rows());
+    add_entries(
+        factor.data(), [](const double b) { return b == 0. ? 0. : 1.; }, d);
+  }
+
   std::vector<double> RowOperator::squares(const la::Vector &d) const
   {
     const double *const values = import(d);

@@ -119,6 +119,10 @@ namespace abut::solve
      * Collective. */
     void add_squares(const double *factor, la::Vector &d) const;
 
+    /** d_j += number of rows with @p wanted nonzero that have unknown j.
+     * Collective. */
+    void add_counts(const std::uint8_t *wanted, la::Vector &d) const;
+
   private:
     template <typename Function>
     void add_entries(const double *factor, const Function &function,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "row_solver.h"
 
+#include "condensation.h"
 #include "nodal_condensation.h"
 #include "row_operator.h"
 #include "saddle_point.h"
@@ -44,8 +45,10 @@ namespace abut::solve
                                              const la::Matrix &stiffness,
                                              const abut_rows_view &rows)
   {
-    if (system == System::saddle_point || !are_nodal(stiffness, rows))
+    if (system == System::saddle_point)
       return std::make_unique<SaddlePoint>(parameters);
-    return std::make_unique<NodalCondensation>(parameters);
+    if (are_nodal(stiffness, rows))
+      return std::make_unique<NodalCondensation>(parameters);
+    return std::make_unique<Condensation>(parameters);
   }
 } // namespace abut::solve

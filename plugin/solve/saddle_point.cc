@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "saddle_point.h"
 
+#include "failures.h"
+
 #include <deal.II/base/timer.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
 namespace abut::solve
@@ -240,55 +240,65 @@ namespace abut::solve
   la::Matrix SaddlePoint::assemble_matrix(const System &system) const
   {
     const auto n = stiffness_->m();
-    dealii::IndexSet owned(n + system.n_constraints), touched(owned.size());
+    dealii::IndexSet owned(n + system.n_constraints);
     owned.add_indices(rows_.owned());
     owned.add_range(n + system.first_constraint,
                     n + system.first_constraint + system.row.size());
-    touched.add_indices(owned);
-    touched.add_indices(rows_.ghosts());
 
+    dealii::IndexSet ghosts(owned.size());
+    ghosts.add_indices(rows_.ghosts());
     const la::LocalRows stiffness = la::local_rows(*stiffness_);
-    const auto for_each_entry = [&](const auto &visit)
+    std::vector<int> constraint(rows_.n_rows(), -1);
+    for (std::size_t k = 0; k < system.row.size(); ++k)
+      constraint[system.row[k]] = static_cast<int>(k);
+
+    std::vector<dealii::types::global_dof_index> columns;
+    std::vector<double> values;
+    const auto for_each_line = [&](const auto &visit)
     {
       for (int i = 0; i < stiffness.n_rows; ++i)
-        for (int e = stiffness.start[i]; e < stiffness.start[i + 1]; ++e)
-          visit(rows_.global_column(i),
-                la::global_column(*stiffness_, stiffness.column[e]),
-                stiffness.value[e]);
-      for (int i = 0; i < rows_.n_rows(); ++i)
-        if (system.soft[i] != 0.)
-          for (auto e = rows_.begin(i); e < rows_.end(i); ++e)
-            for (auto f = rows_.begin(i); f < rows_.end(i); ++f)
-              visit(rows_.global_column(rows_.column(e)),
-                    rows_.global_column(rows_.column(f)),
-                    system.soft[i] * rows_.coefficient(e)
-                        * rows_.coefficient(f));
-      for (std::size_t k = 0; k < system.row.size(); ++k)
       {
-        const auto row = n + system.first_constraint + k;
-        const int i = system.row[k];
-        visit(row, row, 0.);
+        columns.clear();
+        for (int e = stiffness.start[i]; e < stiffness.start[i + 1]; ++e)
+          columns.push_back(
+              la::global_column(*stiffness_, stiffness.column[e]));
+        values.assign(stiffness.value + stiffness.start[i],
+                      stiffness.value + stiffness.start[i + 1]);
+        visit(rows_.global_column(i), columns, values);
+      }
+      for (int i = 0; i < rows_.n_rows(); ++i)
+      {
+        if (system.soft[i] == 0. && constraint[i] < 0)
+          continue;
+        columns.clear();
         for (auto e = rows_.begin(i); e < rows_.end(i); ++e)
+          columns.push_back(rows_.global_column(rows_.column(e)));
+        const auto unknowns = columns;
+        if (constraint[i] >= 0)
         {
-          const auto column = rows_.global_column(rows_.column(e));
-          const double value = -rows_.weight(i) * rows_.coefficient(e);
-          visit(row, column, value);
-          visit(column, row, value);
+          const auto line = n + system.first_constraint + constraint[i];
+          values.clear();
+          for (auto e = rows_.begin(i); e < rows_.end(i); ++e)
+            values.push_back(-rows_.weight(i) * rows_.coefficient(e));
+          const auto coupling = values;
+          columns.push_back(line);
+          values.push_back(0.);
+          visit(line, columns, values);
+          for (std::size_t e = 0; e < unknowns.size(); ++e)
+            visit(unknowns[e], {line}, {coupling[e]});
         }
+        else
+          for (auto e = rows_.begin(i); e < rows_.end(i); ++e)
+          {
+            values.clear();
+            for (auto f = rows_.begin(i); f < rows_.end(i); ++f)
+              values.push_back(system.soft[i] * rows_.coefficient(e)
+                               * rows_.coefficient(f));
+            visit(unknowns[e - rows_.begin(i)], unknowns, values);
+          }
       }
     };
-    const MPI_Comm communicator = stiffness_->get_mpi_communicator();
-    dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), touched);
-    for_each_entry([&](const auto i, const auto j, double)
-                   { pattern.add(i, j); });
-    dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned,
-                                                       communicator, touched);
-    la::Matrix matrix;
-    matrix.reinit(owned, owned, pattern, communicator);
-    for_each_entry([&](const auto i, const auto j, const double value)
-                   { matrix.add(i, j, value); });
-    matrix.compress(dealii::VectorOperation::add);
-    return matrix;
+    return la::assemble(owned, ghosts, rows_.communicator(), for_each_line);
   }
 
   void SaddlePoint::solve_directly(const System &system, la::Vector &increment,

@@ -303,7 +303,7 @@ namespace
     refine_corner(problem);
     const la::Vector traction =
         problem.interpolate("if(x > 1 - 1e-9, -3, 0); if(y < 1e-9, 1 + x, 0)");
-    const la::Vector gap = problem.interpolate("0; if(y < 1e-9, -x, 0)");
+    const la::Vector gap = problem.interpolate("x; x");
     const la::Vector status = problem.interpolate("x; x");
     const std::vector<ContactLine> both =
         contact_lines(problem.mapping, problem.dof_handler, {1, 2},

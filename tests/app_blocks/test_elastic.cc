@@ -260,8 +260,8 @@ namespace
     input.contact_traction = nullptr;
     // outward normal (0, -1): penetration 0.01, then pressure 2 at gap 0.03
     const la::Vector pressure = problem.interpolate("0; -2");
-    const la::Vector into = problem.interpolate("0; 0.01");
-    const la::Vector open = problem.interpolate("0; -0.03");
+    const la::Vector into = problem.interpolate("-0.01; -0.01");
+    const la::Vector open = problem.interpolate("0.03; 0.03");
     input.secondary = {2};
     input.pressure = &pressure;
     input.gap = &into;

@@ -342,6 +342,23 @@ single_facets_and_empty_surfaces(void **state)
   assert_int_equal(compare_all(empty, empty, 0, 1), 0);
 }
 
+/* A facet, not along the axes, that is a block of queries by itself: its box is
+ * all of the block's, in three directions. */
+static void
+one_large_query(void **state)
+{
+  (void)state;
+  const double angles[3] = {0.3, 0.5, 0.7}, shift[3] = {0, 0, 0};
+  for (int32_t n = 1; n < 7; ++n)
+  {
+    scene_mesh a = plane(ABUT_FACET_QUAD4, n, 0, false),
+               b = plane(ABUT_FACET_QUAD4, 1, 0, true);
+    scene_move(&a, 1, angles, shift);
+    scene_move(&b, 1, angles, shift);
+    assert_true(compare_all(a, b, 0.1, 0) >= 4);
+  }
+}
+
 static void
 all_nodes_in_one_point(void **state)
 {
@@ -747,6 +764,7 @@ main(void)
       cmocka_unit_test(motion_with_skin),
       cmocka_unit_test(memory),
       cmocka_unit_test(wrong_arguments),
+      cmocka_unit_test(one_large_query),
       cmocka_unit_test(names)};
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -158,14 +158,16 @@ namespace
     }
   }
 
+  /** @p dp_tolerance: pressures of springs 1e6 times stiffer than the matrix
+   * come out of a gap with 6 digits less. */
   void compare(solve::RowSolver &solver, const Problem &problem, Share &share,
-               const std::string &what)
+               const double dp_tolerance, const std::string &what)
   {
     const LinearReport report = solver.solve(
         share.residual, share.request(1e-13), 1e-14, share.increment);
     const Difference error = difference(problem, share, communicator);
     Expect::near(error.du, 0., 1e-10, what + ": du");
-    Expect::near(error.dp, 0., 1e-10, what + ": dp");
+    Expect::near(error.dp, 0., dp_tolerance, what + ": dp");
     Expect::near(error.dg, 0., 1e-10, what + ": dg");
     Expect::that(report.n_iterations < 200, what + ": iterations");
   }
@@ -181,7 +183,7 @@ namespace
             for (const auto linear : {SolverParameters::Linear::iterative,
                                       SolverParameters::Linear::direct})
             {
-              if (laws == Laws::interior && shape != Shape::nodal)
+              if (laws == Laws::interior && system == System::saddle_point)
                 continue;
               std::mt19937 random(7);
               Problem problem = make_problem(partition, 11);
@@ -205,7 +207,8 @@ namespace
                      << repetition;
                 try
                 {
-                  compare(*solver, problem, share, what.str());
+                  compare(*solver, problem, share,
+                          laws == Laws::interior ? 1e-9 : 1e-10, what.str());
                 }
                 catch (const std::exception &error)
                 {

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -51,6 +53,45 @@ namespace abut::la
 
   /** Diagonal of the rows on this rank, [n_rows]. */
   std::vector<double> diagonal(const LocalRows &rows);
+
+  /** Sum of two matrices with the same rows on each rank, the first of which
+   * has all diagonal entries. Where the second is empty this is no more than
+   * a copy. Collective. */
+  Matrix sum(const Matrix &first, const Matrix &second);
+
+  /** Numbers from 0 for @p n things on this rank, those of lower ranks coming
+   * first. Collective. */
+  dealii::IndexSet number(dealii::types::global_dof_index n,
+                          MPI_Comm communicator);
+
+  /** A square matrix with rows and columns @p owned, from lines that may be
+   * in the rows @p ghosts of other ranks too: @p for_each_line(visit) must
+   * call visit(row, columns, values) for each, with vectors of numbers and
+   * values, the same both times that it is called; equal places add up.
+   * Collective. */
+  template <typename ForEachLine>
+  Matrix assemble(const dealii::IndexSet &owned, const dealii::IndexSet &ghosts,
+                  const MPI_Comm communicator, const ForEachLine &for_each_line)
+  {
+    using Index = dealii::types::global_dof_index;
+    using Indices = std::vector<Index>;
+    dealii::IndexSet touched = owned;
+    touched.add_indices(ghosts);
+    dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), touched);
+    for_each_line(
+        [&](const Index row, const Indices &columns,
+            const std::vector<double> &)
+        { pattern.add_entries(row, columns.begin(), columns.end()); });
+    dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned,
+                                                       communicator, touched);
+    Matrix matrix;
+    matrix.reinit(owned, owned, pattern, communicator);
+    for_each_line([&](const Index row, const Indices &columns,
+                      const std::vector<double> &values)
+                  { matrix.add(row, columns, values, false); });
+    matrix.compress(dealii::VectorOperation::add);
+    return matrix;
+  }
 
   /** The owned entries of a vector without ghosts. */
   inline double *data(Vector &vector)

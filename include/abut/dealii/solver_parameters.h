@@ -58,6 +58,7 @@ namespace abut
     unsigned int n_setups = 0;     /**< preconditioners or factorisations */
     double setup_seconds = 0.;     /**< time for these */
     double solve_seconds = 0.;     /**< time for the rest */
+    std::string method;            /**< of the last system, in words */
 
     /** Add the cost of another solve. */
     LinearReport &operator+=(const LinearReport &other)
@@ -68,6 +69,8 @@ namespace abut
       n_setups += other.n_setups;
       setup_seconds += other.setup_seconds;
       solve_seconds += other.solve_seconds;
+      if (!other.method.empty())
+        method = other.method;
       return *this;
     }
   };

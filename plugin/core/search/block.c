@@ -140,12 +140,18 @@ load_facets(const abut_record *records, abut_block *b, double skin)
     exact[i].limit = limit * limit;
   }
   b->n_padded = (b->n + PAD - 1) / PAD * PAD;
+  /* A query as large as the block touches even the empty steps. */
   for (int32_t i = b->n; i < b->n_padded; ++i)
+  {
     for (int d = 0; d < 3; ++d)
     {
       step[d * stride + i] = 127;
       step[(3 + d) * stride + i] = -128;
+      exact[i].bound[d] = exact[i].bound[3 + d] = INFINITY;
+      exact[i].centre[d] = 0;
     }
+    exact[i].limit = -1;
+  }
 }
 
 abut_status

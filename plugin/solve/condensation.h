@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_CONDENSATION_H
+#define ABUT_SOLVE_CONDENSATION_H
+
+#include "condensed_solver.h"
+#include "row_solver.h"
+#include "saddle_point.h"
+
+namespace abut::solve
+{
+  /** Rows over several unknowns, without pressures in the linear system:
+   *
+   * constraints (a = 0) are eliminated, each by one of its unknowns that no
+   * other of them touches, and their pressure is found from the equation of
+   * that unknown: Wohlmuth and Krause, SIAM J. Sci. Comput. 25 (2003) 324;
+   * all other rows (penalties, interior points) become springs,
+   *     dp = -(c + b dg) / a,
+   * of stiffness w b/a. The system P^T (K + B^T diag(w b/a) B) P stays
+   * symmetric and positive definite if K is.
+   *
+   * Where a constraint has no unknown of its own (standard mortar), the
+   * system is solved as a saddle point; the report says so. */
+  class Condensation : public RowSolver
+  {
+  public:
+    explicit Condensation(const SolverParameters &parameters);
+
+    void set_near_null_space(const NearNullSpace &space) override;
+
+    void reinit(const la::Matrix &stiffness,
+                const abut_rows_view &rows) override;
+
+    LinearReport solve(const la::Vector &residual, const abut_request &request,
+                       double smallest_residual,
+                       la::Vector &increment) override;
+
+  private:
+    bool condense(const abut_request &request);
+    la::Vector right_hand_side(const la::Vector &residual,
+                               const abut_request &request,
+                               const la::Vector &lift) const;
+    la::Vector lift(const abut_request &request) const;
+    void recover(const la::Vector &residual, const abut_request &request,
+                 const la::Vector &increment) const;
+
+    SolverParameters parameters_;
+    NearNullSpace space_;
+    const la::Matrix *stiffness_ = nullptr;
+    abut_rows_view view_ = {};
+    RowOperator rows_;
+    CondensedSolver solver_;
+    Condensate condensate_;
+    std::unique_ptr<SaddlePoint> saddle_point_;
+  };
+} // namespace abut::solve
+
+#endif

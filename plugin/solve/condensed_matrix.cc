@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "condensed_matrix.h"
+
+#include "elimination.h"
+
+namespace abut::solve
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  void CondensedMatrix::reinit(const la::Matrix &stiffness,
+                               const RowOperator &rows)
+  {
+    stiffness_ = &stiffness;
+    rows_ = &rows;
+    row_values_.assign(rows.n_rows(), 0.);
+    expanded_.reinit(rows.owned(), rows.communicator());
+    condensate_ = {};
+    pivot_rows_.clear();
+    has_springs_ = has_pivots_ = false;
+  }
+
+  void CondensedMatrix::set(const Condensate &condensate)
+  {
+    condensate_ = condensate;
+    pivot_rows_.clear();
+    unsigned int has[2] = {0, 0};
+    for (int i = 0; i < rows_->n_rows(); ++i)
+    {
+      if (condensate_.pivot[i] != Condensate::none)
+        pivot_rows_.push_back(i);
+      has[0] |= condensate_.stiffness[i] != 0.;
+    }
+    has[1] = pivot_rows_.empty() ? 0 : 1;
+    MPI::max(has, rows_->communicator(), has);
+    has_springs_ = has[0] != 0;
+    has_pivots_ = has[1] != 0;
+  }
+
+  void CondensedMatrix::zero_pivots(la::Vector &vector) const
+  {
+    double *const values = la::data(vector);
+    for (const int i : pivot_rows_)
+      values[rows_->column(condensate_.pivot[i])] = 0.;
+  }
+
+  void CondensedMatrix::expand(la::Vector &u) const
+  {
+    if (!has_pivots_)
+      return;
+    zero_pivots(u);
+    rows_->times(u, row_values_.data());
+    double *const values = la::data(u);
+    for (const int i : pivot_rows_)
+    {
+      const std::int64_t e = condensate_.pivot[i];
+      values[rows_->column(e)] = -row_values_[i] / rows_->coefficient(e);
+    }
+  }
+
+  void CondensedMatrix::restrict(la::Vector &f) const
+  {
+    if (!has_pivots_)
+      return;
+    const double *const values = la::data(f);
+    std::fill(row_values_.begin(), row_values_.end(), 0.);
+    for (const int i : pivot_rows_)
+    {
+      const std::int64_t e = condensate_.pivot[i];
+      row_values_[i] = -values[rows_->column(e)] / rows_->coefficient(e);
+    }
+    rows_->add_transposed(row_values_.data(), f);
+    zero_pivots(f);
+  }
+
+  void CondensedMatrix::multiply_whole(la::Vector &dst,
+                                       const la::Vector &src) const
+  {
+    stiffness_->vmult(dst, src);
+    if (!has_springs_)
+      return;
+    rows_->times(src, row_values_.data());
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      row_values_[i] *= condensate_.stiffness[i];
+    rows_->add_transposed(row_values_.data(), dst);
+  }
+
+  void CondensedMatrix::vmult(la::Vector &dst, const la::Vector &src) const
+  {
+    if (!has_pivots_)
+    {
+      multiply_whole(dst, src);
+      return;
+    }
+    expanded_ = src;
+    expand(expanded_);
+    multiply_whole(dst, expanded_);
+    restrict(dst);
+  }
+
+  la::Matrix CondensedMatrix::assemble_springs() const
+  {
+    std::vector<dealii::types::global_dof_index> columns;
+    std::vector<double> values;
+    return la::assemble(
+        rows_->owned(), rows_->ghosts(), rows_->communicator(),
+        [&](const auto &visit)
+        {
+          for (int i = 0; i < rows_->n_rows(); ++i)
+          {
+            if (condensate_.stiffness[i] == 0.)
+              continue;
+            columns.clear();
+            for (auto e = rows_->begin(i); e < rows_->end(i); ++e)
+              columns.push_back(rows_->global_column(rows_->column(e)));
+            for (auto e = rows_->begin(i); e < rows_->end(i); ++e)
+            {
+              values.clear();
+              for (auto f = rows_->begin(i); f < rows_->end(i); ++f)
+                values.push_back(condensate_.stiffness[i]
+                                 * rows_->coefficient(e)
+                                 * rows_->coefficient(f));
+              visit(columns[e - rows_->begin(i)], columns, values);
+            }
+          }
+        });
+  }
+
+  la::Matrix CondensedMatrix::eliminate(const la::Matrix &whole) const
+  {
+    la::Matrix result =
+        la::sum(whole, elimination_terms(whole, *rows_, condensate_.pivot));
+    const std::vector<double> diagonal =
+        la::diagonal(la::local_rows(*stiffness_));
+    const la::LocalRows lines = la::local_rows(result);
+    for (const int i : pivot_rows_)
+    {
+      const int line = rows_->column(condensate_.pivot[i]);
+      for (int k = lines.start[line]; k < lines.start[line + 1]; ++k)
+        lines.value[k] = lines.column[k] == line ? diagonal[line] : 0.;
+    }
+    return result;
+  }
+
+  la::Matrix CondensedMatrix::assemble() const
+  {
+    if (!has_springs_)
+      return eliminate(*stiffness_);
+    la::Matrix whole = la::sum(*stiffness_, assemble_springs());
+    return has_pivots_ ? eliminate(whole) : std::move(whole);
+  }
+} // namespace abut::solve

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "condensed_solver.h"
+
+#include "failures.h"
+#include "multigrid.h"
+#include "row_solver.h"
+
+#include <deal.II/base/timer.h>
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_gmres.h>
+
+#include <cmath>
+
+namespace abut::solve
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Part of the rows in contact that may change before a preconditioner is
+     * built anew, and the factor of a spring that counts as a change. */
+    constexpr double rebuild_fraction = 0.08;
+    constexpr double rebuild_factor = 3.;
+
+    /** Springs that are stiffer than the body by more than this are beyond
+     * multigrid alone; those above the second number are then filtered. */
+    constexpr double stiff = 50.;
+    constexpr double filtered = 5.;
+
+    /** Whether x.A y = y.A x for two vectors without structure. */
+    bool is_symmetric(const la::Matrix &matrix)
+    {
+      la::Vector x(matrix.locally_owned_range_indices(),
+                   matrix.get_mpi_communicator());
+      la::Vector y(x), image(x);
+      const auto first = matrix.local_range().first;
+      for (int i = 0; i < la::n_owned(x); ++i)
+      {
+        la::data(x)[i] = std::sin(12.9898 * (first + i) + 1.);
+        la::data(y)[i] = std::sin(78.233 * (first + i) + 2.);
+      }
+      matrix.vmult(image, y);
+      const double right = x * image;
+      const double size = x.l2_norm() * image.l2_norm();
+      matrix.vmult(image, x);
+      const double left = y * image;
+      return std::abs(left - right) <= 1e-9 * size;
+    }
+
+    /** A preconditioner as deal.II's solvers want it. */
+    class Cycle
+    {
+    public:
+      explicit Cycle(const CondensedSolver &solver) : solver_(solver)
+      {
+      }
+
+      void vmult(la::Vector &dst, const la::Vector &src) const
+      {
+        solver_.precondition(dst, src);
+      }
+
+    private:
+      const CondensedSolver &solver_;
+    };
+  } // namespace
+
+  CondensedSolver::CondensedSolver(const SolverParameters &parameters)
+      : parameters_(parameters)
+  {
+  }
+
+  void CondensedSolver::set_near_null_space(const NearNullSpace &space)
+  {
+    space_ = space;
+  }
+
+  void CondensedSolver::reinit(const la::Matrix &stiffness,
+                               const RowOperator &rows)
+  {
+    stiffness_ = &stiffness;
+    rows_ = &rows;
+    diagonal_ = la::diagonal(la::local_rows(stiffness));
+    row_stiffness_ = solve::row_stiffness(stiffness, rows);
+    is_symmetric_ = is_symmetric(stiffness);
+    matrix_.reinit(stiffness, rows);
+    is_built_ = is_slow_ = false;
+    filter_.reset();
+    multigrid_.reset();
+    direct_.reset();
+  }
+
+  bool CondensedSolver::is_direct() const
+  {
+    switch (parameters_.linear)
+    {
+    case SolverParameters::Linear::direct:
+      return true;
+    case SolverParameters::Linear::iterative:
+      return false;
+    default:
+      return stiffness_->m() <= parameters_.direct_limit;
+    }
+  }
+
+  bool CondensedSolver::is_outdated() const
+  {
+    if (!is_built_ || is_slow_)
+      return true;
+    const Condensate &now = matrix_.condensate();
+    double counts[2] = {0., 0.}; // changed, in contact
+    for (int i = 0; i < rows_->n_rows(); ++i)
+    {
+      const double unit = rows_->weight(i) * row_stiffness_[i];
+      const double ratio =
+          (unit + now.stiffness[i]) / (unit + built_.stiffness[i]);
+      const double factor = is_direct() ? 1. : rebuild_factor;
+      const bool changed = now.pivot[i] != built_.pivot[i] || ratio > factor
+                           || ratio * factor < 1.;
+      const bool any = now.pivot[i] != Condensate::none
+                       || built_.pivot[i] != Condensate::none
+                       || now.stiffness[i] > 0. || built_.stiffness[i] > 0.;
+      counts[0] += changed;
+      counts[1] += any;
+    }
+    MPI::sum(counts, rows_->communicator(), counts);
+    return is_direct() ? counts[0] > 0.
+                       : counts[0] > rebuild_fraction * counts[1];
+  }
+
+  void CondensedSolver::build()
+  {
+    filter_.reset();
+    multigrid_.reset();
+    direct_.reset();
+    if (!matrix_.is_plain())
+      assembled_ = std::make_unique<la::Matrix>(matrix_.assemble());
+    const la::Matrix &system = matrix_.is_plain() ? *stiffness_ : *assembled_;
+    built_ = matrix_.condensate();
+    is_built_ = true;
+    is_slow_ = is_kept_ = false;
+    speed_when_built_ = 0.;
+    if (is_direct())
+    {
+      direct_ = std::make_unique<DirectSolver>(system);
+      return;
+    }
+    multigrid_ = make_multigrid(system, parameters_, space_);
+
+    const auto relative = [&](const int i)
+    { return built_.stiffness[i] / (rows_->weight(i) * row_stiffness_[i]); };
+    double stiffest = 0.;
+    std::vector<std::uint8_t> wanted(rows_->n_rows());
+    for (int i = 0; i < rows_->n_rows(); ++i)
+    {
+      stiffest = std::max(stiffest, relative(i));
+      wanted[i] = relative(i) > filtered ? 1 : 0;
+    }
+    if (MPI::max(stiffest, rows_->communicator()) <= stiff)
+      return;
+    la::Vector count(rows_->owned(), rows_->communicator());
+    rows_->add_counts(wanted.data(), count);
+    matrix_.zero_pivots(count);
+    const std::vector<std::uint8_t> picked(
+        la::data(count), la::data(count) + la::n_owned(count));
+    filter_ = std::make_unique<ContactFilter>(system, *multigrid_, picked);
+  }
+
+  LinearReport CondensedSolver::prepare(const Condensate &condensate)
+  {
+    LinearReport report;
+    const dealii::Timer timer;
+    matrix_.set(condensate);
+    is_kept_ = true;
+    if (is_outdated())
+    {
+      build();
+      report.n_setups = 1;
+    }
+    report.method =
+        is_direct()
+            ? DirectSolver::name()
+            : std::string(is_symmetric_ ? "conjugate gradients" : "FGMRES")
+                  + (filter_ ? ", ML with contact filter" : ", ML");
+    report.setup_seconds = timer.wall_time();
+    return report;
+  }
+
+  double CondensedSolver::load(const la::Vector &rhs) const
+  {
+    la::Vector force(rhs), springs(rhs);
+    springs = 0.;
+    rows_->add_squares(matrix_.condensate().stiffness.data(), springs);
+    for (int i = 0; i < la::n_owned(force); ++i)
+    {
+      const double softness =
+          diagonal_[i] / (diagonal_[i] + la::data(springs)[i]);
+      la::data(force)[i] *= softness * softness;
+    }
+    return force.l2_norm();
+  }
+
+  void CondensedSolver::precondition(la::Vector &dst,
+                                     const la::Vector &src) const
+  {
+    if (filter_)
+      filter_->vmult(dst, src);
+    else
+      multigrid_->vmult(dst, src);
+    // A kept preconditioner may act on unknowns that are pivots now.
+    matrix_.zero_pivots(dst);
+  }
+
+  bool CondensedSolver::iterate(const la::Vector &rhs,
+                                const unsigned int max_iterations,
+                                const double tolerance, la::Vector &x,
+                                LinearReport &report)
+  {
+    dealii::SolverControl control(max_iterations, tolerance, false, false);
+    bool converged = true;
+    try
+    {
+      if (is_symmetric_)
+        dealii::SolverCG<la::Vector>(control).solve(matrix_, x, rhs,
+                                                    Cycle(*this));
+      else
+        dealii::SolverFGMRES<la::Vector>(
+            control, dealii::SolverFGMRES<la::Vector>::AdditionalData(60))
+            .solve(matrix_, x, rhs, Cycle(*this));
+    }
+    catch (const dealii::SolverControl::NoConvergence &failure)
+    {
+      converged = false;
+      if (!is_kept_)
+        throw_failure(is_symmetric_ ? "Conjugate gradients" : "FGMRES", failure,
+                      tolerance);
+    }
+    report.n_iterations += control.last_step();
+    report.n_matvecs += control.last_step() * (filter_ ? 3 : 1);
+    return converged;
+  }
+
+  void CondensedSolver::solve_iteratively(const la::Vector &rhs,
+                                          const double tolerance, la::Vector &x,
+                                          LinearReport &report)
+  {
+    const double digits = std::log10(rhs.l2_norm() / tolerance);
+    if (is_kept_)
+    {
+      // A preconditioner that has become bad is not worth waiting for.
+      const unsigned int patience =
+          std::min(parameters_.max_iterations, 20 + 3 * iterations_when_built_);
+      if (iterate(rhs, patience, tolerance, x, report))
+      {
+        is_slow_ = digits / std::max(1u, report.n_iterations)
+                   < 0.5 * speed_when_built_;
+        return;
+      }
+      const dealii::Timer timer;
+      build();
+      ++report.n_setups;
+      report.setup_seconds += timer.wall_time();
+      x = 0.;
+    }
+    const unsigned int before = report.n_iterations;
+    iterate(rhs, parameters_.max_iterations, tolerance, x, report);
+    iterations_when_built_ = report.n_iterations - before;
+    speed_when_built_ = digits / std::max(1u, iterations_when_built_);
+  }
+
+  void CondensedSolver::solve_directly(const la::Vector &rhs,
+                                       const double tolerance, la::Vector &x,
+                                       LinearReport &report) const
+  {
+    la::Vector residual(rhs), correction(rhs);
+    // Once more with the residual: factors of stiff springs lose digits.
+    for (int step = 0; step < 2; ++step)
+    {
+      direct_->solve(correction, residual);
+      matrix_.zero_pivots(correction);
+      x.add(1., correction);
+      matrix_.vmult(residual, x);
+      ++report.n_matvecs;
+      residual.sadd(-1., 1., rhs);
+      if (residual.l2_norm() <= tolerance)
+        return;
+    }
+    check_direct_solution(rhs.l2_norm(), residual.l2_norm());
+  }
+
+  LinearReport CondensedSolver::solve(const la::Vector &rhs,
+                                      const double tolerance, la::Vector &x)
+  {
+    LinearReport report;
+    const dealii::Timer timer;
+    x = 0.;
+    const double norm = rhs.l2_norm();
+    if (!(norm <= tolerance))
+    {
+      if (is_direct())
+        solve_directly(rhs, tolerance, x, report);
+      else
+        solve_iteratively(rhs, tolerance, x, report);
+    }
+    report.solve_seconds = timer.wall_time() - report.setup_seconds;
+    return report;
+  }
+} // namespace abut::solve

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_CONDENSED_SOLVER_H
+#define ABUT_SOLVE_CONDENSED_SOLVER_H
+
+#include "condensed_matrix.h"
+#include "contact_filter.h"
+#include "direct_solver.h"
+#include "near_null_space.h"
+
+#include <abut/dealii/solver_parameters.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <memory>
+
+namespace abut::solve
+{
+  /** Solves with a CondensedMatrix: conjugate gradients (FGMRES if the matrix
+   * is not symmetric) with ML, or a factorisation.
+   *
+   * The operator always is the present one; the multigrid hierarchy, which
+   * costs as much as a solve, is kept while few rows change. It is built anew
+   * when many have changed or the iteration slows down. Rows that are stiff
+   * springs spoil it; then a direct solve on their unknowns is wrapped around
+   * it, see ContactFilter. */
+  class CondensedSolver
+  {
+  public:
+    explicit CondensedSolver(const SolverParameters &parameters);
+
+    /** What is known of the unknowns, for the matrices that come. */
+    void set_near_null_space(const NearNullSpace &space);
+
+    /** Take a new matrix and rows, which must outlive this object or the next
+     * call. Collective. */
+    void reinit(const la::Matrix &stiffness, const RowOperator &rows);
+
+    /** Take what is condensed, and make the preconditioner or factorisation
+     * fit it. Collective. */
+    LinearReport prepare(const Condensate &condensate);
+
+    /** The matrix of the last prepare(). */
+    const CondensedMatrix &matrix() const
+    {
+      return matrix_;
+    }
+
+    /** Norm of the force @p rhs, springs that are much stiffer than the body
+     * not counted. Tolerances are multiples of it. Collective. */
+    double load(const la::Vector &rhs) const;
+
+    /** Solve for @p x, which starts as 0, with @p rhs = P^T f, to a residual
+     * of norm @p tolerance. Pivots of @p x stay 0. Throws SolverFailure.
+     * Collective. */
+    LinearReport solve(const la::Vector &rhs, double tolerance, la::Vector &x);
+
+    /** One cycle of the preconditioner of the last prepare(). Collective. */
+    void precondition(la::Vector &dst, const la::Vector &src) const;
+
+    /** Whether systems are factorised. */
+    bool is_direct() const;
+
+    /** Local stiffness of each row. */
+    const std::vector<double> &row_stiffness() const
+    {
+      return row_stiffness_;
+    }
+
+  private:
+    bool is_outdated() const;
+    void build();
+    bool iterate(const la::Vector &rhs, unsigned int max_iterations,
+                 double tolerance, la::Vector &x, LinearReport &report);
+    void solve_iteratively(const la::Vector &rhs, double tolerance,
+                           la::Vector &x, LinearReport &report);
+    void solve_directly(const la::Vector &rhs, double tolerance, la::Vector &x,
+                        LinearReport &report) const;
+
+    SolverParameters parameters_;
+    NearNullSpace space_;
+    const la::Matrix *stiffness_ = nullptr;
+    const RowOperator *rows_ = nullptr;
+    std::vector<double> diagonal_, row_stiffness_;
+    bool is_symmetric_ = true;
+    CondensedMatrix matrix_;
+
+    /** What the preconditioner was built on. */
+    std::unique_ptr<la::Matrix> assembled_;
+    Condensate built_;
+    bool is_built_ = false, is_kept_ = false, is_slow_ = false;
+    double speed_when_built_ = 0.;
+    unsigned int iterations_when_built_ = 0;
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid_;
+    std::unique_ptr<ContactFilter> filter_;
+    std::unique_ptr<DirectSolver> direct_;
+  };
+} // namespace abut::solve
+
+#endif

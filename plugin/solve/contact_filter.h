@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_CONTACT_FILTER_H
+#define ABUT_SOLVE_CONTACT_FILTER_H
+
+#include "direct_solver.h"
+
+#include <abut/dealii/linear_algebra.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace abut::solve
+{
+  /** Multigrid with a filter: a preconditioner M for matrices A with stiff
+   * springs between some of their unknowns, out of a multigrid cycle B and a
+   * direct solve on those unknowns,
+   *
+   *     I - M A = (I - B A) (I - Q S^-1 Q^T A) (I - B A),   S = Q^T A Q,
+   *
+   * where Q picks the unknowns. Symmetric if B is. After Petrides, Hartland,
+   * Kolev, Lee, Puso, Solberg, Chin, Wang and Petra, AMG with filtering,
+   * arXiv 2505.18576. The springs sit on surfaces, so that S is small and its
+   * factors are sparse. */
+  class ContactFilter
+  {
+  public:
+    /** Take A and B, which must outlive this object, and @p picked [owned].
+     * Factorises S. Collective. */
+    ContactFilter(const la::Matrix &matrix,
+                  const dealii::TrilinosWrappers::PreconditionBase &multigrid,
+                  const std::vector<std::uint8_t> &picked);
+
+    /** dst = M src: two cycles, two products with A, one solve with S.
+     * Collective. */
+    void vmult(la::Vector &dst, const la::Vector &src) const;
+
+  private:
+    void add_correction(la::Vector &x) const;
+
+    const la::Matrix &matrix_;
+    const dealii::TrilinosWrappers::PreconditionBase &multigrid_;
+    std::vector<int> unknowns_; ///< those picked
+    std::unique_ptr<la::Matrix> small_;
+    std::unique_ptr<DirectSolver> direct_;
+    mutable la::Vector residual_, correction_, small_residual_,
+        small_correction_;
+  };
+} // namespace abut::solve
+
+#endif

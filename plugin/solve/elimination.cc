@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// With H = T + T Z, rank by rank:
+//   1  lines of Z for the pivots of other ranks that this rank's rows of T
+//      have entries for are fetched from their owners;
+//   2  lines of T Z for all rows of T on this rank, and of H for its pivots;
+//   3  lines of Z^T H for all unknowns that its rows tie pivots to, which may
+//      belong to other ranks and are sent there at the end.
+// Each line is added up in a dense array over the columns that occur here.
+#include "elimination.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace abut::solve
+{
+  using dealii::types::global_dof_index;
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Sparse line over a rank's own numbering of columns. */
+    struct Line
+    {
+      std::vector<int> column;
+      std::vector<double> value;
+
+      bool empty() const
+      {
+        return column.empty();
+      }
+    };
+
+    /** Numbers for the columns that occur on this rank: those of the matrix,
+     * then others as they come. */
+    class Columns
+    {
+    public:
+      explicit Columns(const la::Matrix &matrix)
+      {
+        const int n = la::local_rows(matrix).n_columns;
+        for (int k = 0; k < n; ++k)
+          add(la::global_column(matrix, k));
+      }
+
+      int add(const global_dof_index global)
+      {
+        const auto inserted =
+            number_.try_emplace(global, static_cast<int>(global_.size()));
+        if (inserted.second)
+          global_.push_back(global);
+        return inserted.first->second;
+      }
+
+      int size() const
+      {
+        return static_cast<int>(global_.size());
+      }
+
+      global_dof_index global(const int column) const
+      {
+        return global_[column];
+      }
+
+    private:
+      std::vector<global_dof_index> global_;
+      std::unordered_map<global_dof_index, int> number_;
+    };
+
+    /** Adds up one line. */
+    class LineSum
+    {
+    public:
+      explicit LineSum(const int n_columns) : place_(n_columns, -1)
+      {
+      }
+
+      void add(const int column, const double value)
+      {
+        int &place = place_[column];
+        if (place < 0)
+        {
+          place = static_cast<int>(line_.column.size());
+          line_.column.push_back(column);
+          line_.value.push_back(0.);
+        }
+        line_.value[place] += value;
+      }
+
+      void add(const Line &line, const double factor)
+      {
+        for (std::size_t k = 0; k < line.column.size(); ++k)
+          add(line.column[k], factor * line.value[k]);
+      }
+
+      /** The sum, which is empty afterwards. */
+      Line take()
+      {
+        for (const int column : line_.column)
+          place_[column] = -1;
+        return std::exchange(line_, Line());
+      }
+
+    private:
+      std::vector<int> place_;
+      Line line_;
+    };
+
+    /** Lines of Z of this rank's pivots, by local unknown. */
+    std::vector<Line> own_lines(const RowOperator &rows,
+                                const std::vector<std::int64_t> &pivot,
+                                Columns &columns)
+    {
+      std::vector<Line> lines(columns.size());
+      for (int i = 0; i < rows.n_rows(); ++i)
+      {
+        if (pivot[i] == Condensate::none)
+          continue;
+        Line &line = lines[rows.column(pivot[i])];
+        for (auto e = rows.begin(i); e < rows.end(i); ++e)
+        {
+          line.column.push_back(
+              columns.add(rows.global_column(rows.column(e))));
+          line.value.push_back(e == pivot[i]
+                                   ? -1.
+                                   : -rows.coefficient(e)
+                                         / rows.coefficient(pivot[i]));
+        }
+      }
+      return lines;
+    }
+
+    using Message = std::vector<std::pair<global_dof_index, double>>;
+
+    /** Each rank's pivots go to the ranks whose rows have entries for them:
+     * with a symmetric pattern, the owners of the pivots' neighbours. A line is
+     * sent as its pivot with its length, then its entries. */
+    void import_lines(const la::Matrix &matrix, Columns &columns,
+                      std::vector<Line> &lines)
+    {
+      const MPI_Comm communicator = matrix.get_mpi_communicator();
+      if (MPI::n_mpi_processes(communicator) == 1)
+        return;
+      const auto ends =
+          MPI::all_gather(communicator, matrix.local_range().second);
+      const la::LocalRows rows = la::local_rows(matrix);
+      std::map<unsigned int, Message> send;
+      for (int i = 0; i < rows.n_rows; ++i)
+      {
+        if (lines[i].empty())
+          continue;
+        std::vector<unsigned int> ranks;
+        for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+          if (rows.column[k] >= rows.n_rows)
+            ranks.push_back(std::upper_bound(ends.begin(), ends.end(),
+                                             columns.global(rows.column[k]))
+                            - ends.begin());
+        std::sort(ranks.begin(), ranks.end());
+        ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+        for (const unsigned int rank : ranks)
+        {
+          Message &message = send[rank];
+          message.emplace_back(columns.global(i), lines[i].column.size());
+          for (std::size_t k = 0; k < lines[i].column.size(); ++k)
+            message.emplace_back(columns.global(lines[i].column[k]),
+                                 lines[i].value[k]);
+        }
+      }
+      for (const auto &[rank, message] : MPI::some_to_some(communicator, send))
+        for (auto entry = message.begin(); entry != message.end();)
+        {
+          const int pivot = columns.add(entry->first);
+          const auto end = entry + 1 + static_cast<long>(entry->second);
+          lines.resize(std::max<std::size_t>(lines.size(), columns.size()));
+          for (++entry; entry != end; ++entry)
+          {
+            lines[pivot].column.push_back(columns.add(entry->first));
+            lines[pivot].value.push_back(entry->second);
+          }
+        }
+    }
+
+    /** Which entry of which pivot's line touches an unknown. */
+    std::vector<std::vector<std::pair<int, double>>>
+    transpose(const std::vector<Line> &lines, const int n_owned,
+              const int n_columns)
+    {
+      std::vector<std::vector<std::pair<int, double>>> result(n_columns);
+      for (int q = 0; q < n_owned; ++q)
+        for (std::size_t k = 0; k < lines[q].column.size(); ++k)
+          result[lines[q].column[k]].emplace_back(q, lines[q].value[k]);
+      return result;
+    }
+  } // namespace
+
+  la::Matrix elimination_terms(const la::Matrix &matrix,
+                               const RowOperator &rows,
+                               const std::vector<std::int64_t> &pivot)
+  {
+    Columns columns(matrix);
+    std::vector<Line> z = own_lines(rows, pivot, columns);
+    import_lines(matrix, columns, z);
+    z.resize(columns.size());
+
+    const la::LocalRows t = la::local_rows(matrix);
+    LineSum sum(columns.size());
+    std::vector<std::pair<int, Line>> result;
+    std::vector<Line> h(t.n_rows);
+    for (int i = 0; i < t.n_rows; ++i)
+    {
+      for (int k = t.start[i]; k < t.start[i + 1]; ++k)
+        sum.add(z[t.column[k]], t.value[k]);
+      Line line = sum.take();
+      if (!z[i].empty())
+      {
+        sum.add(line, 1.);
+        for (int k = t.start[i]; k < t.start[i + 1]; ++k)
+          sum.add(t.column[k], t.value[k]);
+        h[i] = sum.take();
+      }
+      if (!line.empty())
+        result.emplace_back(i, std::move(line));
+    }
+    const auto users = transpose(z, t.n_rows, columns.size());
+    for (int j = 0; j < columns.size(); ++j)
+    {
+      for (const auto &[q, value] : users[j])
+        sum.add(h[q], value);
+      Line line = sum.take();
+      if (!line.empty())
+        result.emplace_back(j, std::move(line));
+    }
+
+    std::vector<global_dof_index> places;
+    return la::assemble(rows.owned(), rows.ghosts(), rows.communicator(),
+                        [&](const auto &visit)
+                        {
+                          for (const auto &[row, line] : result)
+                          {
+                            places.clear();
+                            for (const int column : line.column)
+                              places.push_back(columns.global(column));
+                            visit(columns.global(row), places, line.value);
+                          }
+                        });
+  }
+} // namespace abut::solve

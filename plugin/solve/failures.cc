@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "failures.h"
+
+#include <abut/dealii/solver_parameters.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace abut::solve
+{
+  void throw_failure(const std::string &method,
+                     const dealii::SolverControl::NoConvergence &failure,
+                     const double tolerance)
+  {
+    std::ostringstream text;
+    text << method << " ended after " << failure.last_step
+         << " iterations with a residual of " << failure.last_residual
+         << " where " << tolerance << " was asked for. ";
+    if (std::isfinite(failure.last_residual))
+      text << "The matrix is badly conditioned or nearly singular: try "
+              "Solver/Linear solver = direct, a smaller Method/Penalty, or "
+              "more Solver/Maximum iterations; a body without supports needs "
+              "some.";
+    else
+      text << "A value is not a number: look for infinite data, or for a "
+              "matrix that is singular because nothing holds a body.";
+    throw SolverFailure(text.str());
+  }
+
+  void check_direct_solution(const double before, const double after)
+  {
+    if (after <= 1e-6 * before)
+      return;
+    std::ostringstream text;
+    text << "The direct solver left a residual of " << after << " of " << before
+         << ". The matrix is singular or nearly so, for example because "
+            "nothing holds a body: give it supports.";
+    throw SolverFailure(text.str());
+  }
+} // namespace abut::solve

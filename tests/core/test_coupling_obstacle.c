@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Coupling of surfaces and rigid obstacles. */
+#include "coupling_fixture.h"
+
+#include <abut/obstacle.h>
+#include <abut/obstacle_surface.h>
+
+static couple
+couple_obstacle(const scene_mesh *mesh, abut_obstacle *obstacle,
+                const abut_coupling_options *options)
+{
+  couple c;
+  memset(&c, 0, sizeof(c));
+  c.secondary = surface_of(mesh);
+  require(abut_coupling_create_obstacle(context, c.secondary, obstacle, options,
+                                        &c.coupling));
+  couple_build(&c, NULL);
+  return c;
+}
+
+static abut_obstacle *
+make(const abut_obstacle_shape *shape)
+{
+  abut_obstacle *o = NULL;
+  require(abut_obstacle_create_shape(context, shape, &o));
+  return o;
+}
+
+/* Uniform gap over a plane: every row sees it, rows have no primary, weights
+ * are the consistent areas for mortar and node to segment. */
+static void
+test_plane(void **state)
+{
+  (void)state;
+  static const abut_facet_kind kinds[3] = {ABUT_FACET_QUAD4, ABUT_FACET_QUAD9,
+                                           ABUT_FACET_TRI3};
+  const double p[5] = {0., 0., 1., 1., 0.1}, angles[3] = {0.2, 0.5, -0.3},
+               none[3] = {0., 0., 0.};
+  abut_obstacle_shape shape = abut_obstacle_shape_defaults();
+  double x[6] = {0., 0., 0., 0., 0., 1.};
+  int32_t no[1] = {0};
+  scene_mesh frame = {3, 2, 0, ABUT_FACET_QUAD4, x, no};
+  scene_move(&frame, 1., angles, none);
+  for (int d = 0; d < 3; ++d)
+    shape.axis[d] = x[3 + d];
+  abut_obstacle *plane = make(&shape);
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < ABUT_DISCRETISATION_N; ++k)
+    {
+      abut_coupling_options o = abut_coupling_defaults();
+      o.discretisation = (abut_discretisation)k;
+      scene_mesh s = scene_patch(kinds[i], 3, 3, scene_plane, p, true);
+      scene_move(&s, 1., angles, none);
+      couple c = couple_obstacle(&s, plane, &o);
+      check_rows(&c);
+      near(c.statistics.covered_area, 1., 1e-14, "covered");
+      double area[49];
+      nodal_areas(c.secondary, area);
+      for (int32_t j = 0; j < c.view.n_rows; ++j)
+      {
+        near(c.view.gap[j], 0.1, 1e-14, "gap");
+        for (int d = 0; d < 3; ++d)
+          near(c.view.normal[3 * j + d], -shape.axis[d], 1e-14, "normal");
+        assert_int_equal(c.view.primary_start[j + 1], 0);
+        if (c.view.node[j] >= 0)
+          near(c.view.weight[j], area[c.view.node[j]], 1e-14, "weight");
+      }
+      if (k != ABUT_DISCRETISATION_QUADRATURE_POINT)
+        assert_int_equal(c.view.n_rows, s.n_nodes);
+      couple_destroy(&c);
+      scene_free(&s);
+    }
+  require(abut_obstacle_destroy(&plane));
+}
+
+/* A disc on a plane: rows of nodes within reach only, none on the far side. */
+static void
+test_reach(void **state)
+{
+  (void)state;
+  const double disc[5] = {0., 1.01, 1., 0., 6.283185307179586};
+  abut_obstacle_shape shape = abut_obstacle_shape_defaults();
+  shape.dimension = 2;
+  shape.axis[1] = 1.;
+  abut_obstacle *plane = make(&shape);
+  for (int k = 0; k < ABUT_DISCRETISATION_N; ++k)
+  {
+    abut_coupling_options o = abut_coupling_defaults();
+    o.discretisation = (abut_discretisation)k;
+    o.search.relative_reach = 0.;
+    o.search.reach = 0.2;
+    scene_mesh s = scene_patch(ABUT_FACET_LINE2, 64, 1, scene_arc, disc, false);
+    couple c = couple_obstacle(&s, plane, &o);
+    check_rows(&c);
+    assert_true(c.view.n_rows > 5);
+    for (int32_t j = 0; j < c.view.n_rows; ++j)
+    {
+      /* 0.002: the facets' sagitta of 0.0012 and the width of a row. */
+      near(c.view.gap[j], c.view.position[2 * j + 1], 0.002, "gap");
+      assert_true(c.view.gap[j] <= 0.2);
+    }
+    if (k == ABUT_DISCRETISATION_NODE_TO_SEGMENT)
+    {
+      int32_t n = 0;
+      for (int32_t i = 0; i < s.n_nodes; ++i)
+        n += s.position[2 * i + 1] <= 0.2;
+      assert_int_equal(c.view.n_rows, n);
+    }
+    couple_destroy(&c);
+    scene_free(&s);
+  }
+  require(abut_obstacle_destroy(&plane));
+}
+
+/* A flat patch over a sphere: gaps of nodes are exact, those of mortar rows
+ * differ by less than the facet's diameter squared by the radius. */
+static void
+test_sphere(void **state)
+{
+  (void)state;
+  abut_obstacle_shape shape = abut_obstacle_shape_defaults();
+  shape.kind = ABUT_OBSTACLE_SPHERE;
+  shape.radius = 2.;
+  abut_obstacle *sphere = make(&shape);
+  const double p[5] = {-0.5, -0.5, 1., 1., 2.01};
+  for (int k = 0; k < ABUT_DISCRETISATION_N; ++k)
+  {
+    abut_coupling_options o = abut_coupling_defaults();
+    o.discretisation = (abut_discretisation)k;
+    o.search.reach = 1.;
+    scene_mesh s = scene_patch(ABUT_FACET_QUAD4, 6, 6, scene_plane, p, true);
+    couple c = couple_obstacle(&s, sphere, &o);
+    check_rows(&c);
+    for (int32_t j = 0; j < c.view.n_rows; ++j)
+    {
+      const double *x = c.view.position + 3 * j;
+      const double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+      const bool nodal = k == ABUT_DISCRETISATION_NODE_TO_SEGMENT
+                         || k == ABUT_DISCRETISATION_QUADRATURE_POINT;
+      /* Standard functions of the border have their centres inside. */
+      if (k == ABUT_DISCRETISATION_MORTAR
+          && fmax(fabs(x[0]), fabs(x[1])) > 0.49)
+        continue;
+      near(c.view.gap[j], r - 2., nodal ? 1e-14 : 1. / 36. / 2., "gap");
+      for (int d = 0; nodal && d < 3; ++d)
+        near(c.view.normal[3 * j + d], -x[d] / r, 1e-14, "normal");
+    }
+    couple_destroy(&c);
+    scene_free(&s);
+  }
+  require(abut_obstacle_destroy(&sphere));
+}
+
+/* An obstacle of facets gives the rows of the plane that it is. */
+static void
+test_surface(void **state)
+{
+  (void)state;
+  const double ground[5] = {-2., -2., 5., 5., 0.},
+               p[5] = {0., 0., 1., 1., 0.05};
+  scene_mesh g = scene_patch(ABUT_FACET_TRI3, 7, 5, scene_plane, ground, false),
+             s = scene_patch(ABUT_FACET_QUAD4, 3, 3, scene_plane, p, true);
+  abut_surface *facets = surface_of(&g);
+  abut_obstacle_surface options = abut_obstacle_surface_defaults();
+  options.open = true;
+  abut_obstacle *o = NULL;
+  require(abut_obstacle_create_surface(context, facets, &options, &o));
+  couple c = couple_obstacle(&s, o, NULL);
+  check_rows(&c);
+  assert_int_equal(c.view.n_rows, 16);
+  for (int32_t j = 0; j < 16; ++j)
+    near(c.view.gap[j], 0.05, 1e-14, "gap");
+  couple_destroy(&c);
+  require(abut_obstacle_destroy(&o));
+  require(abut_surface_destroy(&facets));
+  scene_free(&g);
+  scene_free(&s);
+}
+
+static int
+fails(void *user, int32_t n, const double *x, double *value, double *gradient)
+{
+  (void)x;
+  for (int32_t i = 0; i < n; ++i)
+  {
+    value[i] = 0.01;
+    gradient[3 * i] = gradient[3 * i + 1] = 0.;
+    gradient[3 * i + 2] = 1.;
+  }
+  return *(const int *)user;
+}
+
+/* A function that fails is reported; the coupling works again afterwards. */
+static void
+test_failures(void **state)
+{
+  (void)state;
+  int failing = 0;
+  const double p[5] = {0., 0., 1., 1., 0.05};
+  abut_obstacle_function f = abut_obstacle_function_defaults();
+  f.evaluate = fails;
+  f.user = &failing;
+  abut_obstacle *o = NULL, *flat = NULL;
+  require(abut_obstacle_create_function(context, &f, &o));
+  scene_mesh s = scene_patch(ABUT_FACET_QUAD4, 3, 3, scene_plane, p, true);
+  couple c = couple_obstacle(&s, o, NULL);
+  assert_int_equal(c.view.n_rows, 16);
+  failing = 1;
+  assert_int_equal(abut_coupling_build(c.coupling, NULL, 0.),
+                   ABUT_CALLBACK_FAILED);
+  require(abut_coupling_get(c.coupling, &c.view));
+  assert_int_equal(c.view.n_rows, 0);
+  failing = 0;
+  couple_build(&c, NULL);
+  assert_int_equal(c.view.n_rows, 16);
+  abut_obstacle_shape shape = abut_obstacle_shape_defaults();
+  shape.dimension = 2;
+  shape.axis[1] = 1.;
+  flat = make(&shape);
+  abut_coupling *none = NULL;
+  assert_int_equal(
+      abut_coupling_create_obstacle(context, c.secondary, flat, NULL, &none),
+      ABUT_INVALID_ARGUMENT);
+  assert_int_equal(
+      abut_coupling_create_obstacle(context, c.secondary, NULL, NULL, &none),
+      ABUT_INVALID_ARGUMENT);
+  couple_destroy(&c);
+  require(abut_obstacle_destroy(&flat));
+  require(abut_obstacle_destroy(&o));
+  scene_free(&s);
+}
+
+int
+main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(test_plane, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_reach, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_sphere, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_surface, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_failures, set_up, tear_down)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
