@@ -276,14 +276,19 @@ extern "C"
     double full_area;    /**< sum of the full weights of all wanted nodes */
     int64_t n_facets;    /**< secondary facets looked at */
     int64_t n_covered;   /**< of these, covered at least in part */
-    int64_t n_pairs;     /**< pairs of facets with a common part */
+    int64_t n_pairs;     /**< pairs of linear parts of facets with a common
+                              part; points with an opposite point, if not
+                              integrated over segments */
     int64_t n_lumped;    /**< facets too little covered, or too distorted, for
                               dual functions: lumped functions instead */
     int64_t n_weak;      /**< wanted nodes with coverage, but without a row */
     int64_t n_split;     /**< rows at a feature of the surface whose normal is
                               that of the covered side only */
-    int64_t n_layers;    /**< common parts cut back because a nearer facet
-                              covers the same spot */
+    int64_t n_bent;   /**< rows at a feature of the surface that is covered on
+                           both sides: one row cannot hold both directions;
+                           better drop these nodes */
+    int64_t n_layers; /**< common parts cut back because a nearer facet
+                           covers the same spot */
     double largest_warping; /**< largest angle between the normals of a
                                  secondary facet's nodes and its mean normal,
                                  radian */

@@ -575,6 +575,37 @@ test_corner(void **state)
   scene_free(&m);
 }
 
+/* The punch in a groove that fits it: each corner is covered on both sides. */
+static void
+test_groove(void **state)
+{
+  (void)state;
+  double x[8] = {1., 1., 1., 0., 0., 0., 0., 1.};
+  double y[8] = {-0.01, 1., -0.01, -0.01, 1.01, -0.01, 1.01, 1.};
+  int32_t nodes[6] = {1, 0, 2, 1, 3, 2};
+  int32_t groove[6] = {1, 0, 2, 1, 3, 2};
+  const uint8_t dropped[4] = {0, 1, 1, 0};
+  scene_mesh s = {2, 4, 3, ABUT_FACET_LINE2, x, nodes},
+             m = {2, 4, 3, ABUT_FACET_LINE2, y, groove};
+  abut_coupling_nodes n = abut_coupling_nodes_defaults();
+  couple c = couple_meshes(&s, &m, NULL, &n);
+  check_rows(&c);
+  assert_int_equal(c.view.n_rows, 4);
+  assert_int_equal(c.statistics.n_bent, 2);
+  near(c.statistics.covered_area, 3., 1e-14, "covered");
+  for (int32_t j = 0; j < 4; ++j)
+    near(c.view.normal[2 * j], (j < 2 ? 1. : -1.) * (j % 3 ? sqrt(.5) : 1.),
+         1e-14, "normal");
+  /* Without the corners the sides are held by their upper ends. */
+  n.dropped = dropped;
+  couple_build(&c, &n);
+  check_rows(&c);
+  assert_int_equal(c.view.n_rows, 2);
+  assert_int_equal(c.statistics.n_bent, 0);
+  near(c.statistics.covered_area, 2., 1e-14, "covered");
+  couple_destroy(&c);
+}
+
 int
 main(void)
 {
@@ -593,6 +624,7 @@ main(void)
       cmocka_unit_test_setup_teardown(test_without_segments, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_arcs, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_axisymmetric, set_up, tear_down),
-      cmocka_unit_test_setup_teardown(test_corner, set_up, tear_down)};
+      cmocka_unit_test_setup_teardown(test_corner, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_groove, set_up, tear_down)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -187,9 +187,10 @@ abut_coupling_is_mortar(const abut_coupling *c)
 void abut_coupling_load(const abut_coupling *c, int32_t f,
                         abut_coupling_facet *facet);
 
-/* Degree of the rule for the common parts of facets of two kinds. */
+/* Degree of the rule for the common parts of facets of two kinds, for products
+ * of their shape functions or for those of the secondary alone. */
 int abut_coupling_degree(const abut_coupling *c, abut_facet_kind secondary,
-                         abut_facet_kind primary);
+                         abut_facet_kind primary, bool products);
 
 /* Rule of the whole facet: points, with weights and shape functions of the
  * secondary only, in c->points. */
@@ -197,24 +198,25 @@ abut_status abut_coupling_whole(abut_coupling *c,
                                 const abut_coupling_facet *facet);
 
 /* Points on the covered part, in the order of the primary facets' numbers, in
- * c->points; counts statistics if @p count. */
+ * c->points; final: for the rows, with statistics, not only for the covered
+ * part of the secondary's functions. */
 abut_status abut_coupling_make_points(abut_coupling *c,
                                       const abut_coupling_facet *facet,
-                                      bool count);
+                                      bool final);
 
 /* The ways of abut_coupling_make_points(); the first three find the opposite
  * points on the candidates. */
 abut_status abut_coupling_segments2(abut_coupling *c,
                                     const abut_coupling_facet *facet,
-                                    bool count);
+                                    bool final);
 abut_status abut_coupling_segments3(abut_coupling *c,
                                     const abut_coupling_facet *facet,
-                                    bool count);
+                                    bool final);
 abut_status abut_coupling_rays(abut_coupling *c,
-                               const abut_coupling_facet *facet, bool count);
+                               const abut_coupling_facet *facet, bool final);
 abut_status abut_coupling_face_obstacle(abut_coupling *c,
                                         const abut_coupling_facet *facet,
-                                        bool count);
+                                        bool final);
 
 /* Candidates of a facet: the *n primary facets within reach of its box that
  * share no node with it, in c->candidates. */
@@ -239,16 +241,9 @@ void abut_coupling_shape(abut_facet_kind kind, const double *nodes,
                          const double *local, double *shape,
                          double (*tangents)[3]);
 
-/* Tangents of a facet in the plane, nodes [n * 2]; only [2][2] are set. */
-void abut_coupling_plane_tangents(abut_facet_kind kind, const double *nodes,
-                                  const double *local, double (*tangents)[3]);
-
 /* Unit normal of a facet at local coordinates; third component 0 in 2D. */
 void abut_coupling_normal(abut_facet_kind kind, const double *nodes,
                           const double *local, double *normal);
-
-/* Local coordinates of node a of a kind; two numbers. */
-const double *abut_coupling_node_local(abut_facet_kind kind, int32_t a);
 
 /* Free nodes and the functions phi and chi of a facet, without multipliers at
  * dropped nodes. UNSUPPORTED if they are

@@ -8,21 +8,6 @@
 
 #include <string.h>
 
-static const double line_local[3][2] = {{-1, 0}, {1, 0}, {0, 0}};
-static const double tri_local[6][2] = {{0, 0},  {1, 0},   {0, 1},
-                                       {.5, 0}, {.5, .5}, {0, .5}};
-static const double quad_local[9][2] = {{-1, -1}, {1, -1}, {-1, 1},
-                                        {1, 1},   {-1, 0}, {1, 0},
-                                        {0, -1},  {0, 1},  {0, 0}};
-
-const double *
-abut_coupling_node_local(abut_facet_kind kind, int32_t a)
-{
-  if (abut_facet_dimension(kind) == 2)
-    return line_local[a];
-  return abut_facet_n_corners(kind) == 3 ? tri_local[a] : quad_local[a];
-}
-
 void
 abut_coupling_shape(abut_facet_kind kind, const double *nodes,
                     const double *local, double *shape, double (*tangents)[3])
@@ -43,21 +28,6 @@ abut_coupling_shape(abut_facet_kind kind, const double *nodes,
       /* The derivatives of all shape functions add up to zero. */
       for (int a = 1; a < n && d < dim; ++a)
         tangents[k][d] += s.d[k][a] * (nodes[a * dim + d] - nodes[d]);
-    }
-}
-
-void
-abut_coupling_plane_tangents(abut_facet_kind kind, const double *nodes,
-                             const double *local, double (*tangents)[3])
-{
-  abut_shape s;
-  abut_shape3(kind, local[0], local[1], &s);
-  for (int k = 0; k < 2; ++k)
-    for (int d = 0; d < 2; ++d)
-    {
-      tangents[k][d] = 0.;
-      for (int a = 1; a < abut_facet_n_nodes(kind); ++a)
-        tangents[k][d] += s.d[k][a] * (nodes[2 * a + d] - nodes[d]);
     }
 }
 
@@ -92,7 +62,7 @@ set_node_normals(const abut_coupling *c, abut_coupling_facet *facet)
     double *n = facet->node_normal + 3 * a;
     double own[3];
     abut_coupling_normal(facet->kind, facet->x,
-                         abut_coupling_node_local(facet->kind, a), own);
+                         abut_facet_node_local(facet->kind, a), own);
     n[2] = 0.;
     for (int32_t d = 0; d < v->dimension; ++d)
       n[d] = c->normals[(int64_t)v->dimension * node[a] + d];
@@ -174,12 +144,12 @@ degree_of(abut_facet_kind kind)
 
 int
 abut_coupling_degree(const abut_coupling *c, abut_facet_kind secondary,
-                     abut_facet_kind primary)
+                     abut_facet_kind primary, bool products)
 {
   if (c->options.quadrature_degree > 0)
     return c->options.quadrature_degree;
   if (abut_facet_dimension(secondary) == 3)
-    return degree_of(secondary) + degree_of(primary);
+    return degree_of(secondary) + (products ? degree_of(primary) : 0);
   /* The map to a curved or inclined primary is not a polynomial. */
   return degree_of(secondary) + degree_of(primary) > 2 ? 9 : 5;
 }
@@ -229,13 +199,13 @@ abut_coupling_whole(abut_coupling *c, const abut_coupling_facet *facet)
 
 abut_status
 abut_coupling_make_points(abut_coupling *c, const abut_coupling_facet *facet,
-                          bool count)
+                          bool final)
 {
   if (c->obstacle != NULL)
-    return abut_coupling_face_obstacle(c, facet, count);
+    return abut_coupling_face_obstacle(c, facet, final);
   if (!abut_coupling_is_mortar(c) || !c->options.segments)
-    return abut_coupling_rays(c, facet, count);
+    return abut_coupling_rays(c, facet, final);
   return c->secondary->view.dimension == 2
-             ? abut_coupling_segments2(c, facet, count)
-             : abut_coupling_segments3(c, facet, count);
+             ? abut_coupling_segments2(c, facet, final)
+             : abut_coupling_segments3(c, facet, final);
 }

@@ -111,7 +111,7 @@ is_kept(const abut_coupling *c, const abut_coupling_facet *facet,
 
 abut_status
 abut_coupling_face_obstacle(abut_coupling *c, const abut_coupling_facet *facet,
-                            bool count)
+                            bool final)
 {
   double normal[3], distance;
   int32_t n = 0;
@@ -133,7 +133,7 @@ abut_coupling_face_obstacle(abut_coupling *c, const abut_coupling_facet *facet,
   }
   c->n_points = n;
   set_reach(c, facet);
-  c->statistics.n_pairs += count;
+  c->statistics.n_pairs += final;
   return ABUT_SUCCESS;
 }
 

@@ -71,7 +71,7 @@ find_opposite(const abut_coupling *c, const abut_coupling_facet *facet,
 
 abut_status
 abut_coupling_rays(abut_coupling *c, const abut_coupling_facet *facet,
-                   bool count)
+                   bool final)
 {
   int32_t n_candidates, n = 0;
   double e[2][3];
@@ -90,6 +90,6 @@ abut_coupling_rays(abut_coupling *c, const abut_coupling_facet *facet,
       points[n++] = points[q];
   }
   c->n_points = n;
-  c->statistics.n_pairs += count ? n : 0;
+  c->statistics.n_pairs += final ? n : 0;
   return ABUT_SUCCESS;
 }

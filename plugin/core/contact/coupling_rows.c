@@ -140,15 +140,17 @@ static void
 row_normal(abut_coupling *c, const abut_coupling_share *total, double *n)
 {
   const int32_t dim = c->secondary->view.dimension;
+  const double limit = cos(0.5 * c->secondary->feature_angle);
   double mean[3] = {total->normal[0], total->normal[1], total->normal[2]};
-  unit3(mean, 0.);
+  const double length = unit3(mean, 0.);
   memcpy(n, mean, sizeof(mean));
   if (total->node < 0 || c->obstacle != NULL || !abut_coupling_is_mortar(c))
     return;
   double average[3] = {0., 0., 0.};
   for (int32_t d = 0; d < dim; ++d)
     average[d] = c->normals[(int64_t)dim * total->node + d];
-  if (dot3(average, mean) >= cos(0.5 * c->secondary->feature_angle))
+  c->statistics.n_bent += length < limit * total->weight;
+  if (dot3(average, mean) >= limit)
     memcpy(n, average, sizeof(average));
   else
     ++c->statistics.n_split;

@@ -189,8 +189,8 @@ add_points(abut_coupling *c, const abut_coupling_facet *facet, const base *b,
       (abut_facet_kind)c->primary->view.kinds[g->primary];
   const int n_parts = abut_facet_n_parts(kind);
   abut_rule rule;
-  abut_rule_facet(ABUT_FACET_LINE2, abut_coupling_degree(c, facet->kind, kind),
-                  &rule);
+  abut_rule_facet(ABUT_FACET_LINE2,
+                  abut_coupling_degree(c, facet->kind, kind, true), &rule);
   for (int q = 0; q < rule.n; ++q)
   {
     double gap, tangent[2][3];
@@ -240,7 +240,7 @@ integrate(abut_coupling *c, const abut_coupling_facet *facet, const base *b,
 
 abut_status
 abut_coupling_segments2(abut_coupling *c, const abut_coupling_facet *facet,
-                        bool count)
+                        bool final)
 {
   int32_t n_candidates, n;
   c->n_points = 0;
@@ -257,8 +257,8 @@ abut_coupling_segments2(abut_coupling *c, const abut_coupling_facet *facet,
     {
       bool cut = false;
       status = integrate(c, facet, &b, n, k, &cut);
-      c->statistics.n_pairs += count;
-      c->statistics.n_layers += count && cut;
+      c->statistics.n_pairs += final;
+      c->statistics.n_layers += final && cut;
     }
   }
   return status;

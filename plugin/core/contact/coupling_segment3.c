@@ -20,7 +20,7 @@
  * the others are cut back. O(pairs), and the square of the pairs of one patch
  * for the boxes of its polygons. */
 #include "contact/coupling.h"
-#include "geometry/clip.h"
+#include "geometry/linear_patch.h"
 #include "geometry/pull_back.h"
 #include "geometry/quadrature.h"
 #include "geometry/vector.h"
@@ -29,7 +29,6 @@
 
 enum
 {
-  MAX_PATCHES = 4,
   MAX_FRAGMENTS = 64
 };
 
@@ -37,18 +36,9 @@ static const double split_warping = 0.349;      /* radian: 20 degrees */
 static const double smallest_overlap = 1e-6;    /* of the smaller polygon */
 static const double largest_area_ratio = 1000.; /* of facet by plane */
 
-/* Linear patch of a facet: corners in the order of tri3 or quad4. */
-typedef struct patch
-{
-  abut_facet_kind kind;
-  double x[4][3];
-  double local[4][2]; /* on the facet */
-  double flat[8];     /* in the plane */
-} patch;
-
 typedef struct segment
 {
-  patch s, m;
+  abut_linear_patch s, m;
   abut_clip3 polygon;
   int32_t primary;
 } segment;
@@ -62,147 +52,13 @@ typedef struct work
   int32_t n; /* segments */
 } work;
 
-static int
-n_corners(const patch *p)
-{
-  return p->kind == ABUT_FACET_QUAD4 ? 4 : 3;
-}
-
-/* Corners walked around, for clipping. */
-static void
-walk(const patch *p, abut_part *part)
-{
-  part->n = n_corners(p);
-  for (int k = 0; k < part->n; ++k)
-    memcpy(part->x[k], p->x[abut_facet_loop(part->n, k)], sizeof(part->x[k]));
-}
-
-/* Quarter number `which` of the reference square. */
-static void
-quarter(const double *nodes, int which, patch *p)
-{
-  p->kind = ABUT_FACET_QUAD4;
-  for (int k = 0; k < 4; ++k)
-  {
-    double shape[ABUT_FACET_MAX_NODES];
-    p->local[k][0] = k % 2 + which % 2 - 1.;
-    p->local[k][1] = k / 2 + which / 2 - 1.;
-    abut_coupling_shape(p->kind, NULL, p->local[k], shape, NULL);
-    for (int d = 0; d < 3; ++d)
-    {
-      p->x[k][d] = 0.;
-      for (int a = 0; a < 4; ++a)
-        p->x[k][d] += shape[a] * nodes[3 * a + d];
-    }
-  }
-}
-
-static void
-part_patch(abut_facet_kind kind, const double *nodes, int which, patch *p)
-{
-  const int8_t *corner = abut_facet_part_corners(kind, which);
-  const int n = abut_facet_n_corners(kind);
-  p->kind = n == 4 ? ABUT_FACET_QUAD4 : ABUT_FACET_TRI3;
-  for (int k = 0; k < n; ++k)
-  {
-    const int to = abut_facet_loop(n, k), from = corner[k];
-    memcpy(p->x[to], nodes + 3 * from, sizeof(p->x[to]));
-    memcpy(p->local[to], abut_coupling_node_local(kind, from),
-           sizeof(p->local[to]));
-  }
-}
-
-static int
-make_patches(abut_facet_kind kind, const double *nodes, bool split,
-             patch *patches)
-{
-  if (split)
-  {
-    for (int i = 0; i < 4; ++i)
-      quarter(nodes, i, patches + i);
-    return 4;
-  }
-  const int n = abut_facet_n_parts(kind);
-  for (int i = 0; i < n; ++i)
-    part_patch(kind, nodes, i, patches + i);
-  return n;
-}
-
-static void
-flatten(const work *w, patch *p)
-{
-  for (int k = 0; k < n_corners(p); ++k)
-  {
-    double r[3];
-    sub3(p->x[k], w->origin, r);
-    p->flat[2 * k] = dot3(r, w->e[0]);
-    p->flat[2 * k + 1] = dot3(r, w->e[1]);
-  }
-}
-
-/* The triangles of a patch in the plane; a triangle is its own. */
-static int
-triangles(const patch *p, patch *result)
-{
-  if (p->kind == ABUT_FACET_TRI3)
-  {
-    *result = *p;
-    return 1;
-  }
-  abut_part flat = {.n = 4};
-  for (int k = 0; k < 4; ++k)
-    for (int d = 0; d < 2; ++d)
-      flat.x[k][d] = p->flat[2 * abut_facet_loop(4, k) + d];
-  const int first = abut_part_diagonal(&flat);
-  for (int i = 0; i < 2; ++i)
-  {
-    result[i].kind = ABUT_FACET_TRI3;
-    for (int k = 0; k < 3; ++k)
-    {
-      const int from = abut_facet_loop(4, (first + 2 * i + k) % 4);
-      memcpy(result[i].x[k], p->x[from], sizeof(p->x[0]));
-      memcpy(result[i].local[k], p->local[from], sizeof(p->local[0]));
-      memcpy(result[i].flat + 2 * k, p->flat + 2 * from, 2 * sizeof(double));
-    }
-  }
-  return 2;
-}
-
-/* Place on a patch over a point of the plane: local coordinates on the facet
- * and position; ratio: area of local coordinates by area of the plane. */
-static int
-lift(const patch *p, const double *uv, double *local, double *x, double *ratio)
-{
-  double own[2], j[4], shape[4], t[2][3] = {{0.}}, corner[8];
-  const int n = n_corners(p);
-  if (!abut_pull_back(p->kind, p->flat, uv, own, j))
-    return 0;
-  abut_coupling_shape(p->kind, NULL, own, shape, NULL);
-  local[0] = local[1] = x[0] = x[1] = x[2] = 0.;
-  for (int a = 0; a < n; ++a)
-  {
-    for (int d = 0; d < 2; ++d)
-      local[d] += shape[a] * p->local[a][d];
-    for (int d = 0; d < 3; ++d)
-      x[d] += shape[a] * p->x[a][d];
-  }
-  if (ratio == NULL)
-    return 1;
-  for (int a = 0; a < n; ++a)
-    for (int d = 0; d < 2; ++d)
-      corner[2 * a + d] = p->local[a][d];
-  abut_coupling_plane_tangents(p->kind, corner, own, t);
-  *ratio = fabs((t[0][0] * t[1][1] - t[0][1] * t[1][0])
-                / (j[0] * j[3] - j[1] * j[2]));
-  return 1;
-}
-
 /* Gap along the normal over a point of the plane. */
 static int
 gap_at(const work *w, const segment *g, const double *uv, double *gap)
 {
   double local[2], x[3], y[3], r[3];
-  if (!lift(&g->s, uv, local, x, NULL) || !lift(&g->m, uv, local, y, NULL))
+  if (!abut_linear_patch_lift(&g->s, uv, local, x, NULL)
+      || !abut_linear_patch_lift(&g->m, uv, local, y, NULL))
     return 0;
   sub3(y, x, r);
   *gap = dot3(r, w->normal);
@@ -226,32 +82,34 @@ keep(work *w, const segment *g, double size)
 
 /* Common polygons of the secondary patch with one of a primary facet. */
 static abut_status
-intersect(work *w, const patch *s, const patch *m, int32_t primary, double size)
+intersect(work *w, const abut_linear_patch *s, const abut_linear_patch *m,
+          int32_t primary, double size)
 {
   abut_part a, b;
   double normal[3];
   segment g = {.s = *s, .m = *m, .primary = primary};
-  walk(s, &a);
-  walk(m, &b);
+  abut_linear_patch_walk(s, &a);
+  abut_linear_patch_walk(m, &b);
   abut_part_area(&b, normal);
   if (!(dot3(normal, w->normal) <= w->c->options.normal_cosine))
     return ABUT_SUCCESS;
-  flatten(w, &g.m);
+  abut_linear_patch_flatten(&g.m, w->origin, w->e);
   const abut_clip_result result =
       abut_clip3_parts(&a, &b, w->origin, w->normal, &g.polygon);
   if (result == ABUT_CLIP_EMPTY)
     return ABUT_SUCCESS;
   if (result == ABUT_CLIP_POLYGON)
     return keep(w, &g, size);
-  patch u[2], v[2];
-  const int n_u = triangles(s, u), n_v = triangles(&g.m, v);
+  abut_linear_patch u[2], v[2];
+  const int n_u = abut_linear_patch_triangles(s, u),
+            n_v = abut_linear_patch_triangles(&g.m, v);
   for (int i = 0; i < n_u; ++i)
     for (int k = 0; k < n_v; ++k)
     {
       g.s = u[i];
       g.m = v[k];
-      walk(&u[i], &a);
-      walk(&v[k], &b);
+      abut_linear_patch_walk(&u[i], &a);
+      abut_linear_patch_walk(&v[k], &b);
       if (abut_clip3_parts(&a, &b, w->origin, w->normal, &g.polygon)
           != ABUT_CLIP_POLYGON)
         continue;
@@ -264,19 +122,19 @@ intersect(work *w, const patch *s, const patch *m, int32_t primary, double size)
 
 /* All common polygons of a secondary patch. */
 static abut_status
-collect(work *w, const patch *s, int32_t n_candidates)
+collect(work *w, const abut_linear_patch *s, int32_t n_candidates)
 {
   const int32_t *candidate = w->c->candidates.data;
   w->n = 0;
   for (int32_t k = 0; k < n_candidates; ++k)
   {
     double nodes[3 * ABUT_FACET_MAX_NODES];
-    patch m[MAX_PATCHES];
+    abut_linear_patch m[ABUT_MAX_LINEAR_PATCHES];
     const abut_facet_kind kind =
         (abut_facet_kind)w->c->primary->view.kinds[candidate[k]];
     abut_surface_gather(w->c->primary, candidate[k], nodes);
     const double size = abut_surface_longest_side(kind, nodes);
-    const int n = make_patches(kind, nodes, false, m);
+    const int n = abut_linear_patches(kind, nodes, false, m);
     for (int i = 0; i < n; ++i)
     {
       const abut_status status = intersect(w, s, &m[i], candidate[k], size);
@@ -374,7 +232,8 @@ add_point(work *w, const segment *g, const double *uv, double area)
   const abut_facet_kind kind =
       (abut_facet_kind)w->c->primary->view.kinds[g->primary];
   double local[2], opposite[2], x[3], n[3], t[2][3], ratio;
-  if (!lift(&g->s, uv, local, x, &ratio) || !lift(&g->m, uv, opposite, x, NULL))
+  if (!abut_linear_patch_lift(&g->s, uv, local, x, &ratio)
+      || !abut_linear_patch_lift(&g->m, uv, opposite, x, NULL))
     return ABUT_SUCCESS;
   abut_coupling_point *p = abut_coupling_new_point(w->c);
   if (p == NULL)
@@ -418,7 +277,7 @@ integrate(work *w, const segment *g, const abut_clip3 *polygon,
 
 /* Points of all polygons of a secondary patch. */
 static abut_status
-integrate_all(work *w, bool count)
+integrate_all(work *w, bool final)
 {
   int degree = -1;
   abut_rule rule;
@@ -429,7 +288,7 @@ integrate_all(work *w, bool count)
     const int n = cut_back(w, i, fragments);
     const int wanted = abut_coupling_degree(
         w->c, w->facet->kind,
-        (abut_facet_kind)w->c->primary->view.kinds[g->primary]);
+        (abut_facet_kind)w->c->primary->view.kinds[g->primary], final);
     if (wanted != degree)
       abut_rule_facet(ABUT_FACET_TRI3, wanted, &rule);
     degree = wanted;
@@ -439,19 +298,19 @@ integrate_all(work *w, bool count)
       if (status != ABUT_SUCCESS)
         return status;
     }
-    w->c->statistics.n_pairs += count;
+    w->c->statistics.n_pairs += final;
     w->c->statistics.n_layers +=
-        count && (n != 1 || fragments[0].area < g->polygon.area);
+        final && (n != 1 || fragments[0].area < g->polygon.area);
   }
   return ABUT_SUCCESS;
 }
 
 abut_status
 abut_coupling_segments3(abut_coupling *c, const abut_coupling_facet *facet,
-                        bool count)
+                        bool final)
 {
   int32_t n_candidates;
-  patch s[MAX_PATCHES];
+  abut_linear_patch s[ABUT_MAX_LINEAR_PATCHES];
   work w = {.c = c, .facet = facet};
   c->n_points = 0;
   c->segments.element = sizeof(segment);
@@ -459,21 +318,21 @@ abut_coupling_segments3(abut_coupling *c, const abut_coupling_facet *facet,
       abut_coupling_find_candidates(c, facet->index, &n_candidates);
   const bool split =
       facet->kind == ABUT_FACET_QUAD4 && facet->warping > split_warping;
-  const int n = make_patches(facet->kind, facet->x, split, s);
+  const int n = abut_linear_patches(facet->kind, facet->x, split, s);
   for (int i = 0; i < n && n_candidates > 0 && status == ABUT_SUCCESS; ++i)
   {
     abut_part part;
-    walk(&s[i], &part);
+    abut_linear_patch_walk(&s[i], &part);
     if (!(abut_part_area(&part, w.normal) > 0.))
       continue;
     w.origin[0] = w.origin[1] = w.origin[2] = 0.;
     for (int k = 0; k < part.n; ++k)
       axpy3(w.origin, 1. / part.n, part.x[k], w.origin);
     abut_plane_basis(3, w.normal, w.e);
-    flatten(&w, &s[i]);
+    abut_linear_patch_flatten(&s[i], w.origin, w.e);
     status = collect(&w, &s[i], n_candidates);
     if (status == ABUT_SUCCESS)
-      status = integrate_all(&w, count);
+      status = integrate_all(&w, final);
   }
   return status;
 }

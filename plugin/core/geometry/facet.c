@@ -61,6 +61,19 @@ abut_facet_vtk_order(abut_facet_kind kind)
   return kind == ABUT_FACET_QUAD4 || kind == ABUT_FACET_QUAD9 ? quad : same;
 }
 
+const double *
+abut_facet_node_local(abut_facet_kind kind, int32_t a)
+{
+  static const double line[3][2] = {{-1, 0}, {1, 0}, {0, 0}};
+  static const double triangle[6][2] = {{0, 0},  {1, 0},   {0, 1},
+                                        {.5, 0}, {.5, .5}, {0, .5}};
+  static const double quad[9][2] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}, {-1, 0},
+                                    {1, 0},   {0, -1}, {0, 1},  {0, 0}};
+  if (kinds[kind].dimension == 2)
+    return line[a];
+  return kinds[kind].n_corners == 3 ? triangle[a] : quad[a];
+}
+
 const char *
 abut_facet_fault_text(abut_facet_fault fault)
 {

@@ -21,6 +21,10 @@ void abut_shape2(abut_facet_kind kind, double xi, abut_shape *shape);
 void abut_shape3(abut_facet_kind kind, double xi, double eta,
                  abut_shape *shape);
 
+/* Local coordinates of node a of a kind: two numbers (lines: the second is
+ * zero). */
+const double *abut_facet_node_local(abut_facet_kind kind, int32_t a);
+
 /* Nonzero if all n numbers are finite and within ABUT_FACET_LIMIT. */
 int abut_facet_finite(const double *x, int32_t n);
 

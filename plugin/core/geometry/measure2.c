@@ -34,7 +34,6 @@ void
 abut_measure2(abut_facet_kind kind, const double *nodes, abut_facet_measures *m,
               double *vector_area, double *lowest_cosine)
 {
-  static const double node_xi[3] = {-1., 1., 0.};
   const int n = abut_facet_n_nodes(kind);
   const double chord[2] = {nodes[2] - nodes[0], nodes[3] - nodes[1]};
   const double length = sqrt(chord[0] * chord[0] + chord[1] * chord[1]);
@@ -55,10 +54,10 @@ abut_measure2(abut_facet_kind kind, const double *nodes, abut_facet_measures *m,
   *vector_area = length;
   *lowest_cosine = 1.;
   m->warping = 0.;
-  for (int a = 0; a < 3 && a < n && length > 0.; ++a)
+  for (int a = 0; a < n && length > 0.; ++a)
   {
     double t[2];
-    tangent(kind, nodes, node_xi[a], t);
+    tangent(kind, nodes, abut_facet_node_local(kind, a)[0], t);
     const double c = chord[0] * t[0] + chord[1] * t[1],
                  s = chord[0] * t[1] - chord[1] * t[0], l = sqrt(c * c + s * s);
     *lowest_cosine = min2(*lowest_cosine, l > 0. ? c / l : 0.);

@@ -129,18 +129,12 @@ static void
 measure_warping(abut_facet_kind kind, const double *nodes, const double *normal,
                 double *warping, double *lowest_cosine)
 {
-  static const double triangle[6][2] = {{0., 0.}, {1., 0.}, {0., 1.},
-                                        {.5, 0.}, {.5, .5}, {0., .5}};
-  static const double square[9][2] = {{-1., -1.}, {1., -1.}, {-1., 1.},
-                                      {1., 1.},   {-1., 0.}, {1., 0.},
-                                      {0., -1.},  {0., 1.},  {0., 0.}};
   const int n = abut_facet_n_nodes(kind);
   *warping = 0.;
   *lowest_cosine = 1.;
   for (int a = 0; a < n && kind != ABUT_FACET_TRI3; ++a)
   {
-    const double *at =
-        abut_facet_n_corners(kind) == 3 ? triangle[a] : square[a];
+    const double *at = abut_facet_node_local(kind, a);
     double v[3], s[3];
     area_vector(kind, nodes, at[0], at[1], v);
     const double length = norm3(v), c = dot3(v, normal);

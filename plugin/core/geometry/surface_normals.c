@@ -8,6 +8,7 @@
  * the node), its angle alpha_fi at the node (lines: 1) and the feature angle
  * t: two facets of equal area that meet at the angle t have |sum A n| =
  * cos(t/2) sum A. Sums run over facets in ascending order. O(n). */
+#include "geometry/kernels.h"
 #include "geometry/surface.h"
 
 #include <math.h>
@@ -59,20 +60,6 @@ straight_area_vector(abut_facet_kind kind, const double *x, double *area)
   return true;
 }
 
-/* Local coordinates of the nodes of the curved kinds. */
-static const double line3_nodes[3] = {-1, 1, 0};
-static const double tri6_nodes[12] = {0, 0, 1, 0, 0, 1, .5, 0, .5, .5, 0, .5};
-static const double quad9_nodes[18] = {-1, -1, 1, -1, -1, 1, 1, 1, -1,
-                                       0,  1,  0, 0,  -1, 0, 1, 0, 0};
-
-static const double *
-node_local(abut_facet_kind kind, int32_t a)
-{
-  if (kind == ABUT_FACET_LINE3)
-    return line3_nodes + a;
-  return kind == ABUT_FACET_TRI6 ? tri6_nodes + 2 * a : quad9_nodes + 2 * a;
-}
-
 /* Normals of a facet at its nodes, times its area: out[3 * a + d]. */
 static void
 node_area_vectors(abut_facet_kind kind, const double *x, int32_t n,
@@ -92,7 +79,8 @@ node_area_vectors(abut_facet_kind kind, const double *x, int32_t n,
   for (int32_t a = 0; a < n; ++a)
   {
     double normal[3] = {0, 0, 0};
-    (void)abut_facet_point(kind, x, node_local(kind, a), NULL, normal);
+    (void)abut_facet_point(kind, x, abut_facet_node_local(kind, a), NULL,
+                           normal);
     for (int d = 0; d < 3; ++d)
       out[3 * a + d] = *area * normal[d];
   }
