@@ -33,7 +33,7 @@
  *   mortar             psi_j = phi_j, integrals over the exact common
  *                      segments (2D) or polygons (3D) of the facets: Puso and
  *                      Laursen, Comput. Methods Appl. Mech. Engrg. 193 (2004)
- *                      601 and 4891; quadratic facets are cut into linear
+ *                      601 ; quadratic facets are cut into linear
  *                      parts for clipping: Puso, Laursen and Solberg, Comput.
  *                      Methods Appl. Mech. Engrg. 197 (2008) 555.
  *   dual mortar        psi_j biorthogonal to phi_j, on partly covered facets

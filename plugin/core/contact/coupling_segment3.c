@@ -211,7 +211,7 @@ cut_back(const work *w, int32_t i, abut_clip3 *fragments)
   const segment *list = w->c->segments.data;
   int n = 1;
   fragments[0] = list[i].polygon;
-  for (int32_t j = 0; j < w->n; ++j)
+  for (int32_t j = 0; j < w->n && n > 0; ++j)
   {
     if (j == i || !is_before(w, j, i))
       continue;

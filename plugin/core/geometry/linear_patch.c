@@ -38,8 +38,8 @@ quarter(const double *nodes, int which, abut_linear_patch *p)
   for (int k = 0; k < 4; ++k)
   {
     abut_shape shape;
-    p->local[k][0] = k % 2 + which % 2 - 1.;
-    p->local[k][1] = k / 2 + which / 2 - 1.;
+    p->local[k][0] = (k & 1) + (which & 1) - 1.;
+    p->local[k][1] = (k >> 1) + (which >> 1) - 1.;
     abut_shape3(p->kind, p->local[k][0], p->local[k][1], &shape);
     for (int d = 0; d < 3; ++d)
     {

@@ -41,7 +41,7 @@ void abut_linear_patch_flatten(abut_linear_patch *patch, const double *origin,
 /* The triangles of a flattened patch, cut so that they lie within it in the
  * plane; a triangle is its own. Returns their number. */
 int abut_linear_patch_triangles(const abut_linear_patch *patch,
-                                abut_linear_patch *triangles);
+                                abut_linear_patch *result);
 
 /* Place on a flattened patch over the point uv of the plane: local coordinates
  * on the facet, position x, and (or NULL) the ratio of areas of local
