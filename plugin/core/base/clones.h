@@ -12,7 +12,8 @@
 #define ABUT_CLONES
 #endif
 
-/* What they call, to be compiled along with them. */
-#define ABUT_IN_CLONES static inline __attribute__((always_inline))
+/* What they call, or what is to be compiled once for each constant argument.
+ */
+#define ABUT_INLINE static inline __attribute__((always_inline))
 
 #endif

@@ -265,7 +265,7 @@ pair_node(abut_detection *d, const abut_answers *a, int32_t k)
 }
 
 /* Ask for what the k-th node will need: its result, normal and groups, and the
- * nodes of its first candidate. */
+ * nodes of the facet with the nearest centre. */
 static inline void
 prefetch_node(const abut_detection *d, const abut_answers *a, int32_t k)
 {

@@ -9,6 +9,7 @@
  * without branches. */
 #include "search/search.h"
 
+#include "base/clones.h"
 #include "search/order.h"
 
 #include <math.h>
@@ -57,22 +58,6 @@ reserve_block(abut_context *context, abut_block *b, int64_t n)
   if (status == ABUT_SUCCESS)
     status = abut_array_reserve(context, &b->value, 0, room);
   return status;
-}
-
-/* Ask for all records of short runs at once: they lie here and there in
- * memory. */
-static void
-prefetch_runs(const abut_record *records, const abut_runs *runs)
-{
-  for (int32_t r = 0; r < runs->n; ++r)
-  {
-    const int32_t first = runs->run[r].first, last = runs->run[r].last;
-    for (int32_t i = first; i < last && i < first + 64; ++i)
-    {
-      __builtin_prefetch(records[i].lower);
-      __builtin_prefetch(records[i].centre);
-    }
-  }
 }
 
 /* Slots of the records of the runs that touch the box; returns their number. */
@@ -173,7 +158,6 @@ abut_block_fill(abut_search *s, const abut_runs *runs, const double *lower,
     b->origin[d] = lower[d];
     b->scale[d] = extent > 1e-290 ? 255 / extent : 0;
   }
-  prefetch_runs(records, runs);
   b->n = select_records(records, runs, lower, upper, skin, b->value.data);
   if (of_facets)
     sort_by_facet(records, b);
@@ -242,17 +226,6 @@ find_places(const abut_block *b, int32_t first, int32_t n, const int8_t *q,
   return n_near;
 }
 
-static void
-query_steps(const abut_block *b, const double *lower, const double *upper,
-            int8_t *q)
-{
-  for (int d = 0; d < 3; ++d)
-  {
-    q[d] = step_of(upper[d], b->origin[d], b->scale[d]);
-    q[3 + d] = step_of(lower[d], b->origin[d], b->scale[d]);
-  }
-}
-
 typedef double two __attribute__((vector_size(16)));
 
 static inline two
@@ -279,16 +252,27 @@ is_near(const abut_exact *e, const double *sides, double *square)
   return (int)(in[0] & in[1]) & (d2 <= e->limit);
 }
 
-int32_t
-abut_block_near_point(const abut_block *b, const double *x,
-                      int32_t *restrict values)
+/* Bits of a number that is not negative: in the order of the numbers. */
+static inline uint64_t
+bits_of(double v)
+{
+  uint64_t bits;
+  memcpy(&bits, &v, sizeof(bits));
+  return bits;
+}
+
+ABUT_INLINE int32_t
+near_point(const abut_block *b, const double *x, bool track,
+           int32_t *restrict values, int32_t *nearest)
 {
   const int32_t *value = b->value.data;
   const double sides[6] = {x[0], x[1], x[2], -x[0], -x[1], -x[2]};
   uint8_t near[CHUNK + 8];
   int8_t q[6];
-  int32_t n = 0;
-  query_steps(b, x, x, q);
+  uint64_t least = UINT64_MAX;
+  int32_t n = 0, n_least = 0;
+  for (int d = 0; d < 3; ++d)
+    q[d] = q[3 + d] = step_of(x[d], b->origin[d], b->scale[d]);
   for (int32_t first = 0; first < b->n_padded; first += CHUNK)
   {
     const int32_t left = b->n_padded - first;
@@ -299,10 +283,27 @@ abut_block_near_point(const abut_block *b, const double *x,
     {
       double square;
       values[n] = value[first + near[i]];
-      n += is_near(exact + near[i], sides, &square);
+      const int in = is_near(exact + near[i], sides, &square);
+      if (track)
+      {
+        const uint64_t bits = bits_of(square) | ((uint64_t)in - 1);
+        n_least = bits < least ? n : n_least;
+        least = bits < least ? bits : least;
+      }
+      n += in;
     }
   }
+  if (track)
+    *nearest = n_least;
   return n;
+}
+
+int32_t
+abut_block_near_point(const abut_block *b, const double *x,
+                      int32_t *restrict values, int32_t *nearest)
+{
+  return nearest != NULL ? near_point(b, x, true, values, nearest)
+                         : near_point(b, x, false, values, NULL);
 }
 
 int32_t
@@ -313,7 +314,11 @@ abut_block_near_box(const abut_block *b, const double *lower,
   uint8_t near[CHUNK + 8];
   int8_t q[6];
   int32_t n = 0;
-  query_steps(b, lower, upper, q);
+  for (int d = 0; d < 3; ++d)
+  {
+    q[d] = step_of(upper[d], b->origin[d], b->scale[d]);
+    q[3 + d] = step_of(lower[d], b->origin[d], b->scale[d]);
+  }
   for (int32_t first = 0; first < b->n_padded; first += CHUNK)
   {
     const int32_t left = b->n_padded - first;

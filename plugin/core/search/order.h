@@ -31,11 +31,11 @@ abut_lattice abut_lattice_make(const double *lower, const double *upper,
 static inline uint64_t
 abut_lattice_coordinate(const abut_lattice *l, double x, int d)
 {
-  const double cells = (double)(UINT64_C(1) << l->bits);
+  const double last = (double)((INT32_C(1) << l->bits) - 1);
   double c = (x - l->origin[d]) * l->scale;
   c = c > 0 ? c : 0;
-  c = c < cells - 1 ? c : cells - 1;
-  return (uint64_t)c;
+  c = c < last ? c : last;
+  return (uint64_t)(int32_t)c;
 }
 
 /* Spread the lowest 21 bits of v to every third bit. */

@@ -23,10 +23,11 @@ typedef struct
   double upper[BLOCK][3];
   double block_lower[3];
   double block_upper[3];
+  abut_runs runs; /* buckets near them */
   int32_t n;
 } batch;
 
-static void
+static inline void
 query_box(const abut_query *q, int32_t i, double *lower, double *upper)
 {
   if (q->points != NULL)
@@ -64,11 +65,20 @@ key_queries(const abut_search *s, const abut_query *q, double skin,
   {
     double l[3], u[3], c[3];
     int in = 1;
-    query_box(q, i, l, u);
-    for (int d = 0; d < 3; ++d)
+    if (q->points != NULL)
     {
-      in &= (u[d] >= low[d]) & (l[d] <= high[d]);
-      c[d] = 0.5 * (l[d] + u[d]);
+      abut_query_point(q, i, c);
+      for (int d = 0; d < 3; ++d)
+        in &= (c[d] >= low[d]) & (c[d] <= high[d]);
+    }
+    else
+    {
+      query_box(q, i, l, u);
+      for (int d = 0; d < 3; ++d)
+      {
+        in &= (u[d] >= low[d]) & (l[d] <= high[d]);
+        c[d] = 0.5 * (l[d] + u[d]);
+      }
     }
     items[n].key = abut_lattice_key(&lattice, c);
     items[n].index = i;
@@ -118,6 +128,45 @@ load_batch(const abut_query *q, const abut_keyed *items, int32_t n, batch *b)
   }
 }
 
+/* Ask for all records of short runs at once: they lie here and there in
+ * memory. */
+static void
+prefetch_runs(const abut_record *records, const abut_runs *runs)
+{
+  for (int32_t r = 0; r < runs->n; ++r)
+  {
+    const int32_t first = runs->run[r].first, last = runs->run[r].last;
+    for (int32_t i = first; i < last && i < first + 64; ++i)
+    {
+      __builtin_prefetch(records[i].lower);
+      __builtin_prefetch(records[i].centre);
+    }
+  }
+}
+
+/* Load the block that begins at `first` and find the buckets near it. */
+static void
+begin_block(const abut_search *s, const abut_query *q, const abut_keyed *items,
+            int32_t first, int32_t n, double skin, batch *b)
+{
+  double lower[3], upper[3];
+  b->runs.n = 0;
+  load_batch(q, items + first, block_end(items, first, n) - first, b);
+  /* The slack covers the rounding of inflated boxes. */
+  for (int d = 0; d < 3; ++d)
+  {
+    const double magnitude = fmax(fabs(s->lower[d]), fabs(s->upper[d]));
+    const double slack = skin + 1e-14 * (skin + magnitude);
+    lower[d] = b->block_lower[d] - slack;
+    upper[d] = b->block_upper[d] + slack;
+  }
+  if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
+    abut_grid_gather(&s->grid, lower, upper, &b->runs);
+  else
+    abut_tree_gather(&s->tree, lower, upper, &b->runs);
+  prefetch_runs(s->records.data, &b->runs);
+}
+
 /* Pairs of query i of the batch, to the end of the list. */
 static void
 answer_query(abut_search *s, const abut_query *q, const batch *b, int32_t i,
@@ -131,10 +180,15 @@ answer_query(abut_search *s, const abut_query *q, const batch *b, int32_t i,
                + abut_block_near_box(&s->block, b->lower[i], b->upper[i], slot);
     return;
   }
-  const int32_t n = abut_block_near_point(&s->block, b->lower[i], slot);
+  int32_t nearest;
+  const int32_t n = abut_block_near_point(&s->block, b->lower[i], slot,
+                                          list->of_facets ? NULL : &nearest);
   start[1] = start[0] + n;
   if (n == 0 || list->of_facets)
     return;
+  const int32_t first = slot[0];
+  slot[0] = slot[nearest];
+  slot[nearest] = first;
   abut_prefetch_facet(s->surface,
                       ((abut_record *)s->records.data)[slot[0]].facet);
 }
@@ -156,22 +210,8 @@ static abut_status
 answer_block(abut_search *s, const abut_query *q, const batch *b, double skin,
              abut_list *list)
 {
-  double lower[3], upper[3];
-  abut_runs runs = {s->runs.data, 0};
-  /* The slack covers the rounding of inflated boxes. */
-  for (int d = 0; d < 3; ++d)
-  {
-    const double magnitude = fmax(fabs(s->lower[d]), fabs(s->upper[d]));
-    const double slack = skin + 1e-14 * (skin + magnitude);
-    lower[d] = b->block_lower[d] - slack;
-    upper[d] = b->block_upper[d] + slack;
-  }
-  if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
-    abut_grid_gather(&s->grid, lower, upper, &runs);
-  else
-    abut_tree_gather(&s->tree, lower, upper, &runs);
-  abut_status status = abut_block_fill(s, &runs, b->block_lower, b->block_upper,
-                                       skin, list->of_facets);
+  abut_status status = abut_block_fill(s, &b->runs, b->block_lower,
+                                       b->block_upper, skin, list->of_facets);
   if (status != ABUT_SUCCESS)
     return status;
   const int64_t used = ((const int64_t *)list->start.data)[list->n];
@@ -268,16 +308,26 @@ abut_search_list(abut_search *s, const abut_query *q, double skin,
   abut_keyed *items = s->items.data;
   const int32_t n = key_queries(s, q, skin, items);
   abut_order_sort(items, s->room.data, n);
-  for (int32_t i = 0; i < n && status == ABUT_SUCCESS;)
+  batch blocks[2];
+  for (int32_t k = 0; k < 2; ++k)
+    blocks[k].runs.run = (abut_run *)s->runs.data + k * (s->runs.capacity / 2);
+  if (n > 0)
+    begin_block(s, q, items, 0, n, skin, blocks);
+  for (int32_t i = 0, k = 0; i < n && status == ABUT_SUCCESS; k = 1 - k)
   {
-    batch b;
-    const int32_t end = block_end(items, i, n);
+    const batch *b = blocks + k;
     int32_t *order = (int32_t *)list->order.data + list->n;
-    for (int32_t k = i; k < end; ++k)
-      order[k - i] = items[k].index;
-    load_batch(q, items + i, end - i, &b);
-    prefetch_queries(q, items, end, n);
-    status = answer_block(s, q, &b, skin, list);
+    for (int32_t j = 0; j < b->n; ++j)
+      order[j] = items[i + j].index;
+    i += b->n;
+    /* While one block is answered, the memory of the next one is on its way.
+     */
+    if (i < n)
+    {
+      begin_block(s, q, items, i, n, skin, blocks + 1 - k);
+      prefetch_queries(q, items, i + blocks[1 - k].n, n);
+    }
+    status = answer_block(s, q, b, skin, list);
     if (status == ABUT_SUCCESS && consume != NULL)
     {
       const abut_answers answers = {list->n, order, list->start.data,
@@ -285,7 +335,6 @@ abut_search_list(abut_search *s, const abut_query *q, double skin,
       status = consume(user, &answers);
       list->n = 0;
     }
-    i = end;
   }
   return status;
 }

@@ -21,7 +21,7 @@ max2(double a, double b)
 typedef double corners[4][3][ABUT_LANES];
 
 /* Lanes beyond n repeat the last facet. */
-ABUT_IN_CLONES void
+ABUT_INLINE void
 gather_corners(const abut_surface *s, const int32_t *facets, int32_t n,
                corners x)
 {
@@ -50,7 +50,7 @@ square3(double x, double y, double z)
 
 /* Kinds with few nodes and straight sides are measured in place, because the
  * general measures (areas, warping, diameters) cost several times as much. */
-ABUT_IN_CLONES void
+ABUT_INLINE void
 bound_quad4(const double (*restrict x)[3][ABUT_LANES], abut_lanes *restrict m)
 {
   for (int d = 0; d < 3; ++d)
@@ -66,7 +66,7 @@ bound_quad4(const double (*restrict x)[3][ABUT_LANES], abut_lanes *restrict m)
                            max2(DISTANCE(x[3], x[2]), DISTANCE(x[2], x[0]))));
 }
 
-ABUT_IN_CLONES void
+ABUT_INLINE void
 measure_quad4(const double (*restrict x)[3][ABUT_LANES], abut_lanes *restrict m)
 {
   bound_quad4(x, m);
@@ -143,7 +143,7 @@ abut_lanes_bound(const abut_surface *s, int32_t first, int32_t n,
   bound_quad4((const double(*)[3][ABUT_LANES])x, lanes);
 }
 
-ABUT_IN_CLONES double
+ABUT_INLINE double
 least_of(double *v)
 {
   for (int k = 2; k < ABUT_LANES; k += 2)
@@ -152,7 +152,7 @@ least_of(double *v)
   return min2(v[0], v[1]);
 }
 
-ABUT_IN_CLONES void
+ABUT_INLINE void
 extend_bounds(const abut_lanes *m, const double *restrict inflate,
               abut_bounds *bounds)
 {

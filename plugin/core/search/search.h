@@ -63,7 +63,7 @@ struct abut_search
   abut_array sites;          /* abut_site, in facet order */
   abut_array items;          /* abut_keyed */
   abut_array room;           /* abut_keyed */
-  abut_array runs;           /* abut_run */
+  abut_array runs;           /* abut_run, [2][all buckets] of two blocks */
   abut_tree tree;
   abut_grid grid;
   abut_list list;       /* of the last query */
@@ -82,7 +82,7 @@ typedef struct abut_query
 } abut_query;
 
 /* Answers to a few queries: query order[k] has the records slot[start[k]] ..
- * slot[start[k + 1] - 1]. */
+ * slot[start[k + 1] - 1]; the one with the nearest centre comes first. */
 typedef struct abut_answers
 {
   int32_t n;
@@ -104,9 +104,10 @@ abut_status abut_block_fill(abut_search *search, const abut_runs *runs,
                             double skin, bool of_facets);
 
 /* Those that are pairs of a query of the block, in the same order, into values,
- * which has room for all of the block; returns their number. */
+ * which has room for all of the block; returns their number. values[*nearest]
+ * is the one with the nearest centre (NULL: not asked for). */
 int32_t abut_block_near_point(const abut_block *block, const double *x,
-                              int32_t *values);
+                              int32_t *values, int32_t *nearest);
 int32_t abut_block_near_box(const abut_block *block, const double *lower,
                             const double *upper, int32_t *values);
 
