@@ -23,7 +23,6 @@ typedef struct
   double upper[BLOCK][3];
   double block_lower[3];
   double block_upper[3];
-  abut_runs runs; /* buckets near them */
   int32_t n;
 } batch;
 
@@ -147,10 +146,10 @@ prefetch_runs(const abut_record *records, const abut_runs *runs)
 /* Load the block that begins at `first` and find the buckets near it. */
 static void
 begin_block(const abut_search *s, const abut_query *q, const abut_keyed *items,
-            int32_t first, int32_t n, double skin, batch *b)
+            int32_t first, int32_t n, double skin, batch *b, abut_runs *runs)
 {
   double lower[3], upper[3];
-  b->runs.n = 0;
+  runs->n = 0;
   load_batch(q, items + first, block_end(items, first, n) - first, b);
   /* The slack covers the rounding of inflated boxes. */
   for (int d = 0; d < 3; ++d)
@@ -161,10 +160,10 @@ begin_block(const abut_search *s, const abut_query *q, const abut_keyed *items,
     upper[d] = b->block_upper[d] + slack;
   }
   if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
-    abut_grid_gather(&s->grid, lower, upper, &b->runs);
+    abut_grid_gather(&s->grid, lower, upper, runs);
   else
-    abut_tree_gather(&s->tree, lower, upper, &b->runs);
-  prefetch_runs(s->records.data, &b->runs);
+    abut_tree_gather(&s->tree, lower, upper, runs);
+  prefetch_runs(s->records.data, runs);
 }
 
 /* Pairs of query i of the batch, to the end of the list. */
@@ -206,17 +205,14 @@ prefetch_queries(const abut_query *q, const abut_keyed *items, int32_t first,
       __builtin_prefetch(q->boxes + 6 * (int64_t)items[i].index);
 }
 
+/* The facets near the block must have been gathered. */
 static abut_status
-answer_block(abut_search *s, const abut_query *q, const batch *b, double skin,
+answer_block(abut_search *s, const abut_query *q, const batch *b,
              abut_list *list)
 {
-  abut_status status = abut_block_fill(s, &b->runs, b->block_lower,
-                                       b->block_upper, skin, list->of_facets);
-  if (status != ABUT_SUCCESS)
-    return status;
   const int64_t used = ((const int64_t *)list->start.data)[list->n];
-  status = abut_array_reserve(s->context, &list->slot, used,
-                              used + (int64_t)b->n * (s->block.n + 1));
+  const abut_status status = abut_array_reserve(
+      s->context, &list->slot, used, used + (int64_t)b->n * (s->block.n + 1));
   if (status != ABUT_SUCCESS)
     return status;
   for (int32_t i = 0; i < b->n; ++i)
@@ -309,25 +305,27 @@ abut_search_list(abut_search *s, const abut_query *q, double skin,
   const int32_t n = key_queries(s, q, skin, items);
   abut_order_sort(items, s->room.data, n);
   batch blocks[2];
-  for (int32_t k = 0; k < 2; ++k)
-    blocks[k].runs.run = (abut_run *)s->runs.data + k * (s->runs.capacity / 2);
+  abut_runs runs = {s->runs.data, 0};
   if (n > 0)
-    begin_block(s, q, items, 0, n, skin, blocks);
+    begin_block(s, q, items, 0, n, skin, blocks, &runs);
   for (int32_t i = 0, k = 0; i < n && status == ABUT_SUCCESS; k = 1 - k)
   {
     const batch *b = blocks + k;
     int32_t *order = (int32_t *)list->order.data + list->n;
     for (int32_t j = 0; j < b->n; ++j)
       order[j] = items[i + j].index;
+    status = abut_block_fill(s, &runs, b->block_lower, b->block_upper, skin,
+                             list->of_facets);
+    if (status != ABUT_SUCCESS)
+      break;
     i += b->n;
-    /* While one block is answered, the memory of the next one is on its way.
-     */
+    /* The memory of the next block comes while this one is answered. */
     if (i < n)
     {
-      begin_block(s, q, items, i, n, skin, blocks + 1 - k);
+      begin_block(s, q, items, i, n, skin, blocks + 1 - k, &runs);
       prefetch_queries(q, items, i + blocks[1 - k].n, n);
     }
-    status = answer_block(s, q, b, skin, list);
+    status = answer_block(s, q, b, list);
     if (status == ABUT_SUCCESS && consume != NULL)
     {
       const abut_answers answers = {list->n, order, list->start.data,

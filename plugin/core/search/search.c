@@ -319,8 +319,7 @@ sort_facets(abut_search *s)
                              s->items.data, s->room.data);
     compute_records(s, s->items.data);
     if (status == ABUT_SUCCESS)
-      status =
-          abut_search_fit(s->context, &s->runs, 2 * (int64_t)s->grid.n_cells);
+      status = abut_search_fit(s->context, &s->runs, s->grid.n_cells);
     z->n_buckets = s->grid.n_cells;
     z->bucket_edge = s->grid.edge;
     z->bucket_raised = asked > 0 && s->grid.raised;
@@ -328,8 +327,7 @@ sort_facets(abut_search *s)
   }
   status = abut_tree_reserve(s->context, &s->tree, s->n, choose_capacity(s));
   if (status == ABUT_SUCCESS)
-    status =
-        abut_search_fit(s->context, &s->runs, 2 * (int64_t)s->tree.n_buckets);
+    status = abut_search_fit(s->context, &s->runs, s->tree.n_buckets);
   if (status != ABUT_SUCCESS)
     return status;
   abut_tree_order(&s->tree, s->sites.data, s->n, s->items.data, s->room.data);

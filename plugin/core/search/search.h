@@ -63,7 +63,7 @@ struct abut_search
   abut_array sites;          /* abut_site, in facet order */
   abut_array items;          /* abut_keyed */
   abut_array room;           /* abut_keyed */
-  abut_array runs;           /* abut_run, [2][all buckets] of two blocks */
+  abut_array runs;           /* abut_run */
   abut_tree tree;
   abut_grid grid;
   abut_list list;       /* of the last query */
