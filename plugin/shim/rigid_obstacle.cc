@@ -52,18 +52,12 @@ namespace abut
         }
       }
 
-      /** What the last evaluation threw; once. */
-      std::exception_ptr take_exception()
-      {
-        return std::exchange(thrown, nullptr);
-      }
+      /** What the last evaluation threw, or null. */
+      std::exception_ptr thrown;
 
     protected:
       virtual void fill(const std::vector<Point<dim>> &points, double *value,
                         double *gradient) = 0;
-
-    private:
-      std::exception_ptr thrown;
     };
 
     template <int dim> class DistanceFunction : public HostFunction<dim>
@@ -290,13 +284,20 @@ namespace abut
     for (const Point<dim> &point : points)
       for (unsigned int d = 0; d < dim; ++d)
         numbers.push_back(point[d]);
+    if (implementation->function != nullptr)
+      implementation->function->thrown = nullptr;
     distances.resize(points.size());
     slopes.resize(numbers.size());
     if (abut_obstacle_distance(
             handle(), static_cast<std::int32_t>(points.size()), numbers.data(),
             distances.data(), slopes.data(), nullptr)
         != ABUT_SUCCESS)
-      throw_failure();
+    {
+      if (implementation->function != nullptr
+          && implementation->function->thrown != nullptr)
+        std::rethrow_exception(implementation->function->thrown);
+      throw dealii::ExcMessage(failure());
+    }
     if (gradients == nullptr)
       return;
     gradients->resize(points.size());
@@ -318,13 +319,25 @@ namespace abut
     return view;
   }
 
-  template <int dim> void RigidObstacle<dim>::throw_failure() const
+  template <int dim> std::string RigidObstacle<dim>::failure() const
   {
-    if (implementation->function != nullptr)
-      if (const auto thrown = implementation->function->take_exception())
-        std::rethrow_exception(thrown);
-    throw dealii::ExcMessage(
-        abut_context_message(implementation->context.get()));
+    if (implementation->function != nullptr
+        && implementation->function->thrown != nullptr)
+    {
+      try
+      {
+        std::rethrow_exception(implementation->function->thrown);
+      }
+      catch (const std::exception &error)
+      {
+        return error.what();
+      }
+      catch (...)
+      {
+        return "the function of the obstacle threw an unknown exception";
+      }
+    }
+    return abut_context_message(implementation->context.get());
   }
 
   template struct RigidPose<2>;

@@ -300,8 +300,15 @@ namespace abut::shim
         abut_coupling_build(pair.coupling.get(), &nodes, motion);
     std::string message;
     if (status != ABUT_SUCCESS)
+    {
+      const bool of_obstacle =
+          pair.data.obstacle
+          && (status == ABUT_CALLBACK_FAILED || status == ABUT_NOT_FINITE);
       message =
-          "Pair '" + pair.data.name + "': " + message_of(context_, status);
+          "Pair '" + pair.data.name + "': "
+          + (of_obstacle ? "its obstacle: " + pair.data.obstacle->failure()
+                         : message_of(context_, status));
+    }
     throw_everywhere<ContactError>(communicator_, message);
   }
 

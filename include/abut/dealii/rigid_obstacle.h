@@ -102,9 +102,9 @@ namespace abut
     /** What it is, where, and what it has found. */
     abut_obstacle_view view() const;
 
-    /** Throw why the last call of the core with handle() failed: what a
-     * function threw, or the core's message. */
-    [[noreturn]] void throw_failure() const;
+    /** Why the last call of the core with handle() failed: the message of
+     * what a function threw, or the core's. */
+    std::string failure() const;
 
   private:
     class Implementation;
