@@ -41,6 +41,12 @@ namespace
 #ifdef ABUT_BENCH_NANOFLANN
       {"nanoflann", bench_nanoflann},
 #endif
+#ifdef ABUT_BENCH_FCL
+      {"FCL", bench_fcl},
+#endif
+#ifdef ABUT_BENCH_BULLET
+      {"Bullet", bench_bullet},
+#endif
   };
 
   const char *const task_names[BENCH_N_TASKS] = {"candidates", "nearest"};
@@ -216,7 +222,9 @@ namespace
 
   bool finds_candidates_only(const Program &p)
   {
-    return std::strcmp(p.name, "nanoflann") == 0;
+    return std::strcmp(p.name, "nanoflann") == 0
+           || std::strcmp(p.name, "FCL") == 0
+           || std::strcmp(p.name, "Bullet") == 0;
   }
 
   /* Pictures by gnuplot, from the tables beside them. */

@@ -71,6 +71,8 @@ extern "C"
   int bench_nanoflann(const bench_scene *, bench_task, bench_result *);
   int bench_embree(const bench_scene *, bench_task, bench_result *);
   int bench_cgal(const bench_scene *, bench_task, bench_result *);
+  int bench_fcl(const bench_scene *, bench_task, bench_result *);
+  int bench_bullet(const bench_scene *, bench_task, bench_result *);
 
   /* Stages of Abut's detection, ns per node: normals; sorting and boxes; the
    * rest with projection; then steps 2 to 11 alone; after small motion, with a
