@@ -154,8 +154,9 @@ abut_coupling_degree(const abut_coupling *c, abut_facet_kind secondary,
   return degree_of(secondary) + degree_of(primary) > 2 ? 9 : 5;
 }
 
-/* Degree of a rule over whole facets: quadrature points need few, integrals
- * over kinks of the primary's functions many. */
+/* Degree of a rule over whole facets. Quadrature points and areas of shape
+ * functions need few points, integrals over the kinks of the primary's
+ * functions, or against obstacles, many. */
 static int
 whole_degree(const abut_coupling *c, abut_facet_kind kind)
 {
@@ -163,13 +164,11 @@ whole_degree(const abut_coupling *c, abut_facet_kind kind)
             quadratic = abut_facet_n_nodes(kind) > n_corners;
   if (c->options.quadrature_degree > 0)
     return c->options.quadrature_degree;
-  if (c->options.discretisation == ABUT_DISCRETISATION_QUADRATURE_POINT)
-    return n_corners == 3 && abut_facet_dimension(kind) == 3
-               ? (quadratic ? 4 : 2)
-               : (quadratic ? 5 : 3);
-  return n_corners == 3 && abut_facet_dimension(kind) == 3 ? 8
-         : quadratic                                       ? 9
-                                                           : 7;
+  const bool few = !abut_coupling_is_mortar(c)
+                   || (c->options.segments && c->obstacle == NULL);
+  if (abut_facet_dimension(kind) == 3 && n_corners == 3)
+    return !few ? 8 : quadratic ? 4 : 2;
+  return few ? (quadratic ? 5 : 3) : (quadratic ? 9 : 7);
 }
 
 abut_status

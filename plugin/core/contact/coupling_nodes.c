@@ -149,8 +149,9 @@ set_purpose(abut_coupling *c)
   const bool weak = abut_coupling_has_weak(c);
   for (int32_t f = 0; f < n; ++f)
   {
-    purpose[f] = points ? wanted_facet == NULL || wanted_facet[f]
-                        : visit_free(c, f, is_wanted);
+    const bool rows = points ? wanted_facet == NULL || wanted_facet[f]
+                             : visit_free(c, f, is_wanted);
+    purpose[f] = rows ? ABUT_COUPLING_FOR_ROWS : 0;
     if (weak && purpose[f])
       visit_free(c, f, mark);
   }

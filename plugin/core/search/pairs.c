@@ -117,7 +117,7 @@ place_queries(abut_pairs *p, abut_context *context, const abut_list *l,
   abut_status status =
       abut_array_reserve(context, &p->start, 0, (int64_t)n + 1);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(context, &p->facet, 0, from[l->n]);
+    status = abut_array_reserve(context, &p->facet, 0, from[l->n] + 1);
   if (status != ABUT_SUCCESS)
     return status;
   int64_t *start = p->start.data;

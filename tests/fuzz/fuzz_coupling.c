@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Couplings of arbitrary surfaces with arbitrary options and nodes: rows are
+ * finite, have positive weights and coefficients that add up to one, and are
+ * the same when built again. */
+#include "surfaces.h"
+
+#include <abut/coupling.h>
+
+static abut_coupling_options
+take_coupling_options(input *in)
+{
+  abut_coupling_options o = abut_coupling_defaults();
+  o.discretisation = (abut_discretisation)(take_byte(in) % 5);
+  o.multiplier_degree = take_below(in, 3);
+  o.quadrature_degree = take_below(in, 10);
+  const int flags = take_byte(in);
+  o.segments = flags % 4 != 0;
+  o.axisymmetric = flags % 8 == 5;
+  /* Mostly any: sheets all face the same way. */
+  o.normal_cosine = flags & 16 ? take_grid(in) / 8. : 1.;
+  o.thickness = flags & 32 ? take_raw(in) : 0.;
+  o.search = take_options(in);
+  return o;
+}
+
+typedef struct node_arrays
+{
+  uint8_t wanted[max_nodes], wanted_facet[max_facets], dropped[max_nodes];
+  int32_t hanging[max_nodes], start[max_nodes + 1], parent[2 * max_nodes];
+  double weight[2 * max_nodes];
+} node_arrays;
+
+static abut_coupling_nodes
+take_nodes(input *in, int32_t n_nodes, node_arrays *a)
+{
+  abut_coupling_nodes n = abut_coupling_nodes_defaults();
+  const int flags = take_byte(in);
+  for (int i = 0; i < max_nodes; ++i)
+  {
+    const int bits = flags & 7 ? take_byte(in) : 0;
+    a->wanted[i] = bits & 1;
+    a->dropped[i] = bits % 8 == 3;
+    a->wanted_facet[i] = bits & 1;
+  }
+  n.wanted = flags & 1 ? a->wanted : NULL;
+  n.wanted_facet = flags & 1 ? a->wanted_facet : NULL;
+  n.dropped = flags & 2 ? a->dropped : NULL;
+  n.n_hanging = flags & 4 && n_nodes > 0 ? take_below(in, 8) : 0;
+  a->start[0] = 0;
+  for (int h = 0; h < n.n_hanging; ++h)
+  {
+    const double w = take_grid(in) / 8.;
+    a->hanging[h] = (int32_t)take_byte(in) % n_nodes;
+    a->start[h + 1] = 2 * h + 2;
+    for (int e = 2 * h; e < 2 * h + 2; ++e)
+    {
+      a->parent[e] = (int32_t)take_byte(in) % n_nodes;
+      a->weight[e] = e % 2 ? w : 1. - w;
+    }
+  }
+  n.hanging_node = a->hanging;
+  n.hanging_start = a->start;
+  n.hanging_parent = a->parent;
+  n.hanging_weight = a->weight;
+  return n;
+}
+
+/* Finite entries in range that add up to one; sum of their magnitudes. */
+static void
+check_side(const int64_t *start, const int32_t *node, const double *value,
+           int32_t row, int32_t n_nodes)
+{
+  double sum = 0., size = 0.;
+  REQUIRE(start[row + 1] > start[row]);
+  for (int64_t e = start[row]; e < start[row + 1]; ++e)
+  {
+    REQUIRE(node[e] >= 0 && node[e] < n_nodes);
+    REQUIRE(isfinite(value[e]));
+    sum += value[e];
+    size += fabs(value[e]);
+  }
+  REQUIRE(fabs(sum - 1.) <= 1e-12 * (1. + size));
+}
+
+static void
+check_rows(const abut_coupling_view *v, int32_t n_secondary, int32_t n_primary)
+{
+  for (int32_t j = 0; j < v->n_rows; ++j)
+  {
+    REQUIRE(v->node[j] >= -1 && v->node[j] < n_secondary);
+    REQUIRE(v->weight[j] > 0. && isfinite(v->weight[j]));
+    REQUIRE(isfinite(v->gap[j]) && isfinite(v->full_weight[j]));
+    for (int d = 0; d < v->dimension; ++d)
+      REQUIRE(fabs(v->normal[v->dimension * j + d]) <= 1. + 1e-12);
+    check_side(v->secondary_start, v->secondary_node, v->secondary_coefficient,
+               j, n_secondary);
+    check_side(v->primary_start, v->primary_node, v->primary_coefficient, j,
+               n_primary);
+  }
+}
+
+static void
+run(input *in, abut_context *context, abut_surface *secondary,
+    abut_surface *primary, arrays *moved)
+{
+  static node_arrays arrays_of_nodes;
+  abut_coupling *coupling = NULL;
+  abut_coupling_view view;
+  abut_surface_view s, m;
+  const abut_coupling_options o = take_coupling_options(in);
+  REQUIRE(abut_surface_get(secondary, &s) == ABUT_SUCCESS);
+  REQUIRE(abut_surface_get(primary, &m) == ABUT_SUCCESS);
+  const abut_coupling_nodes nodes = take_nodes(in, s.n_nodes, &arrays_of_nodes);
+  if (abut_coupling_create(context, secondary, primary, &o, &coupling)
+      != ABUT_SUCCESS)
+    return;
+  double area = -1.;
+  for (int k = 0; k < 3; ++k)
+  {
+    abut_coupling_statistics statistics;
+    if (k == 2)
+    {
+      for (int i = 0; i < moved->data.n_nodes * moved->data.dimension; ++i)
+        moved->position[i] += take_grid(in) * 0.1;
+      (void)abut_surface_update(primary, moved->position);
+    }
+    const abut_status status = abut_coupling_build(coupling, &nodes, 0.);
+    REQUIRE(status >= 0);
+    REQUIRE(abut_coupling_get(coupling, &view) == ABUT_SUCCESS);
+    REQUIRE(status == ABUT_SUCCESS || view.n_rows == 0);
+    check_rows(&view, s.n_nodes, m.n_nodes);
+    REQUIRE(abut_coupling_get_statistics(coupling, &statistics)
+            == ABUT_SUCCESS);
+    REQUIRE(k != 1 || statistics.covered_area == area);
+    area = statistics.covered_area;
+  }
+  REQUIRE(abut_coupling_destroy(&coupling) == ABUT_SUCCESS);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int
+LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+  static arrays a, b;
+  input in = {data, size};
+  abut_context *context = NULL;
+  abut_surface *secondary = NULL, *primary = NULL;
+  REQUIRE(abut_context_create(NULL, &context) == ABUT_SUCCESS);
+  take_arrays(&in, &a);
+  take_arrays(&in, &b);
+  const abut_status one = abut_surface_create(context, &a.data, &secondary),
+                    two = abut_surface_create(context, &b.data, &primary);
+  REQUIRE(one >= 0 && two >= 0);
+  if (one == ABUT_SUCCESS && two == ABUT_SUCCESS)
+    run(&in, context, secondary, primary, &b);
+  if (secondary)
+    REQUIRE(abut_surface_destroy(&secondary) == ABUT_SUCCESS);
+  if (primary)
+    REQUIRE(abut_surface_destroy(&primary) == ABUT_SUCCESS);
+  REQUIRE(abut_context_destroy(&context) == ABUT_SUCCESS);
+  return 0;
+}
