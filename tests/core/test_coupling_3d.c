@@ -172,6 +172,34 @@ test_fields(void **state)
     }
 }
 
+/* Dual rows of matching meshes couple node to node: one entry on each side. */
+static void
+test_matching(void **state)
+{
+  (void)state;
+  for (int i = 0; i < 3; i += 2)
+  {
+    scene_mesh s = plane(kinds[i], 6, 6, unit, true),
+               m = plane(kinds[i], 6, 6, above, false);
+    couple c = couple_meshes(&s, &m, NULL, NULL);
+    const abut_coupling_view *v = &c.view;
+    check_dual(&c, s.n_nodes);
+    assert_int_equal(v->primary_start[v->n_rows], v->n_rows);
+    for (int32_t j = 0; j < v->n_rows; ++j)
+    {
+      const double *x = s.position + 3 * v->node[j],
+                   *y = m.position + 3 * v->primary_node[j];
+      near(v->primary_coefficient[j], 1., 0., "coefficient");
+      near(sqrt((x[0] - y[0]) * (x[0] - y[0]) + (x[1] - y[1]) * (x[1] - y[1])
+                + (x[2] - y[2]) * (x[2] - y[2])),
+           0.02, 1e-14, "distance of the two nodes");
+    }
+    couple_destroy(&c);
+    scene_free(&s);
+    scene_free(&m);
+  }
+}
+
 /* tri6 with linear multipliers: rows at corners, forces exact. */
 static void
 test_tri6(void **state)
@@ -391,6 +419,7 @@ main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(test_flat, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_fields, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_matching, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_tri6, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_partly_covered, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_layers, set_up, tear_down),

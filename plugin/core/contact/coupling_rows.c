@@ -11,8 +11,9 @@
 /* Weight of a row relative to the full one below which there is none. */
 static const double smallest_weight = 1e-6;
 
-/* Coefficients below this are round-off: exact zeros of matching meshes. */
-static const double smallest_coefficient = 1e-15;
+/* Coefficients below this are round-off where matching meshes have zeros; they
+ * would fill the matrix. */
+static const double smallest_coefficient = 1e-12;
 
 /* Bucket the shares by node. */
 static abut_status
@@ -102,15 +103,20 @@ gather(abut_coupling *c, int side, int32_t n_touched)
   int64_t end = start[row];
   for (int32_t i = 0; i < n_touched; ++i)
     weight += sum[touched[i]];
+  const double least = smallest_coefficient * fabs(weight);
+  weight = 0.;
   for (int32_t i = 0; i < n_touched; ++i)
   {
-    const double value = sum[touched[i]] / weight;
-    seen[touched[i]] = 0;
-    if (!(fabs(value) > smallest_coefficient))
+    const int32_t node = touched[i];
+    seen[node] = 0;
+    if (!(fabs(sum[node]) > least))
       continue;
-    column[end] = touched[i];
-    coefficient[end++] = value;
+    column[end] = node;
+    coefficient[end++] = sum[node];
+    weight += sum[node];
   }
+  for (int64_t e = start[row]; e < end; ++e)
+    coefficient[e] /= weight;
   start[row + 1] = end;
   return ABUT_SUCCESS;
 }
