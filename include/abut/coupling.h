@@ -47,7 +47,7 @@
  * Rows are sums over facets in the order of the facets' numbers, so that they
  * are bitwise independent of which other rows are wanted. Nothing here is
  * collective: a process that holds all facets around its nodes (two layers of
- * them for quadratic facets) builds complete rows by itself.
+ * them for quadratic facets and at corners) builds complete rows by itself.
  */
 
 #include <abut/context.h>
@@ -284,11 +284,12 @@ extern "C"
     int64_t n_weak;      /**< wanted nodes with coverage, but without a row */
     int64_t n_split;     /**< rows at a feature of the surface whose normal is
                               that of the covered side only */
-    int64_t n_bent;   /**< rows at a feature of the surface that is covered on
-                           both sides: one row cannot hold both directions;
-                           better drop these nodes */
-    int64_t n_layers; /**< common parts cut back because a nearer facet
-                           covers the same spot */
+    int64_t n_corners;   /**< wanted nodes at a feature that is covered on both
+                              sides: treated as dropped */
+    int64_t n_bent;      /**< rows at such a place all the same, because their
+                              facets have no other node */
+    int64_t n_layers;    /**< common parts cut back because a nearer facet
+                              covers the same spot */
     double largest_warping; /**< largest angle between the normals of a
                                  secondary facet's nodes and its mean normal,
                                  radian */

@@ -413,6 +413,68 @@ test_warped(void **state)
   }
 }
 
+/* Make one node of nodes at one place. */
+static void
+merge_nodes(scene_mesh *m)
+{
+  for (int32_t e = 0; e < m->n_facets * 4; ++e)
+    for (int32_t i = 0; i < m->connectivity[e]; ++i)
+    {
+      const double *x = m->position + 3 * i,
+                   *y = m->position + 3 * m->connectivity[e];
+      if (fabs(x[0] - y[0]) + fabs(x[1] - y[1]) + fabs(x[2] - y[2]) < 1e-10)
+        m->connectivity[e] = i;
+    }
+}
+
+/* A box in a box: nodes on edges and in corners are dropped, and the rows of
+ * the faces have their directions and the whole area. */
+static void
+test_box(void **state)
+{
+  (void)state;
+  const double lower[3] = {0., 0., 0.}, upper[3] = {1., 1., 1.},
+               outer_lower[3] = {-0.01, -0.01, -0.01},
+               outer_upper[3] = {1.01, 1.01, 1.01};
+  for (int k = 0; k < 3; ++k)
+  {
+    abut_coupling_options o = abut_coupling_defaults();
+    o.discretisation =
+        k < 2 ? ABUT_DISCRETISATION_DUAL_MORTAR : ABUT_DISCRETISATION_MORTAR;
+    o.search.relative_reach = 0.2;
+    scene_mesh s = scene_box(lower, upper, k == 1 ? 1 : 3),
+               m = scene_box(outer_lower, outer_upper, 4);
+    merge_nodes(&s);
+    for (int32_t f = 0; f < m.n_facets; ++f)
+    {
+      int32_t *c = m.connectivity + 4 * f, kept = c[1];
+      c[1] = c[2];
+      c[2] = kept;
+    }
+    couple c = couple_meshes(&s, &m, &o, NULL);
+    check_rows(&c);
+    near(c.statistics.covered_area, 6., 1e-13, "covered");
+    /* With one facet per face there are only corners, which are kept. */
+    assert_int_equal(c.view.n_rows, k == 1 ? 8 : 24);
+    assert_int_equal(c.statistics.n_corners, k == 1 ? 0 : 8 + 12 * 2);
+    assert_int_equal(c.statistics.n_bent, k == 1 ? 8 : 0);
+    for (int32_t j = 0; j < c.view.n_rows && k != 1; ++j)
+    {
+      const double *n = c.view.normal + 3 * j, *x = c.view.position + 3 * j;
+      near(c.view.gap[j], 0.01, 1e-14, "gap");
+      for (int d = 0; d < 3; ++d)
+        near(n[d],
+             x[d] < 1e-14        ? -1.
+             : x[d] > 1. - 1e-14 ? 1.
+                                 : 0.,
+             1e-14, "normal");
+    }
+    couple_destroy(&c);
+    scene_free(&s);
+    scene_free(&m);
+  }
+}
+
 int
 main(void)
 {
@@ -425,6 +487,7 @@ main(void)
       cmocka_unit_test_setup_teardown(test_layers, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_points, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_spheres, set_up, tear_down),
-      cmocka_unit_test_setup_teardown(test_warped, set_up, tear_down)};
+      cmocka_unit_test_setup_teardown(test_warped, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_box, set_up, tear_down)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,6 +38,8 @@ list_arrays(abut_coupling *c, array_size *list)
                             {&c->covered_hat, sizeof(double)},
                             {&c->row_reach, sizeof(double)},
                             {&c->node_flag, sizeof(uint8_t)},
+                            {&c->corner, sizeof(uint8_t)},
+                            {&c->bend, sizeof(double)},
                             {&c->candidates, sizeof(int32_t)},
                             {&c->segments, 0},
                             {&c->points, sizeof(abut_coupling_point)},

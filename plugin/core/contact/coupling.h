@@ -104,8 +104,8 @@ typedef struct abut_coupling_entry
 /* What a secondary facet is looked at for. */
 enum
 {
-  ABUT_COUPLING_FOR_ROWS = 1, /* it has a share in wanted rows */
-  ABUT_COUPLING_FOR_WEAK = 2  /* it tells which neighbours are weak */
+  ABUT_COUPLING_FOR_ROWS = 1,    /* it has a share in wanted rows */
+  ABUT_COUPLING_FOR_DROPPING = 2 /* it tells which neighbours to drop */
 };
 
 struct abut_coupling
@@ -143,6 +143,9 @@ struct abut_coupling
   abut_array hat;         /* double, [n_nodes] integral of hats, whole facets */
   abut_array covered_hat; /* double, [n_nodes] the same, covered part */
   abut_array row_reach;   /* double, [n_nodes] obstacles */
+  abut_array corner;      /* uint8_t, [n_nodes] 1: at a feature; 2: and kept */
+  abut_array bend;        /* double, [3 n_nodes] integral of hat n, covered */
+  bool drops;             /* nodes are looked for to be dropped */
   abut_array node_flag;   /* uint8_t, [n_nodes] */
 
   /* Of the facet in work. */
@@ -294,15 +297,20 @@ abut_status abut_coupling_create_any(abut_context *context, const char *call,
  * of the detection, or against the obstacle. */
 abut_status abut_coupling_add_nodal(abut_coupling *c);
 
-/* Mark weak nodes as dropped. */
-abut_status abut_coupling_drop_weak(abut_coupling *c);
+/* Mark corners in c->corner; returns whether there are any. */
+bool abut_coupling_find_corners(abut_coupling *c);
+
+/* Drop weak nodes, and corners that are covered on both sides. */
+abut_status abut_coupling_drop(abut_coupling *c);
 
 /* Add the shares up to rows. */
 abut_status abut_coupling_make_rows(abut_coupling *c);
 
-/* Check and spread what is known of the nodes; decide which facets to look
- * at. */
+/* Check and spread what is known of the nodes. */
 abut_status abut_coupling_read_nodes(abut_coupling *c);
+
+/* Decide which facets to look at. */
+void abut_coupling_set_purpose(abut_coupling *c);
 
 /* Whether weak nodes are looked for: quadratic weighting functions. */
 bool abut_coupling_has_weak(const abut_coupling *c);

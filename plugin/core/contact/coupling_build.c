@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* The course of a build: search, on quadratic surfaces a pass that drops weak
- * nodes, the pass that makes the shares of all facets, and the rows. */
+/* The course of a build: search, a pass that drops weak nodes of quadratic
+ * surfaces and corners, the pass that makes the shares of all facets, and the
+ * rows. */
 #include "contact/coupling.h"
 #include "geometry/vector.h"
 
@@ -67,7 +68,7 @@ take_facet(abut_coupling *c, int32_t index)
   const double whole = add_integrals(c, &facet, &f, c->full.data);
   if (c->detection != NULL)
     return ABUT_SUCCESS;
-  if (abut_coupling_has_weak(c))
+  if (c->drops)
     status = abut_coupling_make_functions(c, &facet, c->dropped.data, &f);
   if (status == ABUT_SUCCESS)
     status = abut_coupling_make_points(c, &facet, true);
@@ -114,9 +115,12 @@ build(abut_coupling *c, double motion)
   if (status == ABUT_SUCCESS)
     status = abut_surface_normals(c->secondary, &c->normals);
   if (status == ABUT_SUCCESS)
+  {
+    abut_coupling_set_purpose(c);
     status = search(c, motion);
-  if (status == ABUT_SUCCESS && abut_coupling_has_weak(c))
-    status = abut_coupling_drop_weak(c);
+  }
+  if (status == ABUT_SUCCESS && c->drops)
+    status = abut_coupling_drop(c);
   const uint8_t *purpose = c->purpose.data;
   for (int32_t i = 0; i < c->secondary->view.n_facets && status == ABUT_SUCCESS;
        ++i)

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* What is known of the nodes: checks, and which facets to look at. A facet has
- * a share in the rows of its free nodes. On quadratic facets the share of a
- * node depends on which neighbours are weak, and that on all their facets. */
+ * a share in the rows of its free nodes. On quadratic facets, and at corners,
+ * the share of a node depends on which neighbours are dropped, and that on all
+ * their facets. */
 #include "contact/coupling.h"
 
 #include <math.h>
@@ -138,26 +139,35 @@ abut_coupling_has_weak(const abut_coupling *c)
          && c->obstacle == NULL && abut_coupling_is_mortar(c);
 }
 
-static void
-set_purpose(abut_coupling *c)
+static int
+is_marked_corner(const abut_coupling *c, int32_t node)
+{
+  return is_marked(c, node) && ((const uint8_t *)c->corner.data)[node];
+}
+
+void
+abut_coupling_set_purpose(abut_coupling *c)
 {
   const int32_t n = c->secondary->view.n_facets;
   const uint8_t *wanted_facet = c->nodes->wanted_facet;
   uint8_t *purpose = c->purpose.data;
   const bool points =
       c->options.discretisation == ABUT_DISCRETISATION_QUADRATURE_POINT;
-  const bool weak = abut_coupling_has_weak(c);
+  const bool weak = abut_coupling_has_weak(c),
+             drop = c->primary != NULL && abut_coupling_is_mortar(c)
+                    && (abut_coupling_find_corners(c) || weak);
   for (int32_t f = 0; f < n; ++f)
   {
     const bool rows = points ? wanted_facet == NULL || wanted_facet[f]
                              : visit_free(c, f, is_wanted);
     purpose[f] = rows ? ABUT_COUPLING_FOR_ROWS : 0;
-    if (weak && purpose[f])
+    if (drop && rows)
       visit_free(c, f, mark);
   }
-  for (int32_t f = 0; f < n && weak; ++f)
-    if (visit_free(c, f, is_marked))
-      purpose[f] |= ABUT_COUPLING_FOR_WEAK;
+  for (int32_t f = 0; f < n && drop; ++f)
+    if (visit_free(c, f, weak ? is_marked : is_marked_corner))
+      purpose[f] |= ABUT_COUPLING_FOR_DROPPING;
+  c->drops = drop;
 }
 
 abut_status
@@ -173,7 +183,8 @@ abut_coupling_read_nodes(abut_coupling *c)
       {&c->dropped, n},     {&c->full, n},
       {&c->covered, n},     {&c->hat, n},
       {&c->covered_hat, n}, {&c->row_reach, n},
-      {&c->node_flag, n},   {&c->purpose, c->secondary->view.n_facets}};
+      {&c->node_flag, n},   {&c->corner, n},
+      {&c->bend, 3 * n},    {&c->purpose, c->secondary->view.n_facets}};
   abut_status status = check_ranges(c);
   for (size_t i = 0;
        i < sizeof(list) / sizeof(list[0]) && status == ABUT_SUCCESS; ++i)
@@ -190,6 +201,5 @@ abut_coupling_read_nodes(abut_coupling *c)
   for (int64_t i = 0; c->nodes->dropped != NULL && i < n; ++i)
     ((uint8_t *)c->given.data)[i] = ((uint8_t *)c->dropped.data)[i] =
         c->nodes->dropped[i];
-  set_purpose(c);
   return ABUT_SUCCESS;
 }
