@@ -115,8 +115,8 @@ extern "C"
      * is on the wrong side. 0 (default): no limit but the reach. */
     double thickness;
     /** Reach (of each primary facet; with an obstacle: of each secondary
-     * facet), algorithm and skin. Parts with a gap above the reach, or deeper
-     * than it, are not covered. */
+     * facet), algorithm and skin. Parts with a gap above the reach, or, but for
+     * obstacles, deeper than it, are not covered. */
     abut_search_options search;
   } abut_coupling_options;
 

@@ -6,6 +6,7 @@
 #include <Amesos.h>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_LinearProblem.h>
+#include <Epetra_Map.h>
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 
@@ -33,7 +34,9 @@ namespace abut::solve
   }
 
   DirectSolver::DirectSolver(const la::Matrix &matrix)
-      : problem_(std::make_unique<Epetra_LinearProblem>())
+      : stand_in_(std::make_unique<Epetra_CrsMatrix>(
+          Copy, Epetra_Map(0, 0, matrix.trilinos_matrix().Comm()), 0)),
+        problem_(std::make_unique<Epetra_LinearProblem>())
   {
     // Amesos does not change the matrix, but has no const.
     problem_->SetOperator(
@@ -60,7 +63,11 @@ namespace abut::solve
       throw_failure(status);
   }
 
-  DirectSolver::~DirectSolver() = default;
+  DirectSolver::~DirectSolver()
+  {
+    // The destructor of Amesos' MUMPS asks the matrix for its communicator.
+    problem_->SetOperator(stand_in_.get());
+  }
 
   void DirectSolver::solve(la::Vector &x, const la::Vector &b) const
   {

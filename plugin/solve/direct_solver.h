@@ -8,6 +8,7 @@
 #include <string>
 
 class Amesos_BaseSolver;
+class Epetra_CrsMatrix;
 class Epetra_LinearProblem;
 
 namespace abut::solve
@@ -21,8 +22,8 @@ namespace abut::solve
     /** What is used, in words. */
     static std::string name();
 
-    /** Factorise @p matrix, which must outlive this object and keep its
-     * values. Throws SolverFailure if it is singular. Collective. */
+    /** Factorise @p matrix, which must exist and keep its values as long as
+     * solve() is called. Throws SolverFailure if it is singular. Collective. */
     explicit DirectSolver(const la::Matrix &matrix);
     ~DirectSolver();
 
@@ -30,6 +31,8 @@ namespace abut::solve
     void solve(la::Vector &x, const la::Vector &b) const;
 
   private:
+    /** Empty; stands for the matrix when that may be gone. */
+    std::unique_ptr<Epetra_CrsMatrix> stand_in_;
     std::unique_ptr<Epetra_LinearProblem> problem_;
     std::unique_ptr<Amesos_BaseSolver> solver_;
   };

@@ -112,6 +112,35 @@ test_reach(void **state)
   require(abut_obstacle_destroy(&plane));
 }
 
+/* An obstacle that has been put deep into a body, far beyond the reach: there
+ * is nothing behind it that could be meant, so all rows are there. */
+static void
+test_deep(void **state)
+{
+  (void)state;
+  const double line[4] = {0., 0., 1., 0.};
+  abut_obstacle_shape shape = abut_obstacle_shape_defaults();
+  shape.dimension = 2;
+  shape.axis[1] = 1.;
+  shape.point[1] = 5.;
+  abut_obstacle *plane = make(&shape);
+  for (int k = 0; k < ABUT_DISCRETISATION_N; ++k)
+  {
+    abut_coupling_options o = abut_coupling_defaults();
+    o.discretisation = (abut_discretisation)k;
+    scene_mesh s = scene_patch(ABUT_FACET_LINE2, 8, 1, scene_line, line, false);
+    couple c = couple_obstacle(&s, plane, &o);
+    check_rows(&c);
+    near(c.statistics.covered_area, 1., 1e-14, "covered");
+    assert_true(c.view.n_rows >= s.n_nodes);
+    for (int32_t j = 0; j < c.view.n_rows; ++j)
+      near(c.view.gap[j], -5., 1e-14, "gap");
+    couple_destroy(&c);
+    scene_free(&s);
+  }
+  require(abut_obstacle_destroy(&plane));
+}
+
 /* A flat patch over a sphere: gaps of nodes are exact, those of mortar rows
  * differ by less than the facet's diameter squared by the radius. */
 static void
@@ -236,6 +265,7 @@ main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(test_plane, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_reach, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_deep, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_sphere, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_surface, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_failures, set_up, tear_down)};

@@ -100,13 +100,15 @@ set_reach(abut_coupling *c, const abut_coupling_facet *facet)
   }
 }
 
-/* A point of quadrature keeps its row by itself. */
+/* A point of quadrature keeps its row by itself. No point is too deep: behind
+ * the surface of an obstacle there is nothing else that it could touch. */
 static bool
 is_kept(const abut_coupling *c, const abut_coupling_facet *facet,
         const abut_coupling_point *p)
 {
   return c->options.discretisation != ABUT_DISCRETISATION_QUADRATURE_POINT
-         || abut_coupling_in_reach(c, p->distance, facet->size);
+         || p->distance <= max2(c->reach,
+                                c->options.search.relative_reach * facet->size);
 }
 
 abut_status
