@@ -27,9 +27,9 @@ namespace abut::app
       return static_cast<unsigned int>(value[0]);
     }
 
-    std::string body_section(const unsigned int body)
+    std::string numbered(const std::string &word, const unsigned int index)
     {
-      return "Body " + std::to_string(body + 1);
+      return word + " " + std::to_string(index + 1);
     }
 
     void declare_solid(ParameterHandler &prm)
@@ -38,6 +38,11 @@ namespace abut::app
       prm.declare_entry("Bodies", "1", Patterns::Integer(1, most),
                         "Number of bodies: there are as many sections `Body "
                         "1`, `Body 2`, ...");
+      prm.declare_entry("Pairs", "0", Patterns::Integer(0, most),
+                        "Number of contact pairs, sections `Pair 1`, ...");
+      prm.declare_entry("Obstacles", "0", Patterns::Integer(0, most),
+                        "Number of rigid obstacles, sections `Obstacle 1`, "
+                        "...");
       prm.declare_entry("Degree", "1", Patterns::Integer(1, 2),
                         "Polynomial degree of the displacement: 1 or 2.");
       // Known in both dimensions, so that one reference tells of it.
@@ -85,6 +90,8 @@ namespace abut::app
   {
     SolidCounts counts;
     counts.bodies = count(file, "Solid/Bodies", 1, 1);
+    counts.pairs = count(file, "Solid/Pairs", 0, 0);
+    counts.obstacles = count(file, "Solid/Obstacles", 0, 0);
     return counts;
   }
 
@@ -93,7 +100,15 @@ namespace abut::app
   {
     declare_solid(prm);
     for (unsigned int body = 0; body < counts.bodies; ++body)
-      BodyParameters::declare(prm, body_section(body));
+      BodyParameters::declare(prm, numbered("Body", body));
+    for (unsigned int pair = 0; pair < counts.pairs; ++pair)
+      PairParameters::declare(prm, numbered("Pair", pair));
+    for (unsigned int obstacle = 0; obstacle < counts.obstacles; ++obstacle)
+    {
+      prm.enter_subsection(numbered("Obstacle", obstacle));
+      RigidObstacleParameters::declare(prm);
+      prm.leave_subsection();
+    }
     LoadStepParameters::declare(prm);
     RefinementParameters::declare(prm, "2", "0");
     declare_results(prm);
@@ -111,7 +126,18 @@ namespace abut::app
     prm.leave_subsection();
     bodies.resize(counts.bodies);
     for (unsigned int body = 0; body < counts.bodies; ++body)
-      bodies[body].parse(prm, body_section(body));
+      bodies[body].parse(prm, numbered("Body", body));
+    pairs.resize(counts.pairs);
+    for (unsigned int pair = 0; pair < counts.pairs; ++pair)
+      pairs[pair].parse(prm, numbered("Pair", pair), counts.obstacles);
+    obstacles.resize(counts.obstacles);
+    for (unsigned int obstacle = 0; obstacle < counts.obstacles; ++obstacle)
+    {
+      const std::string section = numbered("Obstacle", obstacle);
+      prm.enter_subsection(section);
+      obstacles[obstacle].parse(prm, section);
+      prm.leave_subsection();
+    }
     load_steps.parse(prm);
     refinement.parse(prm);
 

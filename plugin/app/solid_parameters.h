@@ -5,8 +5,10 @@
 #include "body_parameters.h"
 #include "elastic_material.h"
 #include "load_step_parameters.h"
+#include "pair_parameters.h"
 #include "parameters.h"
 #include "refinement_parameters.h"
+#include "rigid_obstacle_parameters.h"
 
 #include <string>
 #include <vector>
@@ -17,8 +19,10 @@ namespace abut::app
   struct SolidCounts
   {
     unsigned int bodies = 1;
+    unsigned int pairs = 1;
+    unsigned int obstacles = 1;
 
-    /** Take them from `Solid/Bodies`. Throws InputError. */
+    /** Take them from `Solid/Bodies` and so on. Throws InputError. */
     static SolidCounts read(const ParameterFile &file);
   };
 
@@ -29,6 +33,8 @@ namespace abut::app
     PlaneModel plane = PlaneModel::strain;
     std::string gravity;
     std::vector<BodyParameters> bodies;
+    std::vector<PairParameters> pairs;
+    std::vector<RigidObstacleParameters> obstacles;
     LoadStepParameters load_steps;
     RefinementParameters refinement;
 

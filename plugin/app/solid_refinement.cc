@@ -43,10 +43,15 @@ namespace abut::app
   template <int dim> void SolidRun<dim>::refine()
   {
     set_refine_flags();
-    u = refine_mesh<dim>(
-            triangulation, elasticity.dof_handler, {elasticity.ghosted(u)},
-            [this] { setup_mesh(); }, report.times)
-            .front();
+    std::vector<la::Vector> fields = {elasticity.ghosted(u)};
+    if (!pairs->empty())
+      fields.push_back(elasticity.ghosted_field(contact.pressure()));
+    fields = refine_mesh<dim>(
+        triangulation, elasticity.dof_handler, fields, [this] { setup_mesh(); },
+        report.times);
+    u = fields[0];
+    if (!pairs->empty())
+      pressure = fields[1];
     ++mesh_number;
   }
 

@@ -13,11 +13,27 @@ namespace abut::app
 
   template <int dim> void SolidRun<dim>::declare_tables()
   {
-    report.declare_columns(
-        {"load_step", "time", "level", "cells", "dofs", "constraints", "active",
-         "steps", "linear_iterations", "matvecs", "setups", "energy",
-         "l2_error", "h1_error", "energy_norm_error", "estimate",
-         "setup_seconds", "krylov_seconds", "seconds"});
+    report.declare_columns({"load_step",
+                            "time",
+                            "level",
+                            "cells",
+                            "dofs",
+                            "constraints",
+                            "active",
+                            "steps",
+                            "linear_iterations",
+                            "matvecs",
+                            "setups",
+                            "energy",
+                            "contact_force",
+                            "penetration",
+                            "l2_error",
+                            "h1_error",
+                            "energy_norm_error",
+                            "estimate",
+                            "setup_seconds",
+                            "krylov_seconds",
+                            "seconds"});
   }
 
   template <int dim> void SolidRun<dim>::finish_state()
@@ -31,6 +47,13 @@ namespace abut::app
     present.cells = triangulation.n_global_active_cells();
     present.dofs = elasticity.dof_handler.n_dofs();
     present.energy = elasticity.energy(u);
+    if (!pairs->empty())
+    {
+      present.rows = contact.n_rows();
+      present.active = contact.n_active();
+      present.force = contact.contact_force();
+      present.penetration = contact.penetration();
+    }
     if (exact)
       present.errors =
           error_norms(elasticity.mapping, elasticity.dof_handler,
@@ -48,6 +71,8 @@ namespace abut::app
         {"matvecs", present.linear.n_matvecs},
         {"setups", present.linear.n_setups},
         {"energy", present.energy},
+        {"contact_force", present.force},
+        {"penetration", present.penetration},
         {"setup_seconds", present.linear.setup_seconds},
         {"krylov_seconds", present.linear.solve_seconds},
         {"seconds", present.seconds}};
@@ -152,6 +177,55 @@ namespace abut::app
                                      sums.begin() + (body + 1) * dim));
   }
 
+  template <int dim> void SolidRun<dim>::report_checks()
+  {
+    unsigned int number = 0;
+    for (const PairCheck &check : contact.pair_checks())
+    {
+      const std::string key = "pair_" + std::to_string(++number);
+      report.set(key + "_facets",
+                 std::vector<double>{double(check.secondary_facets),
+                                     double(check.primary_facets)});
+      report.set(key + "_rows", check.n_rows);
+      report.set(key + "_area", check.area);
+      report.set(key + "_covered_area", check.covered_area);
+      report.set(key + "_overlap", check.overlap);
+      report.set(key + "_dropped", check.n_dropped);
+      report.set(key + "_reversed", check.n_reversed);
+      for (const std::string &warning : check.warnings)
+        report.warn(check.name + ": " + warning);
+    }
+    report.set("constraints", contact.n_rows());
+  }
+
+  template <int dim> void SolidRun<dim>::report_contact()
+  {
+    const auto vector = [](const auto &tensor)
+    { return std::vector<double>(tensor.begin_raw(), tensor.end_raw()); };
+    unsigned int number = 0;
+    double force_imbalance = 0., moment_imbalance = 0.;
+    for (const PairResult<dim> &pair : contact.pair_results())
+    {
+      const std::string key = "pair_" + std::to_string(++number);
+      report.set(key + "_rows", pair.n_rows);
+      report.set(key + "_active", pair.n_active);
+      report.set(key + "_covered_area", pair.covered_area);
+      report.set(key + "_force", vector(pair.secondary_force));
+      report.set(key + "_moment", vector(pair.secondary_moment));
+      report.set(key + "_pressure", pair.pressure);
+      report.set(key + "_penetration", pair.penetration);
+      force_imbalance = std::max(force_imbalance, pair.force_imbalance);
+      moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
+    }
+    report.set("force_imbalance", force_imbalance);
+    report.set("moment_imbalance", moment_imbalance);
+    report.set("method", method.options.law->name);
+    report.set("discretisation", discretisation_name(method.discretisation));
+    report.set("contact_force", contact.contact_force());
+    report.set("max_penetration", contact.penetration());
+    report.set("max_complementarity", contact.complementarity());
+  }
+
   template <int dim> void SolidRun<dim>::report_result(const bool converged)
   {
     SectionTimes::Scope scope(report.times, "results");
@@ -186,11 +260,18 @@ namespace abut::app
                  std::abs(last.energy - parameters.exact_energy));
     report_points();
     report_reactions();
+    if (!pairs->empty())
+      report_contact();
   }
 
   template <int dim> void SolidRun<dim>::report_model()
   {
-    report.model("contact", false, "no pairs were given");
+    report.model("contact", !pairs->empty(),
+                 pairs->empty()
+                     ? "no pairs were given"
+                     : "between " + std::to_string(pairs->pairs().size())
+                           + " pairs of surfaces");
+    report.model("friction", false, "surfaces slide freely on each other");
     report.model("nested iteration", parameters.refinement.nested,
                  parameters.refinement.nested
                      ? "each level starts from the one before"
@@ -214,6 +295,8 @@ namespace abut::app
   template void SolidRun<2>::write_fields();
   template void SolidRun<2>::report_points();
   template void SolidRun<2>::report_reactions();
+  template void SolidRun<2>::report_checks();
+  template void SolidRun<2>::report_contact();
   template void SolidRun<2>::report_result(bool);
   template void SolidRun<2>::report_model();
   template void SolidRun<3>::declare_tables();
@@ -221,6 +304,8 @@ namespace abut::app
   template void SolidRun<3>::write_fields();
   template void SolidRun<3>::report_points();
   template void SolidRun<3>::report_reactions();
+  template void SolidRun<3>::report_checks();
+  template void SolidRun<3>::report_contact();
   template void SolidRun<3>::report_result(bool);
   template void SolidRun<3>::report_model();
 } // namespace abut::app

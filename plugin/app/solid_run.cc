@@ -12,6 +12,7 @@ namespace abut::app
   SolidRun<dim>::SolidRun(const SolidParameters &parameters,
                           const MethodParameters &method,
                           const SolverParameters &solver,
+                          const SearchParameters &search,
                           const RunOptions &options, Report &report)
       : parameters(parameters),
         method(method),
@@ -22,14 +23,20 @@ namespace abut::app
         bodies(parameters.bodies),
         triangulation(communicator),
         elasticity(triangulation, parameters.degree),
+        contact(communicator),
         load_steps(parameters.load_steps),
         series(options.output_folder, "fields", communicator)
   {
+    contact.assume_constant_matrix(true);
+    contact.set_search_parameters(search);
+    contact.set_axisymmetric(dim == 2
+                             && parameters.plane == PlaneModel::axisymmetric);
   }
 
   template <int dim> void SolidRun<dim>::create_functions()
   {
     functions = std::make_unique<SolidFunctions<dim>>(parameters);
+    pairs = std::make_unique<SolidPairs<dim>>(parameters, options);
     if (!parameters.exact_displacement.empty())
       exact = std::make_unique<ExactSolution<dim>>(
           parameters.exact_displacement, "Exact solution/Displacement",
@@ -47,7 +54,8 @@ namespace abut::app
 
   template <int dim> void SolidRun<dim>::set_data()
   {
-    data = functions->data(bodies, {});
+    pairs->find_surfaces(bodies);
+    data = functions->data(bodies, pairs->surfaces());
   }
 
   template <int dim> void SolidRun<dim>::check_supports()
@@ -57,13 +65,22 @@ namespace abut::app
       held[id] = support.components;
     freedom = rigid_freedom(elasticity.mapping, elasticity.dof_handler,
                             bodies.size(), parameters.plane, held);
+    std::set<unsigned int> touched, floating;
+    for (const boundary_id id : pairs->surfaces())
+      touched.insert(bodies.body_of(id));
     for (unsigned int body = 0; body < bodies.size(); ++body)
-      if (freedom[body].n_modes > 0)
+    {
+      if (freedom[body].n_modes == 0)
+        continue;
+      floating.insert(body);
+      if (touched.count(body) == 0)
         throw InputError(bodies[body].parameter("Support"),
                          "body " + std::to_string(body + 1)
                              + " is held too little: its supports allow "
                              + freedom[body].description
-                             + ", and it has no contact.");
+                             + ", and it is in no contact pair.");
+    }
+    pairs->hold(bodies, floating);
   }
 
   template <int dim> void SolidRun<dim>::prepare()
@@ -81,20 +98,33 @@ namespace abut::app
   {
     prepare();
     assemble_load();
+    if (!pairs->empty())
+    {
+      present.time = load_steps.target();
+      elasticity.constraints.distribute(u);
+      begin_contact();
+      detect();
+      has_warned = false;
+      report_checks();
+    }
     report.set("dofs", elasticity.dof_handler.n_dofs());
     report.set("bodies", bodies.size());
   }
 
   template <int dim> void SolidRun<dim>::setup_mesh()
   {
-    // It refers to the matrix that goes away.
+    // Solvers refer to the matrix that goes away.
     linear_solver.reset();
+    contact.set_parameters(method, solver);
+    contact_is_ready = false;
     {
       SectionTimes::Scope scope(report.times, "unknowns and pattern");
       elasticity.setup(data);
     }
     SectionTimes::Scope scope(report.times, "assembly");
     elasticity.assemble_stiffness(data);
+    if (!pairs->empty())
+      return;
     linear_solver = std::make_unique<solve::MaskedSolver>(solver);
     linear_solver->reinit(elasticity.stiffness);
   }
@@ -151,7 +181,7 @@ namespace abut::app
     assemble_load();
     try
     {
-      return solve_without_contact();
+      return pairs->empty() ? solve_without_contact() : solve_with_contact();
     }
     catch (const SolverFailure &failure)
     {
@@ -196,10 +226,15 @@ namespace abut::app
         if (!first)
           finish_state();
         write_fields();
+        if (!pairs->empty())
+          pressure = contact.pressure();
         load_steps.accept();
         continue;
       }
       u = first ? elasticity.vector() : before;
+      contact_is_ready = false;
+      if (first)
+        pressure.clear();
       goes_on = load_steps.reject();
       if (goes_on)
         report.progress("load step cut back, next time "

@@ -6,6 +6,7 @@
 #include "field_output.h"
 #include "rigid_modes.h"
 #include "solid_functions.h"
+#include "solid_pairs.h"
 #include "step_table.h"
 
 #include <abut/dealii/contact_assembler.h>
@@ -27,9 +28,10 @@ namespace abut::app
     unsigned int level = 0;
     unsigned int steps = 0;
     LinearReport linear;
+    abut_reason reason = ABUT_REASON_CONVERGED;
     abut_progress progress = {};
     dealii::types::global_dof_index cells = 0, dofs = 0, rows = 0, active = 0;
-    double energy = 0.;
+    double energy = 0., force = 0., penetration = 0.;
     std::optional<ErrorNorms> errors;
     std::optional<double> estimate;
     double seconds = 0.; ///< since the end of the state before, counted parts
@@ -41,8 +43,8 @@ namespace abut::app
   {
   public:
     SolidRun(const SolidParameters &parameters, const MethodParameters &method,
-             const SolverParameters &solver, const RunOptions &options,
-             Report &report);
+             const SolverParameters &solver, const SearchParameters &search,
+             const RunOptions &options, Report &report);
 
     /** Everything up to the first solve: meshes, supports, loads. */
     void check();
@@ -68,6 +70,16 @@ namespace abut::app
     bool solve();
     bool solve_without_contact();
     bool is_last_mesh() const;
+
+    // Contact, in solid_contact.cc
+    void begin_contact();
+    void detect();
+    void warn_of_pairs();
+    void iterate();
+    bool is_held();
+    bool is_complete();
+    bool solve_with_contact();
+
     double counted_seconds() const;
 
     // Pictures, in solid_pictures.cc
@@ -79,6 +91,8 @@ namespace abut::app
     void write_fields();
     void report_points();
     void report_reactions();
+    void report_checks();
+    void report_contact();
     void report_result(bool converged);
     void report_model();
 
@@ -94,13 +108,19 @@ namespace abut::app
     Elasticity<dim> elasticity;
     std::unique_ptr<solve::MaskedSolver> linear_solver;
 
+    ContactAssembler<dim> contact;
+    bool contact_is_ready = false; ///< for the present mesh
+    bool has_warned = false;
+
     std::unique_ptr<SolidFunctions<dim>> functions;
+    std::unique_ptr<SolidPairs<dim>> pairs;
     std::unique_ptr<ExactSolution<dim>> exact;
     ElasticData<dim> data;
     std::vector<RigidFreedom> freedom; ///< by body
     LoadSteps load_steps;
 
-    la::Vector u; ///< displacement, owned
+    la::Vector u;        ///< displacement, owned
+    la::Vector pressure; ///< p n, owned; start on a new mesh, or empty
     dealii::Vector<float> squared_estimate;
     unsigned int mesh_number = 0;
     SolidState present;

@@ -26,16 +26,20 @@ namespace abut::app
         parameters.parse(prm, counts);
         method.parse_parameters(prm);
         solver.parse_parameters(prm);
+        search.parse_parameters(prm);
       }
 
       void check(const RunOptions &options, Report &report) override
       {
-        SolidRun<dim>(parameters, method, solver, options, report).check();
+        SolidRun<dim>(parameters, method, solver, search, options, report)
+            .check();
       }
 
       Outcome run(const RunOptions &options, Report &report) override
       {
-        return SolidRun<dim>(parameters, method, solver, options, report).run();
+        return SolidRun<dim>(parameters, method, solver, search, options,
+                             report)
+            .run();
       }
 
     private:
@@ -43,6 +47,7 @@ namespace abut::app
       SolidParameters parameters;
       MethodParameters method;
       SolverParameters solver;
+      SearchParameters search;
     };
   } // namespace
 

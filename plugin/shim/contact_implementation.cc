@@ -178,6 +178,28 @@ namespace abut
     abut_strategy_options &options = method.options;
     options.pressure_scale = load > 0. && weight > 0. ? load / weight : 1.;
     options.length_scale = length_scale();
+    // Surfaces that touch have gaps of round-off, which measure nothing; then
+    // it is the indentation by the load.
+    if (surfaces != nullptr && start_displacement.linfty_norm() == 0.)
+      options.length_scale =
+          std::max(options.length_scale,
+                   options.pressure_scale * softness(matrix));
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::Implementation::softness(
+      const la::Matrix &matrix) const
+  {
+    const std::vector<double> stiffness =
+        solve::row_stiffness(matrix, coefficients);
+    double sums[2] = {0., 0.};
+    for (int i = 0; i < view.n_rows; ++i)
+    {
+      sums[0] += view.weight[i];
+      sums[1] += view.weight[i] * stiffness[i];
+    }
+    MPI::sum(sums, communicator, sums);
+    return sums[1] > 0. ? sums[0] / sums[1] : 0.;
   }
 
   template <int dim>
@@ -210,6 +232,14 @@ namespace abut
 
     const std::vector<double> stiffness =
         solve::row_stiffness(matrix, coefficients);
+    if (surfaces != nullptr && start_state.empty()
+        && (method.options.law->flags & ABUT_LAW_INTERIOR) == 0)
+    {
+      std::vector<double> scale(stiffness);
+      for (double &c : scale)
+        c *= method.options.complementarity;
+      start_state = surfaces->first_contact(gap, start_pressure, scale);
+    }
     check(abut_strategy_start(
         strategy.get(), view.n_rows, view.id, view.weight, stiffness.data(),
         view.bilateral, gap.data(),

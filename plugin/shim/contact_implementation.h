@@ -29,6 +29,8 @@ namespace abut
     void compute_gap(const la::Vector &displacement);
     void set_scales(const la::Matrix &matrix, const la::Vector &residual);
     double length_scale() const;
+    /** Length by pressure: inverse mean of the rows' stiffness. */
+    double softness(const la::Matrix &matrix) const;
     void begin(const la::Matrix &matrix, const la::Vector &residual);
     void prepare_solver(const la::Matrix &matrix);
     void push_inside(la::Vector &displacement);

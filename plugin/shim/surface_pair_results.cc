@@ -90,7 +90,8 @@ namespace abut::shim
           + " times as coarse as the primary, whose nodes can pass between "
             "those of the secondary: exchange the two sides, or refine the "
             "secondary.");
-    if (result.overlap > large_overlap * sizes.median)
+    // Obstacles are moved into bodies on purpose.
+    if (!pair.data.obstacle && result.overlap > large_overlap * sizes.median)
       result.warnings.push_back(
           "The surfaces overlap by " + text(result.overlap)
           + " before anything is loaded, " + text(result.overlap / sizes.median)

@@ -330,7 +330,9 @@ namespace abut::shim
                       : pair.secondary.facet[view.facet[i]] * points_per_facet
                             + view.point[i]);
       row.weight = view.weight[i];
-      row.gap = component < 0 ? view.gap[i] + pair.data.gap : 0.;
+      row.gap = 0.;
+      if (component < 0)
+        row.gap = pair.data.gap + (pair.data.geometric_gap ? view.gap[i] : 0.);
       for (unsigned int d = 0; d < dim; ++d)
         row.direction[d] = component < 0
                                ? view.normal[i * dim + d]

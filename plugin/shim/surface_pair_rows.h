@@ -52,6 +52,16 @@ namespace abut::shim
     void push_inside(const std::vector<double> &gap, std::vector<double> margin,
                      la::Vector &displacement) const override;
 
+    /** States to start from when a pair that must hold a body has no closed
+     * row: closed are then the rows with pressure, or those of the smallest
+     * gaps. Empty if there is no such pair. Collective.
+     * @param pressure empty: 0
+     * @param scale rows are closed where p - scale gap > 0 */
+    std::vector<std::uint8_t>
+    first_contact(const std::vector<double> &gap,
+                  const std::vector<double> &pressure,
+                  const std::vector<double> &scale) const;
+
     /** What find() met, by pair. */
     const std::vector<PairCheck> &checks() const
     {

@@ -42,8 +42,18 @@ namespace abut
      * interference. */
     double gap = 0.;
 
+    /** Whether the gap of the geometry counts. If not, the gap without
+     * displacement is @ref gap everywhere: curved surfaces that fit, such as
+     * two rings, have none, though the facets of their meshes do. Searches are
+     * as always. */
+    bool geometric_gap = true;
+
     /** The surfaces are glued: no relative displacement in any direction. */
     bool tied = false;
+
+    /** A body floats unless this pair holds it: if no row is closed at the
+     * start, the nearest ones are taken to be. */
+    bool holds_body = false;
 
     /** Distance within which the surfaces are looked for, length; 0: half a
      * facet, or one and a half times the motion since the last search if that

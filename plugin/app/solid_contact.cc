@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The contact iteration of the scene `solid`.
+#include "input_error.h"
+#include "solid_run.h"
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Penetrations without a row count when they are larger than this part of
+     * the largest displacement. */
+    constexpr double missed_part = 1e-3;
+
+    /** Searches on the deformed bodies after which a step is given up. */
+    constexpr unsigned int most_rounds = 5;
+  } // namespace
+
+  template <int dim> void SolidRun<dim>::begin_contact()
+  {
+    SectionTimes::Scope scope(report.times, "contact rows");
+    if (!contact_is_ready)
+    {
+      const bool loose = !is_last_mesh() && !exact && !parameters.all_levels;
+      contact.set_parameters(
+          loose ? parameters.refinement.loosened(method) : method, solver);
+      contact.reinit(elasticity.mapping, elasticity.dof_handler,
+                     elasticity.constraints);
+      if (pressure.size() > 0)
+        contact.set_pressure(pressure);
+      contact_is_ready = true;
+    }
+    pairs->set_time(present.time);
+    contact.set_pairs(pairs->pairs());
+  }
+
+  template <int dim> void SolidRun<dim>::detect()
+  {
+    SectionTimes::Scope scope(report.times, "contact rows");
+    try
+    {
+      contact.detect(u);
+    }
+    catch (const ContactError &error)
+    {
+      throw InputError(pairs->parameter_of(error.what()), error.what());
+    }
+  }
+
+  template <int dim> void SolidRun<dim>::warn_of_pairs()
+  {
+    if (has_warned || !is_last_mesh())
+      return;
+    has_warned = true;
+    for (const PairCheck &check : contact.pair_checks())
+      for (const std::string &warning : check.warnings)
+        report.warn(check.name + ": " + warning);
+  }
+
+  template <int dim> void SolidRun<dim>::iterate()
+  {
+    SectionTimes::Scope scope(report.times, "solve");
+    la::Vector residual = elasticity.vector();
+    la::Vector increment = elasticity.vector();
+    if (method.options.law->outer == ABUT_OUTER_BARRIER)
+    {
+      elasticity.residual(u, residual);
+      contact.relax(elasticity.stiffness, residual,
+                    parameters.refinement.relaxation_sweeps, u);
+    }
+    bool goes_on = true;
+    while (goes_on)
+    {
+      elasticity.residual(u, residual);
+      const LinearReport linear =
+          contact.solve(elasticity.stiffness, residual, increment);
+      u += increment;
+      goes_on = contact.update(u);
+      present.linear += linear;
+      present.steps += linear.n_systems;
+      steps.add(report, present.level, present.steps, contact.progress(),
+                linear);
+    }
+    elasticity.constraints.distribute(u);
+    present.reason = contact.reason();
+    present.progress = contact.progress();
+  }
+
+  template <int dim> bool SolidRun<dim>::is_held()
+  {
+    for (unsigned int body = 0; body < bodies.size(); ++body)
+    {
+      if (freedom[body].n_modes == 0)
+        continue;
+      bool held = false;
+      const std::vector<PairResult<dim>> results = contact.pair_results();
+      for (std::size_t i = 0; i < results.size(); ++i)
+      {
+        const ContactPair<dim> &pair = pairs->pairs()[i];
+        for (const auto *side : {&pair.secondary, &pair.primary})
+          for (const dealii::types::boundary_id id : *side)
+            held =
+                held || (bodies.body_of(id) == body && results[i].n_active > 0);
+      }
+      if (held)
+        continue;
+      report.warn("Nothing holds body " + std::to_string(body + 1)
+                  + ": its supports allow " + freedom[body].description
+                  + ", and it touches nothing. Press it against something, or "
+                    "give it a support (Body "
+                  + std::to_string(body + 1) + "/Support).");
+      return false;
+    }
+    return true;
+  }
+
+  template <int dim> bool SolidRun<dim>::is_complete()
+  {
+    SectionTimes::Scope scope(report.times, "contact rows");
+    const double largest = u.linfty_norm();
+    if (largest == 0.)
+      return true;
+    const auto missed = contact.check_penetration(u, missed_part * largest);
+    if (missed.empty())
+      return true;
+    report.progress("  " + std::to_string(missed.size())
+                    + " nodes have penetrated without a constraint: "
+                    + "searching again");
+    return false;
+  }
+
+  template <int dim> bool SolidRun<dim>::solve_with_contact()
+  {
+    elasticity.constraints.distribute(u);
+    begin_contact();
+    for (unsigned int round = 0; round < most_rounds; ++round)
+    {
+      detect();
+      warn_of_pairs();
+      iterate();
+      if (present.reason != ABUT_REASON_CONVERGED)
+      {
+        report.warn("The contact iteration ended without an answer after "
+                    + std::to_string(present.steps)
+                    + " steps: " + contact.explanation());
+        return false;
+      }
+      if (!is_held())
+        return false;
+      if (is_complete())
+        return true;
+    }
+    report.warn("Nodes keep on penetrating without a constraint after "
+                + std::to_string(most_rounds)
+                + " searches: use smaller load steps (Load steps/Steps), or a "
+                  "larger Reach of the pair.");
+    return false;
+  }
+
+  template void SolidRun<2>::begin_contact();
+  template void SolidRun<2>::detect();
+  template void SolidRun<2>::warn_of_pairs();
+  template void SolidRun<2>::iterate();
+  template bool SolidRun<2>::is_held();
+  template bool SolidRun<2>::is_complete();
+  template bool SolidRun<2>::solve_with_contact();
+  template void SolidRun<3>::begin_contact();
+  template void SolidRun<3>::detect();
+  template void SolidRun<3>::warn_of_pairs();
+  template void SolidRun<3>::iterate();
+  template bool SolidRun<3>::is_held();
+  template bool SolidRun<3>::is_complete();
+  template bool SolidRun<3>::solve_with_contact();
+} // namespace abut::app

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_pairs.h"
+
+#include "input_error.h"
+#include "make_rigid_obstacle.h"
+
+#include <cmath>
+
+namespace abut::app
+{
+  using dealii::types::boundary_id;
+
+  template <int dim>
+  SolidPairs<dim>::SolidPairs(const SolidParameters &parameters,
+                              const RunOptions &options)
+      : parameters(parameters)
+  {
+    for (const RigidObstacleParameters &obstacle : parameters.obstacles)
+      obstacles.push_back(make_rigid_obstacle<dim>(obstacle, options));
+    for (const PairParameters &pair : parameters.pairs)
+    {
+      gaps.push_back(std::make_unique<Expression<dim>>(
+          pair.gap, pair.parameter("Initial gap")));
+      ContactPair<dim> made;
+      made.name = pair.section;
+      made.geometric_gap = pair.mesh_gap;
+      made.tied = pair.tied;
+      made.reach = pair.reach;
+      if (pair.obstacle > 0)
+        made.obstacle = obstacles[pair.obstacle - 1];
+      all.push_back(made);
+    }
+  }
+
+  template <int dim>
+  void SolidPairs<dim>::find_surfaces(const Bodies<dim> &bodies)
+  {
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      const PairParameters &given = parameters.pairs[i];
+      all[i].secondary =
+          bodies.surface(given.secondary, given.parameter("Secondary"));
+      all[i].primary =
+          bodies.surface(given.primary, given.parameter("Primary"));
+      for (const boundary_id id : all[i].secondary)
+        if (all[i].primary.count(id) > 0)
+          throw InputError(given.parameter("Primary"),
+                           bodies.name(id)
+                               + " is on both sides of the pair: a surface "
+                                 "cannot be its own partner.");
+    }
+  }
+
+  template <int dim>
+  void SolidPairs<dim>::hold(const Bodies<dim> &bodies,
+                             const std::set<unsigned int> &floating)
+  {
+    for (ContactPair<dim> &pair : all)
+      for (const auto *side : {&pair.secondary, &pair.primary})
+        for (const boundary_id id : *side)
+          if (floating.count(bodies.body_of(id)) > 0)
+            pair.holds_body = true;
+  }
+
+  template <int dim> void SolidPairs<dim>::set_time(const double time)
+  {
+    for (const auto &obstacle : obstacles)
+      obstacle->set_time(time);
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      gaps[i]->set_time(time);
+      dealii::Point<dim> elsewhere;
+      for (unsigned int d = 0; d < dim; ++d)
+        elsewhere[d] = 0.7310585 + d;
+      const auto values = gaps[i]->evaluate({dealii::Point<dim>(), elsewhere});
+      if (values[0] != values[1])
+        throw InputError(parameters.pairs[i].parameter("Initial gap"),
+                         "'" + gaps[i]->text()
+                             + "' depends on the place; it may depend on t "
+                               "alone.");
+      all[i].gap = values[0];
+    }
+  }
+
+  template <int dim> std::set<boundary_id> SolidPairs<dim>::secondary() const
+  {
+    std::set<boundary_id> result;
+    for (const ContactPair<dim> &pair : all)
+      result.insert(pair.secondary.begin(), pair.secondary.end());
+    return result;
+  }
+
+  template <int dim> std::set<boundary_id> SolidPairs<dim>::surfaces() const
+  {
+    std::set<boundary_id> result = secondary();
+    for (const ContactPair<dim> &pair : all)
+      result.insert(pair.primary.begin(), pair.primary.end());
+    return result;
+  }
+
+  template <int dim> std::vector<ContactSides> SolidPairs<dim>::sides() const
+  {
+    std::vector<ContactSides> result;
+    for (const ContactPair<dim> &pair : all)
+      if (!pair.primary.empty())
+        result.push_back({pair.secondary, pair.primary});
+    return result;
+  }
+
+  template <int dim>
+  std::string SolidPairs<dim>::parameter_of(const std::string &message) const
+  {
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (message.find(all[i].name) != std::string::npos)
+        found = i;
+    return parameters.pairs[found].parameter("Secondary");
+  }
+
+  template class SolidPairs<2>;
+  template class SolidPairs<3>;
+} // namespace abut::app

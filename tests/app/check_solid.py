@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Scenes of two bodies that cannot be solved, or only with a warning, and what
+the program says; secondary and primary exchanged; load steps."""
+from program import Program
+
+p = Program()
+
+SCENE = """
+set Scene = solid
+set Dimension = 2
+subsection Solid
+  set Bodies = 2
+  set Pairs = 1
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 3, 3 : 0, 0 : 1, 1 : true
+  end
+  set Support = 2: 0, 0
+end
+subsection Body 2
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 4, 4 : 0, 1 : 1, 2 : true
+  end
+  set Support = 3: 0, -0.01
+end
+subsection Pair 1
+  set Secondary = 2: 2
+  set Primary = 1: 3
+end
+subsection Refinement
+  set Level = 1
+end
+subsection Output
+  set Fields = false
+end
+"""
+scene = p.write("blocks.prm", SCENE)
+
+
+def run(*settings, command="run"):
+    words = []
+    for setting in settings:
+        words += ["--set", setting]
+    if command == "run":
+        words += ["--output", "out", "--quiet"]
+    return p.call(command, scene, *words)
+
+
+def solved(*settings):
+    result = run(*settings)
+    p.expect(result.returncode == 0,
+             f"{settings}: exit code {result.returncode}\n{result.stderr}")
+    return p.results()
+
+
+# The scene itself; E = 1, so that the stress is about -0.005.
+summary, levels = solved()
+p.expect(summary["contact_force"] > 4e-3, "the blocks press on each other")
+p.close(summary["reaction_1"][1], summary["contact_force"], 1e-6,
+        "support and contact")
+
+# Mistakes.
+p.expect_error(run("Pair 1/Secondary=2: 7"), "Pair 1/Secondary",
+               "no boundary id 7")
+p.expect_error(run("Pair 1/Secondary=3: 0"), "Pair 1/Secondary",
+               "number of a body, 1 to 2")
+p.expect_error(run("Pair 1/Secondary="), "Pair 1/Secondary",
+               "no secondary surface")
+p.expect_error(run("Pair 1/Primary="), "Pair 1/Primary", "neither")
+p.expect_error(run("Pair 1/Primary=2: 2"), "Pair 1/Primary",
+               "on both sides of the pair")
+p.expect_error(run("Pair 1/Obstacle=1"), "Pair 1/Obstacle", "primary surface")
+p.expect_error(run("Pair 1/Primary=", "Pair 1/Obstacle=2"), "Pair 1/Obstacle",
+               "no obstacle 2")
+p.expect_error(run("Pair 2/Reach=1"), "no section 'Pair 2'", "Pair 1")
+p.expect_error(run("Pair 1/Initial gap=x"), "Pair 1/Initial gap")
+p.expect_error(run("Solid/Pairs=0"), "no section 'Pair 1'")
+
+# Surfaces that cannot meet.
+p.expect_error(run("Body 2/Mesh/Move=0, 0.6", "Refinement/Level=0"),
+               "Pair 1/Secondary", "too far apart", "0.6", "reach")
+p.expect_error(run("Body 2/Mesh/Move=0, -0.3", "Refinement/Level=0"),
+               "Pair 1/Secondary", "overlap", "reach")
+p.expect_error(run("Pair 1/Secondary=2: 3", "Pair 1/Reach=2"),
+               "Pair 1/Secondary", "same way")
+
+# What is merely odd is a warning.
+coarse = run("Body 1/Refinements=3", "Refinement/Level=0")
+p.expect(coarse.returncode == 0 and "as coarse as the primary" in coarse.stderr,
+         f"a coarse secondary side: {coarse.stderr}")
+
+# Pulled apart: the upper block has nothing to hold it, its own supports let it
+# go up and down.
+gone = run("Body 2/Support=0, 1: 0, free", "Body 2/Traction=3: 0, 0.01")
+p.expect(gone.returncode == 3, f"pulled apart: exit code {gone.returncode}")
+p.expect("hold" in gone.stderr, f"pulled apart: {gone.stderr}")
+pushed, _ = solved("Body 2/Support=0, 1: 0, free", "Body 2/Traction=3: 0, -0.01")
+p.close(pushed["contact_force"], 0.01, 1e-6, "pushed together")
+
+# A lower block that nothing holds but the pair, and one without a pair.
+p.expect_error(run("Body 2/Support=", "Pair 1/Secondary=1: 3",
+                   "Pair 1/Primary=1: 2"), "Body 2/Support",
+               "every rigid motion", "in no contact pair")
+
+# Corners where a support meets the contact surface.
+corner, _ = solved("Body 2/Support=3: 0, -0.01; 0: 0, free",
+                   "Body 1/Support=2: 0, 0; 0: 0, free")
+p.expect(corner["contact_force"] > 4e-3, "supports at the end of the surface")
+
+# Secondary and primary exchanged: the same but for the discretisation error.
+for word in ("mortar", "dual mortar", "node to segment"):
+    one, _ = solved(f"Method/Discretisation={word}", "Refinement/Level=2")
+    two, _ = solved(f"Method/Discretisation={word}", "Refinement/Level=2",
+                    "Pair 1/Secondary=1: 3", "Pair 1/Primary=2: 2")
+    p.close(two["contact_force"] / one["contact_force"], 1., 0.01,
+            f"{word}: sides exchanged")
+    p.close(two["energy"] / one["energy"], 1., 0.01,
+            f"{word}: energy with sides exchanged")
+
+# Load steps end where one step does: nothing here depends on the way.
+one, _ = solved("Body 2/Support=3: 0, -0.01*t")
+many, rows = solved("Body 2/Support=3: 0, -0.01*t", "Load steps/Steps=4")
+p.expect(many["load_steps"] == 4 and rows[-1]["time"] == 1., "four load steps")
+p.close(many["energy"] / one["energy"], 1., 1e-6, "energy after load steps")
+p.close(many["contact_force"] / one["contact_force"], 1., 1e-6,
+        "force after load steps")
+
+# A gap that closes halfway.
+gap, rows = solved("Body 2/Support=3: 0, -0.01*t", "Load steps/Steps=4",
+                   "Pair 1/Initial gap=0.005")
+first = [row for row in rows if row["time"] < 0.49]
+p.expect(all(row["active"] == 0 for row in first), "open at first")
+p.close(gap["contact_force"] / (0.5 * one["contact_force"]), 1., 1e-3,
+        "half of the way is free")
+p.finish()
