@@ -116,12 +116,45 @@ namespace abut::app
       return script.str();
     }
 
+    /** Range of lengths in which there is pressure, with as much again on
+     * both sides; all of the lines if there is none. */
+    std::string pressed_range(const std::vector<PressureCurve> &pressures)
+    {
+      double largest = 0;
+      double end = 0;
+      for (const PressureCurve &curve : pressures)
+        for (const ContactLine &line : curve.lines)
+          for (const ContactLineNode &node : line)
+          {
+            largest = std::max(largest, node.pressure);
+            end = std::max(end, node.arc);
+          }
+      double low = end;
+      double high = 0;
+      for (const PressureCurve &curve : pressures)
+        for (const ContactLine &line : curve.lines)
+          for (const ContactLineNode &node : line)
+            if (node.pressure > 1e-6 * largest)
+            {
+              low = std::min(low, node.arc);
+              high = std::max(high, node.arc);
+            }
+      const double width = high - low;
+      if (!(width > 0.))
+        return "";
+      std::ostringstream out;
+      out << "set xrange [" << std::max(0., low - width) << ':'
+          << std::min(end, high + width) << "]\n";
+      return out.str();
+    }
+
     std::string pressure_script(const std::vector<PressureCurve> &pressures,
                                 const double top)
     {
       std::ostringstream script;
       script << "set origin 0, 0\nset size noratio 1, " << top
-             << "\nset autoscale\nset grid\nset key top right\n"
+             << "\nset autoscale\n"
+             << pressed_range(pressures) << "set grid\nset key top right\n"
              << "set xlabel 'length along the contact line'\n"
              << "set ylabel 'contact pressure'\n";
       for (std::size_t i = 0; i < pressures.size(); ++i)

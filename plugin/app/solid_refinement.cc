@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The meshes of the scene `solid`: error estimate, refinement, transfer.
 #include "contact_refinement.h"
+#include "contact_traction.h"
 #include "elastic_estimator.h"
 #include "solid_run.h"
 
@@ -8,10 +9,24 @@
 
 namespace abut::app
 {
+  template <int dim> ContactFields SolidRun<dim>::contact_fields() const
+  {
+    if (pairs->empty())
+      return {};
+    return {contact_traction(elasticity.mapping, elasticity.dof_handler,
+                             elasticity.constraints, elasticity.hanging,
+                             data.materials, pairs->surfaces(),
+                             elasticity.unbalanced_forces(u)),
+            elasticity.ghosted_field(contact.pressure()),
+            elasticity.ghosted_field(contact.gap()),
+            elasticity.ghosted_field(contact.status())};
+  }
+
   template <int dim> void SolidRun<dim>::estimate()
   {
     SectionTimes::Scope scope(report.times, "error estimate");
     const la::Vector displacement = elasticity.ghosted(u);
+    const ContactFields fields = contact_fields();
     ElasticEstimatorInput<dim> input{elasticity.mapping, elasticity.dof_handler,
                                      displacement, data.materials};
     for (const auto &[body, force] : data.body_force)
@@ -22,6 +37,14 @@ namespace abut::app
       input.pressure_load[id] = pressure.function;
     for (const auto &[id, support] : data.supports)
       input.supports[id] = support.components;
+    if (!pairs->empty())
+    {
+      input.contact = pairs->surfaces();
+      input.contact_traction = &fields.traction;
+      input.secondary = pairs->secondary();
+      input.pressure = &fields.pressure;
+      input.gap = &fields.gap;
+    }
     present.estimate = estimate_elastic_error(input, squared_estimate);
   }
 
@@ -29,15 +52,23 @@ namespace abut::app
   {
     SectionTimes::Scope scope(report.times, "mesh");
     const RefinementParameters &levels = parameters.refinement;
-    if (mesh_number >= levels.level)
-      dealii::parallel::distributed::GridRefinement::
-          refine_and_coarsen_fixed_fraction(triangulation, squared_estimate,
-                                            levels.refine_fraction,
-                                            levels.coarsen_fraction);
-    else
+    if (!levels.is_adaptive(mesh_number))
+    {
       for (const auto &cell : triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           cell->set_refine_flag();
+      return;
+    }
+    dealii::parallel::distributed::GridRefinement::
+        refine_and_coarsen_fixed_fraction(triangulation, squared_estimate,
+                                          levels.refine_fraction,
+                                          levels.coarsen_fraction);
+    if (pairs->empty())
+      return;
+    flag_contact_border(elasticity.dof_handler,
+                        elasticity.ghosted_field(contact.status()),
+                        pairs->secondary());
+    limit_size_ratio(triangulation, pairs->sides());
   }
 
   template <int dim> void SolidRun<dim>::refine()
@@ -55,6 +86,8 @@ namespace abut::app
     ++mesh_number;
   }
 
+  template ContactFields SolidRun<2>::contact_fields() const;
+  template ContactFields SolidRun<3>::contact_fields() const;
   template void SolidRun<2>::estimate();
   template void SolidRun<2>::set_refine_flags();
   template void SolidRun<2>::refine();

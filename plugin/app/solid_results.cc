@@ -3,7 +3,6 @@
 #include "input_error.h"
 #include "nearest_node.h"
 #include "solid_run.h"
-#include "stress_output.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -94,28 +93,6 @@ namespace abut::app
         + std::to_string(present.level) + ": " + std::to_string(present.dofs)
         + " unknowns, " + std::to_string(present.linear.n_iterations)
         + " linear iterations, energy " + short_number(present.energy, 8));
-  }
-
-  template <int dim> void SolidRun<dim>::write_fields()
-  {
-    if (!parameters.fields)
-      return;
-    SectionTimes::Scope scope(report.times, "output");
-    const la::Vector displacement = elasticity.ghosted(u);
-    dealii::Vector<float> body(triangulation.n_active_cells());
-    for (const auto &cell : triangulation.active_cell_iterators())
-      body(cell->active_cell_index()) = float(cell->material_id() + 1);
-    Fields<dim> fields{elasticity.mapping,
-                       elasticity.dof_handler,
-                       {{"displacement", &displacement}},
-                       {{"body", &body}}};
-    const StressPostprocessor<dim> stresses(data.materials);
-    fields.derived = {{&displacement, &stresses}};
-    if (present.estimate)
-      fields.cells.emplace_back("squared_error_estimate", &squared_estimate);
-    // Coarser meshes come before the time of the first load step.
-    const double last = parameters.refinement.last_mesh();
-    series.write(is_last_mesh() ? present.time : present.level - last, fields);
   }
 
   template <int dim> void SolidRun<dim>::report_points()
@@ -292,7 +269,6 @@ namespace abut::app
 
   template void SolidRun<2>::declare_tables();
   template void SolidRun<2>::finish_state();
-  template void SolidRun<2>::write_fields();
   template void SolidRun<2>::report_points();
   template void SolidRun<2>::report_reactions();
   template void SolidRun<2>::report_checks();
@@ -301,7 +277,6 @@ namespace abut::app
   template void SolidRun<2>::report_model();
   template void SolidRun<3>::declare_tables();
   template void SolidRun<3>::finish_state();
-  template void SolidRun<3>::write_fields();
   template void SolidRun<3>::report_points();
   template void SolidRun<3>::report_reactions();
   template void SolidRun<3>::report_checks();

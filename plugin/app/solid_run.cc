@@ -25,7 +25,8 @@ namespace abut::app
         elasticity(triangulation, parameters.degree),
         contact(communicator),
         load_steps(parameters.load_steps),
-        series(options.output_folder, "fields", communicator)
+        series(options.output_folder, "fields", communicator),
+        contact_series(options.output_folder, "contact", communicator)
   {
     contact.assume_constant_matrix(true);
     contact.set_search_parameters(search);

@@ -2,6 +2,7 @@
 #ifndef ABUT_APP_SOLID_RUN_H
 #define ABUT_APP_SOLID_RUN_H
 
+#include "body_pictures.h"
 #include "error_norms.h"
 #include "field_output.h"
 #include "rigid_modes.h"
@@ -37,6 +38,15 @@ namespace abut::app
     double seconds = 0.; ///< since the end of the state before, counted parts
   };
 
+  /** Nodal fields of contact boundaries, ghosted; empty without pairs. */
+  struct ContactFields
+  {
+    la::Vector traction; ///< force per area on either side
+    la::Vector pressure; ///< p n on the secondary side
+    la::Vector gap;      ///< in all components
+    la::Vector status;   ///< in all components
+  };
+
   /** One run of the scene `solid`: the first load step by nested iteration
    * over uniform levels and adaptive cycles, the others on the last mesh. */
   template <int dim> class SolidRun
@@ -61,11 +71,6 @@ namespace abut::app
     void set_time(double time);
     void setup_mesh();
     void assemble_load();
-    // Meshes, in solid_refinement.cc
-    void estimate();
-    void refine();
-    void set_refine_flags();
-
     bool solve_on_hierarchy();
     bool solve();
     bool solve_without_contact();
@@ -82,13 +87,23 @@ namespace abut::app
 
     double counted_seconds() const;
 
-    // Pictures, in solid_pictures.cc
+    // Meshes, in solid_refinement.cc
+    ContactFields contact_fields() const;
+    void estimate();
+    void refine();
+    void set_refine_flags();
+
+    // Fields and pictures, in solid_fields.cc
+    double output_time() const;
+    void write_fields();
+    void write_contact(const la::Vector &displacement);
+    std::vector<PressureCurve>
+    pressure_curves(const ContactFields &fields) const;
     void draw();
 
     // Results, in solid_results.cc
     void declare_tables();
     void finish_state();
-    void write_fields();
     void report_points();
     void report_reactions();
     void report_checks();
@@ -126,7 +141,7 @@ namespace abut::app
     SolidState present;
     std::vector<SolidState> states;
     StepTable steps;
-    FieldSeries series;
+    FieldSeries series, contact_series;
     double counted_before = 0.;
   };
 } // namespace abut::app
