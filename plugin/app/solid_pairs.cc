@@ -114,7 +114,11 @@ namespace abut::app
     for (std::size_t i = 0; i < all.size(); ++i)
       if (message.find(all[i].name) != std::string::npos)
         found = i;
-    return parameters.pairs[found].parameter("Secondary");
+    const PairParameters &pair = parameters.pairs[found];
+    // only formulas are found wrong after an obstacle has been made
+    if (pair.obstacle > 0 && message.find("its obstacle") != std::string::npos)
+      return parameters.obstacles[pair.obstacle - 1].parameter("Expression");
+    return pair.parameter("Secondary");
   }
 
   template class SolidPairs<2>;

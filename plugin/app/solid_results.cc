@@ -187,6 +187,7 @@ namespace abut::app
       report.set(key + "_rows", pair.n_rows);
       report.set(key + "_active", pair.n_active);
       report.set(key + "_covered_area", pair.covered_area);
+      report.set(key + "_contact_area", pair.contact_area);
       report.set(key + "_force", vector(pair.secondary_force));
       report.set(key + "_moment", vector(pair.secondary_moment));
       report.set(key + "_pressure", pair.pressure);

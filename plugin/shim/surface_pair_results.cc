@@ -134,9 +134,13 @@ namespace abut::shim
       const bool tied = pairs_[row.pair].data.tied;
       PairResult<dim> &result = results[row.pair];
       ++result.n_rows;
+      const double area = row.weight / (tied ? dim : 1.);
+      result.covered_area += area;
       if (row_state != nullptr && row_state[i] != ABUT_STATE_OPEN)
+      {
         ++result.n_active;
-      result.covered_area += row.weight / (tied ? dim : 1.);
+        result.contact_area += area;
+      }
       result.penetration = std::max(result.penetration,
                                     tied ? std::abs(row_gap[i]) : -row_gap[i]);
       result.pressure = std::max(result.pressure, row_pressure[i]);
@@ -157,6 +161,7 @@ namespace abut::shim
       result.n_rows = MPI::sum(result.n_rows, communicator_);
       result.n_active = MPI::sum(result.n_active, communicator_);
       result.covered_area = MPI::sum(result.covered_area, communicator_);
+      result.contact_area = MPI::sum(result.contact_area, communicator_);
       result.penetration = MPI::max(result.penetration, communicator_);
       result.pressure = MPI::max(result.pressure, communicator_);
       result.secondary_force = MPI::sum(result.secondary_force, communicator_);

@@ -88,6 +88,7 @@ namespace abut
     dealii::types::global_dof_index n_rows = 0;   /**< constraint rows */
     dealii::types::global_dof_index n_active = 0; /**< of these in contact */
     double covered_area = 0.; /**< sum of the weights of the rows */
+    double contact_area = 0.; /**< of those in contact */
     double penetration = 0.;  /**< largest, length >= 0; of a tie the largest
                                    opening in any direction */
     double pressure = 0.;     /**< largest */
