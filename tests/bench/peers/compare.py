@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""CalculiX and GetFEM: errors and wall time of the same problems.
+"""Abut beside CalculiX and GetFEM: errors and wall time of the same problems.
 
 Three problems in 3D (problems.py) on the same hexahedral meshes with linear
 displacements, solved by every program that is installed, one at a time, on
@@ -8,7 +8,8 @@ one thread, within limits of time and memory. Time is that of the whole
 process, its input read and its answer written: the median of the repeats.
 Where other work shares the machine, look at the processor's time.
 
-    tests/bench/peers/compare.py --csv peers.csv --markdown peers.md
+    tests/bench/peers/compare.py --abut build/release/abut --csv peers.csv \\
+        --markdown peers.md
 
 Debian's packages: calculix-ccx, python3-getfem. With --libraries every
 program runs with the libraries of a folder first, for example those of
@@ -20,6 +21,7 @@ import statistics
 import sys
 import tempfile
 
+import abut
 import ccx
 import figures
 import getfem_peer
@@ -33,7 +35,8 @@ RUNS = [(ccx, "node to surface", FAST),
         (ccx, "surface to surface", FAST),
         (ccx, "mortar", {}),
         (getfem_peer, "lagrange", {"kappa": 1.0}),
-        (getfem_peer, "penalty", {"kappa": 10.0})]
+        (getfem_peer, "penalty", {"kappa": 10.0})] + [
+            (abut, method, {}) for method in abut.METHODS]
 
 
 def measure(program, method, options, problem, arguments):
@@ -61,7 +64,7 @@ def row(program, method, options, problem, arguments):
     try:
         with process.alone(arguments.lock):
             answer = measure(program, method, options, problem, arguments)
-    except process.Failure as failure:
+    except (process.Failure, OSError) as failure:
         return dict(line, remark=str(failure))
     line.update({"wall, s": f"{answer['wall']:.2f}",
                  "processor, s": f"{answer['processor']:.2f}",
@@ -76,10 +79,11 @@ def parse():
     parser = argparse.ArgumentParser(
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--abut", help="the program; without it peers only")
     parser.add_argument("--problems", nargs="*", default=list(problems.SIZES))
     parser.add_argument("--sizes", nargs="*", type=int, default=[0, 1, 2])
     parser.add_argument("--programs", nargs="*", default=None,
-                        choices=["ccx", "getfem_peer"])
+                        choices=["ccx", "getfem_peer", "abut"])
     parser.add_argument("--methods", nargs="*", default=None)
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--seconds", type=float, default=300,
@@ -94,6 +98,7 @@ def parse():
 
 def main():
     arguments = parse()
+    abut.PROGRAM = arguments.abut and os.path.abspath(arguments.abut)
     if arguments.libraries:
         process.ONE_THREAD["LD_LIBRARY_PATH"] = os.path.abspath(
             arguments.libraries)
@@ -103,7 +108,8 @@ def main():
     if arguments.methods:
         runs = [run for run in runs if run[1] in arguments.methods]
     if not runs:
-        sys.exit("no program is installed: calculix-ccx, python3-getfem")
+        sys.exit("no program is installed: calculix-ccx, python3-getfem, or "
+                 "--abut")
     lines = []
     for name in arguments.problems:
         for size in arguments.sizes:

@@ -57,21 +57,8 @@ class Body:
 
 def _match(places, nodes):
     """For each place the node that is there."""
-    scale = 1e-9 * numpy.abs(nodes).max()
-    index = {tuple(row): i for i, row in
-             enumerate(numpy.rint(nodes / scale).astype(int).tolist())}
-    keys = numpy.rint(places / scale).astype(int)
-    return numpy.array([_near(index, key) for key in keys.tolist()])
-
-
-def _near(index, key):
-    for i in (0, -1, 1):
-        for j in (0, -1, 1):
-            for k in (0, -1, 1):
-                found = index.get((key[0] + i, key[1] + j, key[2] + k))
-                if found is not None:
-                    return found
-    raise KeyError(key)
+    finder = hexmesh.Places(nodes, 1e-9 * numpy.abs(nodes).max())
+    return numpy.array([finder.find(place) for place in places])
 
 
 def add_bodies(model, problem):

@@ -6,6 +6,7 @@ A body is a dictionary that goes to files as it is: `nodes` [[x, y, z], ...],
 below, four above, both counter-clockwise from above), and `faces`: name ->
 list of [cell, face], where face counts 0..5 as in FACES.
 """
+import itertools
 
 # Nodes of a cell's faces; face k is CalculiX's face k+1.
 FACES = [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2),
@@ -92,3 +93,24 @@ def nodal_areas(body, name):
         for node in corners:
             areas[node] = areas.get(node, 0.0) + abs(twice) / 8
     return areas
+
+
+class Places:
+    """Finds points by their coordinates, up to a tolerance."""
+
+    def __init__(self, points, tolerance):
+        self.tolerance = tolerance
+        self.index = {self._key(point): number
+                      for number, point in enumerate(points)}
+
+    def _key(self, point):
+        return tuple(round(x / self.tolerance) for x in point)
+
+    def find(self, point):
+        """Number of the point that is there, or None."""
+        key = self._key(point)
+        for shift in itertools.product((0, -1, 1), repeat=3):
+            number = self.index.get(tuple(map(sum, zip(key, shift))))
+            if number is not None:
+                return number
+        return None
