@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Bullet's dynamic tree of boxes, in single precision, for the candidates.
  * Facets are inserted one after the other, as its broad phase does, which takes
- * minutes for a million: it takes part up to a hundred thousand. */
+ * more than a minute for a million: it takes part up to a hundred thousand. */
 #include "search_bench.h"
 
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>

@@ -257,6 +257,13 @@ scene_random(abut_facet_kind kind, int32_t n, double box, double smallest,
 }
 
 scene_mesh
+scene_square(abut_facet_kind kind, int32_t n, double height, bool flip)
+{
+  const double p[5] = {0, 0, 1, 1, height};
+  return scene_patch(kind, n, n, scene_plane, p, flip);
+}
+
+scene_mesh
 scene_needles(int32_t n, double length, double width)
 {
   const double p[5] = {0, 0, length, n * width, 0};

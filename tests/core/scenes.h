@@ -47,6 +47,10 @@ extern "C"
   scene_mesh scene_patch(abut_facet_kind kind, int32_t nu, int32_t nv,
                          scene_map map, const double *p, bool flip);
 
+  /* The unit square at a height, n x n cells. */
+  scene_mesh scene_square(abut_facet_kind kind, int32_t n, double height,
+                          bool flip);
+
   /* n facets of a kind with random places in a box of the given size, random
    * directions, and sizes between smallest and largest (uniform in their
    * logarithm); no two share a node. */

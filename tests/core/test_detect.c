@@ -44,21 +44,14 @@ end(pair *p)
   }
 }
 
-static scene_mesh
-plane(abut_facet_kind kind, int32_t n, double height, bool flip)
-{
-  const double p[5] = {0, 0, 1, 1, height};
-  return scene_patch(kind, n, n, scene_plane, p, flip);
-}
-
 /* On squares of 1/8 all is exact: the facet below a node, its gap and its
  * local coordinates are known; over edges and corners the lowest number. */
 static void
 flat_grids(void **state)
 {
   (void)state;
-  pair p = begin(plane(ABUT_FACET_QUAD4, 5, 0.0625, true),
-                 plane(ABUT_FACET_QUAD4, 8, 0.125, false), NULL);
+  pair p = begin(scene_square(ABUT_FACET_QUAD4, 5, 0.0625, true),
+                 scene_square(ABUT_FACET_QUAD4, 8, 0.125, false), NULL);
   run(&p, 0);
   assert_int_equal(p.view.n_paired, 36);
   for (int32_t i = 0; i < 36; ++i)
@@ -280,8 +273,8 @@ static void
 reversed_surfaces_are_reported(void **state)
 {
   (void)state;
-  pair p = begin(plane(ABUT_FACET_QUAD4, 5, 0.01, false),
-                 plane(ABUT_FACET_QUAD4, 8, 0, false), NULL);
+  pair p = begin(scene_square(ABUT_FACET_QUAD4, 5, 0.01, false),
+                 scene_square(ABUT_FACET_QUAD4, 8, 0, false), NULL);
   run(&p, 0);
   abut_detection_report z;
   require(abut_detection_make_report(p.detection, &z));
@@ -300,7 +293,7 @@ border(void **state)
   (void)state;
   const double q[5] = {0.5, 0, 1, 1, 0.01};
   pair p = begin(scene_patch(ABUT_FACET_QUAD4, 64, 4, scene_plane, q, true),
-                 plane(ABUT_FACET_QUAD4, 4, 0, false), NULL);
+                 scene_square(ABUT_FACET_QUAD4, 4, 0, false), NULL);
   run(&p, 0);
   for (int32_t i = 0; i < p.view.n_nodes; ++i)
   {
@@ -320,8 +313,8 @@ static void
 connectivity_is_kept_between_calls(void **state)
 {
   (void)state;
-  pair p = begin(plane(ABUT_FACET_QUAD4, 5, 0.01, true),
-                 plane(ABUT_FACET_QUAD4, 8, 0, false), NULL);
+  pair p = begin(scene_square(ABUT_FACET_QUAD4, 5, 0.01, true),
+                 scene_square(ABUT_FACET_QUAD4, 8, 0, false), NULL);
   run(&p, 0);
   assert_true(p.view.changed);
   assert_int_equal(p.view.n_gained, 36);
@@ -354,8 +347,8 @@ static void
 motion_enlarges_the_reach(void **state)
 {
   (void)state;
-  pair p = begin(plane(ABUT_FACET_QUAD4, 5, 0.3, true),
-                 plane(ABUT_FACET_QUAD4, 8, 0, false), NULL);
+  pair p = begin(scene_square(ABUT_FACET_QUAD4, 5, 0.3, true),
+                 scene_square(ABUT_FACET_QUAD4, 8, 0, false), NULL);
   run(&p, 0);
   assert_int_equal(p.view.n_paired, 0);
   run(&p, 0.21);
@@ -370,8 +363,8 @@ static void
 groups(void **state)
 {
   (void)state;
-  scene_mesh a = plane(ABUT_FACET_QUAD4, 4, 0.01, true);
-  scene_mesh b = plane(ABUT_FACET_QUAD4, 8, 0, false);
+  scene_mesh a = scene_square(ABUT_FACET_QUAD4, 4, 0.01, true);
+  scene_mesh b = scene_square(ABUT_FACET_QUAD4, 8, 0, false);
   int32_t ga[16], gb[64];
   for (int i = 0; i < 16; ++i)
     ga[i] = i / 4 < 2 ? 3 : 4; /* lower and upper half */
@@ -446,8 +439,8 @@ result_does_not_depend_on_the_search(void **state)
     /* Matching grids: ties at every node. */
     pair first = scene == 0
                      ? begin(patch(1.01, 15, true), patch(1, 20, false), &o)
-                     : begin(plane(ABUT_FACET_QUAD4, 12, 0.01, true),
-                             plane(ABUT_FACET_QUAD4, 12, 0, false), &o);
+                     : begin(scene_square(ABUT_FACET_QUAD4, 12, 0.01, true),
+                             scene_square(ABUT_FACET_QUAD4, 12, 0, false), &o);
     run(&first, 0);
     assert_int_equal(first.view.n_paired, first.view.n_nodes);
     for (int a = 1; a < ABUT_SEARCH_N_ALGORITHMS; ++a)
@@ -458,8 +451,8 @@ result_does_not_depend_on_the_search(void **state)
         o.search.skin = i < 3 ? 0 : 0.02;
         pair p = scene == 0
                      ? begin(patch(1.01, 15, true), patch(1, 20, false), &o)
-                     : begin(plane(ABUT_FACET_QUAD4, 12, 0.01, true),
-                             plane(ABUT_FACET_QUAD4, 12, 0, false), &o);
+                     : begin(scene_square(ABUT_FACET_QUAD4, 12, 0.01, true),
+                             scene_square(ABUT_FACET_QUAD4, 12, 0, false), &o);
         run(&p, 0);
         assert_same_result(&first.view, &p.view);
         /* Once more, from the list if there is a skin. */
@@ -480,9 +473,9 @@ rigid_motion_and_renumbering(void **state)
   for (int scene = 0; scene < 2; ++scene)
   {
     scene_mesh a = scene == 0 ? patch(1.01, 15, true)
-                              : plane(ABUT_FACET_QUAD4, 12, 0.01, true);
+                              : scene_square(ABUT_FACET_QUAD4, 12, 0.01, true);
     scene_mesh b = scene == 0 ? patch(1, 20, false)
-                              : plane(ABUT_FACET_QUAD4, 12, 0, false);
+                              : scene_square(ABUT_FACET_QUAD4, 12, 0, false);
     const int32_t n = a.n_nodes;
     pair p = begin(a, b, NULL);
     run(&p, 0);
@@ -557,8 +550,8 @@ static void
 wrong_arguments(void **state)
 {
   (void)state;
-  pair p = begin(plane(ABUT_FACET_QUAD4, 2, 0.1, true),
-                 plane(ABUT_FACET_QUAD4, 2, 0, false), NULL);
+  pair p = begin(scene_square(ABUT_FACET_QUAD4, 2, 0.1, true),
+                 scene_square(ABUT_FACET_QUAD4, 2, 0, false), NULL);
   abut_detection *d = NULL;
   abut_detection_report z;
   assert_int_equal(abut_detection_make_report(p.detection, &z),

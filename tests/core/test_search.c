@@ -16,6 +16,15 @@ options_of(abut_search_algorithm algorithm, double reach, double relative)
   return o;
 }
 
+static void
+destroy_both(abut_surface **s, abut_surface **t, scene_mesh *a, scene_mesh *b)
+{
+  require(abut_surface_destroy(s));
+  require(abut_surface_destroy(t));
+  scene_free(a);
+  scene_free(b);
+}
+
 /* Pairs by the words of the definition, from the public measures alone. */
 static int64_t
 count_by_definition(const scene_mesh *primary, const scene_mesh *secondary,
@@ -118,18 +127,8 @@ compare_all(scene_mesh a, scene_mesh b, double reach, double relative)
     }
   for (int i = 0; i < 4; ++i)
     require(abut_pairs_destroy(&list[i]));
-  require(abut_surface_destroy(&primary));
-  require(abut_surface_destroy(&secondary));
-  scene_free(&a);
-  scene_free(&b);
+  destroy_both(&primary, &secondary, &a, &b);
   return n;
-}
-
-static scene_mesh
-plane(abut_facet_kind kind, int32_t n, double height, bool flip)
-{
-  const double p[5] = {0, 0, 1, 1, height};
-  return scene_patch(kind, n, n, scene_plane, p, flip);
 }
 
 static void
@@ -141,8 +140,8 @@ flat_grids(void **state)
   for (int k = 0; k < 4; ++k)
     for (int l = 0; l < 4; ++l)
     {
-      scene_mesh a = plane(kinds[k], 12, 0, false);
-      scene_mesh b = plane(kinds[l], 9, 0.01, true);
+      scene_mesh a = scene_square(kinds[k], 12, 0, false);
+      scene_mesh b = scene_square(kinds[l], 9, 0.01, true);
       const int64_t expected = count_by_definition(&a, &b, 0, 0.5);
       const int64_t n = compare_all(a, b, 0, 0.5);
       assert_true(n > 0);
@@ -159,8 +158,9 @@ matching_grids_have_four_pairs_per_facet(void **state)
 {
   (void)state;
   const int32_t n = 8;
-  assert_int_equal(compare_all(plane(ABUT_FACET_QUAD4, n, 0, false),
-                               plane(ABUT_FACET_QUAD4, n, 0, true), 0, 0.5),
+  assert_int_equal(compare_all(scene_square(ABUT_FACET_QUAD4, n, 0, false),
+                               scene_square(ABUT_FACET_QUAD4, n, 0, true), 0,
+                               0.5),
                    4 * n * n);
 }
 
@@ -189,8 +189,8 @@ clipped_pairs_of_flat_grids(void **state)
   for (int k = 0; k < 4; ++k)
     for (int algorithm = 0; algorithm < ABUT_SEARCH_N_ALGORITHMS; ++algorithm)
     {
-      scene_mesh a = plane(ABUT_FACET_QUAD4, n[k][0], 0, false);
-      scene_mesh b = plane(ABUT_FACET_QUAD4, n[k][1], 0.01, true);
+      scene_mesh a = scene_square(ABUT_FACET_QUAD4, n[k][0], 0, false);
+      scene_mesh b = scene_square(ABUT_FACET_QUAD4, n[k][1], 0.01, true);
       abut_surface *s = surface_of(&a), *t = surface_of(&b);
       abut_pairs *nodes = NULL, *facets = NULL;
       abut_pairs_view v;
@@ -218,10 +218,7 @@ clipped_pairs_of_flat_grids(void **state)
       assert_float_equal(area, 1, 1e-12);
       require(abut_pairs_destroy(&nodes));
       require(abut_pairs_destroy(&facets));
-      require(abut_surface_destroy(&s));
-      require(abut_surface_destroy(&t));
-      scene_free(&a);
-      scene_free(&b);
+      destroy_both(&s, &t, &a, &b);
     }
 }
 
@@ -319,8 +316,8 @@ needles_and_coincident_surfaces(void **state)
               0);
   compare_all(scene_needles(300, 1, 1e-3), scene_needles(200, 1, 1.5e-3), 0,
               0.5);
-  compare_all(plane(ABUT_FACET_QUAD4, 10, 0, false),
-              plane(ABUT_FACET_QUAD4, 10, 0, false), 0, 0);
+  compare_all(scene_square(ABUT_FACET_QUAD4, 10, 0, false),
+              scene_square(ABUT_FACET_QUAD4, 10, 0, false), 0, 0);
 }
 
 static void
@@ -328,17 +325,19 @@ single_facets_and_empty_surfaces(void **state)
 {
   (void)state;
   const scene_mesh empty = {3, 0, 0, ABUT_FACET_QUAD4, NULL, NULL};
-  assert_int_equal(compare_all(plane(ABUT_FACET_QUAD4, 1, 0, false),
-                               plane(ABUT_FACET_QUAD4, 1, 0.3, true), 0, 0.5),
+  assert_int_equal(compare_all(scene_square(ABUT_FACET_QUAD4, 1, 0, false),
+                               scene_square(ABUT_FACET_QUAD4, 1, 0.3, true), 0,
+                               0.5),
                    4);
   /* The gap is larger than the reach. */
-  assert_int_equal(compare_all(plane(ABUT_FACET_QUAD4, 1, 0, false),
-                               plane(ABUT_FACET_QUAD4, 1, 0.7, true), 0, 0.5),
+  assert_int_equal(compare_all(scene_square(ABUT_FACET_QUAD4, 1, 0, false),
+                               scene_square(ABUT_FACET_QUAD4, 1, 0.7, true), 0,
+                               0.5),
                    0);
   assert_int_equal(
-      compare_all(empty, plane(ABUT_FACET_QUAD4, 2, 0, true), 0, 1), 0);
+      compare_all(empty, scene_square(ABUT_FACET_QUAD4, 2, 0, true), 0, 1), 0);
   assert_int_equal(
-      compare_all(plane(ABUT_FACET_QUAD4, 2, 0, true), empty, 0, 1), 0);
+      compare_all(scene_square(ABUT_FACET_QUAD4, 2, 0, true), empty, 0, 1), 0);
   assert_int_equal(compare_all(empty, empty, 0, 1), 0);
 }
 
@@ -351,8 +350,8 @@ one_large_query(void **state)
   const double angles[3] = {0.3, 0.5, 0.7}, shift[3] = {0, 0, 0};
   for (int32_t n = 1; n < 7; ++n)
   {
-    scene_mesh a = plane(ABUT_FACET_QUAD4, n, 0, false),
-               b = plane(ABUT_FACET_QUAD4, 1, 0, true);
+    scene_mesh a = scene_square(ABUT_FACET_QUAD4, n, 0, false),
+               b = scene_square(ABUT_FACET_QUAD4, 1, 0, true);
     scene_move(&a, 1, angles, shift);
     scene_move(&b, 1, angles, shift);
     assert_true(compare_all(a, b, 0.1, 0) >= 4);
@@ -363,7 +362,7 @@ static void
 all_nodes_in_one_point(void **state)
 {
   (void)state;
-  scene_mesh mesh = plane(ABUT_FACET_QUAD4, 7, 0, false);
+  scene_mesh mesh = scene_square(ABUT_FACET_QUAD4, 7, 0, false);
   abut_surface *s = surface_of(&mesh);
   double point[3 * 100];
   for (int i = 0; i < 300; ++i)
@@ -407,8 +406,8 @@ huge_and_tiny_coordinates(void **state)
   static const double shift[5] = {0, 0, 1e9, -1e6, 0};
   for (int i = 0; i < 5; ++i)
   {
-    scene_mesh a = plane(ABUT_FACET_QUAD4, 12, 0, false);
-    scene_mesh b = plane(ABUT_FACET_QUAD4, 9, 0.01, true);
+    scene_mesh a = scene_square(ABUT_FACET_QUAD4, 12, 0, false);
+    scene_mesh b = scene_square(ABUT_FACET_QUAD4, 9, 0.01, true);
     moved(&a, scale[i], shift[i]);
     moved(&b, scale[i], shift[i]);
     assert_true(compare_all(a, b, 0, 0.5) > 0);
@@ -421,9 +420,9 @@ static void
 tiny_cluster_in_a_large_scene(void **state)
 {
   (void)state;
-  scene_mesh far = plane(ABUT_FACET_QUAD4, 2, 0, false);
-  scene_mesh near = plane(ABUT_FACET_QUAD4, 20, 0, false);
-  scene_mesh other = plane(ABUT_FACET_QUAD4, 15, 0.01, true);
+  scene_mesh far = scene_square(ABUT_FACET_QUAD4, 2, 0, false);
+  scene_mesh near = scene_square(ABUT_FACET_QUAD4, 20, 0, false);
+  scene_mesh other = scene_square(ABUT_FACET_QUAD4, 15, 0.01, true);
   const double zero[3] = {0, 0, 0}, away[3] = {1e12, 1e12, 1e12};
   scene_move(&far, 1, zero, away);
   scene_mesh both = scene_join(near, far);
@@ -523,10 +522,7 @@ renumbering(void **state)
   require(abut_pairs_destroy(&before));
   require(abut_pairs_destroy(&after));
   require(abut_pairs_destroy(&facets));
-  require(abut_surface_destroy(&s));
-  require(abut_surface_destroy(&t));
-  scene_free(&a);
-  scene_free(&b);
+  destroy_both(&s, &t, &a, &b);
 }
 
 /* Boxes turn with the axes: pairs are the same after a translation by numbers
@@ -543,8 +539,8 @@ translation_and_quarter_turns(void **state)
   require(abut_pairs_create(context, &facets));
   for (int turn = 0; turn < 3; ++turn)
   {
-    scene_mesh mesh[2] = {plane(ABUT_FACET_QUAD4, 16, 0, false),
-                          plane(ABUT_FACET_TRI3, 8, 0.015625, true)};
+    scene_mesh mesh[2] = {scene_square(ABUT_FACET_QUAD4, 16, 0, false),
+                          scene_square(ABUT_FACET_TRI3, 8, 0.015625, true)};
     abut_surface *s = surface_of(&mesh[0]), *t = surface_of(&mesh[1]);
     run(s, t, &o, before, facets);
     for (int k = 0; k < 2; ++k)
@@ -580,8 +576,8 @@ motion_with_skin(void **state)
   (void)state;
   for (int algorithm = 1; algorithm < ABUT_SEARCH_N_ALGORITHMS; ++algorithm)
   {
-    scene_mesh a = plane(ABUT_FACET_QUAD4, 20, 0, false);
-    scene_mesh b = plane(ABUT_FACET_QUAD4, 15, 0.02, true);
+    scene_mesh a = scene_square(ABUT_FACET_QUAD4, 20, 0, false);
+    scene_mesh b = scene_square(ABUT_FACET_QUAD4, 15, 0.02, true);
     abut_surface *s = surface_of(&a), *t = surface_of(&b);
     abut_search *search = NULL;
     abut_search_statistics z;
@@ -624,10 +620,7 @@ motion_with_skin(void **state)
       require(abut_pairs_destroy(&pairs[i]));
       require(abut_pairs_destroy(&fresh[i]));
     }
-    require(abut_surface_destroy(&s));
-    require(abut_surface_destroy(&t));
-    scene_free(&a);
-    scene_free(&b);
+    destroy_both(&s, &t, &a, &b);
   }
 }
 
@@ -638,8 +631,8 @@ memory(void **state)
 {
   (void)state;
   static const double sizes[] = {0, 1e-12, 2, 1e12};
-  scene_mesh a = plane(ABUT_FACET_QUAD4, 100, 0, false);
-  scene_mesh b = plane(ABUT_FACET_QUAD4, 75, 0.001, true);
+  scene_mesh a = scene_square(ABUT_FACET_QUAD4, 100, 0, false);
+  scene_mesh b = scene_square(ABUT_FACET_QUAD4, 75, 0.001, true);
   abut_surface *s = surface_of(&a), *t = surface_of(&b);
   abut_pairs *pairs = NULL;
   require(abut_pairs_create(context, &pairs));
@@ -673,17 +666,14 @@ memory(void **state)
       require(abut_search_destroy(&search));
     }
   require(abut_pairs_destroy(&pairs));
-  require(abut_surface_destroy(&s));
-  require(abut_surface_destroy(&t));
-  scene_free(&a);
-  scene_free(&b);
+  destroy_both(&s, &t, &a, &b);
 }
 
 static void
 wrong_arguments(void **state)
 {
   (void)state;
-  scene_mesh mesh = plane(ABUT_FACET_QUAD4, 2, 0, false);
+  scene_mesh mesh = scene_square(ABUT_FACET_QUAD4, 2, 0, false);
   abut_surface *s = surface_of(&mesh);
   abut_search *search = NULL;
   abut_pairs *pairs = NULL;
