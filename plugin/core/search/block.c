@@ -244,7 +244,7 @@ is_near(const abut_exact *e, const double *sides, double *square)
   const double z = sides[2] - e->centre[2];
   const two cc = c * c;
   const double d2 = cc[0] + cc[1] + z * z;
-  const __typeof__(c < c) in =
+  const __typeof__(c < cc) in =
       (load_two(sides) >= load_two(e->bound))
       & (load_two(sides + 2) >= load_two(e->bound + 2))
       & (load_two(sides + 4) >= load_two(e->bound + 4));

@@ -101,15 +101,18 @@ static void
 measure_general(const abut_surface *s, const int32_t *facets, int32_t n,
                 abut_lanes *m)
 {
-  for (int32_t l = 0; l < n; ++l)
+  abut_facet_measures one = {0};
+  double nodes[3 * ABUT_FACET_MAX_NODES], size = 0;
+  for (int32_t l = 0; l < ABUT_LANES; ++l)
   {
-    const int32_t f = facets[l];
-    double nodes[3 * ABUT_FACET_MAX_NODES];
-    abut_facet_measures one;
-    const abut_facet_kind kind = (abut_facet_kind)s->view.kinds[f];
-    abut_surface_gather(s, f, nodes);
-    /* Cannot fail: kind and positions were checked by the surface. */
-    (void)abut_facet_measure(kind, nodes, &one);
+    if (l < n)
+    {
+      const abut_facet_kind kind = (abut_facet_kind)s->view.kinds[facets[l]];
+      abut_surface_gather(s, facets[l], nodes);
+      /* Cannot fail: kind and positions were checked by the surface. */
+      (void)abut_facet_measure(kind, nodes, &one);
+      size = abut_surface_longest_side(kind, nodes);
+    }
     for (int d = 0; d < 3; ++d)
     {
       m->lower[d][l] = one.lower[d];
@@ -118,12 +121,8 @@ measure_general(const abut_surface *s, const int32_t *facets, int32_t n,
       m->normal[d][l] = one.normal[d];
     }
     m->radius[l] = one.radius;
-    m->size[l] = abut_surface_longest_side(kind, nodes);
+    m->size[l] = size;
   }
-  double *row = m->lower[0];
-  for (size_t k = 0; k < sizeof(*m) / sizeof(m->size); ++k, row += ABUT_LANES)
-    for (int32_t l = n; l < ABUT_LANES; ++l)
-      row[l] = row[n - 1];
 }
 
 ABUT_CLONES void
