@@ -42,7 +42,9 @@ extern "C"
   {
     ABUT_LAW_HARD = 1,     /**< a vanishes on closed rows: a true constraint */
     ABUT_LAW_INTERIOR = 2, /**< needs p > 0 and s > 0; the state is not used */
-    ABUT_LAW_SLACK = 4     /**< s is an unknown of its own (field slack) */
+    ABUT_LAW_SLACK = 4,    /**< s is an unknown of its own (field slack) */
+    ABUT_LAW_STRESS = 8    /**< the gap that the law is given is g + sigma_n/eps
+                                with the body's normal stress (Nitsche) */
   } abut_law_flag;
 
   /** Outer iteration that a law asks for. */
@@ -100,7 +102,8 @@ extern "C"
   } abut_law;
 
   /** Built-in law by its name ("lagrange", "penalty", "quadratic penalty",
-   * "augmented lagrangian", "barrier", "interior point"), or NULL. */
+   * "augmented lagrangian", "barrier", "interior point", "nitsche"), or NULL.
+   */
   ABUT_API const abut_law *abut_law_find(const char *name);
 
   /** Built-in law number @p i, counted from 0; NULL past the end. */

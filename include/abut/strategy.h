@@ -75,7 +75,8 @@ extern "C"
     double length_scale;   /**< > 0, length; default 1 */
     double pressure_scale; /**< > 0, force per area; default 1 */
     /** eps = penalty * stiffness. Default 0 = the law's own: 50 for penalty
-     * and augmented lagrangian 20, quadratic penalty starts at 1. */
+     * and augmented lagrangian 20, nitsche 10, quadratic penalty starts at 1.
+     */
     double penalty;
     double penalty_growth; /**< factor of quadratic penalty; default 10 */
     double penalty_cap;    /**< largest eps/stiffness; default 1e6 */

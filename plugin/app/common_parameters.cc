@@ -110,6 +110,16 @@ namespace abut::app
     prm.leave_subsection();
   }
 
+  void require_law_without_stress(const MethodParameters &method)
+  {
+    if ((method.options.law->flags & ABUT_LAW_STRESS) != 0)
+      throw InputError("Method/Enforcement",
+                       std::string(method.options.law->name)
+                           + " works with the stress of elastic bodies, of "
+                             "which this scene has none: use lagrange or "
+                             "augmented lagrangian.");
+  }
+
   void write_reference(std::ostream &out)
   {
     out << "# Parameters\n\n"

@@ -5,6 +5,8 @@
 #include "parameters.h"
 #include "scene.h"
 
+#include <abut/dealii/method_parameters.h>
+
 #include <iosfwd>
 
 namespace abut::app
@@ -20,6 +22,10 @@ namespace abut::app
    * @p scene. */
   void declare_all(dealii::ParameterHandler &prm, const SceneKind &kind,
                    const Scene &scene);
+
+  /** Throw InputError for laws that need the stress of elastic bodies: for
+   * scenes without any. */
+  void require_law_without_stress(const MethodParameters &method);
 
   /** The reference of all scenes' parameters as Markdown. */
   void write_reference(std::ostream &out);

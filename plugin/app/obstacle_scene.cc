@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "obstacle_scene.h"
 
+#include "common_parameters.h"
 #include "obstacle_run.h"
 
 namespace abut::app
@@ -20,6 +21,7 @@ namespace abut::app
       {
         parameters.parse(prm);
         method.parse_parameters(prm);
+        require_law_without_stress(method);
         solver.parse_parameters(prm);
       }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "point_mass.h"
 
+#include "common_parameters.h"
 #include "input_error.h"
 #include "json.h"
 #include "parameters.h"
@@ -204,6 +205,7 @@ namespace abut::app
     {
       parse_model(prm);
       method.parse_parameters(prm);
+      require_law_without_stress(method);
       prm.enter_subsection("Method");
       const double barrier = prm.get_double("Barrier parameter");
       prm.leave_subsection();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The contact iteration of the scene `solid`.
+#include "elastic_normal_stress.h"
 #include "input_error.h"
 #include "solid_run.h"
 
@@ -31,6 +32,8 @@ namespace abut::app
     }
     pairs->set_time(present.time);
     contact.set_pairs(pairs->pairs());
+    contact.set_normal_stress(std::make_shared<ElasticNormalStress<dim>>(
+        elasticity.mapping, data.materials));
   }
 
   template <int dim> void SolidRun<dim>::detect()

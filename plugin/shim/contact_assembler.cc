@@ -85,6 +85,13 @@ namespace abut
   }
 
   template <int dim>
+  void ContactAssembler<dim>::set_normal_stress(
+      std::shared_ptr<const NormalStress<dim>> normal_stress)
+  {
+    implementation->normal_stress = std::move(normal_stress);
+  }
+
+  template <int dim>
   void ContactAssembler<dim>::assume_constant_matrix(const bool constant)
   {
     implementation->constant_matrix = constant;
@@ -205,8 +212,9 @@ namespace abut
   void ContactAssembler<dim>::add(la::Matrix &matrix, la::Vector &residual)
   {
     Implementation &i = *implementation;
-    const std::uint32_t hard = ABUT_LAW_HARD | ABUT_LAW_INTERIOR;
-    AssertThrow((i.method.options.law->flags & hard) == 0,
+    const std::uint32_t refused =
+        ABUT_LAW_HARD | ABUT_LAW_INTERIOR | ABUT_LAW_STRESS;
+    AssertThrow((i.method.options.law->flags & refused) == 0,
                 ExcMessage(std::string("The law '") + i.method.options.law->name
                            + "' cannot be added to a matrix row by row: use "
                              "ContactAssembler::solve()."));

@@ -135,6 +135,8 @@ namespace abut
     rows_signature = signature(view);
     if (MPI::logical_or(before != rows_signature, communicator))
       solver_is_ready = false;
+    if (is_nitsche())
+      find_stress();
     start_pressure.clear();
     if (start_field.size() > 0)
     {
@@ -146,11 +148,50 @@ namespace abut
   }
 
   template <int dim>
+  bool ContactAssembler<dim>::Implementation::is_nitsche() const
+  {
+    return (method.options.law->flags & ABUT_LAW_STRESS) != 0;
+  }
+
+  template <int dim> void ContactAssembler<dim>::Implementation::find_stress()
+  {
+    AssertThrow(
+        surfaces != nullptr,
+        ExcMessage("Method/Enforcement = nitsche is for elastic bodies, "
+                   "not for membranes. Use lagrange."));
+    AssertThrow(normal_stress != nullptr,
+                ExcMessage("Method/Enforcement = nitsche needs the stress of "
+                           "the bodies: call set_normal_stress() first."));
+    surfaces->find_stress(*normal_stress, stress.get());
+    abut_rows_view stress_view = {};
+    check(abut_rows_get(stress.get(), &stress_view));
+    nitsche.stress = solve::RowOperator(dof_handler->locally_owned_dofs(),
+                                        stress_view, communicator);
+    nitsche.theta = method.nitsche_theta;
+    nitsche.compliance.assign(view.n_rows, 0.);
+    nitsche.normal_stress.assign(view.n_rows, 0.);
+  }
+
+  template <int dim>
   void ContactAssembler<dim>::Implementation::compute_gap(
       const la::Vector &displacement)
   {
     gap.resize(view.n_rows);
     coefficients.gap(displacement, gap.data());
+    if (is_nitsche())
+      nitsche.stress.gap(displacement, nitsche.normal_stress.data());
+  }
+
+  template <int dim>
+  const double *ContactAssembler<dim>::Implementation::law_gap()
+  {
+    if (!is_nitsche())
+      return gap.data();
+    nitsche_gap.resize(view.n_rows);
+    for (int i = 0; i < view.n_rows; ++i)
+      nitsche_gap[i] =
+          gap[i] + nitsche.compliance[i] * nitsche.normal_stress[i];
+    return nitsche_gap.data();
   }
 
   template <int dim>
@@ -181,9 +222,8 @@ namespace abut
     // Surfaces that touch have gaps of round-off, which measure nothing; then
     // it is the indentation by the load.
     if (surfaces != nullptr && start_displacement.linfty_norm() == 0.)
-      options.length_scale =
-          std::max(options.length_scale,
-                   options.pressure_scale * softness(matrix));
+      options.length_scale = std::max(
+          options.length_scale, options.pressure_scale * softness(matrix));
   }
 
   template <int dim>
@@ -232,6 +272,13 @@ namespace abut
 
     const std::vector<double> stiffness =
         solve::row_stiffness(matrix, coefficients);
+    if (is_nitsche())
+    {
+      if (!(method.options.penalty > 0.))
+        method.options.penalty = 10.;
+      for (int i = 0; i < view.n_rows; ++i)
+        nitsche.compliance[i] = 1. / (method.options.penalty * stiffness[i]);
+    }
     if (surfaces != nullptr && start_state.empty()
         && (method.options.law->flags & ABUT_LAW_INTERIOR) == 0)
     {
@@ -242,7 +289,7 @@ namespace abut
     }
     check(abut_strategy_start(
         strategy.get(), view.n_rows, view.id, view.weight, stiffness.data(),
-        view.bilateral, gap.data(),
+        view.bilateral, law_gap(),
         start_pressure.empty() ? nullptr : start_pressure.data(),
         start_state.empty() ? nullptr : start_state.data()));
     is_started = true;
@@ -257,8 +304,11 @@ namespace abut
       return;
     if (solver == nullptr)
     {
-      solver = solve::make_row_solver(method.system, solver_parameters, matrix,
-                                      view);
+      solver = is_nitsche()
+                   ? std::make_unique<solve::NitscheSolver>(solver_parameters,
+                                                            nitsche)
+                   : solve::make_row_solver(method.system, solver_parameters,
+                                            matrix, view);
       solver->set_near_null_space(near_null_space);
     }
     solver->reinit(matrix, view);
@@ -267,7 +317,7 @@ namespace abut
 
   template <int dim> void ContactAssembler<dim>::Implementation::next()
   {
-    check(abut_strategy_next(strategy.get(), gap.data(), &request));
+    check(abut_strategy_next(strategy.get(), law_gap(), &request));
   }
 
   template <int dim>

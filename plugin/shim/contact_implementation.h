@@ -4,6 +4,7 @@
 
 #include "handles.h"
 #include "row_source.h"
+#include "solve/nitsche_solver.h"
 #include "solve/row_operator.h"
 #include "solve/row_solver.h"
 #include "surface_pair_rows.h"
@@ -26,7 +27,12 @@ namespace abut
     const shim::RowSource &present_source() const;
     void create_source();
     void find_rows(const la::Vector &displacement);
+    void find_stress();
     void compute_gap(const la::Vector &displacement);
+    /** Whether the law needs the normal stress of the bodies. */
+    bool is_nitsche() const;
+    /** The gap as the law wants it. */
+    const double *law_gap();
     void set_scales(const la::Matrix &matrix, const la::Vector &residual);
     double length_scale() const;
     /** Length by pressure: inverse mean of the rows' stiffness. */
@@ -61,6 +67,11 @@ namespace abut
     abut_rows_view view = {};
     solve::RowOperator coefficients; ///< B of these rows
     dealii::types::global_dof_index n_rows = 0;
+
+    std::shared_ptr<const NormalStress<dim>> normal_stress;
+    shim::Handle<abut_rows> stress = shim::create_rows(context.get());
+    solve::NitscheTerms nitsche;
+    std::vector<double> nitsche_gap; ///< [rows] gap + sigma_n / gamma
 
     la::Vector start_field;                ///< pressure to start from; empty: 0
     std::vector<double> start_pressure;    ///< [rows] of it, at least 0 unless

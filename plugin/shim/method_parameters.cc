@@ -77,8 +77,12 @@ namespace abut
       declare_number(prm, "Penalty", d.penalty, 0, huge,
                      "Stiffness of the contact as a multiple of the local "
                      "stiffness of the contact surface. 0 takes the method's "
-                     "own: penalty 50, augmented lagrangian 20, quadratic "
-                     "penalty starts at 1.");
+                     "own: penalty 50, augmented lagrangian 20, nitsche "
+                     "10, quadratic penalty starts at 1.");
+      prm.declare_entry("Nitsche theta", "0", Patterns::Double(-1, 1),
+                        "Variant of `nitsche`: 1 is symmetric and needs the "
+                        "larger penalties, 0 has the fewest terms, -1 "
+                        "converges for all penalties.");
       declare_number(prm, "Penalty growth", d.penalty_growth, 1, huge,
                      "Factor by which `quadratic penalty` raises the penalty "
                      "in each outer step.");
@@ -140,12 +144,14 @@ namespace abut
                         "penalties or barriers) in one solve.");
     }
 
-    void parse_numbers(ParameterHandler &prm, abut_strategy_options &o)
+    void parse_numbers(ParameterHandler &prm, abut_strategy_options &o,
+                       double &nitsche_theta)
     {
       const std::map<std::string, double *> fields = {
           {"Penalty", &o.penalty},
           {"Penalty growth", &o.penalty_growth},
           {"Penalty cap", &o.penalty_cap},
+          {"Nitsche theta", &nitsche_theta},
           {"Allowed penetration", &o.allowed_penetration},
           {"Complementarity parameter", &o.complementarity},
           {"Barrier start", &o.barrier_start},
@@ -179,6 +185,14 @@ namespace abut
       return with
              + " cannot glue surfaces: an equality has no interior. Use "
                "lagrange, penalty or augmented lagrangian.";
+    if ((law.flags & ABUT_LAW_STRESS) != 0
+        && (tied || discretisation != Discretisation::quadrature_point))
+      return with
+             + (tied ? " is for contact, not for tied surfaces. Use lagrange, "
+                       "penalty or augmented lagrangian."
+                     : " takes the stress at quadrature points: leave "
+                       "Method/Discretisation = auto, or say quadrature "
+                       "point.");
     if (discretisation == Discretisation::quadrature_point
         && (tied || hard || law.outer == ABUT_OUTER_PRIMAL_DUAL))
       return (tied ? "Tied surfaces" : with)
@@ -209,7 +223,9 @@ namespace abut
                       "multiplier updates, exact in the limit at a moderate "
                       "penalty. `barrier`: from inside the feasible set, with "
                       "a barrier that goes to zero. `interior point`: the "
-                      "same with primal-dual steps from any start.");
+                      "same with primal-dual steps from any start. `nitsche`: "
+                      "by the bodies' own stress, at quadrature points; for "
+                      "elastic bodies, not for membranes and point masses.");
     declare_discretisation(prm);
     declare_penalty(prm, defaults);
     declare_barrier(prm, defaults);
@@ -226,7 +242,7 @@ namespace abut
   {
     prm.enter_subsection("Method");
     options.law = abut_law_find(prm.get("Enforcement").c_str());
-    parse_numbers(prm, options);
+    parse_numbers(prm, options, nitsche_theta);
     const std::string word = prm.get("System");
     system = word == "condensed"      ? System::condensed
              : word == "saddle point" ? System::saddle_point

@@ -75,7 +75,9 @@ namespace abut::shim
       const dealii::AffineConstraints<double> &constraints,
       const std::vector<ContactPair<dim>> &pairs, const Settings &settings,
       abut_context *context)
-      : dof_handler_(dof_handler),
+      : mapping_(mapping),
+        dof_handler_(dof_handler),
+        constraints_(constraints),
         communicator_(dof_handler.get_communicator()),
         settings_(settings),
         context_(context),
@@ -102,12 +104,14 @@ namespace abut::shim
     Pair pair;
     pair.data = data;
     pair.discretisation = settings_.method.discretisation;
+    const abut_law &law = *settings_.method.options.law;
     if (pair.discretisation == Discretisation::automatic)
-      pair.discretisation = data.obstacle ? Discretisation::node_to_segment
-                                          : Discretisation::dual_mortar;
+      pair.discretisation = (law.flags & ABUT_LAW_STRESS) != 0
+                                ? Discretisation::quadrature_point
+                            : data.obstacle ? Discretisation::node_to_segment
+                                            : Discretisation::dual_mortar;
     const std::string reason =
-        refusal(*settings_.method.options.law, pair.discretisation,
-                settings_.method.system, data.tied);
+        refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
       throw ContactError("Pair '" + data.name + "': " + reason);
     if (!pairs_.empty())
@@ -329,6 +333,9 @@ namespace abut::shim
                       ? std::int64_t(row.node) * dim + std::max(component, 0)
                       : pair.secondary.facet[view.facet[i]] * points_per_facet
                             + view.point[i]);
+      row.facet = row.node < 0 ? pair.secondary.facet[view.facet[i]] : -1;
+      for (unsigned int d = 0; d < dim; ++d)
+        row.position[d] = view.position[i * dim + d];
       row.weight = view.weight[i];
       row.gap = 0.;
       if (component < 0)

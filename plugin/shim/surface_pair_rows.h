@@ -8,6 +8,7 @@
 
 #include <abut/dealii/contact_pair.h>
 #include <abut/dealii/method_parameters.h>
+#include <abut/dealii/normal_stress.h>
 #include <abut/rows.h>
 
 namespace abut::shim
@@ -40,6 +41,14 @@ namespace abut::shim
                     const Settings &settings, abut_context *context);
 
     void find(const la::Vector &displacement, abut_rows *rows) override;
+
+    /** Replace @p stress by the normal stress at the present rows, which must
+     * be those of quadrature points: the same numbers and weights, sigma_n at
+     * displacement 0 as the gap and d sigma_n/du as coefficients. Throws on
+     * all ranks. Collective. */
+    void find_stress(const NormalStress<dim> &normal_stress,
+                     abut_rows *stress) const;
+
     std::vector<double> row_pressure(const la::Vector &field) const override;
     la::Vector pressure(const double *row_pressure) const override;
     la::Vector gap(const double *row_gap) const override;
@@ -102,7 +111,9 @@ namespace abut::shim
       std::size_t pair;
       Node node; ///< -1: quadrature point
       double weight;
-      double gap;                            ///< at displacement 0
+      double gap;         ///< at displacement 0
+      std::int32_t facet; ///< of a quadrature point, in the whole surface
+      dealii::Point<dim> position;           ///< where the row sits
       Direction direction;                   ///< normal, or axis of a tie
       std::size_t first, first_primary, end; ///< entries
     };
@@ -133,7 +144,9 @@ namespace abut::shim
     template <typename Function>
     void for_each_share(const Function &function) const;
 
+    const dealii::Mapping<dim> &mapping_;
     const dealii::DoFHandler<dim> &dof_handler_;
+    const dealii::AffineConstraints<double> &constraints_;
     const MPI_Comm communicator_;
     const Settings settings_;
     abut_context *const context_;

@@ -92,15 +92,7 @@ namespace abut::solve
 
   bool CondensedSolver::is_direct() const
   {
-    switch (parameters_.linear)
-    {
-    case SolverParameters::Linear::direct:
-      return true;
-    case SolverParameters::Linear::iterative:
-      return false;
-    default:
-      return stiffness_->m() <= parameters_.direct_limit;
-    }
+    return wants_factors(parameters_, *stiffness_);
   }
 
   bool CondensedSolver::is_outdated() const

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "direct_solver.h"
 
-#include <abut/dealii/solver_parameters.h>
-
 #include <Amesos.h>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_LinearProblem.h>
@@ -27,6 +25,20 @@ namespace abut::solve
                             "memory: try Solver/Linear solver = iterative.");
     }
   } // namespace
+
+  bool wants_factors(const SolverParameters &parameters,
+                     const la::Matrix &matrix)
+  {
+    switch (parameters.linear)
+    {
+    case SolverParameters::Linear::direct:
+      return true;
+    case SolverParameters::Linear::iterative:
+      return false;
+    default:
+      return matrix.m() <= parameters.direct_limit;
+    }
+  }
 
   std::string DirectSolver::name()
   {

@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_DIRECT_SOLVER_H
 
 #include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/solver_parameters.h>
 
 #include <memory>
 #include <string>
@@ -13,6 +14,10 @@ class Epetra_LinearProblem;
 
 namespace abut::solve
 {
+  /** Whether systems like @p matrix are to be factorised. */
+  bool wants_factors(const SolverParameters &parameters,
+                     const la::Matrix &matrix);
+
   /** A sparse factorisation by Amesos: MUMPS where it is built in, else KLU.
    * deal.II's wrapper of the same cannot give MUMPS the room that indefinite
    * matrices need beyond its estimate. */

@@ -53,15 +53,7 @@ namespace abut::solve
 
   bool MaskedSolver::is_direct() const
   {
-    switch (parameters_.linear)
-    {
-    case SolverParameters::Linear::direct:
-      return true;
-    case SolverParameters::Linear::iterative:
-      return false;
-    default:
-      return matrix_->m() <= parameters_.direct_limit;
-    }
+    return wants_factors(parameters_, *matrix_);
   }
 
   bool MaskedSolver::is_plain(const Mask &mask) const

@@ -134,7 +134,7 @@ shifted_gap(const char *name, const sample *s, int i)
     return g;
   if (strcmp(name, "penalty") == 0)
     return g + (s->bilateral[i] ? 0 : 0.125) + p * ieps;
-  if (strcmp(name, "quadratic penalty") == 0)
+  if (strcmp(name, "quadratic penalty") == 0 || strcmp(name, "nitsche") == 0)
     return g + p * ieps;
   return g + (p - s->reference[i]) * ieps;
 }
@@ -213,16 +213,20 @@ static void
 names(void **unused)
 {
   (void)unused;
-  const char *words[] = {"lagrange",          "penalty",
-                         "quadratic penalty", "augmented lagrangian",
-                         "barrier",           "interior point"};
-  for (int32_t i = 0; i < 6; ++i)
+  const char *words[] = {"lagrange",
+                         "penalty",
+                         "quadratic penalty",
+                         "augmented lagrangian",
+                         "barrier",
+                         "interior point",
+                         "nitsche"};
+  for (int32_t i = 0; i < 7; ++i)
   {
     assert_string_equal(abut_law_get(i)->name, words[i]);
     assert_ptr_equal(abut_law_get(i), abut_law_find(words[i]));
     assert_int_equal(abut_law_get(i)->struct_size, sizeof(abut_law));
   }
-  assert_null(abut_law_get(6));
+  assert_null(abut_law_get(7));
   assert_null(abut_law_get(-1));
   assert_null(abut_law_find("lagrangian"));
   assert_null(abut_law_find(NULL));

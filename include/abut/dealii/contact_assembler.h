@@ -25,6 +25,7 @@
 #include <abut/dealii/contact_pair.h>
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/method_parameters.h>
+#include <abut/dealii/normal_stress.h>
 #include <abut/dealii/search_parameters.h>
 #include <abut/dealii/solver_parameters.h>
 #include <abut/strategy.h>
@@ -102,6 +103,11 @@ namespace abut
      * Default: false. Not collective. */
     void set_axisymmetric(bool axisymmetric);
 
+    /** The normal stress of the bodies, which `nitsche` needs. Takes effect at
+     * detect(). Not collective. */
+    void
+    set_normal_stress(std::shared_ptr<const NormalStress<dim>> normal_stress);
+
     /** Say that the matrix given to solve() is the same until the next
      * reinit(): preconditioners are then kept. Default: false. Not
      * collective. */
@@ -152,8 +158,8 @@ namespace abut
     /** For hosts with a linear solver of their own: add the condensed contact
      * terms to @p matrix and @p residual, so that matrix increment =
      * -residual is the step with contact; then call update(). Throws for laws
-     * with true constraints (lagrange) and for interior point, which need
-     * solve(). */
+     * with true constraints (lagrange), for interior point and for nitsche,
+     * which need solve(). */
     void add(la::Matrix &matrix, la::Vector &residual);
 
     /** Tell the displacement after the step; advances active set, multipliers

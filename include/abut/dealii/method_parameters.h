@@ -61,6 +61,9 @@ namespace abut
     /** How rows between surfaces are made; membranes have no choice. */
     Discretisation discretisation = Discretisation::automatic;
 
+    /** Of `nitsche`: 1 (symmetric), 0 or -1. */
+    double nitsche_theta = 0.;
+
     /** Degree of mortar multipliers on quadratic facets: 1 or 2; 0 takes the
      * degree of the facets. */
     unsigned int multiplier_degree = 0;

@@ -7,6 +7,7 @@ static const abut_law *const table[] = {
     &abut_law_lagrange,          &abut_law_penalty,
     &abut_law_quadratic_penalty, &abut_law_augmented_lagrangian,
     &abut_law_barrier,           &abut_law_interior_point,
+    &abut_law_nitsche,
 };
 
 enum

@@ -12,5 +12,6 @@ extern const abut_law abut_law_quadratic_penalty;
 extern const abut_law abut_law_augmented_lagrangian;
 extern const abut_law abut_law_barrier;
 extern const abut_law abut_law_interior_point;
+extern const abut_law abut_law_nitsche;
 
 #endif

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Penalty laws. p = eps <-g - e> with a fixed eps ("penalty"), or p = eps <-g>
  * with an eps that grows from outer step to outer step ("quadratic penalty",
- * the textbook's sequence of quadratic penalty functions). */
+ * the textbook's sequence of quadratic penalty functions). Nitsche's method is
+ * the latter with a fixed eps and a gap that holds the body's own normal stress
+ * (Chouly, Hild and Renard, Math. Comp. 84 (2015) 1089). */
 #include "law/complementarity.h"
 #include "law/law_table.h"
 
@@ -21,14 +23,14 @@ linearise_fixed(const abut_law_points *points, const uint8_t *state,
 }
 
 static abut_status
-classify_growing(const abut_law_points *points, uint8_t *state)
+classify_plain(const abut_law_points *points, uint8_t *state)
 {
   return abut_complementarity_classify(points, ABUT_TERM_COMPLIANCE, state);
 }
 
 static abut_status
-linearise_growing(const abut_law_points *points, const uint8_t *state,
-                  abut_law_linearisation *result)
+linearise_plain(const abut_law_points *points, const uint8_t *state,
+                abut_law_linearisation *result)
 {
   return abut_complementarity_linearise(points, ABUT_TERM_COMPLIANCE, state,
                                         result);
@@ -48,6 +50,15 @@ const abut_law abut_law_quadratic_penalty = {
     .name = "quadratic penalty",
     .flags = 0,
     .outer = ABUT_OUTER_PENALTY,
-    .classify = classify_growing,
-    .linearise = linearise_growing,
+    .classify = classify_plain,
+    .linearise = linearise_plain,
+};
+
+const abut_law abut_law_nitsche = {
+    .struct_size = sizeof(abut_law),
+    .name = "nitsche",
+    .flags = ABUT_LAW_STRESS,
+    .outer = ABUT_OUTER_NONE,
+    .classify = classify_plain,
+    .linearise = linearise_plain,
 };

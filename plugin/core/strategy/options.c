@@ -110,6 +110,6 @@ abut_strategy_first_penalty(const abut_strategy_options *options)
   case ABUT_OUTER_MULTIPLIER:
     return 20;
   default:
-    return 50;
+    return (options->law->flags & ABUT_LAW_STRESS) != 0 ? 10 : 50;
   }
 }

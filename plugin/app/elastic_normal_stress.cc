@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "elastic_normal_stress.h"
+
+#include <deal.II/base/quadrature.h>
+#include <deal.II/fe/fe_values.h>
+
+namespace abut::app
+{
+  template <int dim>
+  void ElasticNormalStress<dim>::evaluate(
+      const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+      const std::vector<dealii::Point<dim>> &unit_point,
+      const std::vector<dealii::Tensor<1, dim>> &normal,
+      dealii::FullMatrix<double> &derivative) const
+  {
+    dealii::FEValues<dim> values(
+        mapping_, cell->get_fe(), dealii::Quadrature<dim>(unit_point),
+        dealii::update_values | dealii::update_gradients
+            | dealii::update_quadrature_points);
+    values.reinit(cell);
+    const ElasticMaterial &material = materials_.at(cell->material_id());
+    const dealii::FEValuesExtractors::Vector displacement(0);
+    for (unsigned int q = 0; q < unit_point.size(); ++q)
+      for (unsigned int k = 0; k < values.dofs_per_cell; ++k)
+      {
+        const Stress<dim> part = stress(
+            material, values[displacement].gradient(k, q),
+            values[displacement].value(k, q), values.quadrature_point(q));
+        derivative(q, k) = normal[q] * (part.tensor * normal[q]);
+      }
+  }
+
+  template class ElasticNormalStress<2>;
+  template class ElasticNormalStress<3>;
+} // namespace abut::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_ELASTIC_NORMAL_STRESS_H
+#define ABUT_APP_ELASTIC_NORMAL_STRESS_H
+
+#include "elastic_material.h"
+
+#include <abut/dealii/normal_stress.h>
+
+#include <deal.II/fe/mapping.h>
+
+namespace abut::app
+{
+  /** The normal stress of linear elastic bodies; both references must outlive
+   * it. */
+  template <int dim> class ElasticNormalStress : public NormalStress<dim>
+  {
+  public:
+    ElasticNormalStress(const dealii::Mapping<dim> &mapping,
+                        const ElasticMaterials &materials)
+        : mapping_(mapping), materials_(materials)
+    {
+    }
+
+    void
+    evaluate(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+             const std::vector<dealii::Point<dim>> &unit_point,
+             const std::vector<dealii::Tensor<1, dim>> &normal,
+             dealii::FullMatrix<double> &derivative) const override;
+
+  private:
+    const dealii::Mapping<dim> &mapping_;
+    const ElasticMaterials &materials_;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_NITSCHE_SOLVER_H
+#define ABUT_SOLVE_NITSCHE_SOLVER_H
+
+#include "row_operator.h"
+#include "row_solver.h"
+
+namespace abut::solve
+{
+  /** What Nitsche's method needs of each row beside its gap. */
+  struct NitscheTerms
+  {
+    RowOperator stress;             ///< S = d sigma_n / du, sigma_n(0) as gap
+    std::vector<double> compliance; ///< [rows] 1/gamma, length per pressure
+    std::vector<double> normal_stress; ///< [rows] sigma_n at the present u
+    double theta = 0.;                 ///< 1: symmetric, 0, -1
+  };
+
+  /** Rows under Nitsche's method (Chouly, Hild and Renard, Math. Comp. 84
+   * (2015) 1089): the pressure is
+   *
+   *     p = gamma <-g~>,   g~ = g + sigma_n(u) / gamma,
+   *
+   * so that the change of g~ is (B + S/gamma) du, where the body's own normal
+   * stress sigma_n takes the place of a multiplier; it acts on
+   * B + theta S/gamma, and K loses theta S^T w/gamma S. The request's gaps are
+   * g~. The matrix is symmetric for theta = 1 only. */
+  class NitscheSolver : public RowSolver
+  {
+  public:
+    /** @p terms must outlive this object and be those of the rows given to
+     * reinit() whenever solve() is called. */
+    NitscheSolver(const SolverParameters &parameters,
+                  const NitscheTerms &terms);
+
+    void set_near_null_space(const NearNullSpace &space) override;
+
+    void reinit(const la::Matrix &stiffness,
+                const abut_rows_view &rows) override;
+
+    LinearReport solve(const la::Vector &residual, const abut_request &request,
+                       double smallest_residual,
+                       la::Vector &increment) override;
+
+  private:
+    la::Vector right_hand_side(const la::Vector &residual,
+                               const abut_request &request) const;
+    la::Matrix assemble(const std::vector<double> &spring) const;
+    la::Matrix assemble_model(const std::vector<double> &spring) const;
+    bool is_direct() const;
+    void iterate(const la::Matrix &matrix, const std::vector<double> &spring,
+                 const la::Vector &rhs, double tolerance, la::Vector &x,
+                 LinearReport &report) const;
+    void recover(const abut_request &request,
+                 const la::Vector &increment) const;
+
+    SolverParameters parameters_;
+    NearNullSpace space_;
+    const NitscheTerms &terms_;
+    const la::Matrix *stiffness_ = nullptr;
+    RowOperator rows_;
+  };
+} // namespace abut::solve
+
+#endif
