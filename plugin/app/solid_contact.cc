@@ -106,11 +106,11 @@ namespace abut::app
       }
       if (held)
         continue;
-      report.warn("Nothing holds body " + std::to_string(body + 1)
-                  + ": its supports allow " + freedom[body].description
-                  + ", and it touches nothing. Press it against something, or "
-                    "give it a support (Body "
-                  + std::to_string(body + 1) + "/Support).");
+      failure = "Nothing holds body " + std::to_string(body + 1)
+                + ": its supports allow " + freedom[body].description
+                + ", and it touches nothing. Press it against something, or "
+                  "give it a support (Body "
+                + std::to_string(body + 1) + "/Support).";
       return false;
     }
     return true;
@@ -142,9 +142,9 @@ namespace abut::app
       iterate();
       if (present.reason != ABUT_REASON_CONVERGED)
       {
-        report.warn("The contact iteration ended without an answer after "
-                    + std::to_string(present.steps)
-                    + " steps: " + contact.explanation());
+        failure = "The contact iteration ended without an answer after "
+                  + std::to_string(present.steps)
+                  + " steps: " + contact.explanation();
         return false;
       }
       if (!is_held())
@@ -152,10 +152,10 @@ namespace abut::app
       if (is_complete())
         return true;
     }
-    report.warn("Nodes keep on penetrating without a constraint after "
-                + std::to_string(most_rounds)
-                + " searches: use smaller load steps (Load steps/Steps), or a "
-                  "larger Reach of the pair.");
+    failure = "Nodes keep on penetrating without a constraint after "
+              + std::to_string(most_rounds)
+              + " searches: use smaller load steps (Load steps/Steps), or a "
+                "larger Reach of the pair.";
     return false;
   }
 

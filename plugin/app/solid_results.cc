@@ -10,6 +10,12 @@ namespace abut::app
 {
   namespace MPI = dealii::Utilities::MPI;
 
+  namespace
+  {
+    /** Part of the largest displacement. */
+    constexpr double suspicious_penetration = 0.1;
+  } // namespace
+
   template <int dim> void SolidRun<dim>::declare_tables()
   {
     report.declare_columns({"load_step",
@@ -202,6 +208,14 @@ namespace abut::app
     report.set("contact_force", contact.contact_force());
     report.set("max_penetration", contact.penetration());
     report.set("max_complementarity", contact.complementarity());
+    const double way = u.linfty_norm();
+    if (contact.penetration() > suspicious_penetration * way)
+      report.warn("The bodies penetrate each other by "
+                  + short_number(contact.penetration(), 3)
+                  + ", where nothing moves by more than " + short_number(way, 3)
+                  + ": the contact is far too soft. Use a larger "
+                    "Method/Penalty, or the method augmented lagrangian or "
+                    "lagrange.");
   }
 
   template <int dim> void SolidRun<dim>::report_result(const bool converged)

@@ -184,9 +184,9 @@ namespace abut::app
     {
       return pairs->empty() ? solve_without_contact() : solve_with_contact();
     }
-    catch (const SolverFailure &failure)
+    catch (const SolverFailure &error)
     {
-      report.warn(failure.what());
+      failure = error.what();
       return false;
     }
   }
@@ -238,8 +238,11 @@ namespace abut::app
         pressure.clear();
       goes_on = load_steps.reject();
       if (goes_on)
-        report.progress("load step cut back, next time "
-                        + std::to_string(load_steps.target()));
+        report.progress("load step cut back to time "
+                        + short_number(load_steps.target(), 6) + ": "
+                        + failure);
+      else
+        report.warn(failure);
     }
     steps.write(communicator, options.output_folder);
     if (options.pictures && !states.empty())

@@ -139,6 +139,7 @@ namespace abut::app
     dealii::Vector<float> squared_estimate;
     unsigned int mesh_number = 0;
     SolidState present;
+    std::string failure; ///< why the last solve has no answer
     std::vector<SolidState> states;
     StepTable steps;
     FieldSeries series, contact_series;

@@ -219,11 +219,17 @@ namespace abut
     abut_strategy_options &options = method.options;
     options.pressure_scale = load > 0. && weight > 0. ? load / weight : 1.;
     options.length_scale = length_scale();
-    // Surfaces that touch have gaps of round-off, which measure nothing; then
-    // it is the indentation by the load.
-    if (surfaces != nullptr && start_displacement.linfty_norm() == 0.)
-      options.length_scale = std::max(
-          options.length_scale, options.pressure_scale * softness(matrix));
+    if (surfaces == nullptr || weight <= 0.)
+      return;
+    // Bodies without load are pressed by their overlap. Surfaces that touch
+    // have gaps of round-off, which measure nothing: then it is the
+    // indentation by the load.
+    const double soft = softness(matrix);
+    if (load <= 0.)
+      options.pressure_scale = options.length_scale / soft;
+    else if (start_displacement.linfty_norm() == 0.)
+      options.length_scale =
+          std::max(options.length_scale, options.pressure_scale * soft);
   }
 
   template <int dim>

@@ -92,6 +92,14 @@ coarse = run("Body 1/Refinements=3", "Refinement/Level=0")
 p.expect(coarse.returncode == 0 and "as coarse as the primary" in coarse.stderr,
          f"a coarse secondary side: {coarse.stderr}")
 
+soft = run("Method/Enforcement=penalty", "Method/Penalty=1e-3")
+p.expect(soft.returncode == 0 and "far too soft" in soft.stderr,
+         f"soft penalty: {soft.stderr}")
+soft = run("Method/Enforcement=quadratic penalty", "Method/Penalty=1e-3",
+           "Method/Penalty cap=1e-3")
+p.expect(soft.returncode == 3 and soft.stderr.count("at its cap") == 1,
+         f"soft quadratic penalty: {soft.stderr}")
+
 # Pulled apart: the upper block has nothing to hold it, its own supports let it
 # go up and down.
 gone = run("Body 2/Support=0, 1: 0, free", "Body 2/Traction=3: 0, 0.01")
