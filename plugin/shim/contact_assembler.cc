@@ -113,7 +113,7 @@ namespace abut
     i.source.reset();
     i.surfaces = nullptr;
     i.source_is_outdated = true;
-    i.solver_is_ready = false;
+    i.solver.reset();
     i.start_field = la::Vector();
     i.is_started = false;
     i.report = LinearReport();

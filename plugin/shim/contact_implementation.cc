@@ -27,6 +27,13 @@ namespace abut
       return status == MPI_SUCCESS ? ABUT_SUCCESS : ABUT_CALLBACK_FAILED;
     }
 
+    /** Whether the penalty is part of the answer. */
+    bool is_penalty(const abut_law &law)
+    {
+      return (law.flags & (ABUT_LAW_HARD | ABUT_LAW_INTERIOR)) == 0
+             && law.outer != ABUT_OUTER_MULTIPLIER;
+    }
+
     /** Number that tells sets of rows apart (FNV-1a): places and values of
      * their arrays, but gaps. */
     std::uint64_t signature(const abut_rows_view &view)
@@ -100,7 +107,6 @@ namespace abut
           context.get());
       surfaces = made.get();
       source = std::move(made);
-      near_null_space = shim::make_near_null_space(*mapping, *dof_handler);
     }
     else
     {
@@ -114,11 +120,8 @@ namespace abut
                      + " components."));
       source = std::make_unique<shim::NodalObstacleRows<dim>>(
           *mapping, *dof_handler, *constraints, obstacle);
-      near_null_space = solve::NearNullSpace();
     }
-    solver.reset();
     source_is_outdated = false;
-    solver_is_ready = false;
   }
 
   template <int dim>
@@ -130,13 +133,17 @@ namespace abut
     n_rows = MPI::sum(static_cast<global_dof_index>(view.n_rows), communicator);
     coefficients = solve::RowOperator(dof_handler->locally_owned_dofs(), view,
                                       communicator);
-    // A solver is kept as long as it would be made of the same rows.
+    // A solver is kept as long as it would be made of the same rows: of the
+    // undeformed bodies they are the same in most load steps.
     const std::uint64_t before = rows_signature;
     rows_signature = signature(view);
     if (MPI::logical_or(before != rows_signature, communicator))
-      solver_is_ready = false;
+      solver.reset();
     if (is_nitsche())
+    {
       find_stress();
+      solver.reset();
+    }
     start_pressure.clear();
     if (start_field.size() > 0)
     {
@@ -276,8 +283,7 @@ namespace abut
     method.options.user = const_cast<MPI_Comm *>(&communicator);
     strategy = shim::create_strategy(context.get(), method.options);
 
-    const std::vector<double> stiffness =
-        solve::row_stiffness(matrix, coefficients);
+    std::vector<double> stiffness = solve::row_stiffness(matrix, coefficients);
     if (is_nitsche())
     {
       if (!(method.options.penalty > 0.))
@@ -285,6 +291,8 @@ namespace abut
       for (int i = 0; i < view.n_rows; ++i)
         nitsche.compliance[i] = 1. / (method.options.penalty * stiffness[i]);
     }
+    else if (surfaces != nullptr && is_penalty(*method.options.law))
+      surfaces->make_uniform(stiffness);
     if (surfaces != nullptr && start_state.empty()
         && (method.options.law->flags & ABUT_LAW_INTERIOR) == 0)
     {
@@ -306,19 +314,22 @@ namespace abut
   void ContactAssembler<dim>::Implementation::prepare_solver(
       const la::Matrix &matrix)
   {
-    if (solver_is_ready && constant_matrix)
+    if (solver != nullptr && constant_matrix)
       return;
     if (solver == nullptr)
     {
-      solver = is_nitsche()
-                   ? std::make_unique<solve::NitscheSolver>(solver_parameters,
-                                                            nitsche)
-                   : solve::make_row_solver(method.system, solver_parameters,
-                                            matrix, view);
-      solver->set_near_null_space(near_null_space);
+      if (is_nitsche())
+        solver =
+            std::make_unique<solve::NitscheSolver>(solver_parameters, nitsche);
+      else
+        solver = solve::make_row_solver(method.system, solver_parameters,
+                                        matrix, view);
+      solver->set_near_null_space(
+          surfaces == nullptr
+              ? solve::NearNullSpace()
+              : shim::make_near_null_space(*mapping, *dof_handler));
     }
     solver->reinit(matrix, view);
-    solver_is_ready = true;
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::next()

@@ -81,9 +81,8 @@ namespace abut
     std::vector<double> gap; ///< [rows] at the present displacement
     double smallest_residual = 0.;
 
-    solve::NearNullSpace near_null_space;
+    /** Null until the first solve with the present rows. */
     std::unique_ptr<solve::RowSolver> solver;
-    bool solver_is_ready = false;
     std::uint64_t rows_signature = 0; ///< of the rows of the last detect()
     bool is_started = false;
     bool was_added = false; ///< by add(): the host solves

@@ -63,7 +63,7 @@ namespace abut::shim
       try
       {
         Pair &pair = pairs_[p];
-        if (pair.data.tied)
+        if (pair.data.tied || !pair.data.geometric_gap)
           continue;
         const auto is_held = [&](const Node node)
         {

@@ -152,41 +152,75 @@ namespace abut::shim
   }
 
   template <int dim>
+  bool SurfacePairRows<dim>::is_free(const Node node,
+                                     const unsigned int component) const
+  {
+    const auto &line = surface_.lines[node * dim + component];
+    return line.terms.size() == 1
+           && line.terms[0].index == surface_.nodes[node].dof[component];
+  }
+
+  template <int dim>
+  double SurfacePairRows<dim>::own_freedom(const Node node,
+                                           const Direction &direction) const
+  {
+    double sum = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (is_free(node, d))
+        sum += direction[d] * direction[d];
+    return sum;
+  }
+
+  template <int dim>
   void SurfacePairRows<dim>::push_inside(const std::vector<double> &gap,
                                          std::vector<double> margin,
                                          la::Vector &displacement) const
   {
-    // Each row's own node steps back along the normal, as far as it is free.
-    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    // Each row's own node steps back along the normal. Nodes around quadrature
+    // points step back together, as far as the worst point asks.
+    la::Vector step = field();
+    double worst = 0.;
     for (std::size_t i = 0; i < rows_.size(); ++i)
-    {
-      const Node node = rows_[i].node;
-      if (node < 0 || gap[i] >= margin[i])
-        continue;
-      double own = 0.;
-      for (std::size_t e = rows_[i].first; e < rows_[i].first_primary; ++e)
-        if (entries_[e].node == node)
-          own -= entries_[e].coefficient;
-      double free = 0.;
+      if (rows_[i].node < 0)
+        worst = std::max(worst, margin[i] - gap[i]);
+    worst = dealii::Utilities::MPI::max(worst, communicator_);
+    la::Vector share_of_points = field();
+    for_each_share(
+        [&](const std::size_t i, const Node node, double)
+        {
+          double amount = margin[i] - gap[i], own = 1.;
+          if (amount <= 0.)
+            return;
+          if (rows_[i].node >= 0)
+          {
+            own = 0.;
+            for (std::size_t e = rows_[i].first; e < rows_[i].first_primary;
+                 ++e)
+              if (entries_[e].node == node)
+                own -= entries_[e].coefficient;
+          }
+          const double free = own * own_freedom(node, rows_[i].direction);
+          if (free <= 0.)
+            return;
+          amount = (rows_[i].node >= 0 ? amount : worst) / free;
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            const auto dof = surface_.nodes[node].dof[d];
+            step(dof) -= amount * rows_[i].direction[d];
+            share_of_points(dof) += rows_[i].node >= 0 ? 0. : 1.;
+          }
+        });
+    step.compress(dealii::VectorOperation::add);
+    share_of_points.compress(dealii::VectorOperation::add);
+    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    for (std::size_t n = 0; n < surface_.nodes.size(); ++n)
       for (unsigned int d = 0; d < dim; ++d)
-      {
-        const auto &line = surface_.lines[node * dim + d];
-        if (line.terms.size() == 1
-            && line.terms[0].index == surface_.nodes[node].dof[d])
-          free += rows_[i].direction[d] * rows_[i].direction[d];
-      }
-      if (own * free <= 0.)
-        continue;
-      const double step = (margin[i] - gap[i]) / (own * free);
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const auto dof = surface_.nodes[node].dof[d];
-        const auto &line = surface_.lines[node * dim + d];
-        if (line.terms.size() == 1 && line.terms[0].index == dof)
-          la::data(displacement)[owned.index_within_set(dof)] -=
-              step * rows_[i].direction[d];
-      }
-    }
+        if (owned.is_element(surface_.nodes[n].dof[d]) && is_free(n, d))
+        {
+          const auto k = owned.index_within_set(surface_.nodes[n].dof[d]);
+          la::data(displacement)[k] +=
+              la::data(step)[k] / std::max(1., la::data(share_of_points)[k]);
+        }
     displacement.compress(dealii::VectorOperation::insert);
   }
 
@@ -201,6 +235,9 @@ namespace abut::shim
   template std::vector<std::uint8_t> SurfacePairRows<dim>::relax(              \
       const la::Matrix &, const la::Vector &, const std::vector<double> &,     \
       unsigned int, la::Vector &) const;                                       \
+  template bool SurfacePairRows<dim>::is_free(Node, unsigned int) const;       \
+  template double SurfacePairRows<dim>::own_freedom(Node, const Direction &)   \
+      const;                                                                   \
   template void SurfacePairRows<dim>::push_inside(                             \
       const std::vector<double> &, std::vector<double>, la::Vector &) const;
 

@@ -187,7 +187,24 @@ namespace abut::shim
     return results;
   }
 
+  template <int dim>
+  void SurfacePairRows<dim>::make_uniform(std::vector<double> &value) const
+  {
+    std::vector<double> sum(pairs_.size(), 0.), count(pairs_.size(), 0.);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+    {
+      sum[rows_[i].pair] += std::log(value[i]);
+      count[rows_[i].pair] += 1.;
+    }
+    MPI::sum(sum, communicator_, sum);
+    MPI::sum(count, communicator_, count);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      value[i] = std::exp(sum[rows_[i].pair] / count[rows_[i].pair]);
+  }
+
 #define ABUT_INSTANTIATE(dim)                                                  \
+  template void SurfacePairRows<dim>::make_uniform(std::vector<double> &)      \
+      const;                                                                   \
   template void SurfacePairRows<dim>::make_check(std::size_t, unsigned int);   \
   template std::vector<PairResult<dim>> SurfacePairRows<dim>::results(         \
       const double *, const double *, const std::uint8_t *) const;

@@ -402,7 +402,7 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::append(const Row &row, abut_rows *rows,
+  bool SurfacePairRows<dim>::append(const Row &row, abut_rows *rows,
                                     std::string &message) const
   {
     std::map<global_dof_index, double> terms;
@@ -424,6 +424,8 @@ namespace abut::shim
         column.push_back(static_cast<std::int64_t>(term.first));
         coefficient.push_back(term.second);
       }
+    if (column.empty())
+      return false;
     const abut_status status = abut_rows_append(
         rows, row.id, row.weight, gap, pairs_[row.pair].data.tied ? 1 : 0,
         static_cast<std::int32_t>(column.size()), column.data(),
@@ -431,6 +433,7 @@ namespace abut::shim
     if (status != ABUT_SUCCESS && message.empty())
       message = "Pair '" + pairs_[row.pair].data.name
                 + "': " + message_of(context_, status);
+    return true;
   }
 
   template <int dim>
@@ -446,20 +449,13 @@ namespace abut::shim
       find_pair(p, motion(pairs_[p], u), taken);
 
     // Rows between nodes that cannot move say nothing.
-    rows_.erase(
-        std::remove_if(rows_.begin(), rows_.end(),
-                       [&](const Row &row)
-                       {
-                         for (std::size_t e = row.first; e < row.end; ++e)
-                           if (freedom(entries_[e].node, row.direction) > 1e-10)
-                             return false;
-                         return true;
-                       }),
-        rows_.end());
     std::string message;
     abut_rows_clear(rows);
+    std::size_t n_kept = 0;
     for (const Row &row : rows_)
-      append(row, rows, message);
+      if (append(row, rows, message))
+        rows_[n_kept++] = row;
+    rows_.resize(n_kept);
     throw_everywhere<ContactError>(communicator_, message);
   }
 

@@ -83,6 +83,11 @@ namespace abut::shim
                                          const double *row_gap,
                                          const std::uint8_t *row_state) const;
 
+    /** Give all rows of a pair the same of a positive quantity [rows], the
+     * geometric mean: springs of one stiffness leave a uniform pressure
+     * uniform. Collective. */
+    void make_uniform(std::vector<double> &value) const;
+
     /** Nodes of either side that have penetrated by more than @p tolerance
      * (length) at @p displacement and are not held by a row. Collective. */
     std::vector<Penetration<dim>> penetrations(const la::Vector &displacement,
@@ -130,6 +135,8 @@ namespace abut::shim
     std::vector<Direction> node_displacements(const la::Vector &u) const;
     double motion(const Pair &pair, const std::vector<Direction> &u) const;
     double freedom(Node node, const Direction &direction) const;
+    bool is_free(Node node, unsigned int component) const;
+    double own_freedom(Node node, const Direction &direction) const;
     std::vector<std::uint8_t>
     dropped_nodes(const Pair &pair, const std::vector<std::uint8_t> &taken,
                   int component) const;
@@ -138,7 +145,8 @@ namespace abut::shim
     void take_rows(std::size_t pair, int component);
     void find_pair(std::size_t pair, double motion,
                    std::vector<std::uint8_t> &taken);
-    void append(const Row &row, abut_rows *rows, std::string &message) const;
+    /** Put a row with free unknowns into @p rows; false if it has none. */
+    bool append(const Row &row, abut_rows *rows, std::string &message) const;
     void make_check(std::size_t pair, unsigned int n_dropped);
     la::Vector field() const;
     template <typename Function>

@@ -6,6 +6,8 @@
 #include "row_operator.h"
 #include "saddle_point.h"
 
+#include <algorithm>
+
 namespace abut::solve
 {
   bool are_nodal(const la::Matrix &stiffness, const abut_rows_view &rows)
@@ -23,12 +25,13 @@ namespace abut::solve
   {
     const std::vector<double> diagonal =
         la::diagonal(la::local_rows(stiffness));
-    la::Vector vector(stiffness.locally_owned_range_indices(),
-                      stiffness.get_mpi_communicator());
-    std::copy(diagonal.begin(), diagonal.end(), la::data(vector));
-    std::vector<double> result = rows.squares(vector);
+    la::Vector compliance(stiffness.locally_owned_range_indices(),
+                          stiffness.get_mpi_communicator());
+    std::transform(diagonal.begin(), diagonal.end(), la::data(compliance),
+                   [](const double k) { return 1. / k; });
+    std::vector<double> result = rows.squares(compliance);
     for (int i = 0; i < rows.n_rows(); ++i)
-      result[i] /= rows.weight(i);
+      result[i] = 1. / (rows.weight(i) * result[i]);
     return result;
   }
 

@@ -49,8 +49,10 @@ namespace abut::solve
                                la::Vector &increment) = 0;
   };
 
-  /** The local stiffness sum_j B_ij^2 K_jj / w_i of each row, pressure per
-   * length: what penalties are multiples of. Collective. */
+  /** The local stiffness 1 / (w_i sum_j B_ij^2 / K_jj) of each row, pressure
+   * per length: what penalties are multiples of. It is the pressure that opens
+   * the gap by one if each unknown were held by its own stiffness alone: the
+   * two sides of a pair act in series. Collective. */
   std::vector<double> row_stiffness(const la::Matrix &stiffness,
                                     const RowOperator &rows);
 

@@ -24,8 +24,26 @@ main(int argc, char **argv)
   one.method = hosts::method("lagrange", Discretisation::mortar);
   one.method.system = System::saddle_point;
   run(one, "mortar");
-  one.method = hosts::method("lagrange", Discretisation::dual_mortar);
+  one = hosts::Case();
   one.degree = 2;
   run(one, "dual mortar, quadratic");
+
+  // Springs yield, but leave the stress uniform. Without lateral strain the
+  // prescribed displacements fit any pressure.
+  one = hosts::Case();
+  one.yields = true;
+  one.materials = {{{7., 0.}, {3., 0.}}};
+  for (const auto discretisation :
+       {Discretisation::dual_mortar, Discretisation::mortar})
+  {
+    one.method = hosts::method("penalty", discretisation);
+    run(one, "penalty, " + discretisation_name(discretisation));
+  }
+
+  // Glued blocks have a linear solution if both contract alike.
+  one = hosts::Case();
+  one.tied = true;
+  one.materials = {{{3., 0.2}, {3., 0.2}}};
+  run(one, "tied");
   return good ? 0 : 1;
 }

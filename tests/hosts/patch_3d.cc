@@ -25,5 +25,14 @@ main(int argc, char **argv)
   one.method = hosts::method("lagrange", Discretisation::mortar);
   one.method.system = System::saddle_point;
   run(one, "mortar");
+  one = hosts::Case();
+  one.cells = {{2, 3}};
+  one.tied = true;
+  one.materials = {{{3., 0.2}, {3., 0.2}}};
+  run(one, "tied");
+  one = hosts::Case();
+  one.cells = {{1, 2}};
+  one.degree = 2;
+  run(one, "dual mortar, quadratic");
   return good ? 0 : 1;
 }

@@ -74,9 +74,15 @@ namespace abut::hosts
 
   /** The rotation from the blocks' own frame, in which the last axis is the
    * normal of the interface. */
-  template <int dim> Tensor<2, dim> rotation()
+  template <int dim> Tensor<2, dim> rotation(const bool turned = true)
   {
     Tensor<2, dim> r;
+    if (!turned)
+    {
+      for (int i = 0; i < dim; ++i)
+        r[i][i] = 1.;
+      return r;
+    }
     const double c = std::cos(0.37), s = std::sin(0.37);
     if (dim == 2)
     {
@@ -139,9 +145,17 @@ namespace abut::hosts
     bool upper_is_secondary = true;
     unsigned int degree = 1;
     bool tied = false;
+    /** Pressed by a pressure of 1 on the top of straight blocks of uniform
+     * meshes, which slide freely on the bottom, instead of moved. */
+    bool pressed = false;
     /** The upper block is lifted by separation + tilt times the first
      * coordinate of its own frame; 0 for the patch test. */
     double separation = 0., tilt = 0.;
+    /** Lower and upper block. */
+    std::array<Material, 2> materials = {{{7., 0.3}, {3., 0.2}}};
+    /** The law lets the blocks penetrate: pressures are compared with the mean
+     * pressure then, and displacements not at all. */
+    bool yields = false;
     /** Cells of the lower and upper block along each axis. */
     std::array<unsigned int, 2> cells = {{3, 4}};
   };
@@ -149,9 +163,10 @@ namespace abut::hosts
   /** Largest errors. */
   struct Errors
   {
-    double stress = 0.;       ///< of any component, exact stress 1
-    double displacement = 0.; ///< relative to the largest one
-    double pressure = 0.;     ///< of p n at secondary nodes
+    double stress = 0.;        ///< of any component, relative to the pressure
+    double normal_stress = 0.; ///< of the stress across the interface
+    double displacement = 0.;  ///< relative to the largest one
+    double pressure = 0.;      ///< of p n at secondary nodes
     double area = 0., force = 0., imbalance = 0., moment_imbalance = 0.;
     unsigned int steps = 0, hanging = 0;
     abut_reason reason = ABUT_REASON_NONE;
@@ -167,6 +182,7 @@ namespace abut::hosts
           triangulation_(MPI_COMM_WORLD),
           fe_(dealii::FE_Q<dim>(run.degree), dim),
           mapping_(1),
+          rotation_(rotation<dim>(!run.pressed)),
           dof_handler_(triangulation_),
           contact_(MPI_COMM_WORLD)
     {
@@ -182,6 +198,7 @@ namespace abut::hosts
       pair.primary = {run_.upper_is_secondary ? lower_interface
                                               : upper_interface};
       pair.tied = run_.tied;
+      pair.holds_body = run_.pressed;
       return pair;
     }
 
@@ -204,7 +221,7 @@ namespace abut::hosts
       la::Vector u(owned_, MPI_COMM_WORLD);
       Tensor<1, dim> normal;
       normal[dim - 1] = lift;
-      normal = rotation<dim>() * normal;
+      normal = rotation_ * normal;
       std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_cell());
       for (const auto &cell : dof_handler_.active_cell_iterators())
         if (!cell->is_artificial() && cell->material_id() == 1)
@@ -226,11 +243,21 @@ namespace abut::hosts
       constraints_.distribute(u);
       contact_.detect(u);
       Errors errors;
-      do
+      const auto find_residual = [&]
       {
         stiffness_.vmult(residual, u);
         residual -= load_;
         constraints_.set_zero(residual);
+      };
+      if (run_.method.options.law->outer == ABUT_OUTER_BARRIER)
+      {
+        find_residual();
+        contact_.relax(stiffness_, residual, 1, u);
+        constraints_.distribute(u);
+      }
+      do
+      {
+        find_residual();
         errors.steps +=
             contact_.solve(stiffness_, residual, increment).n_systems;
         u += increment;
@@ -248,7 +275,7 @@ namespace abut::hosts
   private:
     const Material &material(const bool upper) const
     {
-      return materials_[upper ? 1 : 0];
+      return run_.materials[upper ? 1 : 0];
     }
 
     void make_mesh()
@@ -301,17 +328,17 @@ namespace abut::hosts
                                     f.boundary_quads.end());
         vertices.insert(vertices.end(), v.begin(), v.end());
       }
-      const Tensor<2, dim> r = rotation<dim>();
       for (Point<dim> &p : vertices)
-        p = Point<dim>(r * Tensor<1, dim>(p));
+        p = Point<dim>(rotation_ * Tensor<1, dim>(p));
       triangulation_.create_triangulation(vertices, cells, faces);
-      refine();
+      if (!run_.pressed)
+        refine();
     }
 
     /** Some cells at the interface and in the bulk of both blocks. */
     void refine()
     {
-      const Tensor<2, dim> back = transpose(rotation<dim>());
+      const Tensor<2, dim> back = transpose(rotation_);
       for (int cycle = 0; cycle < 2; ++cycle)
       {
         for (const auto &cell : triangulation_.active_cell_iterators())
@@ -337,12 +364,10 @@ namespace abut::hosts
       dealii::DoFTools::make_hanging_node_constraints(dof_handler_,
                                                       constraints_);
       n_hanging_ = MPI::sum(constraints_.n_constraints(), MPI_COMM_WORLD);
-      dealii::VectorTools::interpolate_boundary_values(
-          mapping_, dof_handler_, bottom,
-          ExactDisplacement<dim>(material(false)), constraints_);
-      dealii::VectorTools::interpolate_boundary_values(
-          mapping_, dof_handler_, top, ExactDisplacement<dim>(material(true)),
-          constraints_);
+      if (run_.pressed)
+        let_slide();
+      else
+        move_ends();
       constraints_.close();
       dealii::DynamicSparsityPattern pattern(relevant_);
       dealii::DoFTools::make_sparsity_pattern(dof_handler_, pattern,
@@ -351,6 +376,63 @@ namespace abut::hosts
           pattern, owned_, MPI_COMM_WORLD, relevant_);
       stiffness_.reinit(owned_, owned_, pattern, MPI_COMM_WORLD);
       load_.reinit(owned_, MPI_COMM_WORLD);
+    }
+
+    /** Top and bottom follow the exact displacement. */
+    void move_ends()
+    {
+      dealii::VectorTools::interpolate_boundary_values(
+          mapping_, dof_handler_, bottom,
+          ExactDisplacement<dim>(material(false)), constraints_);
+      dealii::VectorTools::interpolate_boundary_values(
+          mapping_, dof_handler_, top, ExactDisplacement<dim>(material(true)),
+          constraints_);
+    }
+
+    /** The bottom slides; a corner of each block does not move sideways. */
+    void let_slide()
+    {
+      dealii::ComponentMask up(dim, false);
+      up.set(dim - 1, true);
+      dealii::VectorTools::interpolate_boundary_values(
+          mapping_, dof_handler_, bottom,
+          dealii::Functions::ZeroFunction<dim>(dim), constraints_, up);
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (!cell->is_artificial())
+          for (const unsigned int v : cell->vertex_indices())
+          {
+            const Point<dim> &x = cell->vertex(v);
+            Point<dim> corner;
+            corner[dim - 1] = cell->material_id() == 1 ? 1. : -1.;
+            if (x.distance(corner) < 1e-10)
+              for (int d = 0; d < dim - 1; ++d)
+                constraints_.add_line(cell->vertex_dof_index(v, d));
+          }
+    }
+
+    /** Pressure 1 on the top. */
+    void press()
+    {
+      const dealii::QGauss<dim - 1> quadrature(run_.degree + 1);
+      dealii::FEFaceValues<dim> values(mapping_, fe_, quadrature,
+                                       dealii::update_values
+                                           | dealii::update_JxW_values);
+      dealii::Vector<double> force(fe_.n_dofs_per_cell());
+      std::vector<dealii::types::global_dof_index> dofs(force.size());
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary() && face->boundary_id() == top)
+            {
+              values.reinit(cell, face);
+              force = 0.;
+              for (unsigned int i = 0; i < force.size(); ++i)
+                for (unsigned int q = 0; q < quadrature.size(); ++q)
+                  force(i) -= values.shape_value_component(i, q, dim - 1)
+                              * values.JxW(q);
+              cell->get_dof_indices(dofs);
+              constraints_.distribute_local_to_global(force, dofs, load_);
+            }
     }
 
     void assemble()
@@ -393,6 +475,8 @@ namespace abut::hosts
           force *= -1.;
           constraints_.distribute_local_to_global(force, dofs, load_);
         }
+      if (run_.pressed)
+        press();
       stiffness_.compress(dealii::VectorOperation::add);
       load_.compress(dealii::VectorOperation::add);
       constraints_.set_zero(load_);
@@ -402,7 +486,6 @@ namespace abut::hosts
     {
       la::Vector ghosted(owned_, relevant_, MPI_COMM_WORLD);
       ghosted = u;
-      measure_stress(ghosted, errors);
       const auto results = contact_.pair_results();
       errors.reason = contact_.reason();
       errors.area = results[0].covered_area;
@@ -412,11 +495,20 @@ namespace abut::hosts
       errors.n_rows = results[0].n_rows;
       errors.n_active = results[0].n_active;
       errors.hanging = n_hanging_;
+      measure_stress(ghosted, errors);
       measure_pressure(errors);
+      if (run_.yields)
+        errors.displacement = 0.;
+    }
+
+    double mean_pressure(const Errors &errors) const
+    {
+      return run_.yields ? errors.force : 1.;
     }
 
     void measure_stress(const la::Vector &u, Errors &errors) const
     {
+      const double p = mean_pressure(errors);
       const dealii::QGauss<dim> quadrature(run_.degree + 1);
       dealii::FEValues<dim> values(mapping_, fe_, quadrature,
                                    dealii::update_gradients
@@ -427,7 +519,7 @@ namespace abut::hosts
       std::vector<Tensor<1, dim>> value(quadrature.size());
       Tensor<1, dim> normal;
       normal[dim - 1] = 1.;
-      normal = rotation<dim>() * normal;
+      normal = rotation_ * normal;
       double scale = 0.;
       for (const auto &cell : dof_handler_.active_cell_iterators())
         if (cell->is_locally_owned())
@@ -439,13 +531,16 @@ namespace abut::hosts
           values[displacement].get_function_values(u, value);
           for (unsigned int q = 0; q < quadrature.size(); ++q)
           {
+            dealii::SymmetricTensor<2, dim> stress = 2. * m.mu() * strain[q];
+            for (int i = 0; i < dim; ++i)
+              stress[i][i] += m.lambda() * trace(strain[q]);
+            errors.normal_stress = std::max(
+                errors.normal_stress, std::abs(normal * stress * normal + p));
             for (int i = 0; i < dim; ++i)
               for (int j = 0; j < dim; ++j)
                 errors.stress = std::max(
                     errors.stress,
-                    std::abs(2. * m.mu() * strain[q][i][j]
-                             + (i == j ? m.lambda() * trace(strain[q]) : 0.)
-                             + normal[i] * normal[j]));
+                    std::abs(stress[i][j] + p * normal[i] * normal[j]));
             const auto e = exact.displacement(values.quadrature_point(q));
             scale = std::max(scale, e.norm());
             errors.displacement =
@@ -453,6 +548,7 @@ namespace abut::hosts
           }
         }
       errors.stress = MPI::max(errors.stress, MPI_COMM_WORLD);
+      errors.normal_stress = MPI::max(errors.normal_stress, MPI_COMM_WORLD);
       errors.displacement = MPI::max(errors.displacement, MPI_COMM_WORLD)
                             / MPI::max(scale, MPI_COMM_WORLD);
     }
@@ -461,12 +557,13 @@ namespace abut::hosts
     void measure_pressure(Errors &errors) const
     {
       const la::Vector p = contact_.pressure(), status = contact_.status();
+      const double mean = mean_pressure(errors);
       la::Vector pressure(owned_, relevant_, MPI_COMM_WORLD), has(pressure);
       pressure = p;
       has = status;
       Tensor<1, dim> normal;
       normal[dim - 1] = run_.upper_is_secondary ? -1. : 1.;
-      normal = rotation<dim>() * normal;
+      normal = rotation_ * normal;
       const auto side =
           run_.upper_is_secondary ? upper_interface : lower_interface;
       std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_face());
@@ -480,18 +577,20 @@ namespace abut::hosts
                 if (has(dofs[i]) > 0.)
                   errors.pressure = std::max(
                       errors.pressure,
-                      std::abs(pressure(dofs[i])
-                               - normal[fe_.face_system_to_component_index(i)
-                                            .first]));
+                      std::abs(
+                          pressure(dofs[i])
+                          - mean
+                                * normal[fe_.face_system_to_component_index(i)
+                                             .first]));
             }
       errors.pressure = MPI::max(errors.pressure, MPI_COMM_WORLD);
     }
 
     const Case run_;
-    const std::array<Material, 2> materials_ = {{{7., 0.3}, {3., 0.2}}};
     dealii::parallel::distributed::Triangulation<dim> triangulation_;
     const dealii::FESystem<dim> fe_;
     const dealii::MappingQ<dim> mapping_;
+    const Tensor<2, dim> rotation_;
     dealii::DoFHandler<dim> dof_handler_;
     dealii::IndexSet owned_, relevant_;
     dealii::AffineConstraints<double> constraints_;
