@@ -32,6 +32,7 @@ namespace abut::solve
     rows_ = RowOperator(stiffness.locally_owned_range_indices(), rows,
                         stiffness.get_mpi_communicator());
     solver_.reinit(stiffness, rows_);
+    floating_.reinit(stiffness, rows_, space_);
     saddle_point_.reset();
   }
 
@@ -117,6 +118,10 @@ namespace abut::solve
                                    const double smallest_residual,
                                    la::Vector &increment)
   {
+    std::vector<std::uint8_t> resists(rows_.n_rows());
+    for (int i = 0; i < rows_.n_rows(); ++i)
+      resists[i] = is_constraint(request, i) || request.d_gap[i] != 0.;
+    floating_.check(rows_, resists);
     if (!condense(request))
     {
       if (saddle_point_ == nullptr)

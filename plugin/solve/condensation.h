@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_CONDENSATION_H
 
 #include "condensed_solver.h"
+#include "floating_bodies.h"
 #include "row_solver.h"
 #include "saddle_point.h"
 
@@ -49,6 +50,7 @@ namespace abut::solve
     abut_rows_view view_ = {};
     RowOperator rows_;
     CondensedSolver solver_;
+    FloatingBodies floating_;
     Condensate condensate_;
     std::unique_ptr<SaddlePoint> saddle_point_;
   };

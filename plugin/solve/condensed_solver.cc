@@ -23,7 +23,8 @@ namespace abut::solve
     constexpr double rebuild_factor = 3.;
 
     /** Springs that are stiffer than the body by more than this are beyond
-     * multigrid alone; those above the second number are then filtered. */
+     * multigrid alone; those above the second number are then filtered, and
+     * soft in the multigrid method. */
     constexpr double stiff = 50.;
     constexpr double filtered = 5.;
 
@@ -92,7 +93,7 @@ namespace abut::solve
 
   bool CondensedSolver::is_direct() const
   {
-    return wants_factors(parameters_, *stiffness_);
+    return parameters_.is_direct(stiffness_->m(), space_.n_components);
   }
 
   bool CondensedSolver::is_outdated() const
@@ -124,6 +125,7 @@ namespace abut::solve
   {
     filter_.reset();
     multigrid_.reset();
+    softened_.reset();
     direct_.reset();
     if (!matrix_.is_plain())
       assembled_ = std::make_unique<la::Matrix>(matrix_.assemble());
@@ -137,24 +139,35 @@ namespace abut::solve
       direct_ = std::make_unique<DirectSolver>(system);
       return;
     }
-    multigrid_ = make_multigrid(system, parameters_, space_);
-
     const auto relative = [&](const int i)
     { return built_.stiffness[i] / (rows_->weight(i) * row_stiffness_[i]); };
     double stiffest = 0.;
-    std::vector<std::uint8_t> wanted(rows_->n_rows());
     for (int i = 0; i < rows_->n_rows(); ++i)
-    {
       stiffest = std::max(stiffest, relative(i));
-      wanted[i] = relative(i) > filtered ? 1 : 0;
-    }
     if (MPI::max(stiffest, rows_->communicator()) <= stiff)
+    {
+      multigrid_ = make_multigrid(system, parameters_, space_);
       return;
+    }
+    std::vector<std::uint8_t> wanted(rows_->n_rows());
+    Condensate soft = built_;
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      if (relative(i) > filtered)
+      {
+        wanted[i] = 1;
+        soft.stiffness[i] = filtered * rows_->weight(i) * row_stiffness_[i];
+      }
+    CondensedMatrix softened;
+    softened.reinit(*stiffness_, *rows_);
+    softened.set(soft);
+    softened_ = std::make_unique<la::Matrix>(softened.assemble());
+    multigrid_ = make_multigrid(*softened_, parameters_, space_);
     la::Vector count(rows_->owned(), rows_->communicator());
     rows_->add_counts(wanted.data(), count);
     matrix_.zero_pivots(count);
-    const std::vector<std::uint8_t> picked(
-        la::data(count), la::data(count) + la::n_owned(count));
+    std::vector<std::uint8_t> picked(la::n_owned(count));
+    for (std::size_t i = 0; i < picked.size(); ++i)
+      picked[i] = la::data(count)[i] > 0.;
     filter_ = std::make_unique<ContactFilter>(system, *multigrid_, picked);
   }
 
@@ -201,6 +214,14 @@ namespace abut::solve
       multigrid_->vmult(dst, src);
     // A kept preconditioner may act on unknowns that are pivots now.
     matrix_.zero_pivots(dst);
+  }
+
+  bool CondensedSolver::refresh()
+  {
+    if (!is_kept_)
+      return false;
+    build();
+    return true;
   }
 
   bool CondensedSolver::iterate(const la::Vector &rhs,

@@ -54,6 +54,10 @@ namespace abut::solve
      * Collective. */
     LinearReport solve(const la::Vector &rhs, double tolerance, la::Vector &x);
 
+    /** Build the preconditioner anew if it was kept from another matrix;
+     * returns whether it was. Collective. */
+    bool refresh();
+
     /** One cycle of the preconditioner of the last prepare(). Collective. */
     void precondition(la::Vector &dst, const la::Vector &src) const;
 
@@ -86,6 +90,7 @@ namespace abut::solve
 
     /** What the preconditioner was built on. */
     std::unique_ptr<la::Matrix> assembled_;
+    std::unique_ptr<la::Matrix> softened_; ///< and its multigrid, if filtered
     Condensate built_;
     bool is_built_ = false, is_kept_ = false, is_slow_ = false;
     double speed_when_built_ = 0.;

@@ -77,11 +77,13 @@ namespace abut::solve
       matrix_.vmult(residual_, dst);
       residual_.sadd(-1., 1., src);
     };
-    multigrid_.vmult(dst, src);
-    update_residual();
+    dst = 0.;
+    residual_ = src;
     add_correction(dst);
     update_residual();
     multigrid_.vmult(correction_, residual_);
     dst.add(1., correction_);
+    update_residual();
+    add_correction(dst);
   }
 } // namespace abut::solve

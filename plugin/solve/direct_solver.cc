@@ -26,20 +26,6 @@ namespace abut::solve
     }
   } // namespace
 
-  bool wants_factors(const SolverParameters &parameters,
-                     const la::Matrix &matrix)
-  {
-    switch (parameters.linear)
-    {
-    case SolverParameters::Linear::direct:
-      return true;
-    case SolverParameters::Linear::iterative:
-      return false;
-    default:
-      return matrix.m() <= parameters.direct_limit;
-    }
-  }
-
   std::string DirectSolver::name()
   {
     return Amesos().Query("Amesos_Mumps") ? "direct (MUMPS)" : "direct (KLU)";

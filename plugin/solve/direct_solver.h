@@ -14,10 +14,6 @@ class Epetra_LinearProblem;
 
 namespace abut::solve
 {
-  /** Whether systems like @p matrix are to be factorised. */
-  bool wants_factors(const SolverParameters &parameters,
-                     const la::Matrix &matrix);
-
   /** A sparse factorisation by Amesos: MUMPS where it is built in, else KLU.
    * deal.II's wrapper of the same cannot give MUMPS the room that indefinite
    * matrices need beyond its estimate. */

@@ -53,7 +53,7 @@ namespace abut::solve
 
   bool MaskedSolver::is_direct() const
   {
-    return wants_factors(parameters_, *matrix_);
+    return parameters_.is_direct(matrix_->m(), space_.n_components);
   }
 
   bool MaskedSolver::is_plain(const Mask &mask) const
@@ -210,6 +210,8 @@ namespace abut::solve
       if (changed)
         cut_off(mask.held, built_mask_, false);
     }
+    report.method =
+        is_direct() ? DirectSolver::name() : "conjugate gradients, ML";
     return report;
   }
 

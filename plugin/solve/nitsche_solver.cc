@@ -133,7 +133,7 @@ namespace abut::solve
 
   bool NitscheSolver::is_direct() const
   {
-    return wants_factors(parameters_, *stiffness_);
+    return parameters_.is_direct(stiffness_->m(), space_.n_components);
   }
 
   void NitscheSolver::iterate(const la::Matrix &matrix,

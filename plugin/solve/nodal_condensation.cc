@@ -20,6 +20,7 @@ namespace abut::solve
 
   void NodalCondensation::set_near_null_space(const NearNullSpace &space)
   {
+    space_ = space;
     solver_.set_near_null_space(space);
   }
 
@@ -29,6 +30,12 @@ namespace abut::solve
     stiffness_ = &stiffness;
     rows_ = rows;
     solver_.reinit(stiffness);
+    if (space_.n_components > 1)
+    {
+      operator_ = RowOperator(stiffness.locally_owned_range_indices(), rows,
+                              stiffness.get_mpi_communicator());
+      floating_.reinit(stiffness, operator_, space_);
+    }
     const dealii::IndexSet owned = stiffness.locally_owned_range_indices();
     unknown_.resize(rows.n_rows);
     for (int i = 0; i < rows.n_rows; ++i)
@@ -155,6 +162,13 @@ namespace abut::solve
                                         const double smallest_residual,
                                         la::Vector &increment)
   {
+    if (space_.n_components > 1)
+    {
+      std::vector<std::uint8_t> resists(rows_.n_rows);
+      for (int i = 0; i < rows_.n_rows; ++i)
+        resists[i] = is_constraint(request, i) || request.d_gap[i] != 0.;
+      floating_.check(operator_, resists);
+    }
     fill_mask(request);
     la::Vector rhs(residual);
     fill_right_hand_side(residual, request, rhs);

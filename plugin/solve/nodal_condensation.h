@@ -2,6 +2,7 @@
 #ifndef ABUT_SOLVE_NODAL_CONDENSATION_H
 #define ABUT_SOLVE_NODAL_CONDENSATION_H
 
+#include "floating_bodies.h"
 #include "masked_solver.h"
 #include "row_solver.h"
 
@@ -38,6 +39,9 @@ namespace abut::solve
                  const la::Vector &increment);
 
     MaskedSolver solver_;
+    NearNullSpace space_;
+    RowOperator operator_; ///< for displacements alone
+    FloatingBodies floating_;
     const la::Matrix *stiffness_ = nullptr;
     abut_rows_view rows_ = {};
     std::vector<int> unknown_; ///< [n_rows] local number of the unknown

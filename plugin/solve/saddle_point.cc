@@ -21,8 +21,6 @@ namespace abut::solve
     std::vector<double> schur; ///< w / ((1 + gamma) s)
     std::vector<double> soft;  ///< [rows] w b/a where condensed, else 0
     std::vector<double> stiff; ///< [rows] soft, and gamma w s on constraints
-    Mask added;                ///< diagonal of D
-    Mask augmented;            ///< and of the augmentation
     la::Vector force;          ///< f, augmented
     dealii::types::global_dof_index n_constraints = 0;
     dealii::types::global_dof_index first_constraint = 0;
@@ -40,51 +38,33 @@ namespace abut::solve
       return MPI::this_mpi_process(communicator) == 0 ? 0 : sum;
     }
 
-    /** The diagonal of B^T diag(factor) B; nothing is held. */
-    Mask diagonal_mask(const RowOperator &rows,
-                       const std::vector<double> &factor,
-                       const la::Vector &model)
-    {
-      la::Vector d(model);
-      d = 0.;
-      rows.add_squares(factor.data(), d);
-      Mask mask;
-      mask.held.assign(la::n_owned(d), 0);
-      mask.diagonal.assign(la::data(d), la::data(d) + la::n_owned(d));
-      return mask;
-    }
-
     /** The augmented system with its second equation scaled. */
     template <typename System> class AugmentedOperator
     {
     public:
-      AugmentedOperator(const la::Matrix &stiffness, const RowOperator &rows,
+      AugmentedOperator(const CondensedMatrix &leading, const RowOperator &rows,
                         const System &system)
-          : stiffness_(stiffness),
-            rows_(rows),
-            system_(system),
-            gap_(rows.n_rows())
+          : leading_(leading), rows_(rows), system_(system), gap_(rows.n_rows())
       {
       }
 
       void vmult(BlockVector &dst, const BlockVector &src) const
       {
-        stiffness_.vmult(dst.block(0), src.block(0));
+        leading_.vmult(dst.block(0), src.block(0));
         rows_.times(src.block(0), gap_.data());
         double *out = la::data(dst.block(1));
-        const double *p = la::data(src.block(1));
         for (std::size_t k = 0; k < system_.row.size(); ++k)
           out[k] = -system_.scale[k] * rows_.weight(system_.row[k])
                    * gap_[system_.row[k]];
-        for (int i = 0; i < rows_.n_rows(); ++i)
-          gap_[i] *= system_.stiff[i];
+        const double *p = la::data(src.block(1));
+        std::fill(gap_.begin(), gap_.end(), 0.);
         for (std::size_t k = 0; k < system_.row.size(); ++k)
-          gap_[system_.row[k]] -= rows_.weight(system_.row[k]) * p[k];
+          gap_[system_.row[k]] = -rows_.weight(system_.row[k]) * p[k];
         rows_.add_transposed(gap_.data(), dst.block(0));
       }
 
     private:
-      const la::Matrix &stiffness_;
+      const CondensedMatrix &leading_;
       const RowOperator &rows_;
       const System &system_;
       mutable std::vector<double> gap_;
@@ -94,7 +74,7 @@ namespace abut::solve
     template <typename System> class TriangularPreconditioner
     {
     public:
-      TriangularPreconditioner(const ScaledPreconditioner &leading,
+      TriangularPreconditioner(const CondensedSolver &leading,
                                const RowOperator &rows, const System &system,
                                const la::Vector &model)
           : leading_(leading),
@@ -116,11 +96,11 @@ namespace abut::solve
         }
         force_ = src.block(0);
         rows_.add_transposed(factor_.data(), force_);
-        leading_.vmult(dst.block(0), force_);
+        leading_.precondition(dst.block(0), force_);
       }
 
     private:
-      const ScaledPreconditioner &leading_;
+      const CondensedSolver &leading_;
       const RowOperator &rows_;
       const System &system_;
       mutable la::Vector force_;
@@ -135,6 +115,7 @@ namespace abut::solve
 
   void SaddlePoint::set_near_null_space(const NearNullSpace &space)
   {
+    space_ = space;
     leading_.set_near_null_space(space);
   }
 
@@ -144,9 +125,8 @@ namespace abut::solve
     stiffness_ = &stiffness;
     rows_ = RowOperator(stiffness.locally_owned_range_indices(), rows,
                         stiffness.get_mpi_communicator());
-    leading_.reinit(stiffness);
-    row_stiffness_ = row_stiffness(stiffness, rows_);
-    are_nodal_ = are_nodal(stiffness, rows);
+    leading_.reinit(stiffness, rows_);
+    floating_.reinit(stiffness, rows_, space_);
   }
 
   SaddlePoint::System SaddlePoint::assemble(const la::Vector &residual,
@@ -165,7 +145,7 @@ namespace abut::solve
       const double c = request.residual[i];
       if (a == 0.)
       {
-        const double s = row_stiffness_[i];
+        const double s = leading_.row_stiffness()[i];
         system.stiff[i] = gamma * w * s;
         pressure[i] = w * (request.pressure[i] - gamma * s * c / b);
         system.row.push_back(i);
@@ -182,8 +162,6 @@ namespace abut::solve
     system.force = residual;
     system.force *= -1.;
     rows_.add_transposed(pressure.data(), system.force);
-    system.added = diagonal_mask(rows_, system.soft, residual);
-    system.augmented = diagonal_mask(rows_, system.stiff, residual);
 
     const MPI_Comm communicator = stiffness_->get_mpi_communicator();
     system.n_constraints = system.row.size();
@@ -193,10 +171,10 @@ namespace abut::solve
     return system;
   }
 
-  unsigned int
-  SaddlePoint::solve_iteratively(const System &system, const double tolerance,
-                                 la::Vector &increment,
-                                 std::vector<double> &multiplier) const
+  unsigned int SaddlePoint::solve_iteratively(const System &system,
+                                              const double tolerance,
+                                              la::Vector &increment,
+                                              std::vector<double> &multiplier)
   {
     dealii::IndexSet constraints(system.n_constraints);
     constraints.add_range(system.first_constraint,
@@ -210,31 +188,38 @@ namespace abut::solve
     BlockVector solution(right);
     solution = 0.;
 
-    const ScaledPreconditioner leading =
-        leading_.preconditioner(system.augmented, increment);
-    const AugmentedOperator<System> matrix(*stiffness_, rows_, system);
-    const TriangularPreconditioner<System> preconditioner(leading, rows_,
+    const AugmentedOperator<System> matrix(leading_.matrix(), rows_, system);
+    const TriangularPreconditioner<System> preconditioner(leading_, rows_,
                                                           system, increment);
-    dealii::SolverControl control(parameters_.max_iterations,
-                                  std::max(tolerance, 1e-14 * right.l2_norm()),
-                                  false, false);
-    dealii::SolverFGMRES<BlockVector> fgmres(
-        control, dealii::SolverFGMRES<BlockVector>::AdditionalData(60));
-    if (right.l2_norm() > tolerance)
+    unsigned int n_iterations = 0;
+    const double attainable = std::max(tolerance, 1e-14 * right.l2_norm());
+    bool again = right.l2_norm() > tolerance;
+    while (again)
+    {
+      again = false;
+      dealii::SolverControl control(parameters_.max_iterations, attainable,
+                                    false, false);
+      dealii::SolverFGMRES<BlockVector> fgmres(
+          control, dealii::SolverFGMRES<BlockVector>::AdditionalData(60));
       try
       {
         fgmres.solve(matrix, solution, right, preconditioner);
       }
       catch (const dealii::SolverControl::NoConvergence &failure)
       {
-        throw_failure("FGMRES on the saddle-point system", failure, tolerance);
+        // A preconditioner of an earlier system may be to blame.
+        again = leading_.refresh();
+        if (!again)
+          throw_failure("FGMRES on the saddle-point system", failure,
+                        tolerance);
+        solution = 0.;
       }
+      n_iterations += control.last_step();
+    }
     increment = solution.block(0);
     const double *p = la::data(solution.block(1));
     multiplier.assign(p, p + system.row.size());
-    return control.last_step() == dealii::numbers::invalid_unsigned_int
-               ? 0
-               : control.last_step();
+    return n_iterations;
   }
 
   la::Matrix SaddlePoint::assemble_matrix(const System &system) const
@@ -322,7 +307,19 @@ namespace abut::solve
     rows_.add_transposed(augmentation.data(), force);
     std::copy_n(la::data(force), n_unknowns, la::data(right));
 
-    DirectSolver(matrix).solve(solution, right);
+    const DirectSolver solver(matrix);
+    solver.solve(solution, right);
+    la::Vector rest(right), correction(right);
+    const double before = right.l2_norm();
+    double after = matrix.residual(rest, solution, right);
+    if (after > 1e-12 * before)
+    {
+      // Once more: an indefinite matrix costs digits.
+      solver.solve(correction, rest);
+      solution += correction;
+      after = matrix.residual(rest, solution, right);
+    }
+    check_direct_solution(before, after);
     const double *values = la::data(solution);
     std::copy(values, values + n_unknowns, la::data(increment));
     multiplier.assign(values + n_unknowns,
@@ -349,37 +346,39 @@ namespace abut::solve
                                   la::Vector &increment)
   {
     System system = assemble(residual, request);
+    std::vector<std::uint8_t> resists(rows_.n_rows());
+    for (int i = 0; i < rows_.n_rows(); ++i)
+      resists[i] = request.d_pressure[i] == 0. || request.d_gap[i] != 0.;
+    floating_.check(rows_, resists);
+
     std::vector<double> multiplier;
     LinearReport report;
     const dealii::Timer timer;
-    // Condensed rows on single unknowns alone: K + D with a diagonal D.
-    const bool is_diagonal = are_nodal_ && system.n_constraints == 0;
-    if (leading_.is_direct() && !is_diagonal)
+    if (leading_.is_direct() && system.n_constraints > 0)
     {
       solve_directly(system, increment, multiplier);
       report.n_setups = 1;
+      report.method = "saddle point, " + DirectSolver::name();
       report.setup_seconds = timer.wall_time();
+      recover(request, system, multiplier, increment);
+      return report;
     }
-    else
+    report = leading_.prepare(
+        {system.stiff,
+         std::vector<std::int64_t>(rows_.n_rows(), Condensate::none)});
+    const double tolerance =
+        std::max(request.linear_tolerance * leading_.load(system.force),
+                 smallest_residual);
+    if (system.n_constraints > 0)
     {
-      double tolerance =
-          request.linear_tolerance * leading_.load(system.added, system.force);
-      tolerance = std::max(tolerance, smallest_residual);
-      if (!is_diagonal)
-      {
-        report = leading_.prepare(system.augmented);
-        report.n_iterations =
-            solve_iteratively(system, tolerance, increment, multiplier);
-        report.n_matvecs = report.n_iterations;
-      }
-      else
-      {
-        increment = 0.;
-        report = leading_.solve(system.added, system.force, tolerance,
-                                increment, true);
-      }
+      report.method = "saddle point, FGMRES, ML";
+      report.n_iterations =
+          solve_iteratively(system, tolerance, increment, multiplier);
+      report.n_matvecs = report.n_iterations;
       report.solve_seconds = timer.wall_time() - report.setup_seconds;
     }
+    else
+      report += leading_.solve(system.force, tolerance, increment);
     recover(request, system, multiplier, increment);
     return report;
   }

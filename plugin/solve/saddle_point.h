@@ -2,7 +2,8 @@
 #ifndef ABUT_SOLVE_SADDLE_POINT_H
 #define ABUT_SOLVE_SADDLE_POINT_H
 
-#include "masked_solver.h"
+#include "condensed_solver.h"
+#include "floating_bodies.h"
 #include "row_operator.h"
 #include "row_solver.h"
 
@@ -40,7 +41,7 @@ namespace abut::solve
                     const abut_request &request) const;
     unsigned int solve_iteratively(const System &system, double tolerance,
                                    la::Vector &increment,
-                                   std::vector<double> &multiplier) const;
+                                   std::vector<double> &multiplier);
     la::Matrix assemble_matrix(const System &system) const;
     void solve_directly(const System &system, la::Vector &increment,
                         std::vector<double> &multiplier) const;
@@ -49,11 +50,11 @@ namespace abut::solve
                  const la::Vector &increment) const;
 
     SolverParameters parameters_;
-    MaskedSolver leading_;
+    NearNullSpace space_;
+    CondensedSolver leading_;
+    FloatingBodies floating_;
     const la::Matrix *stiffness_ = nullptr;
     RowOperator rows_;
-    std::vector<double> row_stiffness_;
-    bool are_nodal_ = false;
   };
 } // namespace abut::solve
 

@@ -23,8 +23,9 @@ namespace abut
     Linear linear = Linear::automatic;
     /** Iterations after which an iterative solve is given up. */
     unsigned int max_iterations = 1000;
-    /** Unknowns up to which `auto` takes the direct solver. */
-    unsigned int direct_limit = 500;
+    /** Unknowns up to which `auto` takes the direct solver; 0: 500 for scalar
+     * fields, 20000 in the plane, 3000 in space. */
+    unsigned int direct_limit = 0;
     /** ML: connections weaker than this are dropped in coarsening. */
     double aggregation_threshold = 1e-3;
     /** ML: degree of the Chebyshev smoother. */
@@ -32,6 +33,11 @@ namespace abut
     /** Saddle point: augmentation of the leading block as a multiple of the
      * local stiffness. */
     double augmentation = 1.;
+
+    /** Whether a system of @p n_unknowns of a field with @p n_components is to
+     * be factorised. */
+    bool is_direct(unsigned long long n_unknowns,
+                   unsigned int n_components) const;
 
     /** Declare the parameters of section `Solver`. */
     static void declare_parameters(dealii::ParameterHandler &prm);

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "floating_bodies.h"
+
+#include <abut/dealii/solver_parameters.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace abut::solve
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** A motion is free if its energy is below this part of what its
+     * displacements would cost one by one: far below a support at one node,
+     * far above round-off. */
+    constexpr double free_energy = 1e-11;
+
+    /** Gaps are known to some 1e-12 of the displacement, energies to the
+     * square of it. */
+    constexpr double free_gap = 1e-14;
+
+    /** Rigid motions of all bodies at once; each body turns about its centre,
+     * with displacements of about 1 at its rim. */
+    class Motions
+    {
+    public:
+      Motions(const la::Matrix &stiffness, const NearNullSpace &space)
+          : space_(space),
+            dim_(space.n_components),
+            center_(space.n_bodies),
+            radius_(space.n_bodies, 1.)
+      {
+        if (!space.point.empty())
+          find_centers(stiffness.get_mpi_communicator());
+        const la::LocalRows rows = la::local_rows(stiffness);
+        is_coupled_.assign(rows.n_rows, 0);
+        for (int i = 0; i < rows.n_rows; ++i)
+          for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+            if (rows.column[k] != i && rows.value[k] != 0.)
+              is_coupled_[i] = 1;
+      }
+
+      unsigned int n_modes() const
+      {
+        const unsigned int rotations = dim_ == 3 ? 3 : dim_ - 1;
+        return dim_ + (space_.point.empty() ? 0 : rotations);
+      }
+
+      int body(const std::size_t i) const
+      {
+        return space_.body.empty() ? 0 : space_.body[i];
+      }
+
+      /** Displacement of unknown i in a mode; 0 where the unknown is held or
+       * follows others. */
+      double value(const unsigned int mode, const std::size_t i) const
+      {
+        if (!is_coupled_[i])
+          return 0.;
+        const unsigned int component = space_.component[i];
+        if (mode < dim_)
+          return component == mode ? 1. : 0.;
+        // In the plane about z, in space about the axis mode - dim.
+        const unsigned int axis = dim_ == 2 ? 2 : mode - dim_;
+        if (component == axis)
+          return 0.;
+        const unsigned int other = 3 - axis - component;
+        const auto x = space_.point[i] - center_[body(i)];
+        const double sign = (component + 1) % 3 == axis ? 1. : -1.;
+        return sign * x[other] / radius_[body(i)];
+      }
+
+    private:
+      void find_centers(const MPI_Comm communicator)
+      {
+        const std::size_t n = space_.point.size();
+        std::vector<double> sums(4 * space_.n_bodies, 0.);
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          for (int d = 0; d < 3; ++d)
+            sums[4 * body(i) + d] += space_.point[i][d];
+          sums[4 * body(i) + 3] += 1.;
+        }
+        MPI::sum(sums, communicator, sums);
+        for (unsigned int b = 0; b < space_.n_bodies; ++b)
+          for (int d = 0; d < 3; ++d)
+            center_[b][d] = sums[4 * b + d] / std::max(1., sums[4 * b + 3]);
+        std::vector<double> largest(space_.n_bodies, 0.);
+        for (std::size_t i = 0; i < n; ++i)
+          largest[body(i)] = std::max(
+              largest[body(i)], space_.point[i].distance(center_[body(i)]));
+        MPI::max(largest, communicator, largest);
+        for (unsigned int b = 0; b < space_.n_bodies; ++b)
+          radius_[b] = largest[b] > 0. ? largest[b] : 1.;
+      }
+
+      const NearNullSpace &space_;
+      const unsigned int dim_;
+      std::vector<dealii::Point<3>> center_;
+      std::vector<double> radius_;
+      std::vector<std::uint8_t> is_coupled_;
+    };
+
+    /** Eigenvectors of a symmetric positive semidefinite n x n matrix with
+     * eigenvalues up to @p bound. */
+    std::vector<std::vector<double>>
+    null_space(const unsigned int n, const double *values, const double bound)
+    {
+      dealii::LAPACKFullMatrix<double> matrix(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          matrix(i, j) = 0.5 * (values[i * n + j] + values[j * n + i]);
+      dealii::Vector<double> eigenvalues;
+      dealii::FullMatrix<double> eigenvectors;
+      matrix.compute_eigenvalues_symmetric(-1e3 * n, bound, 0., eigenvalues,
+                                           eigenvectors);
+      std::vector<std::vector<double>> result(eigenvalues.size());
+      for (unsigned int k = 0; k < eigenvalues.size(); ++k)
+        for (unsigned int i = 0; i < n; ++i)
+          result[k].push_back(eigenvectors(i, k));
+      return result;
+    }
+  } // namespace
+
+  void FloatingBodies::reinit(const la::Matrix &stiffness,
+                              const RowOperator &rows,
+                              const NearNullSpace &space)
+  {
+    motions_.clear();
+    gap_.clear();
+    if (space.n_components == 1)
+      return;
+    space_ = space;
+    const Motions motions(stiffness, space);
+    const MPI_Comm communicator = stiffness.get_mpi_communicator();
+    const unsigned int n = n_modes_ = motions.n_modes();
+    const std::vector<double> diagonal =
+        la::diagonal(la::local_rows(stiffness));
+
+    // Per body: energies of pairs of modes, then the size of each mode.
+    const std::size_t stride = n * n + n;
+    std::vector<double> sums(space.n_bodies * stride, 0.);
+    la::Vector mode(rows.owned(), communicator), force(mode);
+    for (unsigned int m = 0; m < n; ++m)
+    {
+      for (int i = 0; i < la::n_owned(mode); ++i)
+        la::data(mode)[i] = motions.value(m, i);
+      stiffness.vmult(force, mode);
+      for (int i = 0; i < la::n_owned(mode); ++i)
+      {
+        double *const sum = &sums[motions.body(i) * stride];
+        for (unsigned int k = 0; k < n; ++k)
+          sum[m * n + k] += motions.value(k, i) * la::data(force)[i];
+        sum[n * n + m] += la::data(mode)[i] * la::data(mode)[i] * diagonal[i];
+      }
+    }
+    MPI::sum(sums, communicator, sums);
+    for (unsigned int b = 0; b < space.n_bodies; ++b)
+    {
+      double *const sum = &sums[b * stride];
+      const double *const size = sum + n * n;
+      // A mode that a body does not have counts as held.
+      for (unsigned int m = 0; m < n; ++m)
+        for (unsigned int k = 0; k < n; ++k)
+          sum[m * n + k] = size[m] > 0. && size[k] > 0.
+                               ? sum[m * n + k] / std::sqrt(size[m] * size[k])
+                               : (m == k ? 1. : 0.);
+      for (std::vector<double> &motion : null_space(n, sum, free_energy))
+      {
+        for (unsigned int m = 0; m < n; ++m)
+          motion[m] = size[m] > 0. ? motion[m] / std::sqrt(size[m]) : 0.;
+        double largest = 0.;
+        for (const double c : motion)
+          largest = std::max(largest, std::abs(c));
+        for (double &c : motion)
+          c /= largest;
+        motions_.push_back({b, motion});
+      }
+    }
+
+    for (const Motion &motion : motions_)
+    {
+      for (int i = 0; i < la::n_owned(mode); ++i)
+      {
+        double value = 0.;
+        if (motions.body(i) == static_cast<int>(motion.body))
+          for (unsigned int m = 0; m < n; ++m)
+            value += motion.coefficient[m] * motions.value(m, i);
+        la::data(mode)[i] = value;
+      }
+      gap_.emplace_back(rows.n_rows());
+      rows.times(mode, gap_.back().data());
+    }
+  }
+
+  std::string
+  FloatingBodies::describe(const std::vector<double> &combination) const
+  {
+    // What the body that takes part most does, as far as it is seen.
+    std::vector<double> weight(space_.n_bodies, 0.);
+    for (std::size_t k = 0; k < motions_.size(); ++k)
+      weight[motions_[k].body] += combination[k] * combination[k];
+    const unsigned int body = static_cast<unsigned int>(
+        std::max_element(weight.begin(), weight.end()) - weight.begin());
+    std::vector<double> motion(n_modes_, 0.);
+    for (std::size_t k = 0; k < motions_.size(); ++k)
+      if (motions_[k].body == body)
+        for (unsigned int m = 0; m < n_modes_; ++m)
+          motion[m] += combination[k] * motions_[k].coefficient[m];
+
+    const unsigned int dim = space_.n_components;
+    double parts[2] = {0., 0.};
+    for (unsigned int m = 0; m < n_modes_; ++m)
+      parts[m >= dim] += motion[m] * motion[m];
+    const bool turns = parts[1] > parts[0];
+    const auto direction = [&](const unsigned int first, const unsigned int end)
+    {
+      std::ostringstream text;
+      text.precision(2);
+      for (unsigned int m = first; m < end; ++m)
+      {
+        const double c = motion[m] / std::sqrt(parts[turns]);
+        text << (m == first ? "(" : ", ") << (std::abs(c) < 5e-3 ? 0. : c);
+      }
+      text << ")";
+      return text.str();
+    };
+    const std::string name = space_.names.empty()
+                                 ? "body " + std::to_string(body + 1)
+                                 : "the body '" + space_.names[body] + "'";
+    if (!turns)
+      return name + " can slide along " + direction(0, dim);
+    return name + " can turn"
+           + (dim == 2 ? ""
+                       : " about the direction " + direction(dim, 2 * dim));
+  }
+
+  void FloatingBodies::check(const RowOperator &rows,
+                             const std::vector<std::uint8_t> &resists) const
+  {
+    const unsigned int n = static_cast<unsigned int>(motions_.size());
+    if (n == 0)
+      return;
+    // Energies of unit springs on the rows, then weight and number of rows.
+    std::vector<double> sums(n * n + 2, 0.);
+    for (int i = 0; i < rows.n_rows(); ++i)
+    {
+      if (!resists[i])
+        continue;
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int k = 0; k < n; ++k)
+          sums[j * n + k] += rows.weight(i) * gap_[j][i] * gap_[k][i];
+      sums[n * n] += rows.weight(i);
+      sums[n * n + 1] += 1.;
+    }
+    MPI::sum(sums, rows.communicator(), sums);
+    const double weight = sums[n * n];
+    for (unsigned int k = 0; weight > 0. && k < n * n; ++k)
+      sums[k] /= weight;
+    const auto free = null_space(n, sums.data(), free_gap);
+    if (free.empty())
+      return;
+    std::ostringstream text;
+    text << "Nothing holds the bodies: " << describe(free[0]);
+    if (free.size() > 1)
+      text << ", and " << free.size() - 1 << " more such motion"
+           << (free.size() > 2 ? "s" : "") << " meet";
+    text << (free.size() > 1 ? "" : ", which meets")
+         << " no resistance from supports or from the " << sums[n * n + 1]
+         << " rows in contact. Support the body in that direction (contact "
+            "without friction holds it along the normal only), tie it, or "
+            "begin with the bodies in contact: a smaller initial gap, or a "
+            "prescribed displacement in place of a force.";
+    throw SolverFailure(text.str());
+  }
+} // namespace abut::solve

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_FLOATING_BODIES_H
+#define ABUT_SOLVE_FLOATING_BODIES_H
+
+#include "near_null_space.h"
+#include "row_operator.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <string>
+
+namespace abut::solve
+{
+  /** Rigid motions of bodies that a stiffness does not resist, and whether
+   * constraint rows do. A system with such a motion left has no solution, or
+   * many; iterations and factorisations then fail in ways that do not tell
+   * why, or not at all. */
+  class FloatingBodies
+  {
+  public:
+    /** Find the motions that K leaves free: translations, and rotations if the
+     * positions of unknowns are known. Nothing is done for scalar fields. As
+     * many products with K as a body has motions. Collective. */
+    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+                const NearNullSpace &space);
+
+    /** Throw SolverFailure if rows with @p resists nonzero leave a motion
+     * free: the message names the body and the motion. O(rows) for each motion
+     * that K leaves free. Collective. */
+    void check(const RowOperator &rows,
+               const std::vector<std::uint8_t> &resists) const;
+
+  private:
+    /** A motion of one body: coefficients of its translations and rotations
+     * about its centre. */
+    struct Motion
+    {
+      unsigned int body;
+      std::vector<double> coefficient;
+    };
+
+    std::string describe(const std::vector<double> &combination) const;
+
+    NearNullSpace space_;
+    unsigned int n_modes_ = 0;
+    std::vector<Motion> motions_;
+    /** [motions][rows] change of the gaps with each motion. */
+    std::vector<std::vector<double>> gap_;
+  };
+} // namespace abut::solve
+
+#endif
