@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Every law with every discretisation that is offered with it, on the blocks of
-// the patch test: each must converge to the resultant 1 of the exact solution,
-// as closely as the law and the discretisation allow.
+// Every law that needs no stress of the host with every discretisation that is
+// offered with it, on the blocks of the patch test: each must converge to the
+// resultant 1 of the exact solution, as closely as the law and the
+// discretisation allow.
 #include "patch.h"
 
 using namespace abut;
@@ -36,6 +37,9 @@ main(int argc, char **argv)
           Discretisation::mortar, Discretisation::dual_mortar})
     {
       const abut_law &law = *abut_law_get(i);
+      // It needs the host's stress, which these blocks do not tell.
+      if (std::string(law.name) == "nitsche")
+        continue;
       if (!refusal(law, discretisation, System::automatic, false).empty())
       {
         ++n_refused;
@@ -62,7 +66,8 @@ main(int argc, char **argv)
                                0., run.name + ": failure to converge")
              && good;
     }
-  // Six laws; quadrature points are refused for lagrange and interior point.
+  // Six such laws; quadrature points are refused for lagrange and interior
+  // point.
   good =
       hosts::is_at_most(std::abs(n_runs - 22.), 0., "number of runs")
       && hosts::is_at_most(std::abs(n_refused - 2.), 0., "number of refusals")
