@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* The dense model: elimination, floating bodies, arguments. */
-#include "fixture.h"
 #include "base/dense_lu.h"
+#include "fixture.h"
 
 #include <string.h>
 

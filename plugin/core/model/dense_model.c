@@ -6,8 +6,8 @@
  *
  * as it stands, so that K may be singular as long as the active constraints
  * hold the body. */
-#include "base/memory.h"
 #include "base/dense_lu.h"
+#include "base/memory.h"
 
 #include <abut/dense_model.h>
 #include <math.h>
