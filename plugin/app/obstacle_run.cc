@@ -5,6 +5,7 @@
 #include "estimator.h"
 #include "input_error.h"
 #include "memory_check.h"
+#include "result_row.h"
 
 #include <deal.II/distributed/grid_refinement.h>
 #include <deal.II/distributed/solution_transfer.h>
@@ -318,29 +319,9 @@ namespace abut::app
     if (exact)
       present.errors = error_norms(membrane.mapping, membrane.dof_handler,
                                    membrane.ghosted(u), *exact);
-    std::map<std::string, double> row = {
-        {"level", number},
-        {"cells", double(present.cells)},
-        {"dofs", double(present.dofs)},
-        {"constraints", double(present.rows)},
-        {"active", double(present.active)},
-        {"steps", present.steps},
-        {"linear_iterations", present.linear.n_iterations},
-        {"matvecs", present.linear.n_matvecs},
-        {"setups", present.linear.n_setups},
-        {"energy", present.energy},
-        {"contact_force", present.force},
-        {"penetration", contact.penetration()},
-        {"setup_seconds", present.linear.setup_seconds},
-        {"krylov_seconds", present.linear.solve_seconds},
-        {"seconds", present.seconds}};
-    if (present.errors)
-    {
-      row["l2_error"] = present.errors->l2;
-      row["h1_error"] = present.errors->h1_seminorm;
-    }
-    if (present.estimate)
-      row["estimate"] = *present.estimate;
+    std::map<std::string, double> row = result_row(present);
+    row["level"] = number;
+    row["penetration"] = contact.penetration();
     report.add_row(row);
     levels.push_back(present);
     report.add("nonlinear_iterations", present.steps);

@@ -2,6 +2,7 @@
 // What a run of the scene `solid` leaves behind.
 #include "input_error.h"
 #include "nearest_node.h"
+#include "result_row.h"
 #include "solid_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -63,32 +64,13 @@ namespace abut::app
       present.errors =
           error_norms(elasticity.mapping, elasticity.dof_handler,
                       elasticity.ghosted(u), *exact, &data.materials);
-    std::map<std::string, double> row = {
-        {"load_step", present.load_step},
-        {"time", present.time},
-        {"level", present.level},
-        {"cells", double(present.cells)},
-        {"dofs", double(present.dofs)},
-        {"constraints", double(present.rows)},
-        {"active", double(present.active)},
-        {"steps", present.steps},
-        {"linear_iterations", present.linear.n_iterations},
-        {"matvecs", present.linear.n_matvecs},
-        {"setups", present.linear.n_setups},
-        {"energy", present.energy},
-        {"contact_force", present.force},
-        {"penetration", present.penetration},
-        {"setup_seconds", present.linear.setup_seconds},
-        {"krylov_seconds", present.linear.solve_seconds},
-        {"seconds", present.seconds}};
+    std::map<std::string, double> row = result_row(present);
+    row["load_step"] = present.load_step;
+    row["time"] = present.time;
+    row["level"] = present.level;
+    row["penetration"] = present.penetration;
     if (present.errors)
-    {
-      row["l2_error"] = present.errors->l2;
-      row["h1_error"] = present.errors->h1_seminorm;
       row["energy_norm_error"] = *present.errors->energy;
-    }
-    if (present.estimate)
-      row["estimate"] = *present.estimate;
     report.add_row(row);
     states.push_back(present);
     report.add("nonlinear_iterations", present.steps);
