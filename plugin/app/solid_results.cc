@@ -169,6 +169,7 @@ namespace abut::app
     { return std::vector<double>(tensor.begin_raw(), tensor.end_raw()); };
     unsigned int number = 0;
     double force_imbalance = 0., moment_imbalance = 0.;
+    const double way = u.linfty_norm();
     for (const PairResult<dim> &pair : contact.pair_results())
     {
       const std::string key = "pair_" + std::to_string(++number);
@@ -180,6 +181,16 @@ namespace abut::app
       report.set(key + "_moment", vector(pair.secondary_moment));
       report.set(key + "_pressure", pair.pressure);
       report.set(key + "_penetration", pair.penetration);
+      report.set(key + "_between_rows", pair.between_rows);
+      if (way > 0. && pair.between_rows > suspicious_penetration * way)
+        report.warn(pair.name
+                    + ": nodes of the primary surface are inside the secondary "
+                      "by up to "
+                    + short_number(pair.between_rows, 3)
+                    + " between its constraints, where nothing moves by more "
+                      "than "
+                    + short_number(way, 3)
+                    + ": exchange the two sides, or refine the secondary.");
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
     }
@@ -190,8 +201,7 @@ namespace abut::app
     report.set("contact_force", contact.contact_force());
     report.set("max_penetration", contact.penetration());
     report.set("max_complementarity", contact.complementarity());
-    const double way = u.linfty_norm();
-    if (contact.penetration() > suspicious_penetration * way)
+    if (way > 0. && contact.penetration() > suspicious_penetration * way)
       report.warn("The bodies penetrate each other by "
                   + short_number(contact.penetration(), 3)
                   + ", where nothing moves by more than " + short_number(way, 3)

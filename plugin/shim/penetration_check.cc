@@ -12,9 +12,16 @@ namespace abut::shim
 {
   namespace
   {
+    /** A node inside the other surface. */
+    struct Inside
+    {
+      int node, facet; ///< of the two sides
+      double depth;
+    };
+
     /** Nodes of @p nodes deeper than @p tolerance in @p facets. Only reads. */
     template <int dim>
-    std::vector<std::pair<int, double>>
+    std::vector<Inside>
     penetrating_nodes(abut_context *context, const SurfaceSide<dim> &nodes,
                       const SurfaceSide<dim> &facets,
                       const SearchParameters &search, const double reach,
@@ -28,13 +35,93 @@ namespace abut::shim
       check(context, abut_detection_run(detection.get(), 0.));
       abut_detection_view view;
       check(context, abut_detection_get(detection.get(), &view));
-      std::vector<std::pair<int, double>> found;
+      std::vector<Inside> found;
       for (std::int32_t n = 0; n < view.n_nodes; ++n)
         if (view.contact[n].facet >= 0 && view.contact[n].gap < -tolerance)
-          found.emplace_back(n, -view.contact[n].gap);
+          found.push_back({n, view.contact[n].facet, -view.contact[n].gap});
       return found;
     }
   } // namespace
+
+  template <int dim>
+  std::vector<std::uint8_t> SurfacePairRows<dim>::held_nodes() const
+  {
+    std::vector<std::uint8_t> held(surface_.nodes.size() * pairs_.size(), 0);
+    for (const Row &row : rows_)
+      for (std::size_t e = row.first; e < row.first_primary; ++e)
+        held[row.pair * surface_.nodes.size() + entries_[e].node] = 1;
+    exchange_.merge_marks(held);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
+      std::uint8_t *marks = &held[p * surface_.nodes.size()];
+      const Pair &pair = pairs_[p];
+      for (std::size_t n = 0; n < pair.dropped.size(); ++n)
+        if (pair.dropped[n] != 0)
+          marks[pair.secondary.node[n]] = 1;
+      for (const Node node : pair.secondary.node)
+      {
+        bool parents = !surface_.parents[node].empty();
+        for (const auto &parent : surface_.parents[node])
+          parents = parents && marks[parent.index] != 0;
+        if (parents)
+          marks[node] = 1;
+      }
+    }
+    return held;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::check_obstacle(
+      const Pair &pair, const std::uint8_t *held,
+      const std::vector<dealii::Point<dim>> &present, const double tolerance,
+      std::vector<Penetration<dim>> &missed) const
+  {
+    std::vector<dealii::Point<dim>> points;
+    for (const Node node : pair.secondary.node)
+      points.push_back(present[node]);
+    std::vector<double> distance;
+    pair.data.obstacle->distance(points, distance);
+    for (std::size_t n = 0; n < points.size(); ++n)
+      if (distance[n] + pair.data.gap < -tolerance
+          && held[pair.secondary.node[n]] == 0)
+        missed.push_back(
+            {pair.data.name, points[n], -distance[n] - pair.data.gap, false});
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::check_surfaces(
+      Pair &pair, const std::uint8_t *held,
+      const std::vector<dealii::Point<dim>> &present, const double reach,
+      const double tolerance, std::vector<Penetration<dim>> &missed)
+  {
+    const double depth = tolerance + pair.data.gap;
+    for (const Inside &inside :
+         penetrating_nodes(context_, pair.secondary, pair.primary,
+                           settings_.search, reach, depth))
+    {
+      const Node node = pair.secondary.node[inside.node];
+      if (held[node] == 0)
+        missed.push_back({pair.data.name, present[node],
+                          inside.depth - pair.data.gap, false});
+    }
+    for (const Inside &inside :
+         penetrating_nodes(context_, pair.primary, pair.secondary,
+                           settings_.search, reach, pair.data.gap))
+    {
+      // Inside the secondary between its rows, or where it has none.
+      const auto &facet = surface_.facets[pair.secondary.facet[inside.facet]];
+      bool between = pair.discretisation == Discretisation::node_to_segment;
+      for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)
+        between = between || held[facet.node[a]] != 0;
+      const double found = inside.depth - pair.data.gap;
+      if (between)
+        pair.between_rows = std::max(pair.between_rows, found);
+      else if (found > tolerance)
+        missed.push_back({pair.data.name,
+                          present[pair.primary.node[inside.node]], found,
+                          true});
+    }
+  }
 
   template <int dim>
   std::vector<Penetration<dim>>
@@ -49,61 +136,28 @@ namespace abut::shim
       reference[n] = surface_.nodes[n].point;
       present[n] = reference[n] + u[n];
     }
+    const std::vector<std::uint8_t> held = held_nodes();
 
-    // Held are nodes that a row mentions.
-    std::vector<std::uint8_t> held(surface_.nodes.size() * pairs_.size(), 0);
-    for (const Row &row : rows_)
-      for (std::size_t e = row.first; e < row.end; ++e)
-        held[row.pair * surface_.nodes.size() + entries_[e].node] = 1;
-    exchange_.merge_marks(held);
-
-    std::vector<Penetration<dim>> result;
+    std::vector<Penetration<dim>> missed;
     std::string message;
     for (std::size_t p = 0; p < pairs_.size() && message.empty(); ++p)
       try
       {
         Pair &pair = pairs_[p];
+        pair.between_rows = 0.;
         if (pair.data.tied || !pair.data.geometric_gap)
           continue;
-        const auto is_held = [&](const Node node)
-        {
-          const auto *marks = &held[p * surface_.nodes.size()];
-          bool parents = !surface_.parents[node].empty();
-          for (const auto &parent : surface_.parents[node])
-            parents = parents && marks[parent.index] != 0;
-          return marks[node] != 0 || parents;
-        };
-        const auto note =
-            [&](const Node node, const double depth, const bool on_primary)
-        {
-          if (!is_held(node))
-            result.push_back(
-                {pair.data.name, present[node], depth, on_primary});
-        };
+        const std::uint8_t *marks = &held[p * surface_.nodes.size()];
         if (pair.data.obstacle)
         {
-          std::vector<dealii::Point<dim>> points;
-          for (const Node node : pair.secondary.node)
-            points.push_back(present[node]);
-          std::vector<double> distance;
-          pair.data.obstacle->distance(points, distance);
-          for (std::size_t n = 0; n < points.size(); ++n)
-            if (distance[n] + pair.data.gap < -tolerance)
-              note(pair.secondary.node[n], -distance[n] - pair.data.gap, false);
+          check_obstacle(pair, marks, present, tolerance, missed);
           continue;
         }
-        const double reach = std::max(pair.data.reach, 1.5 * motion(pair, u));
-        const double depth = tolerance + pair.data.gap;
         move_side(context_, present, pair.secondary);
         move_side(context_, present, pair.primary);
-        for (const auto &[n, d] :
-             penetrating_nodes(context_, pair.secondary, pair.primary,
-                               settings_.search, reach, depth))
-          note(pair.secondary.node[n], d - pair.data.gap, false);
-        for (const auto &[n, d] :
-             penetrating_nodes(context_, pair.primary, pair.secondary,
-                               settings_.search, reach, depth))
-          note(pair.primary.node[n], d - pair.data.gap, true);
+        check_surfaces(pair, marks, present,
+                       std::max(pair.data.reach, 1.5 * motion(pair, u)),
+                       tolerance, missed);
         move_side(context_, reference, pair.secondary);
         move_side(context_, reference, pair.primary);
       }
@@ -112,11 +166,21 @@ namespace abut::shim
         message = "Pair '" + pairs_[p].data.name + "': " + error.what();
       }
     throw_everywhere<ContactError>(communicator_, message);
-    return result;
+    return missed;
   }
 
-  template std::vector<Penetration<2>>
-  SurfacePairRows<2>::penetrations(const la::Vector &, double);
-  template std::vector<Penetration<3>>
-  SurfacePairRows<3>::penetrations(const la::Vector &, double);
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template std::vector<std::uint8_t> SurfacePairRows<dim>::held_nodes() const; \
+  template void SurfacePairRows<dim>::check_obstacle(                          \
+      const Pair &, const std::uint8_t *,                                      \
+      const std::vector<dealii::Point<dim>> &, double,                         \
+      std::vector<Penetration<dim>> &) const;                                  \
+  template void SurfacePairRows<dim>::check_surfaces(                          \
+      Pair &, const std::uint8_t *, const std::vector<dealii::Point<dim>> &,   \
+      double, double, std::vector<Penetration<dim>> &);                        \
+  template std::vector<Penetration<dim>> SurfacePairRows<dim>::penetrations(   \
+      const la::Vector &, double);
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
 } // namespace abut::shim

@@ -127,7 +127,10 @@ namespace abut::shim
   {
     std::vector<PairResult<dim>> results(pairs_.size());
     for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
       results[p].name = pairs_[p].data.name;
+      results[p].between_rows = pairs_[p].between_rows;
+    }
     for (std::size_t i = 0; i < rows_.size(); ++i)
     {
       const Row &row = rows_[i];

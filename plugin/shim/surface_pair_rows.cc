@@ -363,9 +363,10 @@ namespace abut::shim
                                        const double motion,
                                        std::vector<std::uint8_t> &taken)
   {
-    const Pair &pair = pairs_[number];
+    Pair &pair = pairs_[number];
     const std::size_t first = rows_.size();
-    std::vector<std::uint8_t> dropped;
+    std::vector<std::uint8_t> &dropped = pair.dropped;
+    dropped.clear();
     unsigned int n_dropped = 0;
     const auto count = [&]
     { return std::count(dropped.begin(), dropped.end(), std::uint8_t(1)); };

@@ -88,8 +88,10 @@ namespace abut::shim
      * uniform. Collective. */
     void make_uniform(std::vector<double> &value) const;
 
-    /** Nodes of either side that have penetrated by more than @p tolerance
-     * (length) at @p displacement and are not held by a row. Collective. */
+    /** Points of the secondary that have penetrated by more than @p tolerance
+     * (length) at @p displacement without a row: its own nodes, and nodes of
+     * the primary in facets of the secondary without any row. How deep the
+     * primary's nodes are between rows is noted for results(). Collective. */
     std::vector<Penetration<dim>> penetrations(const la::Vector &displacement,
                                                double tolerance);
 
@@ -105,6 +107,9 @@ namespace abut::shim
       SurfaceSide<dim> secondary, primary;
       Handle<abut_coupling> coupling;
       std::int64_t first_id = 0;
+      /** [nodes of the secondary] without a multiplier in the present rows. */
+      std::vector<std::uint8_t> dropped;
+      double between_rows = 0.; ///< as in PairResult
     };
 
     /** A row before constraints are put in. Its entries are dg/du = direction
@@ -128,6 +133,18 @@ namespace abut::shim
       Node node;
       double coefficient;
     };
+
+    /** [pairs][nodes of the whole surface] nonzero: a row of the pair holds
+     * this node of its secondary, or none can. Collective. */
+    std::vector<std::uint8_t> held_nodes() const;
+    void check_obstacle(const Pair &pair, const std::uint8_t *held,
+                        const std::vector<dealii::Point<dim>> &present,
+                        double tolerance,
+                        std::vector<Penetration<dim>> &missed) const;
+    void check_surfaces(Pair &pair, const std::uint8_t *held,
+                        const std::vector<dealii::Point<dim>> &present,
+                        double reach, double tolerance,
+                        std::vector<Penetration<dim>> &missed);
 
     void create_pair(const ContactPair<dim> &data);
     void create_coupling(Pair &pair);

@@ -100,6 +100,31 @@ namespace
     expect(contact.check_penetration(moved, 1e-6).empty(),
            "rows at all penetrating nodes");
   }
+
+  /** Rows at the nodes of a coarse secondary say nothing of the primary's nodes
+   * between them: those are measured, but they are no misses. */
+  void check_between_rows()
+  {
+    for (const auto discretisation :
+         {Discretisation::node_to_segment, Discretisation::mortar})
+    {
+      hosts::Case run;
+      run.cells = {{3, 9}};
+      run.upper_is_secondary = false;
+      run.method = hosts::method("penalty", discretisation);
+      hosts::TwoBlocks<2> blocks(run);
+      blocks.prepare({blocks.pair()});
+      ContactAssembler<2> &contact = blocks.contact();
+      contact.detect(blocks.displacement());
+      const std::string name = discretisation_name(discretisation);
+      expect(
+          contact.check_penetration(blocks.displacement(-0.05), 1e-6).empty(),
+          name + ": no misses where all nodes have rows");
+      const double depth = contact.pair_results().at(0).between_rows;
+      expect(std::abs(depth - 0.05) < 1e-12,
+             name + ": depth of the primary's nodes, " + std::to_string(depth));
+    }
+  }
 } // namespace
 
 int
@@ -108,5 +133,6 @@ main(int argc, char **argv)
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_refusals();
   check_search_after_motion();
+  check_between_rows();
   return good ? 0 : 1;
 }

@@ -220,12 +220,14 @@ namespace abut
     std::vector<PairResult<dim>> pair_results() const;
 
     /** Search the bodies displaced by @p displacement, without regard to
-     * rows, for nodes of either side that are inside the other body (or
-     * obstacle) by more than @p tolerance, length > 0, although no row of the
-     * pair holds them. To be called after convergence; if something is found,
-     * call detect() with this displacement, whose reach follows the motion, and
-     * solve on. The same list on all ranks; empty without pairs. As costly as
-     * detect(). */
+     * rows, for points of secondary surfaces that are inside the other body (or
+     * obstacle) by more than @p tolerance, length > 0, although they have no
+     * row: nodes of the secondary, and facets of it without rows that hold a
+     * node of the primary. To be called after convergence; if something is
+     * found, call detect() with this displacement, whose reach follows the
+     * motion, and solve on. Nodes of the primary between rows are no misses: no
+     * search helps against them, see PairResult::between_rows. The same list on
+     * all ranks; empty without pairs. As costly as detect(). */
     std::vector<Penetration<dim>>
     check_penetration(const la::Vector &displacement, double tolerance);
 

@@ -91,7 +91,11 @@ namespace abut
     double contact_area = 0.; /**< of those in contact */
     double penetration = 0.;  /**< largest, length >= 0; of a tie the largest
                                    opening in any direction */
-    double pressure = 0.;     /**< largest */
+    /** How deep nodes of the primary are in the secondary between rows that
+     * hold it, length >= 0, by the last check_penetration(): what the
+     * discretisation does not see. Large where the secondary is coarser. */
+    double between_rows = 0.;
+    double pressure = 0.; /**< largest */
     /** Resultant contact forces on the two sides. Against an obstacle the
      * second is minus the first. */
     dealii::Tensor<1, dim> secondary_force, primary_force;
@@ -103,13 +107,14 @@ namespace abut
     double force_imbalance = 0., moment_imbalance = 0.;
   };
 
-  /** A point that has penetrated although no row holds it. */
+  /** A point of the secondary that has penetrated without a row. */
   template <int dim> struct Penetration
   {
     std::string pair;         /**< name of the pair */
     dealii::Point<dim> point; /**< present position of the node */
     double depth = 0.;        /**< length > 0 */
-    bool on_primary = false;  /**< a node of the primary surface */
+    bool on_primary = false;  /**< found by a node of the primary surface that
+                                   is in a facet without rows */
   };
 
   /** Contact pairs that cannot be solved as they are: the message names the
