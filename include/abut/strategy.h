@@ -116,6 +116,12 @@ extern "C"
   /** Default options. */
   ABUT_API abut_strategy_options abut_strategy_defaults(void);
 
+  /** eps / stiffness that a run with these options starts from:
+   * options->penalty or, where that is 0, the law's own. 0 for laws without
+   * eps, and if @p options or its law is NULL. */
+  ABUT_API double
+  abut_strategy_first_penalty(const abut_strategy_options *options);
+
   /** What the host is to do, and with which numbers. */
   typedef struct abut_request
   {

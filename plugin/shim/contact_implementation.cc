@@ -286,8 +286,7 @@ namespace abut
     std::vector<double> stiffness = solve::row_stiffness(matrix, coefficients);
     if (is_nitsche())
     {
-      if (!(method.options.penalty > 0.))
-        method.options.penalty = 10.;
+      method.options.penalty = abut_strategy_first_penalty(&method.options);
       for (int i = 0; i < view.n_rows; ++i)
         nitsche.compliance[i] = 1. / (method.options.penalty * stiffness[i]);
     }

@@ -16,14 +16,6 @@ other = {
     "Output/Points": f"1: {LENGTH}, 0; 1: 0, {2*LENGTH}; 2: {3*LENGTH}, 0",
 }
 
-
-def run(settings):
-    words = []
-    for key, value in settings.items():
-        words += ["--set", f"{key}={value}"]
-    return p.solve("press-fit.prm", *words)
-
-
 for law in ("lagrange", "penalty", "quadratic penalty", "augmented lagrangian",
             "barrier", "interior point"):
     tight = {"Method/Final linear tolerance": 1e-12}
@@ -31,8 +23,8 @@ for law in ("lagrange", "penalty", "quadratic penalty", "augmented lagrangian",
         settings = {"Method/Enforcement": law, "Refinement/Level": 2,
                     "Output/Fields": "false", "Output/Pictures": "false",
                     **extra}
-        one, one_levels = run(settings)
-        two, two_levels = run({**settings, **other})
+        one, one_levels = p.solve_with("press-fit.prm", settings)
+        two, two_levels = p.solve_with("press-fit.prm", {**settings, **other})
         name = f"{law}, {what}"
         p.expect(one["active"] == two["active"],
                  f"{name}: {one['active']} and {two['active']} in contact")

@@ -22,22 +22,14 @@ other = {
     "Contact/Obstacle": steps(LENGTH),
 }
 
-
-def run(settings):
-    words = []
-    for key, value in settings.items():
-        words += ["--set", f"{key}={value}"]
-    return p.solve(scene, *words)
-
-
 for law in ("lagrange", "penalty", "quadratic penalty", "augmented lagrangian",
             "barrier", "interior point"):
     for nested in ("true", "false"):
         settings = {"Method/Enforcement": law, "Refinement/Level": 6,
                     "Refinement/Nested iteration": nested,
                     "Output/Fields": "false", "Output/Pictures": "false"}
-        one, one_levels = run(settings)
-        two, two_levels = run({**settings, **other})
+        one, one_levels = p.solve_with(scene, settings)
+        two, two_levels = p.solve_with(scene, {**settings, **other})
         what = f"{law}, nested {nested}"
         p.expect(one["active"] == two["active"],
                  f"{what}: {one['active']} and {two['active']} in contact")

@@ -70,6 +70,13 @@ class Program:
                     + result.stderr)
         return self.results()
 
+    def solve_with(self, scene, settings):
+        """Run a shipped scene with other values of some parameters."""
+        words = []
+        for key, value in settings.items():
+            words += ["--set", f"{key}={value}"]
+        return self.solve(scene, *words)
+
     def results(self):
         summary = json.loads((self.folder / "out/summary.json").read_text())
         return summary, self.table("levels.csv")

@@ -13,21 +13,32 @@
 #include <abut/dealii/linear_algebra.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/sparsity_tools.h>
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_solver.h>
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/vector_tools.h>
 
 #include <cmath>
+#include <functional>
+#include <iostream>
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace abut::app
 {
@@ -84,6 +95,59 @@ namespace abut::app
     dealii::AffineConstraints<double> constraints;
   };
 
+  /** Solution that vanishes on the boundary of the linear problem whose cell
+   * matrix and right hand side @p cell_system puts in place. */
+  template <int dim>
+  la::Vector
+  solve_linear(const Problem<dim> &problem,
+               const std::function<void(const dealii::FEValues<dim> &,
+                                        dealii::FullMatrix<double> &,
+                                        dealii::Vector<double> &)> &cell_system)
+  {
+    dealii::AffineConstraints<double> constraints(problem.relevant);
+    dealii::DoFTools::make_hanging_node_constraints(problem.dof_handler,
+                                                    constraints);
+    dealii::DoFTools::make_zero_boundary_constraints(problem.dof_handler,
+                                                     constraints);
+    constraints.close();
+    dealii::DynamicSparsityPattern pattern(problem.relevant);
+    dealii::DoFTools::make_sparsity_pattern(problem.dof_handler, pattern,
+                                            constraints, false);
+    dealii::SparsityTools::distribute_sparsity_pattern(
+        pattern, problem.owned, MPI_COMM_WORLD, problem.relevant);
+    la::Matrix matrix;
+    matrix.reinit(problem.owned, problem.owned, pattern, MPI_COMM_WORLD);
+    la::Vector rhs(problem.owned, MPI_COMM_WORLD);
+    la::Vector u(problem.owned, MPI_COMM_WORLD);
+    dealii::FEValues<dim> points(
+        problem.mapping, problem.fe, dealii::QGauss<dim>(problem.fe.degree + 2),
+        dealii::update_values | dealii::update_gradients
+            | dealii::update_quadrature_points | dealii::update_JxW_values);
+    const unsigned int n = problem.fe.n_dofs_per_cell();
+    dealii::FullMatrix<double> a(n, n);
+    dealii::Vector<double> b(n);
+    std::vector<dealii::types::global_dof_index> dofs(n);
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        points.reinit(cell);
+        a = 0;
+        b = 0;
+        cell_system(points, a, b);
+        cell->get_dof_indices(dofs);
+        constraints.distribute_local_to_global(a, b, dofs, matrix, rhs);
+      }
+    matrix.compress(dealii::VectorOperation::add);
+    rhs.compress(dealii::VectorOperation::add);
+    dealii::SolverControl control(2000, 1e-11 * rhs.l2_norm());
+    dealii::TrilinosWrappers::SolverCG solver(control);
+    dealii::TrilinosWrappers::PreconditionAMG multigrid;
+    multigrid.initialize(matrix);
+    solver.solve(matrix, u, rhs, multigrid);
+    constraints.distribute(u);
+    return problem.ghosted(u);
+  }
+
   template <int dim>
   void unit_cube(Problem<dim> &problem, const unsigned int refinements)
   {
@@ -104,6 +168,35 @@ namespace abut::app
                      problem.constraints.n_constraints(), MPI_COMM_WORLD)
                      > 0,
                  "hanging nodes");
+  }
+
+  /** A check that estimate over error is bounded, and the same on a finer mesh;
+   * @p ratio: that of a problem. Prints the ratios after @p what. */
+  template <int dim>
+  void
+  check_effectivity(const unsigned int degree, const unsigned int n_components,
+                    const unsigned int level, const double tolerance,
+                    const std::string &what,
+                    const std::function<double(const Problem<dim> &)> &ratio)
+  {
+    std::vector<double> ratios;
+    for (const bool local : {false, true})
+      for (unsigned int finer = 0; finer < (local ? 1U : 2U); ++finer)
+      {
+        Problem<dim> problem(degree, n_components);
+        unit_cube(problem, level + finer);
+        if (local)
+          refine_corner(problem);
+        ratios.push_back(ratio(problem));
+        Expect::that(ratios.back() > 1 && ratios.back() < 10,
+                     "effectivity " + std::to_string(ratios.back()));
+      }
+    Expect::near(ratios[1] / ratios[0], 1, tolerance,
+                 "effectivity when refined");
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << "effectivity, dimension " << dim << what << ", degree "
+                << degree << ": " << ratios[0] << ' ' << ratios[1]
+                << ", locally refined " << ratios[2] << std::endl;
   }
 
   /** The boundary ids of the cube. */

@@ -11,6 +11,7 @@
 
 #include "expect.h"
 #include "problem.h"
+#include "run_checks.h"
 
 #include <filesystem>
 #include <fstream>
@@ -390,20 +391,19 @@ namespace
 int
 main(int argc, char **argv)
 {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (argc != 2)
-    return 2;
-  folder = argv[1];
-  std::filesystem::create_directories(folder);
-  nodal_stresses();
-  files<2>();
-  files<3>();
-  border();
-  size_ratio();
-  transfer<2>();
-  transfer<3>();
-  lines(1);
-  lines(2);
-  picture();
-  return Expect::failures() > 0 ? 1 : 0;
+  return run_checks(argc, argv,
+                    [](const std::filesystem::path &given)
+                    {
+                      folder = given;
+                      nodal_stresses();
+                      files<2>();
+                      files<3>();
+                      border();
+                      size_ratio();
+                      transfer<2>();
+                      transfer<3>();
+                      lines(1);
+                      lines(2);
+                      picture();
+                    });
 }

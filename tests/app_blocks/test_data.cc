@@ -9,6 +9,7 @@
 #include "app/mesh.h"
 
 #include "expect.h"
+#include "run_checks.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria.h>
@@ -407,25 +408,24 @@ namespace
 int
 main(int argc, char **argv)
 {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (argc != 2)
-    return 2;
-  folder = argv[1];
-  // each rank has files of its own where it writes them itself
-  std::filesystem::create_directories(folder);
-  const std::filesystem::path shared = folder;
-  expressions();
-  boundary_lists();
-  folder = shared
-           / std::to_string(
-               dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
-  std::filesystem::create_directories(folder);
-  height_maps();
-  folder = shared;
-  placed_meshes();
-  curved_meshes();
-  mesh_files();
-  wrong_meshes();
-  memory();
-  return Expect::failures() > 0 ? 1 : 0;
+  return run_checks(
+      argc, argv,
+      [](const std::filesystem::path &shared)
+      {
+        // each rank has files of its own where it writes them itself
+        folder = shared;
+        expressions();
+        boundary_lists();
+        folder = shared
+                 / std::to_string(
+                     dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+        std::filesystem::create_directories(folder);
+        height_maps();
+        folder = shared;
+        placed_meshes();
+        curved_meshes();
+        mesh_files();
+        wrong_meshes();
+        memory();
+      });
 }

@@ -6,6 +6,7 @@
 #include "app/make_rigid_obstacle.h"
 
 #include "expect.h"
+#include "run_checks.h"
 
 #include <deal.II/base/function_signed_distance.h>
 #include <deal.II/base/mpi.h>
@@ -338,16 +339,15 @@ namespace
 int
 main(int argc, char **argv)
 {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (argc != 2)
-    return 2;
-  folder = argv[1];
-  std::filesystem::create_directories(folder);
-  shapes();
-  formulas();
-  motion();
-  surfaces();
-  refusals();
-  hosts();
-  return Expect::failures() > 0 ? 1 : 0;
+  return run_checks(argc, argv,
+                    [](const std::filesystem::path &given)
+                    {
+                      folder = given;
+                      shapes();
+                      formulas();
+                      motion();
+                      surfaces();
+                      refusals();
+                      hosts();
+                    });
 }

@@ -58,6 +58,35 @@ couple_destroy(couple *c)
     require(abut_surface_destroy(&c->primary));
 }
 
+/* Options of a mortar method. */
+static inline abut_coupling_options
+mortar_options(abut_discretisation discretisation, int32_t degree)
+{
+  abut_coupling_options o = abut_coupling_defaults();
+  o.discretisation = discretisation;
+  o.multiplier_degree = degree;
+  return o;
+}
+
+/* Entries of all rows on one side. */
+typedef struct side_entries
+{
+  const int64_t *start;
+  const int32_t *node;
+  const double *value;
+  double sign; /* of forces of a pressure */
+} side_entries;
+
+static inline side_entries
+entries_of(const abut_coupling_view *v, int side)
+{
+  const side_entries secondary = {v->secondary_start, v->secondary_node,
+                                  v->secondary_coefficient, -1.},
+                     primary = {v->primary_start, v->primary_node,
+                                v->primary_coefficient, 1.};
+  return side == 0 ? secondary : primary;
+}
+
 static inline double
 sum_of(const double *value, int64_t from, int64_t to)
 {
@@ -104,16 +133,39 @@ check_rows(const couple *c)
 static inline void
 nodal_forces(const abut_coupling_view *v, int side, double *out)
 {
-  const int64_t *start = side == 0 ? v->secondary_start : v->primary_start;
-  const int32_t *node = side == 0 ? v->secondary_node : v->primary_node;
-  const double *value =
-      side == 0 ? v->secondary_coefficient : v->primary_coefficient;
+  const side_entries c = entries_of(v, side);
   for (int32_t j = 0; j < v->n_rows; ++j)
-    for (int64_t e = start[j]; e < start[j + 1]; ++e)
+    for (int64_t e = c.start[j]; e < c.start[j + 1]; ++e)
       for (int d = 0; d < v->dimension; ++d)
-        out[v->dimension * node[e] + d] += (side == 0 ? -1. : 1.) * v->weight[j]
-                                           * value[e]
-                                           * v->normal[v->dimension * j + d];
+        out[v->dimension * c.node[e] + d] += c.sign * v->weight[j] * c.value[e]
+                                             * v->normal[v->dimension * j + d];
+}
+
+/* Largest difference between the two sides of sum_l c_jl u(x_l). */
+static inline double
+field_difference(const couple *c, double (*u)(const double *x, const void *),
+                 const void *data)
+{
+  const abut_coupling_view *v = &c->view;
+  abut_surface_view s[2];
+  double largest = 0.;
+  require(abut_surface_get(c->secondary, &s[0]));
+  require(abut_surface_get(c->primary, &s[1]));
+  for (int32_t j = 0; j < v->n_rows; ++j)
+  {
+    double sum[2] = {0.};
+    for (int side = 0; side < 2; ++side)
+    {
+      const side_entries of = entries_of(v, side);
+      for (int64_t e = of.start[j]; e < of.start[j + 1]; ++e)
+        sum[side] +=
+            of.value[e] * u(s[side].position + v->dimension * of.node[e], data);
+    }
+    const double difference = fabs(sum[1] - sum[0]);
+    if (!(difference <= largest))
+      largest = difference;
+  }
+  return largest;
 }
 
 /* Integral of shape function a over a flat facet of area one. */
@@ -197,19 +249,16 @@ check_balance(const couple *c, double force_tolerance, double moment_tolerance)
   require(abut_surface_get(c->primary, &s[1]));
   for (int side = 0; side < 2; ++side)
   {
-    const int64_t *start = side == 0 ? v->secondary_start : v->primary_start;
-    const int32_t *node = side == 0 ? v->secondary_node : v->primary_node;
-    const double *value =
-        side == 0 ? v->secondary_coefficient : v->primary_coefficient;
+    const side_entries of = entries_of(v, side);
     for (int32_t j = 0; j < v->n_rows; ++j)
-      for (int64_t e = start[j]; e < start[j + 1]; ++e)
+      for (int64_t e = of.start[j]; e < of.start[j + 1]; ++e)
       {
         double f[3] = {0.}, x[3] = {0.};
         for (int d = 0; d < dim; ++d)
         {
-          f[d] = (side == 0 ? -1. : 1.) * (1 + j) * v->weight[j] * value[e]
+          f[d] = of.sign * (1 + j) * v->weight[j] * of.value[e]
                  * v->normal[dim * j + d];
-          x[d] = s[side].position[dim * node[e] + d];
+          x[d] = s[side].position[dim * of.node[e] + d];
           force[d] += f[d];
         }
         for (int d = 0; d < 3; ++d)

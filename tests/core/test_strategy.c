@@ -31,6 +31,34 @@ close_scene(fixture *s)
   assert_ok(abut_context_destroy(&s->context));
 }
 
+/* The penalties that the header names for laws without one of the user's. */
+static void
+laws_have_first_penalties(void **unused)
+{
+  (void)unused;
+  static const struct
+  {
+    const char *law;
+    double own, given; /* with the option 0, and with 7 */
+  } expected[] = {{"penalty", 50, 7},      {"augmented lagrangian", 20, 7},
+                  {"nitsche", 10, 7},      {"quadratic penalty", 1, 7},
+                  {"lagrange", 0, 0},      {"barrier", 0, 0},
+                  {"interior point", 0, 0}};
+  abut_strategy_options options = abut_strategy_defaults();
+  for (size_t i = 0; i < sizeof(expected) / sizeof(expected[0]); ++i)
+  {
+    options.law = abut_law_find(expected[i].law);
+    assert_non_null(options.law);
+    options.penalty = 0;
+    assert_true(abut_strategy_first_penalty(&options) == expected[i].own);
+    options.penalty = 7;
+    assert_true(abut_strategy_first_penalty(&options) == expected[i].given);
+  }
+  options.law = NULL;
+  assert_true(abut_strategy_first_penalty(&options) == 0);
+  assert_true(abut_strategy_first_penalty(NULL) == 0);
+}
+
 static void
 options_are_checked(void **unused)
 {
@@ -566,6 +594,7 @@ int
 main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(laws_have_first_penalties),
       cmocka_unit_test(options_are_checked),
       cmocka_unit_test(rows_are_checked),
       cmocka_unit_test(equalities_have_no_interior),

@@ -2,7 +2,7 @@
 /* Couplings of arbitrary surfaces with arbitrary options and nodes: rows are
  * finite, have positive weights and coefficients that add up to one, and are
  * the same when built again. */
-#include "surfaces.h"
+#include "two_surfaces.h"
 
 #include <abut/coupling.h>
 
@@ -99,7 +99,7 @@ check_rows(const abut_coupling_view *v, int32_t n_secondary, int32_t n_primary)
   }
 }
 
-static void
+void
 run(input *in, abut_context *context, abut_surface *secondary,
     abut_surface *primary, arrays *moved)
 {
@@ -135,29 +135,4 @@ run(input *in, abut_context *context, abut_surface *secondary,
     area = statistics.covered_area;
   }
   REQUIRE(abut_coupling_destroy(&coupling) == ABUT_SUCCESS);
-}
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-int
-LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
-  static arrays a, b;
-  input in = {data, size};
-  abut_context *context = NULL;
-  abut_surface *secondary = NULL, *primary = NULL;
-  REQUIRE(abut_context_create(NULL, &context) == ABUT_SUCCESS);
-  take_arrays(&in, &a);
-  take_arrays(&in, &b);
-  const abut_status one = abut_surface_create(context, &a.data, &secondary),
-                    two = abut_surface_create(context, &b.data, &primary);
-  REQUIRE(one >= 0 && two >= 0);
-  if (one == ABUT_SUCCESS && two == ABUT_SUCCESS)
-    run(&in, context, secondary, primary, &b);
-  if (secondary)
-    REQUIRE(abut_surface_destroy(&secondary) == ABUT_SUCCESS);
-  if (primary)
-    REQUIRE(abut_surface_destroy(&primary) == ABUT_SUCCESS);
-  REQUIRE(abut_context_destroy(&context) == ABUT_SUCCESS);
-  return 0;
 }

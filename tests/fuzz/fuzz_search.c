@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Surfaces from arbitrary arrays, searched by all algorithms, moved, searched
  * again, and detected: all must agree, whatever the options. */
-#include "surfaces.h"
+#include "two_surfaces.h"
 
 #include <abut/detect.h>
 
@@ -146,12 +146,16 @@ run_detection(input *in, abut_context *context, abut_surface *secondary,
       REQUIRE(abut_detection_destroy(&detection[k]) == ABUT_SUCCESS);
 }
 
-static void
+void
 run(input *in, abut_context *context, abut_surface *secondary,
     abut_surface *primary, arrays *moved)
 {
   double points[3 * max_points];
   searches s;
+  abut_surface_sizes sizes;
+  const double *normal;
+  REQUIRE(abut_surface_measure(primary, &sizes) == ABUT_SUCCESS);
+  REQUIRE(abut_surface_normals(secondary, &normal) == ABUT_SUCCESS);
   const abut_search_options o = take_options(in);
   for (int i = 0; i < 3 * max_points; ++i)
     points[i] = take_coordinate(in, i % 7 == 6 ? 2 : 0, 1., 0.);
@@ -168,35 +172,4 @@ run(input *in, abut_context *context, abut_surface *secondary,
   destroy_searches(&s);
   run_detection(in, context, secondary, primary, o);
   run_detection(in, context, primary, primary, o);
-}
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-int
-LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
-  static arrays a, b;
-  input in = {data, size};
-  abut_context *context = NULL;
-  abut_surface *secondary = NULL, *primary = NULL;
-  REQUIRE(abut_context_create(NULL, &context) == ABUT_SUCCESS);
-  take_arrays(&in, &a);
-  take_arrays(&in, &b);
-  const abut_status one = abut_surface_create(context, &a.data, &secondary),
-                    two = abut_surface_create(context, &b.data, &primary);
-  REQUIRE(one >= 0 && two >= 0);
-  if (one == ABUT_SUCCESS && two == ABUT_SUCCESS)
-  {
-    abut_surface_sizes sizes;
-    const double *normal;
-    REQUIRE(abut_surface_measure(primary, &sizes) == ABUT_SUCCESS);
-    REQUIRE(abut_surface_normals(secondary, &normal) == ABUT_SUCCESS);
-    run(&in, context, secondary, primary, &b);
-  }
-  if (secondary)
-    REQUIRE(abut_surface_destroy(&secondary) == ABUT_SUCCESS);
-  if (primary)
-    REQUIRE(abut_surface_destroy(&primary) == ABUT_SUCCESS);
-  REQUIRE(abut_context_destroy(&context) == ABUT_SUCCESS);
-  return 0;
 }

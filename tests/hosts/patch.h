@@ -46,6 +46,20 @@ namespace abut::hosts
     check(errors.hanging > 0 ? 0. : 1., "lack of hanging nodes");
     return good;
   }
+
+  /** passes() with the upper and with the lower block as the secondary. */
+  template <int dim>
+  bool passes_either_way(Case run, const std::string &name, const double bound)
+  {
+    bool good = true;
+    for (const bool upper : {true, false})
+    {
+      run.upper_is_secondary = upper;
+      run.name = name + (upper ? ", upper side" : ", lower side");
+      good = passes<dim>(run, bound) && good;
+    }
+    return good;
+  }
 } // namespace abut::hosts
 
 #endif

@@ -7,9 +7,10 @@
  * dense solution to compare with, and each rank's share for the solvers.
  */
 
+#include "row_laws.h"
+
 #include <abut/dealii/linear_algebra.h>
 #include <abut/rows.h>
-#include <abut/strategy.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
@@ -78,7 +79,7 @@ namespace abut::tests
   }
 
   /** The share of one rank, in the form that solvers take. */
-  class Share
+  class Share : public RowLaws
   {
   public:
     Share(const Problem &problem, const MPI_Comm communicator)
@@ -97,23 +98,6 @@ namespace abut::tests
       for (int i = 0; i < n; ++i)
         la::data(residual)[i] = problem.residual[first + i];
       build_rows(problem, me);
-    }
-
-    /** A request of the core with the laws of the problem. */
-    abut_request request(const double tolerance)
-    {
-      abut_request result = {};
-      result.action = ABUT_ACTION_SOLVE;
-      result.linear_tolerance = tolerance;
-      result.matrix_changed = 1;
-      result.pressure = pressure.data();
-      result.state = state.data();
-      result.residual = c.data();
-      result.d_pressure = a.data();
-      result.d_gap = b.data();
-      result.pressure_change = dp.data();
-      result.gap_change = dg.data();
-      return result;
     }
 
     /** Take the laws of @p problem, whose rows are the same otherwise. */
@@ -137,7 +121,6 @@ namespace abut::tests
     la::Vector residual, increment;
     std::vector<int> number; ///< of each row of this rank in the whole
     abut_rows_view view = {};
-    std::vector<double> dp, dg;
 
   private:
     void build_matrix(const Problem &problem, const MPI_Comm communicator)
@@ -177,9 +160,8 @@ namespace abut::tests
         start.push_back(static_cast<std::int64_t>(column.size()));
       }
       const std::size_t m = number.size();
-      for (auto *values : {&a, &b, &c, &pressure, &dp, &dg, &gap})
-        values->assign(m, 0.);
-      state.assign(m, 0);
+      resize_laws(m);
+      gap.assign(m, 0.);
       bilateral.assign(m, 0);
       set_laws(problem);
       view.n_rows = static_cast<std::int32_t>(m);
@@ -193,8 +175,8 @@ namespace abut::tests
     }
 
     std::vector<std::int64_t> id, start, column;
-    std::vector<double> weight, coefficient, gap, a, b, c, pressure;
-    std::vector<std::uint8_t> state, bilateral;
+    std::vector<double> weight, coefficient, gap;
+    std::vector<std::uint8_t> bilateral;
   };
 
   /** The largest differences of a share from the dense solution, relative to

@@ -2,7 +2,7 @@
 // Two elastic blocks with non-matching meshes: all back-ends against the
 // equations themselves and each other, numbers of iterations, bodies that
 // nothing holds.
-#include "../app_blocks/expect.h"
+#include "../app_blocks/run_checks.h"
 #include "two_blocks.h"
 
 using namespace abut;
@@ -194,13 +194,14 @@ namespace
 int
 main(int argc, char **argv)
 {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  back_ends<2>(ABUT_DISCRETISATION_DUAL_MORTAR, 0.);
-  back_ends<3>(ABUT_DISCRETISATION_DUAL_MORTAR, 0.3);
-  back_ends<2>(ABUT_DISCRETISATION_MORTAR, 0.3);
-  floating<2>();
-  floating<3>();
-  speed();
-  return dealii::Utilities::MPI::max(Expect::failures(), communicator) > 0 ? 1
-                                                                           : 0;
+  return app::run_checks(argc, argv,
+                         [](const std::filesystem::path &)
+                         {
+                           back_ends<2>(ABUT_DISCRETISATION_DUAL_MORTAR, 0.);
+                           back_ends<3>(ABUT_DISCRETISATION_DUAL_MORTAR, 0.3);
+                           back_ends<2>(ABUT_DISCRETISATION_MORTAR, 0.3);
+                           floating<2>();
+                           floating<3>();
+                           speed();
+                         });
 }

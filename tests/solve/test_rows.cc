@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Random rows, with columns of other ranks, against a dense solution: every
 // back-end, every kind of law, ranks without rows or without unknowns.
-#include "../app_blocks/expect.h"
+#include "../app_blocks/run_checks.h"
 #include "dense_problem.h"
 #include "solve/row_operator.h"
 #include "solve/row_solver.h"
@@ -224,9 +224,10 @@ namespace
 int
 main(int argc, char **argv)
 {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  operators();
-  solvers();
-  return dealii::Utilities::MPI::max(Expect::failures(), communicator) > 0 ? 1
-                                                                           : 0;
+  return app::run_checks(argc, argv,
+                         [](const std::filesystem::path &)
+                         {
+                           operators();
+                           solvers();
+                         });
 }

@@ -400,9 +400,7 @@ namespace abut::tests
     abut_coupling_destroy(&coupling);
     shim::check(context.get(), abut_rows_get(row_set.get(), &rows));
     row_stiffness = solve::row_stiffness(stiffness, rows);
-    for (auto *array : {&a, &b, &c, &pressure, &dp, &dg})
-      array->assign(rows.n_rows, 0.);
-    state.assign(rows.n_rows, 0);
+    resize_laws(rows.n_rows);
   }
 
   template <int dim> void TwoBlocks<dim>::set_constraint(const int i)
@@ -430,23 +428,6 @@ namespace abut::tests
     b[i] = 0.;
     c[i] = pressure[i] = 0.;
     state[i] = ABUT_STATE_OPEN;
-  }
-
-  template <int dim>
-  abut_request TwoBlocks<dim>::request(const double tolerance)
-  {
-    abut_request result = {};
-    result.action = ABUT_ACTION_SOLVE;
-    result.linear_tolerance = tolerance;
-    result.matrix_changed = 1;
-    result.pressure = pressure.data();
-    result.state = state.data();
-    result.residual = c.data();
-    result.d_pressure = a.data();
-    result.d_gap = b.data();
-    result.pressure_change = dp.data();
-    result.gap_change = dg.data();
-    return result;
   }
 
   template <int dim>

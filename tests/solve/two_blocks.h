@@ -2,6 +2,7 @@
 #ifndef ABUT_TESTS_TWO_BLOCKS_H
 #define ABUT_TESTS_TWO_BLOCKS_H
 
+#include "row_laws.h"
 #include "shim/handles.h"
 #include "solve/row_solver.h"
 
@@ -34,7 +35,7 @@ namespace abut::tests
 
   /** The linearised contact problem of two blocks with all rows that the core
    * couples them by: matrix, forces and rows for the solvers. */
-  template <int dim> class TwoBlocks
+  template <int dim> class TwoBlocks : public RowLaws
   {
   public:
     TwoBlocks(MPI_Comm communicator, const TwoBlocksOptions &options);
@@ -44,9 +45,6 @@ namespace abut::tests
     void set_constraint(int i);
     void set_spring(int i, double kappa);
     void set_open(int i);
-
-    /** A request of the core with these laws. */
-    abut_request request(double tolerance);
 
     /** |K du - w p B^T + R| / |R| and the largest |a dp + b dg + c| / (|b| max
      * |dg| + |c|) after a solve: both 0 for the exact solution. Collective. */
@@ -62,7 +60,7 @@ namespace abut::tests
     la::Vector residual;
     solve::NearNullSpace space;
     abut_rows_view rows = {};
-    std::vector<double> dp, dg, row_stiffness;
+    std::vector<double> row_stiffness;
 
   private:
     void make_mesh();
@@ -76,8 +74,6 @@ namespace abut::tests
     dealii::AffineConstraints<double> constraints;
     shim::Handle<abut_context> context = shim::create_context();
     shim::Handle<abut_rows> row_set = shim::create_rows(context.get());
-    std::vector<double> a, b, c, pressure;
-    std::vector<std::uint8_t> state;
   };
 } // namespace abut::tests
 

@@ -99,6 +99,8 @@ abut_strategy_check_options(abut_context *context,
 double
 abut_strategy_first_penalty(const abut_strategy_options *options)
 {
+  if (options == NULL || options->law == NULL)
+    return 0;
   if ((options->law->flags & (ABUT_LAW_HARD | ABUT_LAW_INTERIOR)) != 0)
     return 0;
   if (options->penalty > 0)

@@ -11,7 +11,4 @@ abut_status abut_strategy_check_options(abut_context *context,
                                         const abut_strategy_options *options,
                                         const char *call);
 
-/* eps / stiffness of the first outer step, 0 for laws without one. */
-double abut_strategy_first_penalty(const abut_strategy_options *options);
-
 #endif
