@@ -63,31 +63,35 @@ namespace abut
     using std::runtime_error::runtime_error;
   };
 
-  /** Assembles and solves contact for one DoFHandler. */
+  /** Assembles and solves contact for one DoFHandler.
+   *
+   * A program linked to Abut constructs it; one that loads Abut at run time
+   * gets it from Registry::create(). All functions are virtual so that the
+   * latter calls them without linking; it is not meant to be derived from. */
   template <int dim> class ContactAssembler
   {
   public:
     /** @p communicator must be that of the triangulation. */
     explicit ContactAssembler(MPI_Comm communicator);
-    ~ContactAssembler();
+    virtual ~ContactAssembler();
 
     /** Declare the sections `Method`, `Solver` and `Search`. Not collective. */
     static void declare_parameters(dealii::ParameterHandler &prm);
 
     /** Read them. Not collective. */
-    void parse_parameters(dealii::ParameterHandler &prm);
+    virtual void parse_parameters(dealii::ParameterHandler &prm);
 
     /** The same without a parameter file. Not collective. */
-    void set_parameters(const MethodParameters &method,
-                        const SolverParameters &solver);
+    virtual void set_parameters(const MethodParameters &method,
+                                const SolverParameters &solver);
 
     /** How the surfaces of pairs are searched. Takes effect at detect(). Not
      * collective. */
-    void set_search_parameters(const SearchParameters &search);
+    virtual void set_search_parameters(const SearchParameters &search);
 
     /** What the field may not penetrate. Takes effect at detect(). Not
      * collective. */
-    void set_obstacle(const Obstacle<dim> &obstacle);
+    virtual void set_obstacle(const Obstacle<dim> &obstacle);
 
     /** The other kind of contact: pairs of surfaces of elastic bodies, or of a
      * surface and a rigid obstacle. The displacement is the first dim
@@ -96,29 +100,29 @@ namespace abut
      * that of the undeformed bodies, so that gaps are linear in the
      * displacement. Takes effect at detect(); replaces an obstacle. Not
      * collective. */
-    void set_pairs(const std::vector<ContactPair<dim>> &pairs);
+    virtual void set_pairs(const std::vector<ContactPair<dim>> &pairs);
 
     /** Whether the bodies of pairs are rotated about the axis x = 0 (2D):
      * weights are then areas of the whole turn, as integrals with 2 pi x are.
      * Default: false. Not collective. */
-    void set_axisymmetric(bool axisymmetric);
+    virtual void set_axisymmetric(bool axisymmetric);
 
     /** The normal stress of the bodies, which `nitsche` needs. Takes effect at
      * detect(). Not collective. */
-    void
+    virtual void
     set_normal_stress(std::shared_ptr<const NormalStress<dim>> normal_stress);
 
     /** Say that the matrix given to solve() is the same until the next
      * reinit(): preconditioners are then kept. Default: false. Not
      * collective. */
-    void assume_constant_matrix(bool constant);
+    virtual void assume_constant_matrix(bool constant);
 
     /** Take a mesh with its unknowns and constraints (closed; hanging nodes
      * and prescribed values). All three must outlive the next reinit().
      * Forgets pressures; see set_pressure(). One pass over the cells. */
-    void reinit(const dealii::Mapping<dim> &mapping,
-                const dealii::DoFHandler<dim> &dof_handler,
-                const dealii::AffineConstraints<double> &constraints);
+    virtual void reinit(const dealii::Mapping<dim> &mapping,
+                        const dealii::DoFHandler<dim> &dof_handler,
+                        const dealii::AffineConstraints<double> &constraints);
 
     /** Find the constraint rows and begin a new solve at @p displacement
      * (owned entries). Throws ObstacleError if a prescribed value violates
@@ -128,17 +132,17 @@ namespace abut
      * facet, one and a half times their relative motion in @p displacement,
      * or the reach given, whichever is most. Pressures of the last solve, or
      * those of set_pressure(), are its start. */
-    void detect(const la::Vector &displacement);
+    virtual void detect(const la::Vector &displacement);
 
     /** Pressure to start from, in the form of pressure(), for example
      * interpolated from a coarser mesh. Call between reinit() and detect(). */
-    void set_pressure(const la::Vector &pressure);
+    virtual void set_pressure(const la::Vector &pressure);
 
     /** Add the couplings that add() needs: those of all rows, in contact or
      * not. Rows on single unknowns, as those of a membrane's obstacle, need
      * none. The pattern must take rows of other ranks, and be distributed
      * afterwards. Not collective. */
-    void add_to_sparsity(dealii::DynamicSparsityPattern &pattern) const;
+    virtual void add_to_sparsity(dealii::DynamicSparsityPattern &pattern) const;
 
     /** Improve the start by @p n_sweeps symmetric projected Gauss-Seidel
      * sweeps, and take the set of active rows from them: nested iteration
@@ -146,54 +150,55 @@ namespace abut
      * solve(), for symmetric positive definite @p matrix. Changes
      * @p displacement; its residual must be computed again. Does nothing for
      * pairs, except with the law `barrier`, whose gaps are opened. */
-    void relax(const la::Matrix &matrix, const la::Vector &residual,
-               unsigned int n_sweeps, la::Vector &displacement);
+    virtual void relax(const la::Matrix &matrix, const la::Vector &residual,
+                       unsigned int n_sweeps, la::Vector &displacement);
 
     /** One linearised step with contact: returns the increment of the
      * displacement, already damped where the method asks for it. @p matrix is
      * not changed. Throws when the linear solver fails. */
-    LinearReport solve(const la::Matrix &matrix, const la::Vector &residual,
-                       la::Vector &increment);
+    virtual LinearReport solve(const la::Matrix &matrix,
+                               const la::Vector &residual,
+                               la::Vector &increment);
 
     /** For hosts with a linear solver of their own: add the condensed contact
      * terms to @p matrix and @p residual, so that matrix increment =
      * -residual is the step with contact; then call update(). Throws for laws
      * with true constraints (lagrange), for interior point and for nitsche,
      * which need solve(). */
-    void add(la::Matrix &matrix, la::Vector &residual);
+    virtual void add(la::Matrix &matrix, la::Vector &residual);
 
     /** Tell the displacement after the step; advances active set, multipliers
      * and parameters. Returns whether another step is needed; if not,
      * reason() tells why. */
-    bool update(const la::Vector &displacement);
+    virtual bool update(const la::Vector &displacement);
 
     /** Why the iteration stopped. Not collective. */
-    abut_reason reason() const;
+    virtual abut_reason reason() const;
 
     /** The reason in words: what to try, and what was seen. Not collective.
      */
-    std::string explanation() const;
+    virtual std::string explanation() const;
 
     /** State of the iteration. Not collective. */
-    abut_progress progress() const;
+    virtual abut_progress progress() const;
 
     /** Number of rows on all ranks. */
-    dealii::types::global_dof_index n_rows() const;
+    virtual dealii::types::global_dof_index n_rows() const;
 
     /** Number of rows in contact on all ranks: in the present active set, or
      * for interior methods those with pressure / stiffness > gap. */
-    dealii::types::global_dof_index n_active() const;
+    virtual dealii::types::global_dof_index n_active() const;
 
     /** Of a membrane: the contact force on the lower obstacle minus that on
      * the upper. Of pairs: the sum of the magnitudes of the normal forces of
      * all rows that are not ties; see pair_results() for vectors. */
-    double contact_force() const;
+    virtual double contact_force() const;
 
     /** sum w |p g| / sum w |p|: mean gap under pressure, length. */
-    double complementarity() const;
+    virtual double complementarity() const;
 
     /** Largest penetration max(0, -g), length. */
-    double penetration() const;
+    virtual double penetration() const;
 
     /** Of a membrane: nodal pressure, positive on the lower obstacle, negative
      * on the upper, 0 where there is no row (hanging nodes: distribute your
@@ -203,21 +208,21 @@ namespace abut
      * n is the force per area on it, so that it can be interpolated to another
      * mesh; for ties likewise with the shear. Hanging nodes have the value of
      * their parents. No ghosts. */
-    la::Vector pressure() const;
+    virtual la::Vector pressure() const;
 
     /** Nodal gap to the nearer obstacle, 0 where there is no row. Of pairs: in
      * each of the first dim components. */
-    la::Vector gap() const;
+    virtual la::Vector gap() const;
 
     /** 1 on the lower, 2 on the upper obstacle, 0 open, -1 without a row. Of
      * pairs: 1 in contact, in each of the first dim components. */
-    la::Vector status() const;
+    virtual la::Vector status() const;
 
     /** What detect() met on each pair; empty without pairs. Not collective. */
-    std::vector<PairCheck> pair_checks() const;
+    virtual std::vector<PairCheck> pair_checks() const;
 
     /** Forces, moments and extremes on each pair; empty without pairs. */
-    std::vector<PairResult<dim>> pair_results() const;
+    virtual std::vector<PairResult<dim>> pair_results() const;
 
     /** Search the bodies displaced by @p displacement, without regard to
      * rows, for points of secondary surfaces that are inside the other body (or
@@ -228,11 +233,11 @@ namespace abut
      * motion, and solve on. Nodes of the primary between rows are no misses: no
      * search helps against them, see PairResult::between_rows. The same list on
      * all ranks; empty without pairs. As costly as detect(). */
-    std::vector<Penetration<dim>>
+    virtual std::vector<Penetration<dim>>
     check_penetration(const la::Vector &displacement, double tolerance);
 
     /** Cost of all linear solves since the last reinit(). */
-    const LinearReport &linear_report() const;
+    virtual const LinearReport &linear_report() const;
 
   private:
     struct Implementation;

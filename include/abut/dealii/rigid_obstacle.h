@@ -54,7 +54,8 @@ namespace abut
    * material.
    *
    * No function is collective: in parallel each rank has its own object, all
-   * made from the same data. One thread at a time. */
+   * made from the same data. One thread at a time. Programs that load Abut at
+   * run time get obstacles from Registry::make_obstacle(). */
   template <int dim> class RigidObstacle
   {
   public:
@@ -76,35 +77,35 @@ namespace abut
     RigidObstacle(const abut_surface_data &surface,
                   const abut_obstacle_surface &options);
 
-    ~RigidObstacle();
+    virtual ~RigidObstacle();
     RigidObstacle(const RigidObstacle &) = delete;
     RigidObstacle &operator=(const RigidObstacle &) = delete;
 
     /** Put the obstacle in a place. */
-    void set_pose(const RigidPose<dim> &pose);
+    virtual void set_pose(const RigidPose<dim> &pose);
 
     /** The place as a function of time, for set_time(). */
-    void set_motion(std::function<RigidPose<dim>(double)> motion);
+    virtual void set_motion(std::function<RigidPose<dim>(double)> motion);
 
     /** Hand the time to the function of the obstacle, if it has one, and put
      * the obstacle where its motion, if it has one, says. */
-    void set_time(double time);
+    virtual void set_time(double time);
 
     /** Signed distances and, unless NULL, gradients of points; resized. */
-    void
+    virtual void
     distance(const std::vector<dealii::Point<dim>> &points,
              std::vector<double> &distances,
              std::vector<dealii::Tensor<1, dim>> *gradients = nullptr) const;
 
     /** The core's obstacle, for abut_coupling_build_obstacle(); owned. */
-    abut_obstacle *handle() const;
+    virtual abut_obstacle *handle() const;
 
     /** What it is, where, and what it has found. */
-    abut_obstacle_view view() const;
+    virtual abut_obstacle_view view() const;
 
     /** Why the last call of the core with handle() failed: the message of
      * what a function threw, or the core's. */
-    std::string failure() const;
+    virtual std::string failure() const;
 
   private:
     class Implementation;

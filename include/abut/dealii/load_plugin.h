@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_DEALII_LOAD_PLUGIN_H
+#define ABUT_DEALII_LOAD_PLUGIN_H
+
+/** @file
+ * Abut at run time: a deal.II program compiled with these headers, but not
+ * linked to Abut, loads the module libabut_plugin.so (in debug mode
+ * libabut_plugin.g.so).
+ */
+
+#include <abut/dealii/plugin_stamp.h>
+#include <abut/dealii/registry.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cstring>
+#include <dlfcn.h>
+#include <elf.h>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace abut
+{
+  /** A plugin that cannot be used: the message names the file, what is wrong
+   * and what to do, in one line. Thrown on all ranks. */
+  class PluginError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /** Parts of load_plugin(). Those that return a text tell what is wrong; it
+   * is empty if nothing is. */
+  namespace internal
+  {
+    /** Whether two stamps agree, and if not, in what. */
+    inline std::string compare_stamps(const abut_plugin_stamp &plugin,
+                                      const abut_plugin_stamp &program)
+    {
+      const auto differ = [](const std::string &what, const std::string &theirs,
+                             const std::string &ours, const std::string &cure)
+      {
+        return theirs == ours
+                   ? ""
+                   : "it was built with " + what + theirs
+                         + ", this program with " + what + ours + ": " + cure;
+      };
+      const auto text = [](const auto &field)
+      { return std::string(field, strnlen(field, sizeof(field))); };
+      const std::string together = "build both with the same ";
+      const std::string problems[] = {
+          differ("Abut's plugin ABI ", std::to_string(plugin.abi),
+                 std::to_string(program.abi), together + "version of Abut"),
+          differ("deal.II ", text(plugin.dealii), text(program.dealii),
+                 together + "deal.II"),
+          differ("deal.II in mode ", text(plugin.mode), text(program.mode),
+                 std::string("take ")
+                     + (text(program.mode) == "Debug" ? "libabut_plugin.g.so"
+                                                      : "libabut_plugin.so")),
+          differ("global numbers of bits ", std::to_string(plugin.index_bits),
+                 std::to_string(program.index_bits), together + "deal.II"),
+          differ("", text(plugin.mpi), text(program.mpi), together + "MPI"),
+          differ("Trilinos ", text(plugin.trilinos), text(program.trilinos),
+                 together + "Trilinos"),
+          differ("", text(plugin.compiler), text(program.compiler),
+                 together + "compiler and options"),
+          differ("class layout ", std::to_string(plugin.layout),
+                 std::to_string(program.layout),
+                 together + "headers and options")};
+      for (const std::string &problem : problems)
+        if (!problem.empty())
+          return problem;
+      return "";
+    }
+
+    /** Look at a file without running anything of it. */
+    inline std::string check_plugin_file(const std::string &path)
+    {
+      std::error_code error;
+      if (!std::filesystem::is_regular_file(path, error))
+        return "there is no such file";
+      std::ifstream file(path, std::ios::binary);
+      if (!file)
+        return "it cannot be read";
+      const std::string content{std::istreambuf_iterator<char>(file),
+                                std::istreambuf_iterator<char>()};
+      Elf64_Ehdr elf;
+      if (content.size() < sizeof(elf) || content.compare(0, 4, ELFMAG) != 0)
+        return "it is not a shared library";
+      // Its table of sections comes last. The system's loader would crash.
+      std::memcpy(&elf, content.data(), sizeof(elf));
+      if (content.size() < elf.e_shoff + elf.e_shnum * elf.e_shentsize)
+        return "the end of the file is missing";
+      const std::size_t place = content.find(ABUT_PLUGIN_MAGIC);
+      abut_plugin_stamp stamp;
+      if (place == std::string::npos || content.size() < place + sizeof(stamp))
+        return "it is not a plugin of Abut: it has no stamp. The plugin is "
+               "named libabut_plugin.so or libabut_plugin.g.so";
+      std::memcpy(&stamp, content.data() + place, sizeof(stamp));
+      return compare_stamps(stamp, plugin_stamp());
+    }
+
+    /** Load a file that has been looked at. */
+    inline std::string open_plugin(const std::string &path,
+                                   const abut_plugin *&plugin)
+    {
+      // A plugin whose objects are still in use must not be unloaded.
+      void *const handle = dlopen(std::filesystem::absolute(path).c_str(),
+                                  RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+      if (handle == nullptr)
+      {
+        const char *const reason = dlerror();
+        return std::string("it cannot be loaded: ")
+               + (reason != nullptr ? reason : "unknown reason")
+               + ". Is this program linked to deal.II as a shared library?";
+      }
+      const auto query = reinterpret_cast<abut_plugin_query_function>(
+          dlsym(handle, ABUT_PLUGIN_QUERY));
+      if (query == nullptr)
+        return "it does not export the symbol " ABUT_PLUGIN_QUERY;
+      plugin = query();
+      if (plugin == nullptr || plugin->struct_size != sizeof(abut_plugin))
+        return "its " ABUT_PLUGIN_QUERY " gives nothing that can be used";
+      return compare_stamps(*plugin->stamp, plugin_stamp());
+    }
+
+    /** Throw on all ranks if one has a problem. Collective. */
+    inline void throw_plugin_error(const std::string &path,
+                                   const std::string &problem,
+                                   const MPI_Comm communicator)
+    {
+      namespace MPI = dealii::Utilities::MPI;
+      const unsigned int none = MPI::n_mpi_processes(communicator);
+      const unsigned int rank =
+          MPI::min(problem.empty() ? none : MPI::this_mpi_process(communicator),
+                   communicator);
+      if (rank == none)
+        return;
+      throw PluginError(MPI::broadcast(
+          communicator,
+          "Cannot use '" + path + "' as a plugin: " + problem + ".", rank));
+    }
+  } // namespace internal
+
+  /** Load the plugin @p path and add its methods to @p registry; throws
+   * PluginError, and loads nothing, if it does not fit. It stays loaded until
+   * the program ends. Collective; call it after MPI is initialised. */
+  template <int dim>
+  void load_plugin(const std::string &path, Registry<dim> &registry,
+                   const MPI_Comm communicator = MPI_COMM_WORLD)
+  {
+    internal::throw_plugin_error(path, internal::check_plugin_file(path),
+                                 communicator);
+    const abut_plugin *plugin = nullptr;
+    const std::string problem = internal::open_plugin(path, plugin);
+    internal::throw_plugin_error(path, problem, communicator);
+    (dim == 2 ? plugin->register_2d : plugin->register_3d)(&registry);
+  }
+} // namespace abut
+
+#endif
