@@ -5,6 +5,9 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace abut::app
 {
   template <int dim>
@@ -53,6 +56,15 @@ namespace abut::app
     dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned,
                                                        communicator, relevant);
     stiffness.reinit(owned, owned, pattern, communicator);
+  }
+
+  template <int dim>
+  double DiscreteProblem<dim>::energy_norm(const la::Vector &difference) const
+  {
+    la::Vector free(difference), force = vector();
+    constraints.set_zero(free);
+    stiffness.vmult(force, free);
+    return std::sqrt(std::max(0., free * force));
   }
 
   template <int dim> la::Vector DiscreteProblem<dim>::open_load() const

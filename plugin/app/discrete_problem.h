@@ -36,6 +36,10 @@ namespace abut::app
     /** Residual K u - f, 0 at constrained unknowns. */
     void residual(const la::Vector &u, la::Vector &result) const;
 
+    /** (d K d)^(1/2) of a difference (owned) of two solutions, which have the
+     * same values where these are prescribed. */
+    double energy_norm(const la::Vector &difference) const;
+
     /** Copy with the ghosts of this rank's cells, constraints applied. */
     la::Vector ghosted(const la::Vector &owned) const;
 

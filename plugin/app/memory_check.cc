@@ -90,4 +90,31 @@ namespace abut::app
                                       + " of memory; " + in_gib(available)
                                       + " are available.");
   }
+
+  template <int dim>
+  void check_memory_of_flags(
+      const dealii::parallel::distributed::Triangulation<dim> &mesh,
+      const unsigned int degree, const std::string &parameter,
+      const unsigned int n_components)
+  {
+    double n_cells = 0.;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        const double children = std::pow(2., dim);
+        n_cells += cell->refine_flag_set()    ? children
+                   : cell->coarsen_flag_set() ? 1. / children
+                                              : 1.;
+      }
+    const MPI_Comm communicator = mesh.get_communicator();
+    check_memory(dim, dealii::Utilities::MPI::sum(n_cells, communicator),
+                 degree, communicator, parameter, n_components);
+  }
+
+  template void check_memory_of_flags<2>(
+      const dealii::parallel::distributed::Triangulation<2> &, unsigned int,
+      const std::string &, unsigned int);
+  template void check_memory_of_flags<3>(
+      const dealii::parallel::distributed::Triangulation<3> &, unsigned int,
+      const std::string &, unsigned int);
 } // namespace abut::app

@@ -6,6 +6,8 @@
  * Refuse a mesh before it is made, when the machine cannot hold it.
  */
 
+#include <deal.II/distributed/tria.h>
+
 #include <mpi.h>
 
 #include <string>
@@ -31,6 +33,13 @@ namespace abut::app
   void check_memory(unsigned int dim, double n_cells, unsigned int degree,
                     MPI_Comm communicator, const std::string &parameter,
                     unsigned int n_components = 1);
+  /** The same for the mesh that @p mesh becomes when it is refined and
+   * coarsened as flagged. Collective. */
+  template <int dim>
+  void check_memory_of_flags(
+      const dealii::parallel::distributed::Triangulation<dim> &mesh,
+      unsigned int degree, const std::string &parameter,
+      unsigned int n_components = 1);
 } // namespace abut::app
 
 #endif

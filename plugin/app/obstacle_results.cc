@@ -34,11 +34,11 @@ namespace abut::app
 
   template <int dim> void ObstacleRun<dim>::declare_tables()
   {
-    report.declare_columns({"level", "cells", "dofs", "constraints", "active",
-                            "steps", "linear_iterations", "matvecs", "setups",
-                            "energy", "contact_force", "penetration",
-                            "l2_error", "h1_error", "estimate", "setup_seconds",
-                            "krylov_seconds", "seconds"});
+    report.declare_columns(
+        {"level", "cells", "dofs", "constraints", "active", "steps",
+         "linear_iterations", "matvecs", "setups", "energy", "contact_force",
+         "penetration", "l2_error", "h1_error", "estimate", "estimated_error",
+         "setup_seconds", "krylov_seconds", "seconds"});
   }
 
   template <int dim> void ObstacleRun<dim>::write_fields()
@@ -167,6 +167,22 @@ namespace abut::app
   }
 
   template <int dim>
+  std::optional<double>
+  ObstacleRun<dim>::relative_error(const ObstacleLevel &last) const
+  {
+    if (parameters.refinement.target_quantity == TargetQuantity::contact_force)
+    {
+      if (std::isnan(parameters.exact_force))
+        return {};
+      return std::abs(last.force / parameters.exact_force - 1.);
+    }
+    if (!last.errors || !conductivity->is_constant())
+      return {};
+    return std::sqrt(conductivity->value(dealii::Point<dim>()))
+           * last.errors->h1_seminorm / solution_norm();
+  }
+
+  template <int dim>
   void ObstacleRun<dim>::report_result(const ObstacleLevel &last,
                                        const bool converged)
   {
@@ -206,6 +222,8 @@ namespace abut::app
     report.set("largest_share_of_cells", cells.max / cells.sum);
     report.set("largest_share_of_matrix", entries.max / entries.sum);
     report.set("converged", converged);
+    if (control.is_on())
+      control.report(report, relative_error(last));
   }
 
   template <int dim> void ObstacleRun<dim>::report_model()
@@ -238,6 +256,10 @@ namespace abut::app
   template void ObstacleRun<2>::write_nodal_values();
   template void ObstacleRun<2>::compare_with_linear_solves();
   template void ObstacleRun<2>::draw();
+  template std::optional<double>
+  ObstacleRun<2>::relative_error(const ObstacleLevel &) const;
+  template std::optional<double>
+  ObstacleRun<3>::relative_error(const ObstacleLevel &) const;
   template void ObstacleRun<2>::report_result(const ObstacleLevel &, bool);
   template void ObstacleRun<2>::report_model();
   template void ObstacleRun<3>::declare_tables();

@@ -30,6 +30,7 @@ namespace abut::app
         triangulation(communicator),
         membrane(triangulation, parameters.degree),
         contact(communicator),
+        control(parameters.refinement, method),
         series(options.output_folder, "fields", communicator)
   {
     contact.assume_constant_matrix(true);
@@ -175,13 +176,17 @@ namespace abut::app
         dealii::parallel::distributed::GridRefinement::
             refine_and_coarsen_fixed_fraction(
                 triangulation, squared_estimate,
-                parameters.refinement.refine_fraction,
+                control.is_on() ? control.refine_fraction()
+                                : parameters.refinement.refine_fraction,
                 parameters.refinement.coarsen_fraction);
       else
         for (const auto &cell : triangulation.active_cell_iterators())
           if (cell->is_locally_owned())
             cell->set_refine_flag();
       triangulation.prepare_coarsening_and_refinement();
+      if (control.is_on())
+        check_memory_of_flags(triangulation, parameters.degree,
+                              "Refinement/Target error");
       transfer.prepare_for_coarsening_and_refinement(
           std::vector<const la::Vector *>{&u_old, &p_old});
       triangulation.execute_coarsening_and_refinement();
@@ -195,13 +200,16 @@ namespace abut::app
       transfer.interpolate(result);
       membrane.constraints.distribute(u);
     }
+    control.begin_mesh(u);
   }
 
   template <int dim> void ObstacleRun<dim>::set_tolerance(const bool last)
   {
     const bool loose = !last && !exact && !parameters.all_levels;
-    contact.set_parameters(
-        loose ? parameters.refinement.loosened(method) : method, solver);
+    contact.set_parameters(loose && !control.is_on()
+                               ? parameters.refinement.loosened(method)
+                               : control.method(),
+                           solver);
   }
 
   template <int dim>
@@ -255,6 +263,8 @@ namespace abut::app
       u += increment;
       go_on = contact.update(u);
       record_step(linear);
+      if (control.is_on())
+        control.note_step(membrane.energy_norm(increment), linear.tolerance);
     }
     membrane.constraints.distribute(u);
   }
@@ -295,6 +305,33 @@ namespace abut::app
     return internal * free;
   }
 
+  template <int dim> double ObstacleRun<dim>::solution_norm() const
+  {
+    const dealii::Functions::ZeroFunction<dim> no_load;
+    return std::sqrt(2.
+                     * membrane_energy(membrane.mapping, membrane.dof_handler,
+                                       membrane.ghosted(u), no_load,
+                                       conductivity.get()));
+  }
+
+  template <int dim> void ObstacleRun<dim>::judge()
+  {
+    if (!control.is_on())
+      return;
+    MeshEvidence evidence;
+    evidence.residual = *present.estimate;
+    evidence.law = contact.complementarity_error();
+    if (control.start().size() > 0)
+    {
+      la::Vector change(u);
+      change -= control.start();
+      evidence.change = membrane.energy_norm(change);
+    }
+    evidence.norm = solution_norm();
+    evidence.contact_force = contact.contact_force();
+    present.error_parts = control.judge(evidence);
+  }
+
   template <int dim> double ObstacleRun<dim>::counted_seconds() const
   {
     return report.times.seconds("assembly") + report.times.seconds("transfer")
@@ -327,12 +364,63 @@ namespace abut::app
     report.add("nonlinear_iterations", present.steps);
     report.add("linear_iterations", present.linear.n_iterations);
     report.add("matvecs", present.linear.n_matvecs);
-    report.progress(
-        "level " + std::to_string(number) + ": " + std::to_string(present.dofs)
-        + " unknowns, " + std::to_string(present.active) + " in contact, "
-        + std::to_string(present.steps) + " steps, "
-        + std::to_string(present.linear.n_iterations)
-        + " linear iterations, energy " + std::to_string(present.energy));
+    report.progress("level " + std::to_string(number) + ": "
+                    + std::to_string(present.dofs) + " unknowns, "
+                    + std::to_string(present.active) + " in contact, "
+                    + std::to_string(present.steps) + " steps, "
+                    + std::to_string(present.linear.n_iterations)
+                    + " linear iterations, energy "
+                    + std::to_string(present.energy) + control.progress());
+  }
+
+  template <int dim>
+  bool ObstacleRun<dim>::go_on(unsigned int &number, bool &warm)
+  {
+    const unsigned int last = parameters.refinement.last_mesh();
+    if (control.is_on())
+      switch (control.next(contact.progress().penalty))
+      {
+      case ErrorTarget::Step::stop:
+        return false;
+      case ErrorTarget::Step::refine:
+        break;
+      case ErrorTarget::Step::tighten_law:
+      case ErrorTarget::Step::tighten_solver:
+        pressure = contact.pressure();
+        warm = true;
+        return true;
+      }
+    if (number == last)
+      return false;
+    if (parameters.all_levels)
+      write_fields();
+    ++number;
+    refine(number > parameters.refinement.level);
+    warm = true;
+    return true;
+  }
+
+  template <int dim> bool ObstacleRun<dim>::solve_on_hierarchy()
+  {
+    unsigned int number = parameters.refinement.first_level();
+    bool warm = false;
+    do
+    {
+      present = ObstacleLevel();
+      present.level = number;
+      set_tolerance(number == parameters.refinement.last_mesh());
+      const bool converged = solve_level(warm);
+      if (parameters.refinement.is_adaptive(number))
+        estimate();
+      judge();
+      finish_level(number);
+      if (!converged)
+        return false;
+    } while (go_on(number, warm));
+    if (!control.is_on() || control.is_met())
+      return true;
+    report.warn(control.failure());
+    return false;
   }
 
   template <int dim> Outcome ObstacleRun<dim>::run()
@@ -343,23 +431,8 @@ namespace abut::app
     declare_tables();
     setup_level();
 
-    const unsigned int first = parameters.refinement.first_level();
-    const unsigned int last = parameters.refinement.last_mesh();
-    bool converged = true;
-    for (unsigned int number = first; number <= last && converged; ++number)
-    {
-      if (number > first)
-        refine(number > parameters.refinement.level);
-      present = ObstacleLevel();
-      present.level = number;
-      set_tolerance(number == last);
-      converged = solve_level(number > first);
-      if (parameters.refinement.is_adaptive(number))
-        estimate();
-      finish_level(number);
-      if (parameters.all_levels || number == last || !converged)
-        write_fields();
-    }
+    const bool converged = solve_on_hierarchy();
+    write_fields();
     steps.write(communicator, options.output_folder);
     if (parameters.nodal_values)
       write_nodal_values();

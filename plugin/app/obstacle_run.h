@@ -9,6 +9,7 @@
 #include "obstacle_parameters.h"
 #include "scene.h"
 #include "step_table.h"
+#include "target_control.h"
 
 #include <abut/dealii/contact_assembler.h>
 
@@ -31,6 +32,7 @@ namespace abut::app
     double energy = 0., force = 0.;
     std::optional<ErrorNorms> errors;
     std::optional<double> estimate;
+    std::optional<ErrorParts> error_parts; ///< with a target only
     double seconds = 0.; ///< since the end of the level before, counted parts
   };
 
@@ -61,6 +63,10 @@ namespace abut::app
     void set_tolerance(bool last);
     void prepare_start(bool warm, la::Vector &residual);
     bool solve_level(bool warm);
+    void judge();
+    double solution_norm() const;
+    bool solve_on_hierarchy();
+    bool go_on(unsigned int &number, bool &warm);
     void iterate(la::Vector &residual);
     void record_step(const LinearReport &linear);
     void finish_level(unsigned int number);
@@ -70,6 +76,7 @@ namespace abut::app
     void write_fields();
     void write_nodal_values();
     void draw();
+    std::optional<double> relative_error(const ObstacleLevel &last) const;
     void report_result(const ObstacleLevel &last, bool converged);
     void report_model();
     double counted_seconds() const;
@@ -91,6 +98,7 @@ namespace abut::app
     std::set<dealii::types::boundary_id> contact_ids;
     MembraneData<dim> data;
 
+    TargetControl control;
     la::Vector u;        ///< displacement, owned
     la::Vector pressure; ///< nodal, owned; start of the next level
     dealii::Vector<float> squared_estimate;

@@ -2,6 +2,8 @@
 #ifndef ABUT_APP_REFINEMENT_PARAMETERS_H
 #define ABUT_APP_REFINEMENT_PARAMETERS_H
 
+#include "error_target.h"
+
 #include <abut/dealii/method_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -21,6 +23,8 @@ namespace abut::app
     unsigned int adaptive_cycles = 0;
     double refine_fraction = 0.6;
     double coarsen_fraction = 0.02;
+    double target_error = 0.; ///< 0: none
+    TargetQuantity target_quantity = TargetQuantity::energy_norm;
 
     /** Declare the section with these defaults of `Level` and `Coarsest
      * level`. */
@@ -49,6 +53,15 @@ namespace abut::app
     {
       return mesh >= level && adaptive_cycles > 0;
     }
+
+    /** Whether the error decides when to stop. */
+    bool has_target() const
+    {
+      return target_error > 0.;
+    }
+
+    /** The method with the tolerances that the target needs, at first. */
+    MethodParameters for_target(const MethodParameters &method) const;
 
     /** The method with the tolerances that are enough on a mesh whose results
      * are only a start for the next one. */

@@ -33,6 +33,8 @@ namespace abut::app
     }
     if (s.estimate)
       row["estimate"] = *s.estimate;
+    if (s.error_parts)
+      row["estimated_error"] = s.error_parts->total();
     return row;
   }
 } // namespace abut::app

@@ -22,8 +22,10 @@ namespace abut::app
     if (!contact_is_ready)
     {
       const bool loose = !is_last_mesh() && !exact && !parameters.all_levels;
-      contact.set_parameters(
-          loose ? parameters.refinement.loosened(method) : method, solver);
+      contact.set_parameters(loose && !control.is_on()
+                                 ? parameters.refinement.loosened(method)
+                                 : control.method(),
+                             solver);
       contact.reinit(elasticity.mapping, elasticity.dof_handler,
                      elasticity.constraints);
       if (pressure.size() > 0)
@@ -80,6 +82,8 @@ namespace abut::app
       goes_on = contact.update(u);
       present.linear += linear;
       present.steps += linear.n_systems;
+      if (control.is_on())
+        control.note_step(elasticity.energy_norm(increment), linear.tolerance);
       steps.add(report, present.level, present.steps, contact.progress(),
                 linear);
     }

@@ -3,9 +3,13 @@
 #include "contact_refinement.h"
 #include "contact_traction.h"
 #include "elastic_estimator.h"
+#include "memory_check.h"
 #include "solid_run.h"
 
 #include <deal.II/distributed/grid_refinement.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace abut::app
 {
@@ -43,9 +47,41 @@ namespace abut::app
       input.contact_traction = &fields.traction;
       input.secondary = pairs->secondary();
       input.pressure = &fields.pressure;
-      input.gap = &fields.gap;
+      // With a target, what the law leaves open is an error of its own.
+      const bool exact_law =
+          (method.options.law->flags & (ABUT_LAW_HARD | ABUT_LAW_STRESS)) != 0;
+      input.gap = control.is_on() && !exact_law ? nullptr : &fields.gap;
     }
     present.estimate = estimate_elastic_error(input, squared_estimate);
+  }
+
+  template <int dim> double SolidRun<dim>::solution_norm() const
+  {
+    // The energy is 1/2 |u|^2 - f u.
+    const double twice = 2. * (elasticity.energy(u) + elasticity.external * u);
+    return std::sqrt(std::max(0., twice));
+  }
+
+  template <int dim> void SolidRun<dim>::judge()
+  {
+    SectionTimes::Scope scope(report.times, "error estimate");
+    MeshEvidence evidence;
+    evidence.residual = *present.estimate;
+    if (control.start().size() > 0)
+    {
+      la::Vector change(u);
+      change -= control.start();
+      evidence.change = elasticity.energy_norm(change);
+    }
+    evidence.norm = solution_norm();
+    if (!pairs->empty())
+    {
+      // Nitsche's method is consistent: its gaps are the mesh's error.
+      if ((method.options.law->flags & ABUT_LAW_STRESS) == 0)
+        evidence.law = contact.complementarity_error();
+      evidence.contact_force = contact.contact_force();
+    }
+    present.error_parts = control.judge(evidence);
   }
 
   template <int dim> void SolidRun<dim>::set_refine_flags()
@@ -61,7 +97,9 @@ namespace abut::app
     }
     dealii::parallel::distributed::GridRefinement::
         refine_and_coarsen_fixed_fraction(triangulation, squared_estimate,
-                                          levels.refine_fraction,
+                                          control.is_on()
+                                              ? control.refine_fraction()
+                                              : levels.refine_fraction,
                                           levels.coarsen_fraction);
     if (pairs->empty())
       return;
@@ -74,6 +112,9 @@ namespace abut::app
   template <int dim> void SolidRun<dim>::refine()
   {
     set_refine_flags();
+    if (control.is_on())
+      check_memory_of_flags(triangulation, parameters.degree,
+                            "Refinement/Target error", dim);
     std::vector<la::Vector> fields = {elasticity.ghosted(u)};
     if (!pairs->empty())
       fields.push_back(elasticity.ghosted_field(contact.pressure()));
@@ -84,10 +125,17 @@ namespace abut::app
     if (!pairs->empty())
       pressure = fields[1];
     ++mesh_number;
+    la::Vector start(u);
+    elasticity.constraints.distribute(start);
+    control.begin_mesh(start);
   }
 
   template ContactFields SolidRun<2>::contact_fields() const;
   template ContactFields SolidRun<3>::contact_fields() const;
+  template double SolidRun<2>::solution_norm() const;
+  template void SolidRun<2>::judge();
+  template double SolidRun<3>::solution_norm() const;
+  template void SolidRun<3>::judge();
   template void SolidRun<2>::estimate();
   template void SolidRun<2>::set_refine_flags();
   template void SolidRun<2>::refine();

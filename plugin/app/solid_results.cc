@@ -37,6 +37,7 @@ namespace abut::app
                             "h1_error",
                             "energy_norm_error",
                             "estimate",
+                            "estimated_error",
                             "setup_seconds",
                             "krylov_seconds",
                             "seconds"});
@@ -46,6 +47,8 @@ namespace abut::app
   {
     if (parameters.refinement.is_adaptive(mesh_number))
       estimate();
+    if (control.is_on() && load_steps.n_accepted == 0)
+      judge();
     const double counted = counted_seconds();
     present.seconds = counted - counted_before;
     counted_before = counted;
@@ -76,11 +79,12 @@ namespace abut::app
     report.add("nonlinear_iterations", present.steps);
     report.add("linear_iterations", present.linear.n_iterations);
     report.add("matvecs", present.linear.n_matvecs);
-    report.progress(
-        "time " + short_number(present.time, 6) + ", level "
-        + std::to_string(present.level) + ": " + std::to_string(present.dofs)
-        + " unknowns, " + std::to_string(present.linear.n_iterations)
-        + " linear iterations, energy " + short_number(present.energy, 8));
+    report.progress("time " + short_number(present.time, 6) + ", level "
+                    + std::to_string(present.level) + ": "
+                    + std::to_string(present.dofs) + " unknowns, "
+                    + std::to_string(present.linear.n_iterations)
+                    + " linear iterations, energy "
+                    + short_number(present.energy, 8) + control.progress());
   }
 
   template <int dim> void SolidRun<dim>::report_points()
@@ -210,6 +214,15 @@ namespace abut::app
                     "lagrange.");
   }
 
+  template <int dim> std::optional<double> SolidRun<dim>::relative_error() const
+  {
+    const SolidState &last = states.back();
+    if (!last.errors
+        || parameters.refinement.target_quantity != TargetQuantity::energy_norm)
+      return {};
+    return *last.errors->energy / solution_norm();
+  }
+
   template <int dim> void SolidRun<dim>::report_result(const bool converged)
   {
     SectionTimes::Scope scope(report.times, "results");
@@ -242,6 +255,8 @@ namespace abut::app
     if (!std::isnan(parameters.exact_energy))
       report.set("energy_error",
                  std::abs(last.energy - parameters.exact_energy));
+    if (control.is_on())
+      control.report(report, relative_error());
     report_points();
     report_reactions();
     if (!pairs->empty())
@@ -280,6 +295,8 @@ namespace abut::app
   template void SolidRun<2>::report_reactions();
   template void SolidRun<2>::report_checks();
   template void SolidRun<2>::report_contact();
+  template std::optional<double> SolidRun<2>::relative_error() const;
+  template std::optional<double> SolidRun<3>::relative_error() const;
   template void SolidRun<2>::report_result(bool);
   template void SolidRun<2>::report_model();
   template void SolidRun<3>::declare_tables();

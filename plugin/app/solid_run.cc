@@ -25,6 +25,7 @@ namespace abut::app
         elasticity(triangulation, parameters.degree),
         contact(communicator),
         load_steps(parameters.load_steps),
+        control(parameters.refinement, method),
         series(options.output_folder, "fields", communicator),
         contact_series(options.output_folder, "contact", communicator)
   {
@@ -162,11 +163,12 @@ namespace abut::app
     la::Vector load(elasticity.load);
     elasticity.constraints.set_zero(load);
     la::Vector increment = elasticity.vector();
+    const double tolerance = control.method().options.final_linear_tolerance;
     const LinearReport linear = linear_solver->solve(
-        nothing, residual,
-        method.options.final_linear_tolerance * load.l2_norm(), increment,
-        true);
+        nothing, residual, tolerance * load.l2_norm(), increment, true);
     u += increment;
+    if (control.is_on())
+      control.note_step(elasticity.energy_norm(increment), tolerance);
     elasticity.constraints.distribute(u);
     present.linear += linear;
     ++present.steps;
@@ -191,11 +193,37 @@ namespace abut::app
     }
   }
 
+  template <int dim> std::optional<bool> SolidRun<dim>::follow_target()
+  {
+    for (;;)
+    {
+      const ErrorTarget::Step step = control.next(present.progress.penalty);
+      if (step == ErrorTarget::Step::stop)
+        return true;
+      if (step == ErrorTarget::Step::refine)
+        break;
+      if (!pairs->empty())
+        pressure = contact.pressure();
+      contact_is_ready = false;
+      if (!solve())
+        return false;
+      finish_state();
+    }
+    if (!is_last_mesh())
+      return {};
+    target_is_missed = true;
+    return true;
+  }
+
   template <int dim> bool SolidRun<dim>::solve_on_hierarchy()
   {
     while (solve())
     {
       finish_state();
+      const std::optional<bool> met =
+          control.is_on() ? follow_target() : std::optional<bool>();
+      if (met)
+        return *met;
       if (is_last_mesh())
         return true;
       if (parameters.all_levels)
@@ -216,7 +244,7 @@ namespace abut::app
     prepare();
     declare_tables();
     bool goes_on = true;
-    while (goes_on && !load_steps.is_finished())
+    while (goes_on && !target_is_missed && !load_steps.is_finished())
     {
       const la::Vector before(u);
       set_time(load_steps.target());
@@ -247,6 +275,9 @@ namespace abut::app
     steps.write(communicator, options.output_folder);
     if (options.pictures && !states.empty())
       draw();
+    if (target_is_missed)
+      report.warn(control.failure());
+    goes_on = goes_on && !target_is_missed;
     report_result(goes_on);
     report_model();
     return goes_on ? Outcome::converged : Outcome::unusable;

@@ -9,6 +9,7 @@
 #include "solid_functions.h"
 #include "solid_pairs.h"
 #include "step_table.h"
+#include "target_control.h"
 
 #include <abut/dealii/contact_assembler.h>
 
@@ -35,6 +36,7 @@ namespace abut::app
     double energy = 0., force = 0., penetration = 0.;
     std::optional<ErrorNorms> errors;
     std::optional<double> estimate;
+    std::optional<ErrorParts> error_parts; ///< with a target only
     double seconds = 0.; ///< since the end of the state before, counted parts
   };
 
@@ -75,6 +77,9 @@ namespace abut::app
     bool solve();
     bool solve_without_contact();
     bool is_last_mesh() const;
+    /** Whether the last solve succeeded, which meets the target or gives it
+     * up; no answer: another mesh is needed. */
+    std::optional<bool> follow_target();
 
     // Contact, in solid_contact.cc
     void begin_contact();
@@ -90,6 +95,8 @@ namespace abut::app
     // Meshes, in solid_refinement.cc
     ContactFields contact_fields() const;
     void estimate();
+    void judge();
+    double solution_norm() const;
     void refine();
     void set_refine_flags();
 
@@ -108,6 +115,7 @@ namespace abut::app
     void report_reactions();
     void report_checks();
     void report_contact();
+    std::optional<double> relative_error() const;
     void report_result(bool converged);
     void report_model();
 
@@ -134,12 +142,14 @@ namespace abut::app
     std::vector<RigidFreedom> freedom; ///< by body
     LoadSteps load_steps;
 
+    TargetControl control;
     la::Vector u;        ///< displacement, owned
     la::Vector pressure; ///< p n, owned; start on a new mesh, or empty
     dealii::Vector<float> squared_estimate;
     unsigned int mesh_number = 0;
     SolidState present;
     std::string failure; ///< why the last solve has no answer
+    bool target_is_missed = false;
     std::vector<SolidState> states;
     StepTable steps;
     FieldSeries series, contact_series;

@@ -194,16 +194,19 @@ namespace abut
     if (!i.is_started)
       i.begin(matrix, residual);
     LinearReport report;
+    double tolerance = 0.;
     while (i.request.action == ABUT_ACTION_SOLVE
            || i.request.action == ABUT_ACTION_SOLVE_AGAIN)
     {
       report.n_systems += i.request.action == ABUT_ACTION_SOLVE;
+      tolerance = i.request.linear_tolerance;
       report +=
           i.solver->solve(residual, i.request, i.smallest_residual, increment);
       i.next();
     }
     if (i.request.action == ABUT_ACTION_MOVE && i.request.step_length != 1.)
       increment *= i.request.step_length;
+    report.tolerance = tolerance;
     i.report += report;
     return report;
   }

@@ -283,7 +283,7 @@ namespace abut
     method.options.user = const_cast<MPI_Comm *>(&communicator);
     strategy = shim::create_strategy(context.get(), method.options);
 
-    std::vector<double> stiffness = solve::row_stiffness(matrix, coefficients);
+    stiffness = solve::row_stiffness(matrix, coefficients);
     if (is_nitsche())
     {
       method.options.penalty = abut_strategy_first_penalty(&method.options);

@@ -78,7 +78,8 @@ namespace abut
                                            ///< bilateral; empty: 0
     std::vector<std::uint8_t> start_state; ///< [rows]; empty: from p and g
     la::Vector start_displacement;
-    std::vector<double> gap; ///< [rows] at the present displacement
+    std::vector<double> gap;       ///< [rows] at the present displacement
+    std::vector<double> stiffness; ///< [rows] pressure per length
     double smallest_residual = 0.;
 
     /** Null until the first solve with the present rows. */

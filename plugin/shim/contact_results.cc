@@ -35,6 +35,22 @@ namespace abut
     return sums[1] > 0. ? sums[0] / sums[1] : 0.;
   }
 
+  template <int dim> double ContactAssembler<dim>::complementarity_error() const
+  {
+    const Implementation &i = *implementation;
+    double sum = 0.;
+    for (int row = 0; row < i.view.n_rows && i.is_started; ++row)
+    {
+      const double s = i.stiffness[row];
+      const double residual =
+          i.view.bilateral[row] != 0
+              ? i.gap[row]
+              : std::min(i.gap[row], i.row_pressure(row) / s);
+      sum += i.view.weight[row] * s * residual * residual;
+    }
+    return std::sqrt(MPI::sum(sum, i.communicator));
+  }
+
   template <int dim> double ContactAssembler<dim>::penetration() const
   {
     const Implementation &i = *implementation;
@@ -95,6 +111,7 @@ namespace abut
 #define ABUT_INSTANTIATE(dim)                                                  \
   template double ContactAssembler<dim>::contact_force() const;                \
   template double ContactAssembler<dim>::complementarity() const;              \
+  template double ContactAssembler<dim>::complementarity_error() const;        \
   template double ContactAssembler<dim>::penetration() const;                  \
   template la::Vector ContactAssembler<dim>::pressure() const;                 \
   template la::Vector ContactAssembler<dim>::gap() const;                      \

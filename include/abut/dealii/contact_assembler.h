@@ -197,6 +197,13 @@ namespace abut
     /** sum w |p g| / sum w |p|: mean gap under pressure, length. */
     virtual double complementarity() const;
 
+    /** Estimate, in the norm of the strain energy, of what the law leaves open:
+     * (sum w s r^2)^(1/2) with the local stiffness s of a row (pressure per
+     * length) and the natural residual r = min(g, p / s) of 0 <= p _|_ g >= 0
+     * (ties: g). Penetration of penalties, pressure across a gap of barriers;
+     * 0 for exact multipliers. Valid after the first solve(). */
+    double complementarity_error() const;
+
     /** Largest penetration max(0, -g), length. */
     virtual double penetration() const;
 

@@ -64,6 +64,7 @@ namespace abut
     unsigned int n_setups = 0;     /**< preconditioners or factorisations */
     double setup_seconds = 0.;     /**< time for these */
     double solve_seconds = 0.;     /**< time for the rest */
+    double tolerance = 0.;         /**< relative, of the last system */
     std::string method;            /**< of the last system, in words */
 
     /** Add the cost of another solve. */
@@ -75,6 +76,8 @@ namespace abut
       n_setups += other.n_setups;
       setup_seconds += other.setup_seconds;
       solve_seconds += other.solve_seconds;
+      if (other.n_systems > 0)
+        tolerance = other.tolerance;
       if (!other.method.empty())
         method = other.method;
       return *this;
