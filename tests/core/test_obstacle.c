@@ -205,16 +205,121 @@ functions(void **state)
   assert_non_null(strstr(abut_context_message(context), "point 1 = (11, 2.5)"));
   assert_int_equal(abut_obstacle_distance(o, 1, worse, two, NULL, NULL),
                    ABUT_CALLBACK_FAILED);
-  assert_int_equal(abut_obstacle_distance(o, 1, centre, two, NULL, hessian),
-                   ABUT_UNSUPPORTED);
+  /* There, no second derivatives either. */
+  assert_ok(abut_obstacle_distance(o, 1, centre, two, NULL, hessian));
+  for (int i = 0; i < 4; ++i)
+    assert_close(hessian[i], 0, 0);
   abut_obstacle_view v;
   assert_ok(abut_obstacle_get(o, &v));
-  assert_false(v.has_hessian);
   assert_int_equal(v.kind, ABUT_OBSTACLE_FUNCTION);
   assert_ok(abut_obstacle_destroy(&o));
   f.evaluate = NULL;
   assert_int_equal(abut_obstacle_create_function(context, &f, &o),
                    ABUT_INVALID_ARGUMENT);
+  f.evaluate = ellipse;
+  const double lengths[] = {-1, NAN, INFINITY};
+  for (int i = 0; i < 3; ++i)
+  {
+    f.length = lengths[i];
+    assert_int_equal(abut_obstacle_create_function(context, &f, &o),
+                     ABUT_INVALID_ARGUMENT);
+  }
+}
+
+/* |x|^3 - 8 times a factor: a sphere, but no distance. */
+static int
+cubes(void *user, int32_t n, const double *points, double *value,
+      double *gradient)
+{
+  const double factor = *(const double *)user;
+  for (int32_t i = 0; i < n; ++i)
+  {
+    const double *x = points + 3 * i;
+    const double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    value[i] = factor * (r * r * r - 8);
+    for (int d = 0; d < 3; ++d)
+      gradient[3 * i + d] = 3 * factor * r * x[d];
+  }
+  return 0;
+}
+
+/* x_3 - x_1^2 x_2 with the gap along the axis. */
+static int
+bowl(void *user, int32_t n, const double *points, double *value,
+     double *gradient)
+{
+  (void)user;
+  for (int32_t i = 0; i < n; ++i)
+  {
+    const double *x = points + 3 * i;
+    value[i] = x[2] - x[0] * x[0] * x[1];
+    gradient[3 * i] = gradient[3 * i + 1] = 0;
+    gradient[3 * i + 2] = 1;
+  }
+  return 0;
+}
+
+/* Second derivatives of functions: level surfaces of known curvature, also
+ * hollow, in a pose, in other units, and with a length given. */
+static void
+curvature_of_functions(void **state)
+{
+  (void)state;
+  double factor = 1, d[2], g[6], h[18], expected[9];
+  uint64_t seed = 31;
+  abut_obstacle_function f = abut_obstacle_function_defaults();
+  f.user = &factor;
+  f.evaluate = cubes;
+  abut_obstacle_shape s = abut_obstacle_shape_defaults();
+  s.kind = ABUT_OBSTACLE_SPHERE;
+  s.radius = 2;
+  const double turn[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1}, shift[3] = {1, -2, 0.5};
+  for (int k = 0; k < 4; ++k)
+  {
+    factor = k % 2 == 0 ? 1e100 : 1e-100;
+    s.hollow = f.hollow = k / 2 == 1;
+    f.length = k == 3 ? 0.7 : 0;
+    abut_obstacle *o = NULL, *sphere = make(&s);
+    assert_ok(abut_obstacle_create_function(context, &f, &o));
+    assert_ok(abut_obstacle_set_pose(o, turn, shift));
+    assert_ok(abut_obstacle_set_pose(sphere, turn, shift));
+    for (int i = 0; i < 50; ++i)
+    {
+      double x[3];
+      for (int j = 0; j < 3; ++j)
+        x[j] = shift[j] + 2 + 2 * (fixture_random(&seed) - 0.5);
+      assert_ok(abut_obstacle_distance(sphere, 1, x, d, NULL, expected));
+      assert_ok(abut_obstacle_distance(o, 1, x, d, g, h));
+      for (int j = 0; j < 9; ++j)
+        assert_close(h[j], expected[j], 1e-10);
+    }
+    assert_ok(abut_obstacle_destroy(&o));
+    assert_ok(abut_obstacle_destroy(&sphere));
+  }
+
+  /* Curvatures of an ellipse with half axes 2 and 1 at its ends, seen from
+   * within. */
+  f = abut_obstacle_function_defaults();
+  f.dimension = 2;
+  f.user = &factor;
+  f.evaluate = ellipse;
+  abut_obstacle *o = NULL;
+  assert_ok(abut_obstacle_create_function(context, &f, &o));
+  const double ends[4] = {2, 0, 0, -1},
+               curvature[8] = {0, 0, 0, -2, -0.25, 0, 0, 0};
+  assert_ok(abut_obstacle_distance(o, 2, ends, d, g, h));
+  for (int j = 0; j < 8; ++j)
+    assert_close(h[j], curvature[j], 1e-11);
+  assert_ok(abut_obstacle_destroy(&o));
+
+  f.dimension = 3;
+  f.evaluate = bowl;
+  const double x[3] = {0.3, 0.7, 0.4};
+  assert_ok(abut_obstacle_create_function(context, &f, &o));
+  assert_ok(abut_obstacle_distance(o, 1, x, d, g, h));
+  for (int j = 0; j < 9; ++j)
+    assert_close(h[j], 0, 0);
+  assert_ok(abut_obstacle_destroy(&o));
 }
 
 /* A point of the surface of a box or of a cone (2D: rectangle, wedge) with an
@@ -617,7 +722,6 @@ bad_calls(void **state)
   abut_obstacle_view v;
   assert_ok(abut_obstacle_get(o, &v));
   assert_int_equal(v.kind, ABUT_OBSTACLE_PLANE);
-  assert_true(v.has_hessian);
   assert_close(v.rotation[4], 1, 0);
   assert_string_equal(abut_obstacle_name(v.kind), "plane");
   assert_string_equal(abut_obstacle_name(ABUT_OBSTACLE_SURFACE), "surface");
@@ -632,6 +736,8 @@ main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(known_distances, set_up, tear_down),
       cmocka_unit_test_setup_teardown(functions, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(curvature_of_functions, set_up,
+                                      tear_down),
       cmocka_unit_test_setup_teardown(nearest_points, set_up, tear_down),
       cmocka_unit_test_setup_teardown(eikonal, set_up, tear_down),
       cmocka_unit_test_setup_teardown(derivatives, set_up, tear_down),

@@ -49,7 +49,6 @@ abut_obstacle_make(abut_context *context, const char *call, size_t bytes,
   o->view.dimension = dimension;
   o->view.kind = kind;
   o->view.hollow = hollow;
-  o->view.has_hessian = methods->has_hessian;
   o->local.element = o->gradient.element = sizeof(double);
   set_identity(&o->view);
   return o;
@@ -262,9 +261,6 @@ abut_obstacle_distance(abut_obstacle *obstacle, int32_t n, const double *points,
     return abut_fail(o->context, ABUT_INVALID_ARGUMENT,
                      "abut_obstacle_distance",
                      "n is negative, or points or distance is NULL");
-  if (hessian != NULL && !o->view.has_hessian)
-    return abut_fail(o->context, ABUT_UNSUPPORTED, "abut_obstacle_distance",
-                     "functions and surfaces have no second derivatives");
   o->view.n_beyond = 0;
   if (n == 0)
     return ABUT_SUCCESS;

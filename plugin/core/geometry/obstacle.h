@@ -12,14 +12,13 @@
 typedef struct abut_obstacle_methods
 {
   /* Distances and gradients of n > 0 points of the obstacle's own frame, for
-   * material inside; hessian is NULL unless has_hessian. Failures name the
-   * point by abut_obstacle_fail(). */
+   * material inside; hessian may be NULL. Failures name the point by
+   * abut_obstacle_fail(). */
   abut_status (*evaluate)(abut_obstacle *obstacle, int32_t n,
                           const double *points, double *distance,
                           double *gradient, double *hessian);
   /* Release what the kind owns besides its struct; NULL: nothing. */
   void (*release)(abut_obstacle *obstacle);
-  bool has_hessian;
 } abut_obstacle_methods;
 
 struct abut_obstacle

@@ -74,7 +74,7 @@ static void
 store_beyond(surface_obstacle *s, const double *x, double *distance,
              double *gradient)
 {
-  const int32_t dimension = s->surface->view.dimension;
+  const int32_t dimension = s->surface->view.dimension == 2 ? 2 : 3;
   const double sign = s->base.view.hollow ? -1. : 1.;
   double r[3];
   sub3(x, s->centre, r);
@@ -93,9 +93,11 @@ evaluate(abut_obstacle *o, int32_t n, const double *points, double *distance,
   surface_obstacle *s = (surface_obstacle *)o;
   const int32_t dimension = o->view.dimension;
   const abut_status status = refresh(s);
-  (void)hessian;
   if (status != ABUT_SUCCESS)
     return status;
+  if (hessian != NULL)
+    memset(hessian, 0,
+           (size_t)n * (size_t)(dimension * dimension) * sizeof(*hessian));
   for (int64_t i = 0; i < n; ++i)
   {
     double x[3] = {0., 0., 0.}, *g = gradient + i * dimension;
@@ -111,7 +113,7 @@ evaluate(abut_obstacle *o, int32_t n, const double *points, double *distance,
   return ABUT_SUCCESS;
 }
 
-static const abut_obstacle_methods methods = {evaluate, release, false};
+static const abut_obstacle_methods methods = {evaluate, release};
 
 static abut_status
 refuse_facet(abut_context *context, const char *call, int32_t f,
