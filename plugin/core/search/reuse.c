@@ -51,7 +51,7 @@ is_straight(const abut_surface *s)
 static void
 mean_motion(const abut_surface *s, const double *old, double *mean)
 {
-  const int dim = s->view.dimension;
+  const int dim = s->view.dimension == 2 ? 2 : 3;
   const double *now = s->view.position;
   const int32_t n = s->view.n_nodes;
   mean[0] = mean[1] = mean[2] = 0;
@@ -67,7 +67,7 @@ static double
 largest_motion(const abut_surface *s, const double *old, const double *mean,
                double *magnitude)
 {
-  const int dim = s->view.dimension;
+  const int dim = s->view.dimension == 2 ? 2 : 3;
   const double *now = s->view.position;
   double largest = 0;
   for (int32_t i = 0; i < s->view.n_nodes; ++i)
