@@ -28,8 +28,9 @@
  *                      nearest point of the primary surface; n_j is minus the
  *                      normal there. A constant pressure is not transferred
  *                      exactly.
- *   quadrature point   one row per point of a quadrature rule on each facet,
- *                      against the primary along the secondary's normal.
+ *   quadrature point   one row per point of a quadrature rule on each common
+ *                      segment or polygon, or on each facet, against the
+ *                      primary along the secondary's normal.
  *   mortar             psi_j = phi_j, integrals over the exact common
  *                      segments (2D) or polygons (3D) of the facets: Puso and
  *                      Laursen, Comput. Methods Appl. Mech. Engrg. 193 (2004)
@@ -100,9 +101,11 @@ extern "C"
     /** Polynomials up to this degree are integrated exactly on flat facets: 0
      * (default) automatic, or 1 .. 8. */
     int32_t quadrature_degree;
-    /** Integrate over the exact common parts of facets (default true). False:
-     * over whole facets with the points projected one by one; faster, but a
-     * constant pressure is only transferred to within some 1e-2. */
+    /** Integrate over the exact common parts of facets (default true); each of
+     * them has quadrature points of its own. False: over whole facets with the
+     * points projected one by one; faster and with fewer points, but a constant
+     * pressure is only transferred to within some 1e-2. Node to segment has no
+     * integrals. */
     bool segments;
     /** Integrals are those of the body of revolution about the axis x = 0: the
      * weight of a point is multiplied by 2 pi x (2D only; x >= 0 at all

@@ -23,8 +23,8 @@ namespace abut::shim
      * is held there. */
     constexpr double least_freedom = 0.5;
 
-    /** More than the points of any rule on a facet. */
-    constexpr std::int64_t points_per_facet = 256;
+    /** More than the points of quadrature on any facet. */
+    constexpr std::int64_t points_per_facet = 1 << 24;
 
     abut_discretisation core_word(const Discretisation discretisation)
     {
@@ -170,6 +170,7 @@ namespace abut::shim
             : 0;
     options.quadrature_degree =
         static_cast<std::int32_t>(settings_.method.quadrature_degree);
+    options.segments = settings_.method.segments;
     options.axisymmetric = settings_.axisymmetric;
     options.normal_cosine = settings_.search.detection.normal_cosine;
     options.search = settings_.search.detection.search;

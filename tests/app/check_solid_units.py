@@ -17,7 +17,7 @@ other = {
 }
 
 for law in ("lagrange", "penalty", "quadratic penalty", "augmented lagrangian",
-            "barrier", "interior point"):
+            "barrier", "interior point", "nitsche"):
     tight = {"Method/Final linear tolerance": 1e-12}
     for what, extra in (("defaults", {}), ("tight", tight)):
         settings = {"Method/Enforcement": law, "Refinement/Level": 2,

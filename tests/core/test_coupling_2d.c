@@ -380,14 +380,15 @@ test_node_to_segment(void **state)
   }
 }
 
-/* Rows of quadrature points: weights of the rule, forces in balance, the gap
- * along the normal. */
+/* Rows at the points of whole facets: weights of the rule, forces in balance,
+ * the gap along the normal. */
 static void
 test_quadrature_points(void **state)
 {
   (void)state;
   abut_coupling_options o = abut_coupling_defaults();
   o.discretisation = ABUT_DISCRETISATION_QUADRATURE_POINT;
+  o.segments = false;
   o.search.reach = 0.2;
   for (int kind = 0; kind < 2; ++kind)
   {
@@ -411,6 +412,46 @@ test_quadrature_points(void **state)
     scene_free(&s);
     scene_free(&m);
   }
+}
+
+/* Rows at points of the common segments: a uniform pressure is exact, forces
+ * and moments balance, the gap is that along the normal; two points per segment
+ * of straight lines. */
+static void
+test_points_of_segments(void **state)
+{
+  (void)state;
+  double n[2];
+  inclined_normal(n);
+  abut_coupling_options o = abut_coupling_defaults();
+  o.discretisation = ABUT_DISCRETISATION_QUADRATURE_POINT;
+  for (int k = 0; k < 8; ++k)
+    for (int kind = 0; kind < 4; ++kind)
+    {
+      const int n1 = sizes[k][0], n2 = sizes[k][1];
+      scene_mesh s = inclined(kinds[kind / 2], n1, 0., 1., 0., true),
+                 m = inclined(kinds[kind % 2], n2, 0., 1., 0.03, false);
+      couple c = couple_meshes(&s, &m, &o, NULL);
+      check_rows(&c);
+      check_balance(&c, 1e-12, 1e-12);
+      near(force_error(&c, 0, n), 0., 1e-14, "secondary force");
+      near(force_error(&c, 1, n), 0., 1e-14, "primary force");
+      near(c.statistics.covered_area, 1., 1e-14, "covered");
+      if (kind == 0)
+        assert_int_equal(c.view.n_rows, 2 * (n1 + n2 - gcd(n1, n2)));
+      for (int32_t j = 0; j < c.view.n_rows; ++j)
+      {
+        assert_int_equal(c.view.node[j], -1);
+        assert_int_equal(c.view.point[j],
+                         j > 0 && c.view.facet[j] == c.view.facet[j - 1]
+                             ? c.view.point[j - 1] + 1
+                             : 0);
+        near(c.view.gap[j], 0.03, 1e-14, "gap");
+      }
+      couple_destroy(&c);
+      scene_free(&s);
+      scene_free(&m);
+    }
 }
 
 /* Integration over whole facets: balanced, but a uniform pressure is not
@@ -462,6 +503,8 @@ test_arcs(void **state)
                                    true);
         couple c = couple_meshes(&s, &m, &o, NULL);
         check_rows(&c);
+        if (i == 3 && kind == 0)
+          check_balance(&c, 1e-11, 1e-11);
         assert_true(c.view.n_rows > n);
         error[level] = 0.;
         for (int32_t j = 0; j < c.view.n_rows; ++j)
@@ -594,6 +637,8 @@ main(void)
       cmocka_unit_test_setup_teardown(test_filters, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_node_to_segment, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_quadrature_points, set_up,
+                                      tear_down),
+      cmocka_unit_test_setup_teardown(test_points_of_segments, set_up,
                                       tear_down),
       cmocka_unit_test_setup_teardown(test_without_segments, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_arcs, set_up, tear_down),

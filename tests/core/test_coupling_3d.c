@@ -62,10 +62,12 @@ flat_case(abut_facet_kind ks, abut_facet_kind km, int n1, int n2,
              m = plane(km, n2, n2, above, false);
   couple c = couple_meshes(&s, &m, &o, NULL);
   check_rows(&c);
-  check_balance(&c, 2e-13, 5e-13);
+  /* Row j has the pressure 1 + j: round-off grows with the square. */
+  const double load = fmax(1., 1e-4 * c.view.n_rows * c.view.n_rows);
+  check_balance(&c, 2e-13 * load, 5e-13 * load);
   near(force_error(&c, 0, n), 0., 1e-14, "secondary force");
   near(force_error(&c, 1, n), 0., 1e-14, "primary force");
-  near(c.statistics.covered_area, 1., 1e-14, "covered");
+  near(c.statistics.covered_area, 1., 5e-14, "covered");
   near(c.statistics.full_area, 1., 1e-14, "full");
   for (int32_t j = 0; j < c.view.n_rows; ++j)
   {
@@ -99,6 +101,7 @@ test_flat(void **state)
       flat_case(ks, km, n1, n2, ABUT_DISCRETISATION_DUAL_MORTAR, 0);
       flat_case(ks, km, n1, n2, ABUT_DISCRETISATION_MORTAR, 0);
       flat_case(ks, km, n1, n2, ABUT_DISCRETISATION_MORTAR, 1);
+      flat_case(ks, km, n1, n2, ABUT_DISCRETISATION_QUADRATURE_POINT, 0);
     }
 }
 
@@ -275,8 +278,8 @@ test_layers(void **state)
   }
 }
 
-/* Node to segment and quadrature points: balanced; a uniform pressure is not
- * transferred exactly. */
+/* Node to segment, and quadrature points of whole facets: balanced; a uniform
+ * pressure is not transferred exactly. */
 static void
 test_points(void **state)
 {
@@ -288,6 +291,7 @@ test_points(void **state)
     abut_coupling_options o = abut_coupling_defaults();
     o.discretisation = k == 0 ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
                               : ABUT_DISCRETISATION_QUADRATURE_POINT;
+    o.segments = false;
     scene_mesh s = plane(ABUT_FACET_QUAD4, 3, 3, unit, true),
                m = plane(ABUT_FACET_QUAD4, 4, 4, above, false);
     couple c = couple_meshes(&s, &m, &o, NULL);
@@ -335,6 +339,8 @@ test_spheres(void **state)
                                    outer, true);
         couple c = couple_meshes(&s, &m, &o, NULL);
         check_rows(&c);
+        if (k == 2 && kinds[i] != ABUT_FACET_QUAD9)
+          check_balance(&c, 1e-11, 1e-11);
         assert_true(c.view.n_rows > n * n);
         error[level] = 0.;
         for (int32_t j = 0; j < c.view.n_rows; ++j)

@@ -68,9 +68,13 @@ namespace abut
      * degree of the facets. */
     unsigned int multiplier_degree = 0;
 
-    /** Degree of the quadrature on each mortar segment; 0: exact for flat
-     * parallelograms. For `quadrature point`, of the rule on each facet. */
+    /** Degree of the quadrature on each common part of two facets (or, without
+     * @ref segments, on each facet); 0: exact for flat parallelograms. */
     unsigned int quadrature_degree = 0;
+
+    /** As in abut_coupling_options: integrate over the exact common parts of
+     * facets. */
+    bool segments = true;
 
     /** Declare the section `Method` in the present section of @p prm. */
     static void declare_parameters(dealii::ParameterHandler &prm);

@@ -40,7 +40,7 @@ typedef struct abut_coupling_point
   double normal[3];                   /* of the secondary facet; obstacle:
                                          - grad phi */
   int32_t primary;                    /* facet; obstacle: -1 */
-  int32_t number;                     /* in the rule of the whole facet */
+  int32_t number;                     /* within the facet */
   double shape[ABUT_FACET_MAX_NODES]; /* of the secondary */
   double opposite[ABUT_FACET_MAX_NODES]; /* shape functions N there */
 } abut_coupling_point;
@@ -220,6 +220,10 @@ abut_status abut_coupling_rays(abut_coupling *c,
 abut_status abut_coupling_face_obstacle(abut_coupling *c,
                                         const abut_coupling_facet *facet,
                                         bool final);
+
+/* Number the points of the segments of a facet, and take their opposite points
+ * along the facet's normal. */
+void abut_coupling_aim(abut_coupling *c, const abut_coupling_facet *facet);
 
 /* Candidates of a facet: the *n primary facets within reach of its box that
  * share no node with it, in c->candidates. */

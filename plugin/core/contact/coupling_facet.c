@@ -148,6 +148,14 @@ abut_coupling_degree(const abut_coupling *c, abut_facet_kind secondary,
 {
   if (c->options.quadrature_degree > 0)
     return c->options.quadrature_degree;
+  /* A point is a row: no more than uniform pressures need. */
+  if (!abut_coupling_is_mortar(c))
+    return abut_facet_dimension(secondary) == 3
+               ? (degree_of(primary) > degree_of(secondary)
+                      ? degree_of(primary)
+                      : degree_of(secondary))
+           : degree_of(secondary) + degree_of(primary) > 2 ? 5
+                                                           : 3;
   if (abut_facet_dimension(secondary) == 3)
     return degree_of(secondary) + (products ? degree_of(primary) : 0);
   /* The map to a curved or inclined primary is not a polynomial. */
@@ -202,9 +210,12 @@ abut_coupling_make_points(abut_coupling *c, const abut_coupling_facet *facet,
 {
   if (c->obstacle != NULL)
     return abut_coupling_face_obstacle(c, facet, final);
-  if (!abut_coupling_is_mortar(c) || !c->options.segments)
+  if (!c->options.segments)
     return abut_coupling_rays(c, facet, final);
-  return c->secondary->view.dimension == 2
-             ? abut_coupling_segments2(c, facet, final)
-             : abut_coupling_segments3(c, facet, final);
+  const abut_status status = c->secondary->view.dimension == 2
+                                 ? abut_coupling_segments2(c, facet, final)
+                                 : abut_coupling_segments3(c, facet, final);
+  if (status == ABUT_SUCCESS && !abut_coupling_is_mortar(c))
+    abut_coupling_aim(c, facet);
+  return status;
 }

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* Points of a rule over the whole facet, each against the nearest primary
- * facet on the line through it along the secondary's mean normal. Lines that
- * miss all facets leave their points uncovered. O(points * candidates). */
+/* Points against the primary along the secondary's mean normal, so that the
+ * forces of a row have no moment: those of a rule over the whole facet, each
+ * with the nearest primary facet on the line through it (lines that miss all
+ * facets leave their points uncovered; O(points * candidates)), or those of
+ * segments, each with the primary facet of its segment. */
 #include "contact/coupling.h"
 #include "geometry/measure.h"
 #include "geometry/pull_back.h"
@@ -66,6 +68,29 @@ find_opposite(const abut_coupling *c, const abut_coupling_facet *facet,
     abut_coupling_shape(kind, NULL, local, p->opposite, NULL);
     for (int d = 0; d < 3; ++d)
       p->gap[d] = gap * facet->normal[d];
+  }
+}
+
+void
+abut_coupling_aim(abut_coupling *c, const abut_coupling_facet *facet)
+{
+  double e[2][3];
+  abut_coupling_point *p = c->points.data;
+  abut_plane_basis(c->view.dimension, facet->normal, e);
+  for (int32_t q = 0; q < c->n_points; ++q)
+  {
+    double nodes[3 * ABUT_FACET_MAX_NODES], local[2], gap;
+    const abut_facet_kind kind =
+        (abut_facet_kind)c->primary->view.kinds[p[q].primary];
+    p[q].number = q;
+    abut_surface_gather(c->primary, p[q].primary, nodes);
+    /* At the border of a curved facet the line may pass by: then the point
+     * keeps the opposite point of its segment. */
+    if (!meet(facet, e, kind, nodes, p[q].position, local, &gap))
+      continue;
+    abut_coupling_shape(kind, NULL, local, p[q].opposite, NULL);
+    for (int d = 0; d < 3; ++d)
+      p[q].gap[d] = gap * facet->normal[d];
   }
 }
 

@@ -2,12 +2,12 @@
 /* Integration over the common segments of two curves.
  *
  * The ends of each linear part of a primary facet are projected onto the part
- * of the secondary along the normals at the secondary's nodes, interpolated
- * linearly (Yang, Laursen and Meng, Int. J. Numer. Meth. Engng 62 (2005)
- * 1183); Gauss's points of the common interval are projected back the same
- * way. Shape functions and positions are those of the facets at the parameters
- * found on their parts. Where several facets cover one spot the nearest has
- * it. Cost: O(pairs). */
+ * of the secondary along the normals at the secondary's nodes (for quadrature
+ * points: the facet's), interpolated linearly (Yang, Laursen and Meng, Int. J.
+ * Numer. Meth. Engng 62 (2005) 1183); Gauss's points of the common interval are
+ * projected back the same way. Shape functions and positions are those of the
+ * facets at the parameters found on their parts. Where several facets cover one
+ * spot the nearest has it. Cost: O(pairs). */
 #include "contact/coupling.h"
 #include "geometry/clip.h"
 #include "geometry/quadrature.h"
@@ -47,8 +47,10 @@ whole_parameter(int part, int n_parts, double s)
 }
 
 static void
-set_base(const abut_coupling_facet *facet, int part, base *b)
+set_base(const abut_coupling *c, const abut_coupling_facet *facet, int part,
+         base *b)
 {
+  const bool averaged = abut_coupling_is_mortar(c);
   abut_part p;
   const int8_t *corner = abut_facet_part_corners(facet->kind, part);
   abut_facet_part(facet->kind, facet->x, part, &p);
@@ -60,7 +62,8 @@ set_base(const abut_coupling_facet *facet, int part, base *b)
     for (int i = 0; i < 2; ++i)
     {
       b->x[2 * i + d] = p.x[i][d];
-      b->normals[2 * i + d] = facet->node_normal[3 * corner[i] + d];
+      b->normals[2 * i + d] =
+          averaged ? facet->node_normal[3 * corner[i] + d] : facet->normal[d];
     }
     b->half[d] = 0.5 * (p.x[1][d] - p.x[0][d]);
     b->centre[d] = p.x[0][d] + b->half[d];
@@ -251,7 +254,7 @@ abut_coupling_segments2(abut_coupling *c, const abut_coupling_facet *facet,
        part < abut_facet_n_parts(facet->kind) && status == ABUT_SUCCESS; ++part)
   {
     base b;
-    set_base(facet, part, &b);
+    set_base(c, facet, part, &b);
     status = collect(c, &b, n_candidates, &n);
     for (int32_t k = 0; k < n && status == ABUT_SUCCESS; ++k)
     {

@@ -7,7 +7,8 @@
  * nodes, secondary quadrilaterals warped by more than 20 degrees at their
  * middle. For each pair
  *
- *   1  the plane of the secondary patch: its centre and mean normal
+ *   1  the plane of the secondary patch: its centre and mean normal (for
+ *      quadrature points the whole facet's)
  *   2  both patches projected into it, and clipped
  *   3  the polygon cut into triangles, a rule on each of them
  *   4  points taken back along the normal to both patches, and from there to
@@ -325,6 +326,8 @@ abut_coupling_segments3(abut_coupling *c, const abut_coupling_facet *facet,
     abut_linear_patch_walk(&s[i], &part);
     if (!(abut_part_area(&part, w.normal) > 0.))
       continue;
+    if (!abut_coupling_is_mortar(c))
+      memcpy(w.normal, facet->normal, sizeof(w.normal));
     w.origin[0] = w.origin[1] = w.origin[2] = 0.;
     for (int k = 0; k < part.n; ++k)
       axpy3(w.origin, 1. / part.n, part.x[k], w.origin);
