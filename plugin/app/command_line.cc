@@ -13,10 +13,15 @@ namespace abut::app
     using Command = CommandLine::Command;
 
     const std::map<std::string, Command> commands = {
-        {"run", Command::run},       {"check", Command::check},
-        {"search", Command::search}, {"parameters", Command::parameters},
-        {"help", Command::help},     {"--help", Command::help},
-        {"-h", Command::help},       {"--version", Command::version}};
+        {"run", Command::run},
+        {"check", Command::check},
+        {"search", Command::search},
+        {"chart", Command::chart},
+        {"parameters", Command::parameters},
+        {"help", Command::help},
+        {"--help", Command::help},
+        {"-h", Command::help},
+        {"--version", Command::version}};
 
     const char *const general_help =
         R"(abut - contact mechanics with deal.II
@@ -24,6 +29,7 @@ namespace abut::app
   abut run SCENE.prm      solve a scene
   abut check SCENE.prm    read a scene, check its data and stop before solving
   abut search SCENE.prm   search contact on two surfaces: pairs, time, memory
+  abut chart FILE.prm     run a scene in many ways: error against time, work, ...
   abut parameters         print the reference of all parameters (Markdown)
   abut help COMMAND       explain a command
   abut --version          print the versions of abut, deal.II and Trilinos
@@ -60,6 +66,25 @@ the size of its buckets for each algorithm. Options, results and exit codes are
 those of 'abut run'; the sweep is written as sweep.csv and, with
 --set Output/Pictures=true, as search.svg. It uses one rank.
 )"},
+        {"chart", R"(abut chart FILE.prm [options]
+
+Run one scene with many methods, meshes and parameters, as FILE.prm asks
+(prm/charts has examples), each run in a process of its own on one thread, and
+chart errors against time, work and parameters.
+
+  --set "Name=value"  override a parameter of FILE.prm; may be repeated
+  --output DIR        folder of the results (default: output/<name of FILE>)
+  --plan              print the points and stop before the first run
+  --quiet             print warnings and errors only
+
+Results: runs.csv (a row per run, failed ones included), cheapest.md (the
+cheapest way to reach each error), pictures (SVG), and the runs themselves in
+the folder 'runs'. Started again, it makes only the runs that are missing; a
+changed setting, scene or program is a new run.
+
+Exit code: 0 charted, 2 wrong input, 3 no run gave an answer to chart, 1
+internal error.
+)"},
         {"parameters", R"(abut parameters
 
 Print all parameters of all scenes with their defaults, legal values and
@@ -87,8 +112,8 @@ Print the commands, or explain one.
       return words[++i];
     }
 
-    void parse_scene_command(const std::vector<std::string> &words,
-                             CommandLine &result)
+    void parse_file_command(const std::vector<std::string> &words,
+                            CommandLine &result)
     {
       for (std::size_t i = 1; i < words.size(); ++i)
         if (words[i] == "--set")
@@ -97,19 +122,21 @@ Print the commands, or explain one.
           result.output = value_of(words, i);
         else if (words[i] == "--quiet")
           result.quiet = true;
+        else if (words[i] == "--plan" && result.command == Command::chart)
+          result.plan = true;
         else if (words[i].size() > 1 && words[i][0] == '-')
           throw InputError(
               "",
               "'" + words[0] + "' has no option '" + words[i] + "'."
                   + did_you_mean(words[i], {"--set", "--output", "--quiet"}));
-        else if (!result.scene_file.empty())
-          throw InputError("", "one scene file at a time: '" + result.scene_file
-                                   + "' and '" + words[i] + "' were given.");
+        else if (!result.file.empty())
+          throw InputError("", "one file at a time: '" + result.file + "' and '"
+                                   + words[i] + "' were given.");
         else
-          result.scene_file = words[i];
-      if (result.scene_file.empty())
-        throw InputError("", "'" + words[0] + "' needs a scene file: abut "
-                                 + words[0] + " SCENE.prm");
+          result.file = words[i];
+      if (result.file.empty())
+        throw InputError("", "'" + words[0] + "' needs a file: abut " + words[0]
+                                 + " FILE.prm");
     }
   } // namespace
 
@@ -125,8 +152,9 @@ Print the commands, or explain one.
                                + " 'abut --help' lists the commands.");
     result.command = command->second;
     if (result.command == Command::run || result.command == Command::check
-        || result.command == Command::search)
-      parse_scene_command(words, result);
+        || result.command == Command::search
+        || result.command == Command::chart)
+      parse_file_command(words, result);
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];
     else if (words.size() > 1)

@@ -15,17 +15,19 @@ namespace abut::app
       run,
       check,
       search,
+      chart,
       parameters,
       version,
       help
     };
 
     Command command = Command::help;
-    std::string scene_file;
+    std::string file;  /**< of the scene, or of the chart */
     std::string topic; /**< of `abut help TOPIC` */
     std::vector<std::string> overrides;
-    std::string output; /**< empty: output/<name of the scene file> */
+    std::string output; /**< empty: output/<name of the file> */
     bool quiet = false;
+    bool plan = false; /**< of a chart: stop before the first run */
   };
 
   /** Read the words after the program's name; throws InputError. */

@@ -120,6 +120,26 @@ namespace abut::app
                              "augmented lagrangian.");
   }
 
+  void write_parameters(std::ostream &out, const ParameterHandler &prm,
+                        const std::string &what)
+  {
+    const std::vector<DeclaredParameter> all = declared_parameters(prm);
+    std::string section;
+    // Those outside of sections come first.
+    for (const DeclaredParameter &parameter : all)
+      if (section_of(parameter).empty())
+        write_parameter(out, parameter);
+    for (const DeclaredParameter &parameter : all)
+    {
+      if (section_of(parameter).empty())
+        continue;
+      if (section_of(parameter) != section)
+        out << "\n### " << section_of(parameter) << " (" << what << ")\n\n";
+      section = section_of(parameter);
+      write_parameter(out, parameter);
+    }
+  }
+
   void write_reference(std::ostream &out)
   {
     out << "# Parameters\n\n"
@@ -134,22 +154,7 @@ namespace abut::app
       declare_all(prm, kind, *kind.create(kind.dimensions[0]));
       out << "\n## Scene `" << kind.name << "`\n\n"
           << kind.description << "\n\n";
-      const std::vector<DeclaredParameter> all = declared_parameters(prm);
-      std::string section;
-      // Those outside of sections come first.
-      for (const DeclaredParameter &parameter : all)
-        if (section_of(parameter).empty())
-          write_parameter(out, parameter);
-      for (const DeclaredParameter &parameter : all)
-      {
-        if (section_of(parameter).empty())
-          continue;
-        if (section_of(parameter) != section)
-          out << "\n### " << section_of(parameter) << " (" << kind.name
-              << ")\n\n";
-        section = section_of(parameter);
-        write_parameter(out, parameter);
-      }
+      write_parameters(out, prm, kind.name);
     }
   }
 } // namespace abut::app

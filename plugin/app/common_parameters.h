@@ -27,6 +27,10 @@ namespace abut::app
    * scenes without any. */
   void require_law_without_stress(const MethodParameters &method);
 
+  /** The parameters declared in @p prm as Markdown, those of @p what. */
+  void write_parameters(std::ostream &out, const dealii::ParameterHandler &prm,
+                        const std::string &what);
+
   /** The reference of all scenes' parameters as Markdown. */
   void write_reference(std::ostream &out);
 } // namespace abut::app

@@ -1,60 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gnuplot.h"
 
+#include "child_process.h"
+
 #include <deal.II/base/mpi.h>
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
-extern char **environ;
-
 namespace abut::app
 {
-  namespace
-  {
-    enum class Ended
-    {
-      well,
-      badly,
-      not_found
-    };
-
-    /** Run `gnuplot script` in @p folder with its messages in @p log. */
-    Ended run_gnuplot(const std::filesystem::path &folder,
-                      const std::string &script, const std::string &log)
-    {
-      posix_spawn_file_actions_t actions;
-      posix_spawn_file_actions_init(&actions);
-      posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-      posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
-                                       O_WRONLY | O_CREAT | O_TRUNC, 0666);
-      posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-      std::string program = "gnuplot", argument = script;
-      char *const arguments[] = {program.data(), argument.data(), nullptr};
-      pid_t process;
-      const int error = posix_spawnp(&process, "gnuplot", &actions, nullptr,
-                                     arguments, environ);
-      posix_spawn_file_actions_destroy(&actions);
-      if (error != 0)
-        return error == ENOENT ? Ended::not_found : Ended::badly;
-      int status = 0;
-      while (waitpid(process, &status, 0) < 0)
-        if (errno != EINTR)
-          return Ended::badly;
-      if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-        return Ended::not_found;
-      return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? Ended::well
-                                                           : Ended::badly;
-    }
-  } // namespace
-
   std::string gnuplot_header(const std::string &name, const unsigned int width,
                              const unsigned int height)
   {
@@ -113,8 +69,11 @@ namespace abut::app
         return false;
       }
     }
-    const Ended ended = run_gnuplot(folder, file, log);
-    if (ended == Ended::well)
+    ChildOptions child;
+    child.folder = folder;
+    child.log = log;
+    const ChildResult gnuplot = run_child({"gnuplot", file}, child);
+    if (gnuplot.well())
     {
       std::error_code ignored;
       std::filesystem::remove(folder / log, ignored);
@@ -122,7 +81,7 @@ namespace abut::app
     }
     report.warn(
         "picture " + name
-        + (ended == Ended::not_found
+        + (gnuplot.ended == ChildResult::Ended::not_found
                ? " not made: gnuplot is not installed (on Debian: apt "
                  "install gnuplot-nox); the script is in "
                      + (folder / file).string()

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "parameters.h"
 
-#include "input_error.h"
-
 #include <deal.II/base/exceptions.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -213,6 +212,19 @@ namespace abut::app
                            "--set \"" + argument + "\""});
   }
 
+  std::string ParameterFile::name() const
+  {
+    return std::filesystem::path(file).stem().string();
+  }
+
+  InputError ParameterFile::placed(const InputError &error) const
+  {
+    if (error.parameter.empty())
+      return error;
+    return {"", origin(error.parameter) + ": " + error.parameter + ": "
+                    + error.what()};
+  }
+
   std::string ParameterFile::get(const std::string &path,
                                  const std::string &otherwise) const
   {
@@ -229,6 +241,30 @@ namespace abut::app
     for (const Assignment &assignment : assignments)
       if (assignment.path == path)
         result = assignment.origin;
+    return result;
+  }
+
+  std::vector<Assignment>
+  ParameterFile::extract(const std::function<bool(const std::string &)> &wanted)
+  {
+    const auto rest = std::stable_partition(
+        assignments.begin(), assignments.end(),
+        [&](const Assignment &assignment) { return !wanted(assignment.path); });
+    const std::vector<Assignment> result(rest, assignments.end());
+    assignments.erase(rest, assignments.end());
+    return result;
+  }
+
+  void ParameterFile::append(const Assignment &assignment)
+  {
+    assignments.push_back(assignment);
+  }
+
+  std::map<std::string, std::string> ParameterFile::values() const
+  {
+    std::map<std::string, std::string> result;
+    for (const Assignment &assignment : assignments)
+      result[assignment.path] = assignment.value;
     return result;
   }
 

@@ -8,10 +8,13 @@
  * nearest right one.
  */
 
+#include "input_error.h"
 #include "nearest_word.h"
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -49,6 +52,15 @@ namespace abut::app
     ParameterFile(const std::string &file,
                   const std::vector<std::string> &overrides);
 
+    /** The file's path, as given. */
+    const std::string &path() const
+    {
+      return file;
+    }
+
+    /** The file's name without folder and extension. */
+    std::string name() const;
+
     /** The last value given for @p path, or @p otherwise. */
     std::string get(const std::string &path,
                     const std::string &otherwise) const;
@@ -56,6 +68,20 @@ namespace abut::app
     /** Where the value of @p path came from: `file:line`, the `--set` option,
      * or the file's name alone when the parameter kept its default. */
     std::string origin(const std::string &path) const;
+
+    /** @p error with the place of its parameter in front of the message, unless
+     * it names none. */
+    InputError placed(const InputError &error) const;
+
+    /** Take out the assignments whose path @p wanted accepts, in order. */
+    std::vector<Assignment>
+    extract(const std::function<bool(const std::string &path)> &wanted);
+
+    /** Add an assignment, which counts more than those before it. */
+    void append(const Assignment &assignment);
+
+    /** The values that count, by path. */
+    std::map<std::string, std::string> values() const;
 
     /** Set all values in @p prm. Throws InputError for a parameter or section
      * that is not declared and for a value that its pattern refuses. */

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "program.h"
 
+#include "chart/chart.h"
 #include "collective.h"
 #include "command_line.h"
 #include "common_parameters.h"
+#include "loaded_scene.h"
 #include "output_folder.h"
-#include "scene.h"
 
 #include <deal.II/base/config.h>
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
@@ -35,117 +35,72 @@ namespace abut::app
           << DEAL_II_TRILINOS_VERSION_SUBMINOR << "\n";
     }
 
-    /** A scene read from its file, and what the run has to know. */
-    class LoadedScene
+    void require_search(const LoadedScene &loaded)
     {
-    public:
-      LoadedScene(MPI_Comm communicator, const CommandLine &line)
-          : file(line.scene_file, line.overrides)
-      {
-        const SceneKind &kind = scene_kind(file);
-        if (line.command == Command::search
-            && std::string(kind.name) != "search")
-          throw InputError("Scene", std::string("'abut search' takes scenes "
-                                                "of kind 'search'; this one "
-                                                "is of kind '")
-                                        + kind.name
-                                        + "', which searches no "
-                                          "facets.");
-        const unsigned int dimension = scene_dimension(file, kind);
-        scene = kind.create(dimension);
-        scene->count(file);
-        declare_all(prm, kind, *scene);
-        file.apply(prm);
-        parse();
+      const std::string kind = loaded.kind();
+      if (kind != "search")
+        throw InputError("Scene", "'abut search' takes scenes of kind "
+                                  "'search'; this one is of kind '"
+                                      + kind + "', which searches no facets.");
+    }
 
-        options.communicator = communicator;
-        options.scene_file = line.scene_file;
-        options.output_folder =
-            line.output.empty()
-                ? "output" / options.scene_file.filename().stem()
-                : std::filesystem::path(line.output);
-        prm.enter_subsection("Output");
-        options.pictures = prm.get_bool("Pictures");
-        prm.leave_subsection();
-        name = options.scene_file.filename().stem().string();
-        title = prm.get("Title");
-        kind_dimension = dimension;
-      }
-
-      /** Write what is known before the solve. */
-      void describe(Report &report) const
-      {
-        report.set("scene", name);
-        if (!title.empty())
-          report.set("title", title);
-        if (kind_dimension > 0)
-          report.set("dimension", kind_dimension);
-      }
-
-      ParameterFile file;
-      std::unique_ptr<Scene> scene;
-      RunOptions options;
-
-    private:
-      /** Errors of deal.II's own carry much text that no user needs. */
-      void parse()
-      {
-        try
-        {
-          scene->parse(prm);
-        }
-        catch (const dealii::ExceptionBase &error)
-        {
-          std::ostringstream text;
-          error.print_info(text);
-          throw InputError("", dealii::Utilities::trim(text.str()));
-        }
-      }
-
-      dealii::ParameterHandler prm;
-      std::string name, title;
-      unsigned int kind_dimension = 0;
-    };
-
-    void prepare_output(const LoadedScene &loaded)
+    std::filesystem::path output_folder(const CommandLine &line)
     {
-      MPI_Comm communicator = loaded.options.communicator;
+      if (!line.output.empty())
+        return line.output;
+      return "output" / std::filesystem::path(line.file).stem();
+    }
+
+    void prepare_output(MPI_Comm communicator,
+                        const std::filesystem::path &folder)
+    {
       collective(communicator,
                  [&]
                  {
                    if (is_root(communicator))
-                     make_output_folder(loaded.options.output_folder);
+                     make_output_folder(folder);
                  });
     }
 
-    ExitCode run_scene(LoadedScene &loaded, const CommandLine &line)
+    RunOptions run_options(MPI_Comm communicator, const CommandLine &line,
+                           LoadedScene &loaded)
     {
-      MPI_Comm communicator = loaded.options.communicator;
-      prepare_output(loaded);
+      RunOptions options;
+      options.communicator = communicator;
+      options.scene_file = line.file;
+      options.output_folder = output_folder(line);
+      options.pictures = loaded.get("Output", "Pictures") == "true";
+      return options;
+    }
+
+    ExitCode run_scene(LoadedScene &loaded, const RunOptions &options,
+                       const CommandLine &line)
+    {
+      MPI_Comm communicator = options.communicator;
+      prepare_output(communicator, options.output_folder);
       Report report(communicator, line.quiet);
       loaded.describe(report);
-      const Outcome outcome = loaded.scene->run(loaded.options, report);
+      const Outcome outcome = loaded.scene->run(options, report);
       report.set("converged", outcome == Outcome::converged);
       report.finish();
-      collective(communicator,
-                 [&] { report.write(loaded.options.output_folder); });
+      collective(communicator, [&] { report.write(options.output_folder); });
       report.print_summary();
       if (is_root(communicator) && !line.quiet)
-        std::cout << "\n  results in " << loaded.options.output_folder.string()
+        std::cout << "\n  results in " << options.output_folder.string()
                   << std::endl;
       return outcome == Outcome::converged ? ExitCode::success
                                            : ExitCode::unusable_answer;
     }
 
-    ExitCode check_scene(LoadedScene &loaded, const CommandLine &line)
+    ExitCode check_scene(LoadedScene &loaded, const RunOptions &options,
+                         const CommandLine &line)
     {
-      Report report(loaded.options.communicator, line.quiet);
+      Report report(options.communicator, line.quiet);
       loaded.describe(report);
-      loaded.scene->check(loaded.options, report);
+      loaded.scene->check(options, report);
       report.print_summary();
-      if (is_root(loaded.options.communicator) && !line.quiet)
-        std::cout << "\n  " << line.scene_file << ": no errors found"
-                  << std::endl;
+      if (is_root(options.communicator) && !line.quiet)
+        std::cout << "\n  " << line.file << ": no errors found" << std::endl;
       return ExitCode::success;
     }
 
@@ -160,19 +115,32 @@ namespace abut::app
         collective(communicator,
                    [&]
                    {
-                     file.emplace(line.scene_file, line.overrides);
-                     loaded.emplace(communicator, line);
+                     file.emplace(line.file, line.overrides);
+                     loaded.emplace(*file);
+                     if (line.command == Command::search)
+                       require_search(*loaded);
+                     loaded->parse();
                    });
-        return line.command == Command::check ? check_scene(*loaded, line)
-                                              : run_scene(*loaded, line);
+        const RunOptions options = run_options(communicator, line, *loaded);
+        return line.command == Command::check
+                   ? check_scene(*loaded, options, line)
+                   : run_scene(*loaded, options, line);
       }
       catch (const InputError &error)
       {
-        if (error.parameter.empty() || !file)
+        if (!file)
           throw;
-        throw InputError("", file->origin(error.parameter) + ": "
-                                 + error.parameter + ": " + error.what());
+        throw file->placed(error);
       }
+    }
+    ExitCode chart_command(MPI_Comm communicator, const CommandLine &line)
+    {
+      if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+        throw InputError("", "'abut chart' starts a process for each run, one "
+                             "after the other: start it without mpirun.");
+      Report report(communicator, line.quiet);
+      return make_chart(line.file, line.overrides, output_folder(line),
+                        line.plan, report);
     }
   } // namespace
 
@@ -187,8 +155,11 @@ namespace abut::app
     case Command::check:
     case Command::search:
       return scene_command(communicator, line);
+    case Command::chart:
+      return chart_command(communicator, line);
     case Command::parameters:
       write_reference(text);
+      write_chart_reference(text);
       break;
     case Command::version:
       print_version(text);

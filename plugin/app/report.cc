@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include "json.h"
+#include "processor_time.h"
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
@@ -42,6 +43,7 @@ namespace abut::app
                                        "h1_error",
                                        "ranks",
                                        "wall_seconds",
+                                       "processor_seconds",
                                        "peak_memory_mb"};
 
     /** Largest resident memory of this process so far, in MiB. */
@@ -104,7 +106,8 @@ namespace abut::app
       : communicator(communicator),
         quiet(quiet),
         root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
-        start(std::chrono::steady_clock::now())
+        start(std::chrono::steady_clock::now()),
+        processor_start(processor_seconds())
   {
     for (const char *key : common_keys)
       values.emplace_back(key, std::monostate());
@@ -196,6 +199,8 @@ namespace abut::app
     namespace MPI = dealii::Utilities::MPI;
     set("ranks", MPI::n_mpi_processes(communicator));
     set("wall_seconds", MPI::max(elapsed(), communicator));
+    set("processor_seconds",
+        MPI::sum(processor_seconds() - processor_start, communicator));
     set("peak_memory_mb", MPI::max(peak_memory(), communicator));
     // Ranks may have entered different sections: those of rank 0 count.
     sections = times.sections();
@@ -205,7 +210,12 @@ namespace abut::app
     names = MPI::broadcast(communicator, names);
     sections.resize(names.size());
     for (std::size_t i = 0; i < names.size(); ++i)
-      sections[i].seconds = MPI::max(times.seconds(names[i]), communicator);
+    {
+      const SectionTimes::Section section = times.section(names[i]);
+      sections[i].seconds = MPI::max(section.seconds, communicator);
+      sections[i].processor_seconds =
+          MPI::sum(section.processor_seconds, communicator);
+    }
   }
 
   void Report::write_json(std::ostream &out) const
@@ -221,6 +231,7 @@ namespace abut::app
     {
       json.begin(section.name);
       json.value("seconds", section.seconds);
+      json.value("processor_seconds", section.processor_seconds);
       json.value("calls", static_cast<std::int64_t>(section.calls));
       json.end();
     }

@@ -32,8 +32,9 @@ namespace abut::app
    *
    * The keys that every summary has (scene, method, dofs, active, energy, ...)
    * exist from the start in fixed order with the value null; set() fills them.
-   * A key of a scene's own is appended. wall_seconds, peak_memory_mb, ranks and
-   * the table `sections` are filled by finish(). */
+   * A key of a scene's own is appended. wall_seconds, processor_seconds (sum
+   * over ranks), peak_memory_mb, ranks and the table `sections` are filled by
+   * finish(). */
   class Report
   {
   public:
@@ -94,7 +95,8 @@ namespace abut::app
     /** Wall seconds since construction. */
     double elapsed() const;
 
-    /** Take times and peak memory as maxima over ranks. Collective. */
+    /** Take wall times and peak memory as maxima over ranks, processor times as
+     * sums. Collective. */
     void finish();
 
     /** Write summary.json and levels.csv into @p folder (rank 0). */
@@ -126,6 +128,7 @@ namespace abut::app
     bool quiet;
     bool root;
     std::chrono::steady_clock::time_point start;
+    double processor_start;
     std::vector<std::pair<std::string, Value>> values;
     std::vector<SectionTimes::Section> sections;
     std::vector<std::string> columns;

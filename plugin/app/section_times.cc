@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "section_times.h"
 
+#include "processor_time.h"
+
 #include <algorithm>
 
 namespace abut::app
@@ -25,8 +27,8 @@ namespace abut::app
                      [&](const Section &s) { return s.name == full; });
     const std::size_t index = found - all.begin();
     if (found == all.end())
-      all.push_back({full, 0, 0, static_cast<unsigned int>(stack.size())});
-    stack.push_back({index, Clock::now()});
+      all.push_back({full, 0, 0, 0, static_cast<unsigned int>(stack.size())});
+    stack.push_back({index, Clock::now(), processor_seconds()});
   }
 
   void SectionTimes::leave()
@@ -36,14 +38,15 @@ namespace abut::app
     Section &section = all[open.section];
     section.seconds +=
         std::chrono::duration<double>(Clock::now() - open.start).count();
+    section.processor_seconds += processor_seconds() - open.processor_start;
     ++section.calls;
   }
 
-  double SectionTimes::seconds(const std::string &name) const
+  SectionTimes::Section SectionTimes::section(const std::string &name) const
   {
     for (const Section &section : all)
       if (section.name == name)
-        return section.seconds;
-    return 0;
+        return section;
+    return {};
   }
 } // namespace abut::app

@@ -9,9 +9,9 @@
 
 namespace abut::app
 {
-  /** Wall times of nested sections, on this rank. A section entered within
+  /** Times of nested sections, on this rank. A section entered within
    * another is named `outer/inner`; sections stand in the order of their first
-   * entry. Cost of a section: two readings of the clock. */
+   * entry. Cost of a section: two readings of two clocks. */
   class SectionTimes
   {
   public:
@@ -19,7 +19,8 @@ namespace abut::app
     struct Section
     {
       std::string name;
-      double seconds = 0;
+      double seconds = 0;           /**< on the wall */
+      double processor_seconds = 0; /**< of this thread */
       long calls = 0;
       unsigned int depth = 0; /**< number of sections around it */
     };
@@ -49,8 +50,14 @@ namespace abut::app
       return all;
     }
 
-    /** Seconds of the section with this full name, 0 if never entered. */
-    double seconds(const std::string &name) const;
+    /** The section with this full name; one without time if never entered. */
+    Section section(const std::string &name) const;
+
+    /** Its seconds on the wall. */
+    double seconds(const std::string &name) const
+    {
+      return section(name).seconds;
+    }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -58,6 +65,7 @@ namespace abut::app
     {
       std::size_t section;
       Clock::time_point start;
+      double processor_start;
     };
     std::vector<Section> all;
     std::vector<Open> stack;

@@ -14,7 +14,7 @@ p.expect_error(p.call("run"), "scene file")
 p.expect_error(p.call("run", scene, "--outptu", "x"), "'--output'")
 p.expect_error(p.call("run", scene, "--set"), "'--set' needs a value")
 p.expect_error(p.call("run", scene, "--set", "Title"), "Section/Name=value")
-p.expect_error(p.call("run", scene, scene), "one scene file")
+p.expect_error(p.call("run", scene, scene), "one file")
 p.expect_error(p.call("help", "rnu"), "'run'")
 
 # Files.

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "run_store.h"
+
+#include "app/input_error.h"
+#include "app/json.h"
+#include "app/output_folder.h"
+
+#include <boost/property_tree/json_parser.hpp>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace abut::app
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    std::optional<double> number_of(const std::string &text)
+    {
+      char *end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      if (text.empty() || *end != '\0' || !std::isfinite(value))
+        return std::nullopt;
+      return value;
+    }
+  } // namespace
+
+  std::uint64_t hash(const std::string &bytes)
+  {
+    std::uint64_t result = 14695981039346656037u;
+    for (const char c : bytes)
+      result = (result ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    return result;
+  }
+
+  std::string file_bytes(const fs::path &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream out;
+    out << in.rdbuf();
+    if (!in)
+      throw std::runtime_error("cannot read " + file.string());
+    return out.str();
+  }
+
+  void write_at_once(const fs::path &file, const std::string &text)
+  {
+    const fs::path part = file.string() + ".part";
+    std::ofstream out(part, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out)
+      throw std::runtime_error("cannot write " + part.string());
+    fs::rename(part, file);
+  }
+
+  RunSummary::RunSummary(const fs::path &file)
+  {
+    try
+    {
+      boost::property_tree::read_json(file.string(), tree);
+    }
+    catch (const boost::property_tree::json_parser_error &)
+    {
+      tree.clear();
+    }
+  }
+
+  std::optional<double> RunSummary::number(const std::string &key) const
+  {
+    const std::size_t bracket = key.find('[');
+    const auto entry = tree.find(key.substr(0, bracket));
+    if (entry == tree.not_found())
+      return std::nullopt;
+    if (bracket == std::string::npos)
+      return number_of(entry->second.data());
+    std::size_t left = std::strtoul(&key[bracket + 1], nullptr, 10);
+    for (const auto &component : entry->second)
+      if (left-- == 0)
+        return number_of(component.second.data());
+    return std::nullopt;
+  }
+
+  double RunSummary::section(const std::string &name,
+                             const std::string &key) const
+  {
+    const auto sections = tree.find("sections");
+    if (sections == tree.not_found())
+      return 0;
+    const auto entry = sections->second.find(name);
+    return entry == sections->second.not_found()
+               ? 0
+               : entry->second.get<double>(key, 0.);
+  }
+
+  std::optional<double> RunSummary::cost(const std::string &key) const
+  {
+    auto result = number(key);
+    if (result && (key == "processor_seconds" || key == "wall_seconds"))
+      for (const char *name : {"results", "output"})
+        *result -= section(name, key == "wall_seconds" ? "seconds"
+                                                       : "processor_seconds");
+    return result;
+  }
+
+  std::vector<std::string> RunSummary::keys() const
+  {
+    std::vector<std::string> result;
+    for (const auto &entry : tree)
+      result.push_back(entry.first);
+    return result;
+  }
+
+  RunStore::RunStore(const fs::path &chart_folder)
+      : folder(chart_folder / "runs"), lock(-1)
+  {
+    make_output_folder(folder);
+    lock = open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock < 0 || flock(lock, LOCK_EX | LOCK_NB) != 0)
+    {
+      if (lock >= 0)
+        close(lock);
+      throw InputError("", "another 'abut chart' works in '"
+                               + chart_folder.string()
+                               + "'. Choose another folder with --output DIR.");
+    }
+    std::vector<fs::path> remains;
+    for (const auto &entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".part")
+        remains.push_back(entry.path());
+    for (const fs::path &path : remains)
+      fs::remove_all(path);
+  }
+
+  RunStore::~RunStore()
+  {
+    close(lock);
+  }
+
+  std::string RunStore::key(const std::string &setting)
+  {
+    char text[17];
+    std::snprintf(text, sizeof(text), "%016llx",
+                  static_cast<unsigned long long>(hash(setting)));
+    return text;
+  }
+
+  fs::path RunStore::place(const std::string &setting,
+                           const unsigned int repeat) const
+  {
+    return folder / (key(setting) + "-" + std::to_string(repeat));
+  }
+
+  std::optional<RunRecord> RunStore::find(const std::string &setting,
+                                          const unsigned int repeat,
+                                          const double limit) const
+  {
+    const fs::path here = place(setting, repeat);
+    boost::property_tree::ptree tree;
+    try
+    {
+      boost::property_tree::read_json((here / "run.json").string(), tree);
+    }
+    catch (const boost::property_tree::json_parser_error &)
+    {
+      return std::nullopt;
+    }
+    RunRecord record;
+    record.setting = tree.get<std::string>("setting", "");
+    record.ended = tree.get<std::string>("ended", "");
+    record.reason = tree.get<std::string>("reason", "");
+    record.limit = tree.get<double>("limit", 0.);
+    record.seconds = tree.get<double>("seconds", 0.);
+    record.code = tree.get<int>("code", 0);
+    // One ended by a signal was not finished.
+    if (record.setting != setting || record.code < 0
+        || (record.ended == "out of time" && record.limit < limit))
+      return std::nullopt;
+    record.summary = RunSummary(here / "summary.json");
+    return record;
+  }
+
+  fs::path RunStore::begin(const std::string &setting,
+                           const unsigned int repeat) const
+  {
+    const fs::path part = place(setting, repeat).string() + ".part";
+    fs::remove_all(part);
+    fs::create_directory(part);
+    return part;
+  }
+
+  void RunStore::finish(const RunRecord &record,
+                        const unsigned int repeat) const
+  {
+    const fs::path here = place(record.setting, repeat);
+    const fs::path part = here.string() + ".part";
+    std::ostringstream text;
+    JsonWriter json(text);
+    json.begin();
+    json.value("ended", record.ended);
+    json.value("code", std::int64_t(record.code));
+    json.value("reason", record.reason);
+    json.value("limit", record.limit);
+    json.value("seconds", record.seconds);
+    json.value("setting", record.setting);
+    json.end();
+    write_at_once(part / "run.json", text.str());
+    // What stood here was short of time.
+    fs::remove_all(here);
+    fs::rename(part, here);
+  }
+} // namespace abut::app

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_LOADED_SCENE_H
+#define ABUT_APP_LOADED_SCENE_H
+
+#include "scene.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <string>
+
+namespace abut::app
+{
+  /** A scene read from its file. The constructor takes the values of the file
+   * over, in which each must be legal by itself; parse() makes sense of them.
+   * Both throw InputError and are to be called inside collective(). */
+  class LoadedScene
+  {
+  public:
+    explicit LoadedScene(ParameterFile file);
+
+    /** Read the parameters into the scene. */
+    void parse();
+
+    /** Write what is known before the solve. */
+    void describe(Report &report) const;
+
+    /** Name of the kind of the scene. */
+    const char *kind() const;
+
+    /** Whether the scene has a parameter of this name. */
+    bool declares(const std::string &path) const;
+
+    /** Value of a parameter of section @p section. */
+    std::string get(const std::string &section, const std::string &name);
+
+    ParameterFile file;
+    std::unique_ptr<Scene> scene;
+
+  private:
+    const SceneKind &scene_kind;
+    unsigned int dimension;
+    dealii::ParameterHandler prm;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,283 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""`abut chart`: its table against the runs themselves, the Pareto front by
+brute force, resumption after a kill, and its errors."""
+import csv
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+from program import Program
+
+p = Program()
+OUT = p.folder / "out"
+EXACT = 3.980995758125676707  # energy of the flat obstacle's exact solution
+
+
+def chart(head="", error="", curves="", scene="flat-obstacle.prm"):
+    return p.write("chart.prm", f"""set Scene file = {p.source}/prm/{scene}
+set Repeats = 1
+{head}
+subsection Error
+{error}
+end
+{curves}
+""")
+
+
+def curve(name, settings, head=""):
+    """A section; settings: {"Section/Name": value}."""
+    lines = [f"subsection Curve {name}", head]
+    for path, value in settings.items():
+        section, entry = path.split("/")
+        lines += [f"subsection {section}", f"set {entry} = {value}", "end"]
+    return "\n".join(lines + ["end", ""])
+
+
+def rows(folder=OUT):
+    with open(folder / "runs.csv") as file:
+        return list(csv.DictReader(file))
+
+
+def finished(folder=OUT):
+    """Finished runs with the times at which they were written."""
+    return {path.parent.name: path.stat().st_mtime_ns
+            for path in folder.glob("runs/*/run.json")}
+
+
+def run(file, *words, code=0):
+    result = p.call("chart", file, "--output", "out", *words)
+    p.expect(result.returncode == code,
+             f"chart: exit code {result.returncode}\n{result.stderr}")
+    return result
+
+
+# A chart with everything: a list that is multiplied, an axis of a curve's own,
+# a run without an answer, one that is refused, one that takes too long.
+file = chart(
+    "set Values = 2 | 3 | 4\nset Time limit = 1",
+    f"set Quantity = energy\nset Reference = {EXACT!r}",
+    curve("lagrange", {"Method/Enforcement": "lagrange"})
+    + curve("soft", {"Method/Enforcement": "penalty",
+                     "Refinement/Level": "2 | 3"},
+            "set Axis = Method/Penalty\nset Values = 1 | 100")
+    + curve("hasty", {"Method/Maximum steps": "1",
+                      "Refinement/Nested iteration": "false"},
+            "set Values = 4")
+    + curve("saddle", {"Method/System": "saddle point",
+                       "Method/Enforcement": "lagrange | penalty"},
+            "set Values = 2")
+    + curve("long", {"Method/Enforcement": "lagrange"}, "set Values = 11"))
+result = run(file)
+table = rows()
+names = [(row["curve"], row["axis"], row["value"]) for row in table]
+level = "Refinement/Level"
+p.expect(names == [("lagrange", level, "2"), ("lagrange", level, "3"),
+                   ("lagrange", level, "4"),
+                   ("soft, 2", "Method/Penalty", "1"),
+                   ("soft, 2", "Method/Penalty", "100"),
+                   ("soft, 3", "Method/Penalty", "1"),
+                   ("soft, 3", "Method/Penalty", "100"),
+                   ("hasty", level, "4"), ("saddle, lagrange", level, "2"),
+                   ("saddle, penalty", level, "2"), ("long", level, "11")],
+         f"curves {names}")
+ended = [row["ended"] for row in table]
+p.expect(ended == ["ok"] * 7 + ["unusable", "ok", "refused", "out of time"],
+         f"ended {ended}")
+codes = [row["exit_code"] for row in table]
+p.expect(codes[7] == "3" and codes[9] == "2", f"exit codes {codes}")
+for row in table:
+    p.expect(bool(row["reason"]) == (row["ended"] != "ok"),
+             f"{row['curve']}: reason '{row['reason']}'")
+p.expect("3 of 11 points" in result.stderr, "no warning of three failures")
+
+# Each number against the run's own summary.
+for row in table:
+    if row["ended"] != "ok":
+        p.expect(row["time"] == "" and row["time_front"] == "0",
+                 f"{row['curve']}: a time without an answer")
+        continue
+    summary = json.loads(
+        (OUT / "runs" / (row["run"] + "-0") / "summary.json").read_text())
+    p.close(float(row["error"]), abs(summary["energy"] - EXACT) / EXACT, 1e-12,
+            "error")
+    for key in ("dofs", "matvecs", "constraints", "active",
+                "linear_iterations", "peak_memory_mb"):
+        p.expect(float(row[key]) == summary[key], f"{key} of {row['curve']}")
+    apart = sum(summary["sections"].get(name, {}).get("processor_seconds", 0)
+                for name in ("results", "output"))
+    p.close(float(row["time"]), summary["processor_seconds"] - apart, 1e-12,
+            "processor time")
+    p.expect(0 < float(row["time"]) < 5, f"time {row['time']}")
+
+
+# Levels 2, 3, 4 have the errors of the mesh; a soft penalty has more.
+errors = [float(row["error"]) for row in table[:7]]
+p.expect(errors[0] > 3 * errors[1] > 9 * errors[2], f"errors {errors}")
+p.expect(errors[3] != errors[4], "the penalty changes nothing")
+
+
+def front(table, cost):
+    """By the definition, pair by pair."""
+    points = [(float(row[cost]), float(f"{float(row['error']):.1e}"))
+              if row["ended"] == "ok" else None for row in table]
+    return ["1" if a and not any(
+        b and b != a and b[0] <= a[0] and b[1] <= a[1] for b in points)
+        else "0" for a in points]
+
+
+for cost, mark in (("time", "time_front"), ("matvecs", "work_front")):
+    p.expect([row[mark] for row in table] == front(table, cost),
+             f"{mark}: {[row[mark] for row in table]}")
+cheap = [row for row in table[:3] if float(row["error"]) <= 0.1]
+best = min(cheap, key=lambda row: float(row["time"]))
+line = [line for line in (OUT / "cheapest.md").read_text().splitlines()
+        if line.startswith("| lagrange")][0]
+p.expect(f"({best['value']})" in line.split("|")[2],
+         f"cheapest.md: {line}")
+for name in ("error-time", "error-work"):
+    p.expect((OUT / (name + ".svg")).exists() or "gnuplot" in result.stderr,
+             f"no {name}.svg")
+
+# Once more: nothing is run again. A whole run cut off in its last file is.
+before = finished()
+p.expect(len(before) == 10, f"{len(before)} runs")
+run(file)
+p.expect(finished() == before, "finished runs were made again")
+victim = sorted(before)[0]
+half = OUT / "runs" / victim / "run.json"
+half.write_text(half.read_text()[:40])
+run(file)
+after = finished()
+p.expect({name for name in before if after[name] != before[name]} == {victim},
+         "a torn run was believed, or others made again")
+p.expect(rows()[0]["error"] == table[0]["error"], "another result")
+
+# Killed while runs are going on: what was finished stays, what was not leaves
+# no trace, and the process of the run ends too.
+shutil.rmtree(OUT)
+file = chart("set Values = 2 | 3 | 4 | 5",
+             f"set Quantity = energy\nset Reference = {EXACT!r}")
+process = subprocess.Popen([p.abut, "chart", file, "--output", "out"],
+                           cwd=p.folder, stdout=subprocess.DEVNULL)
+for _ in range(3000):
+    if len(finished()) >= 2 and list(OUT.glob("runs/*.part")):
+        break
+    time.sleep(0.01)
+process.send_signal(signal.SIGKILL)
+process.wait()
+kept = finished()
+part = OUT / "runs" / "0123456789abcdef-0.part"
+part.mkdir()
+(part / "summary.json").write_text('{ "energy": 1')
+
+
+def children():
+    """Processes that work in the folder of the chart."""
+    found = []
+    for folder in os.listdir("/proc"):
+        try:
+            words = open(f"/proc/{folder}/cmdline", "rb").read().split(b"\0")
+            state = open(f"/proc/{folder}/stat").read().rsplit(")")[1].split()
+            if (os.readlink(f"/proc/{folder}/cwd") == str(p.folder)
+                    and b"run" in words and state[0] != "Z"):
+                found.append(folder)
+        except (OSError, ValueError):
+            pass
+    return found
+
+
+for _ in range(500):
+    if not children():
+        break
+    time.sleep(0.01)
+p.expect(not children(), "the killed chart's run goes on")
+p.expect(2 <= len(kept) < 4, f"{len(kept)} runs before the kill")
+run(file)
+after = finished()
+p.expect(len(after) == 4 and all(after[name] == kept[name] for name in kept),
+         "finished runs were made again after the kill")
+p.expect(not list(OUT.glob("runs/*.part")), "remains of interrupted runs")
+p.expect([row["ended"] for row in rows()] == ["ok"] * 4, "resumed chart")
+
+# Errors in norms: measured apart, timed without the exact solution. A finer
+# run as reference, made once.
+run(chart("set Values = 3", "set Quantity = h1_error\nset Scale = 1.85777049"))
+p.close(float(rows()[0]["error"]), 0.39300131 / 1.85777049, 1e-6, "H1 error")
+p.expect(rows()[0]["run"] + "-0" in finished() and len(finished()) == 6,
+         "one run for error and one more for time")
+run(chart("set Values = 2 | 3", "set Quantity = contact_force\n"
+          "subsection Finer run\nsubsection Refinement\nset Level = 4\nend\n"
+          "end"))
+p.close(float(rows()[1]["quantity"]) / 6.23796658, 1, 0.1, "contact force")
+p.close(float(rows()[1]["error"]),
+        abs(float(rows()[1]["quantity"]) - 6.23796658) / 6.23796658, 1e-7,
+        "error against the finer run")
+
+# The search: no error, time over the number of facets.
+run(chart("set Axis = Secondary/Refinements, Primary/Refinements\n"
+          "set Values = 0 | 1\nset Time = ns_per_node\n"
+          "set Axis quantity = facets\nset Pictures = time-axis", "",
+          "subsection All curves\nsubsection Sweep\nset Bucket sizes =\n"
+          "set Repeats = 1\nend\nend\n"
+          + curve("", {"Search/Algorithm":
+                       "uniform buckets | adaptive buckets"}),
+          "search-flat.prm"))
+table = rows()
+p.expect([row["curve"] for row in table] == ["uniform buckets"] * 2
+         + ["adaptive buckets"] * 2, "curves of the search")
+p.expect([float(row["x"]) for row in table] == [48**2, 96**2] * 2,
+         "facets of the search")
+p.expect(all(float(row["time"]) > 0 for row in table), "times of the search")
+
+
+# Errors, before the first run.
+def wrong(file, *texts, words=()):
+    result = p.call("chart", file, "--output", "never", *words)
+    p.expect_error(result, *texts)
+    p.expect(not (p.folder / "never/runs").exists(),
+             f"{texts}: found only after runs had begun")
+
+
+GOOD = "set Quantity = energy\nset Reference = 4"
+VALUES = "set Values = 2"
+wrong("nowhere.prm", "nowhere.prm")
+wrong(chart(VALUES, GOOD, scene="flat.prm"), "chart.prm:1: Scene file",
+      "flat.prm")
+wrong(chart("", GOOD), "Values", "no values")
+wrong(chart(VALUES + "\nset Repeat = 1", GOOD), "chart.prm:4", "'Repeats'")
+wrong(chart(VALUES, GOOD, curve("a", {"Method/Enforcment": "penalty"})),
+      "chart.prm:11: Method/Enforcment", "Enforcement")
+wrong(chart(VALUES, GOOD, curve("a", {"Method/Enforcement": "penalti"})),
+      "chart.prm:11: Method/Enforcement", "'penalty'")
+wrong(chart(VALUES + "\nset Axis = Refinement/Levels", GOOD),
+      "chart.prm:3: Refinement/Levels", "'Level'")
+wrong(chart("set Values = 2 | two", GOOD), "chart.prm:3: Refinement/Level",
+      "'two'")
+wrong(chart(VALUES, GOOD, curve("a", {"Method/System": "saddle point",
+                                      "Method/Enforcement": "penalty"})),
+      "saddle point goes with", "'Curve a'")
+wrong(chart(VALUES, "set Quantity = h1_error", scene="step-41.prm"),
+      "chart.prm:5: Error/Quantity", "h1_error", "Exact solution")
+wrong(chart(VALUES, "set Quantity = h2_error"), "Error/Quantity", "Did you mean")
+wrong(chart(VALUES, "set Quantity = energy"), "Error/Quantity", "Reference")
+wrong(chart(VALUES + "\nset Pictures = error-time", ""),
+      "chart.prm:4: Pictures", "needs an error")
+wrong(chart(VALUES, GOOD + "\nsubsection Finer run\nsubsection Refinement\n"
+            "set Level = 5\nend\nend"), "Error/Reference", "two references")
+wrong(chart(VALUES, GOOD), "--plam", words=("--plam",))
+p.expect_error(p.call("chart", chart(VALUES, GOOD), ranks=2), "without mpirun")
+result = p.call("chart", chart(VALUES, "set Quantity = contact_forc\n"
+                               "set Reference = 6"), "--output", "out")
+p.expect_error(result, "chart.prm:5: Error/Quantity", "'contact_force'")
+
+# The shipped charts fit the scenes.
+for path in sorted((p.source / "prm/charts").glob("*.prm")):
+    result = p.call("chart", path, "--plan")
+    p.expect(result.returncode == 0 and " points, " in result.stdout
+             and not (p.folder / "output").exists(),
+             f"{path.name}: {result.stderr}")
+
+p.finish()
