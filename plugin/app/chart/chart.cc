@@ -449,7 +449,7 @@ namespace abut::app
            "scene file; values separated by ` | ` make a curve each, and "
            "several\nsuch lists are multiplied (NAME may then be left "
            "out). `Error/Finer run` holds "
-           "settings likewise.\n";
+           "settings likewise.\n\n";
     write_parameters(out, prm, "chart");
   }
 } // namespace abut::app
