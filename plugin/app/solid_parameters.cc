@@ -77,6 +77,12 @@ namespace abut::app
                         "for ParaView.");
       prm.declare_entry("All levels", "false", Patterns::Bool(),
                         "Write fields on every level, not only on the last.");
+      prm.declare_entry("Inf-sup constant", "false", Patterns::Bool(),
+                        "Compute on each mesh how well the displacements "
+                        "determine the contact pressures: column `inf_sup`. It "
+                        "stays where it is under refinement, or falls to 0 if "
+                        "there are too many pressures. Costs a few dozen "
+                        "linear solves.");
       prm.declare_entry("Points", "", Patterns::Anything(),
                         "Where displacements are wanted: the summary gets "
                         "those of the nodes nearest to the points `1: 0, 0; 2: "
@@ -151,6 +157,7 @@ namespace abut::app
     prm.enter_subsection("Output");
     fields = prm.get_bool("Fields");
     all_levels = prm.get_bool("All levels");
+    inf_sup = prm.get_bool("Inf-sup constant");
     points = prm.get("Points");
     prm.leave_subsection();
   }

@@ -45,6 +45,7 @@ namespace abut::app
     // Output
     bool fields = true;
     bool all_levels = false;
+    bool inf_sup = false;
     std::string points;
 
     static void declare(dealii::ParameterHandler &prm,

@@ -38,6 +38,7 @@ namespace abut::app
                             "energy_norm_error",
                             "estimate",
                             "estimated_error",
+                            "inf_sup",
                             "setup_seconds",
                             "krylov_seconds",
                             "seconds"});
@@ -62,6 +63,8 @@ namespace abut::app
       present.active = contact.n_active();
       present.force = contact.contact_force();
       present.penetration = contact.penetration();
+      if (parameters.inf_sup)
+        present.inf_sup = contact.inf_sup_constant(elasticity.stiffness);
     }
     if (exact)
       present.errors =
@@ -74,6 +77,8 @@ namespace abut::app
     row["penetration"] = present.penetration;
     if (present.errors)
       row["energy_norm_error"] = *present.errors->energy;
+    if (present.inf_sup)
+      row["inf_sup"] = *present.inf_sup;
     report.add_row(row);
     states.push_back(present);
     report.add("nonlinear_iterations", present.steps);
@@ -250,6 +255,8 @@ namespace abut::app
     }
     if (last.estimate)
       report.set("estimate", *last.estimate);
+    if (last.inf_sup)
+      report.set("inf_sup", *last.inf_sup);
     if (last.estimate && last.errors)
       report.set("effectivity", *last.estimate / *last.errors->energy);
     if (!std::isnan(parameters.exact_energy))

@@ -4,6 +4,8 @@
 
 #include "contact_implementation.h"
 
+#include "solve/inf_sup.h"
+
 #include <cmath>
 
 namespace abut
@@ -307,6 +309,17 @@ namespace abut
   template <int dim> global_dof_index ContactAssembler<dim>::n_active() const
   {
     return static_cast<global_dof_index>(progress().n_active);
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::inf_sup_constant(const la::Matrix &matrix) const
+  {
+    const Implementation &i = *implementation;
+    AssertThrow(i.view.row_start != nullptr || i.n_rows == 0,
+                ExcMessage("Call detect() before inf_sup_constant()."));
+    return solve::inf_sup_constant(matrix, i.view, i.solver_parameters,
+                                   i.near_null_space())
+        .constant;
   }
 
   template <int dim>

@@ -310,6 +310,15 @@ namespace abut
   }
 
   template <int dim>
+  solve::NearNullSpace
+  ContactAssembler<dim>::Implementation::near_null_space() const
+  {
+    return surfaces == nullptr
+               ? solve::NearNullSpace()
+               : shim::make_near_null_space(*mapping, *dof_handler);
+  }
+
+  template <int dim>
   void ContactAssembler<dim>::Implementation::prepare_solver(
       const la::Matrix &matrix)
   {
@@ -323,10 +332,7 @@ namespace abut
       else
         solver = solve::make_row_solver(method.system, solver_parameters,
                                         matrix, view);
-      solver->set_near_null_space(
-          surfaces == nullptr
-              ? solve::NearNullSpace()
-              : shim::make_near_null_space(*mapping, *dof_handler));
+      solver->set_near_null_space(near_null_space());
     }
     solver->reinit(matrix, view);
   }

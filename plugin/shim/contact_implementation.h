@@ -38,6 +38,7 @@ namespace abut
     /** Length by pressure: inverse mean of the rows' stiffness. */
     double softness(const la::Matrix &matrix) const;
     void begin(const la::Matrix &matrix, const la::Vector &residual);
+    solve::NearNullSpace near_null_space() const;
     void prepare_solver(const la::Matrix &matrix);
     void push_inside(la::Vector &displacement);
     void next();

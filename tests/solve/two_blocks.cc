@@ -349,7 +349,9 @@ namespace abut::tests
     for (const auto dof : sides[1].unknown)
       wanted.push_back(owned.is_element(dof));
     abut_coupling_options settings = abut_coupling_defaults();
-    settings.discretisation = options.discretisation;
+    settings.discretisation = options.constants
+                                  ? ABUT_DISCRETISATION_QUADRATURE_POINT
+                                  : options.discretisation;
     abut_coupling *coupling = nullptr;
     shim::check(context.get(),
                 abut_coupling_create(context.get(), upper.get(), lower.get(),
@@ -360,29 +362,39 @@ namespace abut::tests
     abut_coupling_view view = {};
     shim::check(context.get(), abut_coupling_get(coupling, &view));
 
-    std::vector<std::pair<global_dof_index, int>> order;
+    std::map<std::int64_t, std::vector<int>> order;
     for (int j = 0; j < view.n_rows; ++j)
-      order.emplace_back(sides[1].unknown[view.node[j]], j);
-    std::sort(order.begin(), order.end());
-    for (const auto &[dof, j] : order)
+      order[options.constants
+                ? view.facet[j]
+                : static_cast<std::int64_t>(sides[1].unknown[view.node[j]])]
+          .push_back(j);
+    for (const auto &[id, parts] : order)
     {
+      double weight = 0., gap = 0.;
+      for (const int j : parts)
+        weight += view.weight[j];
       std::map<std::int64_t, double> entries;
-      const auto add =
-          [&](const global_dof_index first, const double coefficient)
+      for (const int j : parts)
       {
-        for (unsigned int d = 0; d < dim; ++d)
-          if (!constraints.is_constrained(first + d)
-              && view.normal[j * dim + d] != 0.)
-            entries[static_cast<std::int64_t>(first + d)] +=
-                coefficient * view.normal[j * dim + d];
-      };
-      for (auto e = view.secondary_start[j]; e < view.secondary_start[j + 1];
-           ++e)
-        add(sides[1].unknown[view.secondary_node[e]],
-            -view.secondary_coefficient[e]);
-      for (auto e = view.primary_start[j]; e < view.primary_start[j + 1]; ++e)
-        add(sides[0].unknown[view.primary_node[e]],
-            view.primary_coefficient[e]);
+        const double part = view.weight[j] / weight;
+        const auto add =
+            [&](const global_dof_index first, const double coefficient)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            if (!constraints.is_constrained(first + d)
+                && view.normal[j * dim + d] != 0.)
+              entries[static_cast<std::int64_t>(first + d)] +=
+                  part * coefficient * view.normal[j * dim + d];
+        };
+        for (auto e = view.secondary_start[j]; e < view.secondary_start[j + 1];
+             ++e)
+          add(sides[1].unknown[view.secondary_node[e]],
+              -view.secondary_coefficient[e]);
+        for (auto e = view.primary_start[j]; e < view.primary_start[j + 1]; ++e)
+          add(sides[0].unknown[view.primary_node[e]],
+              view.primary_coefficient[e]);
+        gap += part * view.gap[j];
+      }
       std::vector<std::int64_t> columns;
       std::vector<double> values;
       for (const auto &[column, value] : entries)
@@ -391,9 +403,7 @@ namespace abut::tests
         values.push_back(value);
       }
       shim::check(context.get(),
-                  abut_rows_append(row_set.get(),
-                                   static_cast<std::int64_t>(dof),
-                                   view.weight[j], view.gap[j], 0,
+                  abut_rows_append(row_set.get(), id, weight, gap, 0,
                                    static_cast<std::int32_t>(columns.size()),
                                    columns.data(), values.data()));
     }

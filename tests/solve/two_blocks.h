@@ -31,6 +31,9 @@ namespace abut::tests
       free   /**< lower clamped; nothing holds the upper block */
     } support = Support::both;
     abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
+    /** One row per facet of the secondary instead, of its quadrature points:
+     * constant pressures. In serial. */
+    bool constants = false;
   };
 
   /** The linearised contact problem of two blocks with all rows that the core

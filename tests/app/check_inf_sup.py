@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The inf-sup constants of the multipliers that are offered stay under
+refinement; with more pressures than the surface has unknowns they are 0, and
+the program refuses to take those as multipliers. Prints the table of
+doc/inf-sup.md."""
+from program import Program
+
+p = Program()
+
+
+def block(dim, number, cells, support, below):
+    """Unit cube with the contact surface on top, or below."""
+    low, high = ("0" if below else "1"), ("1" if below else "2")
+    first = ", ".join(["0"] * (dim - 1) + [low])
+    last = ", ".join(["1"] * (dim - 1) + [high])
+    far = 2 * dim - 2 if below else 2 * dim - 1
+    zero = ", ".join(["0"] * dim)
+    load = "" if below else f"  set Pressure = {far}: 0.01\n"
+    sides = ", ".join(map(str, range(2 * dim - 2)))
+    held = f"{far}: {zero}" if below else ""
+    if support == "clamped":
+        held += f"{'; ' if held else ''}{sides}: {zero}"
+    elif not below:
+        sideways = ", ".join(["0"] * (dim - 1) + ["free"])
+        held = f"{sides}: {sideways}"
+    return f"""
+subsection Body {number}
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = {', '.join([str(cells)] * dim)} : {first} : {last} : true
+  end
+  set Support = {held}
+{load}end
+"""
+
+
+def scene(dim, lower, upper, support):
+    return p.write("blocks.prm", f"""
+set Scene = solid
+set Dimension = {dim}
+subsection Solid
+  set Bodies = 2
+  set Pairs = 1
+end
+{block(dim, 1, lower, support, True)}
+{block(dim, 2, upper, support, False)}
+subsection Pair 1
+  set Secondary = 2: {2 * dim - 2}
+  set Primary = 1: {2 * dim - 1}
+end
+subsection Output
+  set Fields = false
+  set Pictures = false
+  set Inf-sup constant = true
+end
+""")
+
+
+def run(name, **settings):
+    words = []
+    for key, value in settings.items():
+        words += ["--set", f"{key}={value}"]
+    return p.call("run", name, "--output", "out", "--quiet", *words)
+
+
+def constants(what, dim, lower, upper, settings, level, support="slides"):
+    """Of all meshes from level 0 on."""
+    result = run(scene(dim, lower, upper, support),
+                 **{"Refinement/Level": level, **settings})
+    p.expect(result.returncode == 0, f"{what}: {result.stderr}")
+    values = [row["inf_sup"] for row in p.results()[1]]
+    print(f"| {what} | " + ", ".join(f"{value:.3f}" for value in values)
+          + " |", flush=True)
+    return values
+
+
+def stays(what, *arguments, **more):
+    values = constants(what, *arguments, **more)
+    p.expect(values[-1] > 0.2 and abs(values[-1] / values[-2] - 1) < 0.07,
+             f"{what}: {values}")
+
+
+def method(discretisation, degree=1, multipliers=None):
+    settings = {"Method/Discretisation": discretisation,
+                "Solid/Degree": degree}
+    if multipliers is not None:
+        settings["Method/Multiplier degree"] = multipliers
+    return settings
+
+
+for lower, upper in ((2, 3), (1, 4), (4, 1)):
+    for word in ("dual mortar", "mortar", "node to segment"):
+        stays(f"Q1, {word}, {lower} cells under {upper}", 2, lower, upper,
+              method(word), 4)
+for word, multipliers in (("dual mortar", None), ("mortar", None),
+                          ("mortar", 1)):
+    stays(f"Q2, {word}" + (", linear" if multipliers else ""), 2, 2, 3,
+          method(word, 2, multipliers), 3)
+for degree in (1, 2):
+    stays(f"Q{degree}, dual mortar, clamped at both ends", 2, 2, 3,
+          method("dual mortar", degree), 4, support="clamped")
+stays("Q1, mortar, clamped at both ends", 2, 2, 3, method("mortar"), 4,
+      support="clamped")
+for word in ("dual mortar", "mortar"):
+    stays(f"3D, Q1, {word}", 3, 2, 3, method(word), 1)
+for word in ("dual mortar", "mortar"):
+    stays(f"3D, Q1, {word}, hanging nodes", 3, 2, 3,
+          {**method(word), "Refinement/Adaptive cycles": 3,
+           "Refinement/Refine fraction": 0.5, "Refinement/Coarsen fraction": 0,
+           "Body 2/Pressure": "5: exp(-20*(x^2 + y^2))"}, 0)
+    last = p.results()[1][-1]
+    p.expect(16 < last["constraints"] < 49,
+             f"refined in part: {last['constraints']} rows")
+
+# More pressures than unknowns: allowed as springs only.
+many = constants("Q1, quadrature points (penalty)", 2, 2, 3,
+                 {**method("quadrature point"),
+                  "Method/Enforcement": "penalty"}, 2)
+p.expect(max(many) < 1e-3, f"quadrature points: {many}")
+p.expect_error(run(scene(2, 2, 3, "slides"),
+                   **method("quadrature point")),
+               "Pair 1", "more conditions than the surface has unknowns")
+p.finish()
