@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete_problem.h"
 
+#include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
@@ -45,6 +46,8 @@ namespace abut::app
   void DiscreteProblem<dim>::distribute(const Prescribe &prescribe)
   {
     dof_handler.distribute_dofs(fe);
+    if (renumber)
+      dealii::DoFRenumbering::Cuthill_McKee(dof_handler);
     dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
     set_constraints(prescribe);
 

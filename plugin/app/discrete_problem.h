@@ -65,6 +65,10 @@ namespace abut::app
     la::Matrix stiffness;
     la::Vector load;
 
+    /** Number the unknowns of each rank by Cuthill and McKee's method. Takes
+     * effect with the next mesh. */
+    bool renumber = false;
+
   protected:
     /** Number unknowns, build constraints and the matrix's pattern for the
      * present mesh. Collective. */

@@ -120,6 +120,7 @@ namespace abut::app
   template <int dim> void ObstacleRun<dim>::setup_level()
   {
     SectionTimes::Scope scope(report.times, "unknowns and pattern");
+    membrane.renumber = parameters.refinement.renumber;
     membrane.setup(data);
   }
 

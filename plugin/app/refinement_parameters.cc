@@ -61,6 +61,11 @@ namespace abut::app
     prm.declare_entry("Relaxation sweeps", "3", Patterns::Integer(0),
                       "Symmetric projected Gauss-Seidel sweeps that improve "
                       "each start of nested iteration.");
+    prm.declare_entry("Renumber", "none",
+                      Patterns::Selection("none|Cuthill-McKee"),
+                      "Order of the unknowns on each mesh: as deal.II makes "
+                      "it, or with a small bandwidth. Results do not depend "
+                      "on it.");
     prm.declare_entry("Adaptive cycles", "0", Patterns::Integer(0),
                       "Further meshes, refined where the error estimate is "
                       "large.");
@@ -94,6 +99,7 @@ namespace abut::app
     nested = prm.get_bool("Nested iteration");
     relaxation_sweeps = prm.get_integer("Relaxation sweeps");
     coarse_tolerance = prm.get_double("Coarse level tolerance");
+    renumber = prm.get("Renumber") != "none";
     adaptive_cycles = prm.get_integer("Adaptive cycles");
     refine_fraction = prm.get_double("Refine fraction");
     coarsen_fraction = prm.get_double("Coarsen fraction");

@@ -20,6 +20,7 @@ namespace abut::app
     bool nested = true;
     double coarse_tolerance = 1e-3;
     unsigned int relaxation_sweeps = 3;
+    bool renumber = false;
     unsigned int adaptive_cycles = 0;
     double refine_fraction = 0.6;
     double coarsen_fraction = 0.02;

@@ -121,6 +121,7 @@ namespace abut::app
     contact_is_ready = false;
     {
       SectionTimes::Scope scope(report.times, "unknowns and pattern");
+      elasticity.renumber = parameters.refinement.renumber;
       elasticity.setup(data);
     }
     SectionTimes::Scope scope(report.times, "assembly");
