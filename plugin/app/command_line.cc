@@ -135,8 +135,8 @@ Print the commands, or explain one.
         else
           result.file = words[i];
       if (result.file.empty())
-        throw InputError("", "'" + words[0] + "' needs a file: abut " + words[0]
-                                 + " FILE.prm");
+        throw InputError("", "'" + words[0] + "' needs a scene file: abut "
+                                 + words[0] + " FILE.prm");
     }
   } // namespace
 
