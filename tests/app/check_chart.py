@@ -280,4 +280,17 @@ for path in sorted((p.source / "prm/charts").glob("*.prm")):
              and not (p.folder / "output").exists(),
              f"{path.name}: {result.stderr}")
 
+# One of them on its coarsest mesh: all ways come near Lame's displacement, and
+# quadratic elements nearer than all others.
+run(p.source / "prm/charts/press-fit.prm", "--set", "Values=1", "--set",
+    "Curve dual mortar, degree 2/Values=1", "--set", "Repeats=1")
+table = {row["curve"]: row for row in rows()}
+p.expect(len(table) == 8 and all(row["ended"] == "ok"
+                                 for row in table.values()),
+         f"press fit: {[row['ended'] for row in table.values()]}")
+errors = {name: float(row["error"]) for name, row in table.items()}
+p.expect(max(errors.values()) < 0.1, f"press fit: errors {errors}")
+best = errors.pop("dual mortar, degree 2")
+p.expect(best < 0.2 * min(errors.values()), f"press fit: degree 2 has {best}")
+
 p.finish()
