@@ -153,6 +153,10 @@ extern "C"
                           without area */
   } abut_facet_measures;
 
+  /** Size of a facet, to which relative reaches refer: the length of its
+   * longest side between corners. 0 for an unknown kind or NULL. */
+  ABUT_API double abut_facet_size(abut_facet_kind kind, const double *nodes);
+
   /** Measure a facet. A facet with the faults COINCIDENT, ZERO_AREA or FOLDED
    * is measured, too. NOT_FINITE if a coordinate is. Cost: some 100
    * operations for the linear kinds, 10 times that for the quadratic ones,

@@ -201,7 +201,11 @@ namespace abut::app
     set("wall_seconds", MPI::max(elapsed(), communicator));
     set("processor_seconds",
         MPI::sum(processor_seconds() - processor_start, communicator));
-    set("peak_memory_mb", MPI::max(peak_memory(), communicator));
+    const double memory = peak_memory();
+    set("peak_memory_mb", MPI::max(memory, communicator));
+    set("peak_memory_mb_on_rank",
+        std::vector<double>{MPI::min(memory, communicator),
+                            MPI::max(memory, communicator)});
     // Ranks may have entered different sections: those of rank 0 count.
     sections = times.sections();
     std::vector<std::string> names;

@@ -15,6 +15,13 @@ namespace abut::app
   {
     /** Part of the largest displacement. */
     constexpr double suspicious_penetration = 0.1;
+
+    /** Least and largest value on any rank. Collective. */
+    std::vector<double> range_over_ranks(const double value,
+                                         const MPI_Comm communicator)
+    {
+      return {MPI::min(value, communicator), MPI::max(value, communicator)};
+    }
   } // namespace
 
   template <int dim> void SolidRun<dim>::declare_tables()
@@ -228,6 +235,23 @@ namespace abut::app
     return *last.errors->energy / solution_norm();
   }
 
+  template <int dim> void SolidRun<dim>::report_shares()
+  {
+    const auto share = [&](const std::string &key, const double value)
+    { report.set(key + "_on_rank", range_over_ranks(value, communicator)); };
+    share("cells", triangulation.n_locally_owned_active_cells());
+    share("dofs", elasticity.dof_handler.n_locally_owned_dofs());
+    if (pairs->empty())
+      return;
+    const CommunicationReport sent = contact.communication();
+    share("constraints", contact.n_own_rows());
+    share("facets", sent.own_facets);
+    share("ghost_facets", sent.ghost_facets);
+    report.set("communicated_bytes", MPI::max(sent.bytes, communicator));
+    report.set("communicated_messages", MPI::max(sent.messages, communicator));
+    report.set("gathered_bytes", MPI::max(sent.gathered_bytes, communicator));
+  }
+
   template <int dim> void SolidRun<dim>::report_result(const bool converged)
   {
     SectionTimes::Scope scope(report.times, "results");
@@ -266,6 +290,7 @@ namespace abut::app
       control.report(report, relative_error());
     report_points();
     report_reactions();
+    report_shares();
     if (!pairs->empty())
       report_contact();
   }
@@ -301,6 +326,7 @@ namespace abut::app
   template void SolidRun<2>::report_points();
   template void SolidRun<2>::report_reactions();
   template void SolidRun<2>::report_checks();
+  template void SolidRun<2>::report_shares();
   template void SolidRun<2>::report_contact();
   template std::optional<double> SolidRun<2>::relative_error() const;
   template std::optional<double> SolidRun<3>::relative_error() const;
@@ -311,6 +337,7 @@ namespace abut::app
   template void SolidRun<3>::report_points();
   template void SolidRun<3>::report_reactions();
   template void SolidRun<3>::report_checks();
+  template void SolidRun<3>::report_shares();
   template void SolidRun<3>::report_contact();
   template void SolidRun<3>::report_result(bool);
   template void SolidRun<3>::report_model();

@@ -109,6 +109,7 @@ namespace abut::app
       has_warned = false;
       report_checks();
     }
+    report_shares();
     report.set("dofs", elasticity.dof_handler.n_dofs());
     report.set("bodies", bodies.size());
   }

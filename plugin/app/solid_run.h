@@ -117,6 +117,8 @@ namespace abut::app
     void report_checks();
     void report_contact();
     std::optional<double> relative_error() const;
+    /** What single ranks have and had to say. */
+    void report_shares();
     void report_result(bool converged);
     void report_model();
 

@@ -112,9 +112,7 @@ namespace abut
     i.mapping = &mapping;
     i.dof_handler = &dof_handler;
     i.constraints = &constraints;
-    i.source.reset();
-    i.surfaces = nullptr;
-    i.source_is_outdated = true;
+    i.clear_source();
     i.solver.reset();
     i.start_field = la::Vector();
     i.is_started = false;
@@ -306,6 +304,11 @@ namespace abut
     return implementation->n_rows;
   }
 
+  template <int dim> unsigned int ContactAssembler<dim>::n_own_rows() const
+  {
+    return implementation->view.n_rows;
+  }
+
   template <int dim> global_dof_index ContactAssembler<dim>::n_active() const
   {
     return static_cast<global_dof_index>(progress().n_active);
@@ -320,6 +323,22 @@ namespace abut
     return solve::inf_sup_constant(matrix, i.view, i.solver_parameters,
                                    i.near_null_space())
         .constant;
+  }
+
+  template <int dim>
+  CommunicationReport ContactAssembler<dim>::communication() const
+  {
+    const Implementation &i = *implementation;
+    CommunicationReport result = i.sent_before;
+    if (i.exchange == nullptr)
+      return result;
+    const CommunicationReport now = i.exchange->communication();
+    result.messages += now.messages;
+    result.bytes += now.bytes;
+    result.gathered_bytes += now.gathered_bytes;
+    result.own_facets = now.own_facets;
+    result.ghost_facets = now.ghost_facets;
+    return result;
   }
 
   template <int dim>

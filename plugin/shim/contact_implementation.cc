@@ -104,8 +104,11 @@ namespace abut
           *mapping, *dof_handler, *constraints, pairs,
           typename shim::SurfacePairRows<dim>::Settings{method, search,
                                                         axisymmetric},
-          context.get());
+          context.get(), exchange);
       surfaces = made.get();
+      if (exchange != surfaces->exchange())
+        count_messages();
+      exchange = surfaces->exchange();
       source = std::move(made);
     }
     else
@@ -122,6 +125,26 @@ namespace abut
           *mapping, *dof_handler, *constraints, obstacle);
     }
     source_is_outdated = false;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::count_messages()
+  {
+    if (exchange == nullptr)
+      return;
+    const CommunicationReport sent = exchange->communication();
+    sent_before.messages += sent.messages;
+    sent_before.bytes += sent.bytes;
+    sent_before.gathered_bytes += sent.gathered_bytes;
+  }
+
+  template <int dim> void ContactAssembler<dim>::Implementation::clear_source()
+  {
+    count_messages();
+    exchange.reset();
+    source.reset();
+    surfaces = nullptr;
+    source_is_outdated = true;
   }
 
   template <int dim>

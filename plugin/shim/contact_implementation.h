@@ -26,6 +26,10 @@ namespace abut
     /** The source of the present rows; throws if there is none. */
     const shim::RowSource &present_source() const;
     void create_source();
+    /** Keep the counts of an exchange that is about to go. */
+    void count_messages();
+    /** Forget the mesh. */
+    void clear_source();
     void find_rows(const la::Vector &displacement);
     void find_stress();
     void compute_gap(const la::Vector &displacement);
@@ -60,6 +64,9 @@ namespace abut
     std::unique_ptr<shim::RowSource> source;
     /** The same object if it makes rows of pairs, else null. */
     shim::SurfacePairRows<dim> *surfaces = nullptr;
+    /** The facets of pairs on this mesh, once they are found. */
+    std::shared_ptr<shim::SurfaceExchange<dim>> exchange;
+    CommunicationReport sent_before; ///< on earlier meshes
     bool source_is_outdated = true;
 
     shim::Handle<abut_context> context = shim::create_context();

@@ -14,11 +14,11 @@
 
 namespace abut::shim
 {
-  /** Boundary facets of a displacement field with all that rows need to know
-   * of their nodes. Facets are sorted by cell and face, nodes numbered as the
-   * facets meet them, so that numbers do not depend on how the mesh is
-   * distributed; a node whose facets are elsewhere (a parent of hanging nodes)
-   * comes after the others. */
+  /** The part of the contact surfaces that a rank knows: its own facets, those
+   * around its nodes, and those that may touch one of these; with all that rows
+   * need to know of their nodes. Facets and nodes are sorted by numbers that do
+   * not depend on how the mesh is distributed, so that sums over them have the
+   * same order on any number of ranks. Indices into the arrays are local. */
   template <int dim> struct ContactSurface
   {
     using Index = dealii::types::global_dof_index;
@@ -31,6 +31,10 @@ namespace abut::shim
     {
       dealii::Point<dim> point;   ///< in the reference configuration
       std::array<Index, dim> dof; ///< unknown of each component
+      /** Unique over all ranks, >= 0: by the first facet that has the node; a
+       * node without facets (a parent of hanging nodes) comes after the
+       * others. */
+      std::int64_t number;
     };
 
     /** A term of a constraint: factor times an unknown (or a node). */
@@ -55,6 +59,7 @@ namespace abut::shim
       std::uint32_t face;
       dealii::types::boundary_id boundary_id;
       std::uint32_t owner; ///< rank of the cell
+      std::int64_t number; ///< unique over all ranks: along the mesh
       /** In the order of abut/facet.h, outward. */
       std::array<std::int32_t, max_nodes> node;
     };
@@ -66,6 +71,10 @@ namespace abut::shim
     std::vector<Line> lines;
     /** [nodes] parents of a hanging node, by number; empty: does not hang. */
     std::vector<std::vector<Term>> parents;
+    /** Over all ranks. */
+    std::int64_t n_facets_everywhere = 0;
+    /** All numbers of nodes are below. */
+    std::int64_t node_number_end = 0;
 
     /** Nodes of a facet. */
     unsigned int nodes_per_facet() const

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "pair_diagnosis.h"
 
+#include "agree.h"
+
 #include <cmath>
 #include <sstream>
 
@@ -18,18 +20,21 @@ namespace abut::shim
     template <int dim>
     Nearest nearest(abut_context *context, const SurfaceSide<dim> &secondary,
                     const SurfaceSide<dim> &primary,
-                    const SearchParameters &search, const double cosine)
+                    const SearchParameters &search, const double cosine,
+                    const MPI_Comm communicator)
     {
+      Nearest result;
       abut_detection_options options = search.detection;
       options.normal_cosine = cosine;
       options.search.reach =
-          10. * (secondary.extent() + primary.extent() + 1e-30);
+          10. * (secondary.everywhere.extent + primary.everywhere.extent)
+          + 1e-30;
       const auto detection = create_detection(context, secondary.surface.get(),
                                               primary.surface.get(), options);
-      check(context, abut_detection_run(detection.get(), 0.));
+      check_everywhere(communicator, context,
+                       abut_detection_run(detection.get(), 0.));
       abut_detection_view view;
       check(context, abut_detection_get(detection.get(), &view));
-      Nearest result;
       for (std::int32_t n = 0; n < view.n_nodes; ++n)
         if (view.contact[n].facet >= 0)
         {
@@ -37,19 +42,21 @@ namespace abut::shim
               view.contact[n].gap >= 0. ? result.above : result.below;
           side = std::min(side, view.contact[n].distance);
         }
+      result.above = dealii::Utilities::MPI::min(result.above, communicator);
+      result.below = dealii::Utilities::MPI::min(result.below, communicator);
       return result;
     }
   } // namespace
 
   template <int dim>
-  std::string why_no_rows(abut_context *context,
-                          const SurfaceSide<dim> &secondary,
-                          const SurfaceSide<dim> &primary,
-                          const SearchParameters &search, const double reach)
+  std::string
+  why_no_rows(abut_context *context, const SurfaceSide<dim> &secondary,
+              const SurfaceSide<dim> &primary, const SearchParameters &search,
+              const double reach, const MPI_Comm communicator)
   {
     const double facing = search.detection.normal_cosine;
     const Nearest opposed =
-        nearest(context, secondary, primary, search, facing);
+        nearest(context, secondary, primary, search, facing, communicator);
     std::ostringstream text;
     if (opposed.above < INFINITY && opposed.above <= opposed.below)
       text << "the surfaces are too far apart: the smallest distance is "
@@ -62,7 +69,8 @@ namespace abut::shim
               "overlap is meant as interference.";
     else
     {
-      const Nearest any = nearest(context, secondary, primary, search, 1.);
+      const Nearest any =
+          nearest(context, secondary, primary, search, 1., communicator);
       if (std::min(any.above, any.below) < INFINITY)
         text << "the outward normals of the two surfaces point the same way. "
                 "Take the sides that face each other, or turn the mesh whose "
@@ -76,8 +84,8 @@ namespace abut::shim
 
   template std::string why_no_rows(abut_context *, const SurfaceSide<2> &,
                                    const SurfaceSide<2> &,
-                                   const SearchParameters &, double);
+                                   const SearchParameters &, double, MPI_Comm);
   template std::string why_no_rows(abut_context *, const SurfaceSide<3> &,
                                    const SurfaceSide<3> &,
-                                   const SearchParameters &, double);
+                                   const SearchParameters &, double, MPI_Comm);
 } // namespace abut::shim

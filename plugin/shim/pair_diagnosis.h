@@ -10,12 +10,13 @@ namespace abut::shim
 {
   /** Why two surfaces have no part in contact range: too far apart, deeper in
    * each other than the reach, or turned the wrong way; in words, with what to
-   * do. Searches at any distance, so only for pairs that found nothing. */
+   * do. Of the facets known here: they must be those up to the least distance
+   * of the surfaces. Collective. */
   template <int dim>
-  std::string why_no_rows(abut_context *context,
-                          const SurfaceSide<dim> &secondary,
-                          const SurfaceSide<dim> &primary,
-                          const SearchParameters &search, double reach);
+  std::string
+  why_no_rows(abut_context *context, const SurfaceSide<dim> &secondary,
+              const SurfaceSide<dim> &primary, const SearchParameters &search,
+              double reach, MPI_Comm communicator);
 } // namespace abut::shim
 
 #endif

@@ -10,6 +10,8 @@
 
 namespace abut::shim
 {
+  namespace MPI = dealii::Utilities::MPI;
+
   namespace
   {
     /** A node inside the other surface. */
@@ -41,24 +43,47 @@ namespace abut::shim
           found.push_back({n, view.contact[n].facet, -view.contact[n].gap});
       return found;
     }
+
+    /** The lists of all ranks. Collective. */
+    template <int dim>
+    std::vector<Penetration<dim>>
+    everywhere(const std::vector<Penetration<dim>> &mine,
+               const MPI_Comm communicator)
+    {
+      using Item = std::tuple<std::string, dealii::Point<dim>, double, bool>;
+      std::vector<Item> items;
+      for (const auto &found : mine)
+        items.emplace_back(found.pair, found.point, found.depth,
+                           found.on_primary);
+      std::vector<Penetration<dim>> result;
+      for (const auto &some : MPI::all_gather(communicator, items))
+        for (const auto &[pair, point, depth, on_primary] : some)
+          result.push_back({pair, point, depth, on_primary});
+      return result;
+    }
   } // namespace
 
   template <int dim>
-  std::vector<std::uint8_t> SurfacePairRows<dim>::held_nodes() const
+  std::vector<std::uint8_t> SurfacePairRows<dim>::held_nodes()
   {
-    std::vector<std::uint8_t> held(surface_.nodes.size() * pairs_.size(), 0);
+    const std::size_t n_nodes = surface_.nodes.size();
+    std::vector<std::uint8_t> held(n_nodes * pairs_.size(), 0);
     for (const Row &row : rows_)
       for (std::size_t e = row.first; e < row.first_primary; ++e)
-        held[row.pair * surface_.nodes.size() + entries_[e].node] = 1;
-    exchange_.merge_marks(held);
+        held[row.pair * n_nodes + entries_[e].node] = 1;
+    // Owners of nodes know all facets around them.
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      for (std::size_t n = 0; n < pairs_[p].dropped.size(); ++n)
+      {
+        const Node node = pairs_[p].secondary.node[n];
+        if (pairs_[p].dropped[n] != 0 && is_owned(node))
+          held[p * n_nodes + node] = 1;
+      }
+    exchange_->merge_marks(surface_, held);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
-      std::uint8_t *marks = &held[p * surface_.nodes.size()];
-      const Pair &pair = pairs_[p];
-      for (std::size_t n = 0; n < pair.dropped.size(); ++n)
-        if (pair.dropped[n] != 0)
-          marks[pair.secondary.node[n]] = 1;
-      for (const Node node : pair.secondary.node)
+      std::uint8_t *marks = held.data() + p * n_nodes;
+      for (const Node node : pairs_[p].secondary.node)
       {
         bool parents = !surface_.parents[node].empty();
         for (const auto &parent : surface_.parents[node])
@@ -78,12 +103,12 @@ namespace abut::shim
   {
     std::vector<dealii::Point<dim>> points;
     for (const Node node : pair.secondary.node)
-      points.push_back(present[node]);
+      if (is_owned(node) && held[node] == 0)
+        points.push_back(present[node]);
     std::vector<double> distance;
     pair.data.obstacle->distance(points, distance);
     for (std::size_t n = 0; n < points.size(); ++n)
-      if (distance[n] + pair.data.gap < -tolerance
-          && held[pair.secondary.node[n]] == 0)
+      if (distance[n] + pair.data.gap < -tolerance)
         missed.push_back(
             {pair.data.name, points[n], -distance[n] - pair.data.gap, false});
   }
@@ -100,7 +125,7 @@ namespace abut::shim
                            settings_.search, reach, depth))
     {
       const Node node = pair.secondary.node[inside.node];
-      if (held[node] == 0)
+      if (held[node] == 0 && is_owned(node))
         missed.push_back({pair.data.name, present[node],
                           inside.depth - pair.data.gap, false});
     }
@@ -108,6 +133,9 @@ namespace abut::shim
          penetrating_nodes(context_, pair.primary, pair.secondary,
                            settings_.search, reach, pair.data.gap))
     {
+      const Node node = pair.primary.node[inside.node];
+      if (!is_owned(node))
+        continue;
       // Inside the secondary between its rows, or where it has none.
       const auto &facet = surface_.facets[pair.secondary.facet[inside.facet]];
       bool between = pair.discretisation == Discretisation::node_to_segment;
@@ -117,9 +145,7 @@ namespace abut::shim
       if (between)
         pair.between_rows = std::max(pair.between_rows, found);
       else if (found > tolerance)
-        missed.push_back({pair.data.name,
-                          present[pair.primary.node[inside.node]], found,
-                          true});
+        missed.push_back({pair.data.name, present[node], found, true});
     }
   }
 
@@ -128,7 +154,7 @@ namespace abut::shim
   SurfacePairRows<dim>::penetrations(const la::Vector &displacement,
                                      const double tolerance)
   {
-    const std::vector<Direction> u = node_displacements(displacement);
+    const std::vector<Direction> u = displacements_in_reach(displacement);
     std::vector<dealii::Point<dim>> reference(surface_.nodes.size()),
         present(surface_.nodes.size());
     for (std::size_t n = 0; n < present.size(); ++n)
@@ -137,6 +163,9 @@ namespace abut::shim
       present[n] = reference[n] + u[n];
     }
     const std::vector<std::uint8_t> held = held_nodes();
+    std::vector<double> motions;
+    for (const Pair &pair : pairs_)
+      motions.push_back(motion(pair, u));
 
     std::vector<Penetration<dim>> missed;
     std::string message;
@@ -147,7 +176,7 @@ namespace abut::shim
         pair.between_rows = 0.;
         if (pair.data.tied || !pair.data.geometric_gap)
           continue;
-        const std::uint8_t *marks = &held[p * surface_.nodes.size()];
+        const std::uint8_t *marks = held.data() + p * surface_.nodes.size();
         if (pair.data.obstacle)
         {
           check_obstacle(pair, marks, present, tolerance, missed);
@@ -156,8 +185,8 @@ namespace abut::shim
         move_side(context_, present, pair.secondary);
         move_side(context_, present, pair.primary);
         check_surfaces(pair, marks, present,
-                       std::max(pair.data.reach, 1.5 * motion(pair, u)),
-                       tolerance, missed);
+                       std::max(pair.data.reach, 1.5 * motions[p]), tolerance,
+                       missed);
         move_side(context_, reference, pair.secondary);
         move_side(context_, reference, pair.primary);
       }
@@ -166,11 +195,13 @@ namespace abut::shim
         message = "Pair '" + pairs_[p].data.name + "': " + error.what();
       }
     throw_everywhere<ContactError>(communicator_, message);
-    return missed;
+    for (Pair &pair : pairs_)
+      pair.between_rows = MPI::max(pair.between_rows, communicator_);
+    return everywhere(missed, communicator_);
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template std::vector<std::uint8_t> SurfacePairRows<dim>::held_nodes() const; \
+  template std::vector<std::uint8_t> SurfacePairRows<dim>::held_nodes();       \
   template void SurfacePairRows<dim>::check_obstacle(                          \
       const Pair &, const std::uint8_t *,                                      \
       const std::vector<dealii::Point<dim>> &, double,                         \

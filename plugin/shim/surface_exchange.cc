@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Facets of the own cells, and the rings of facets around the own nodes.
 #include "surface_exchange.h"
-
-#include "agree.h"
 
 #include <abut/dealii/contact_pair.h>
 
 #include <deal.II/base/geometry_info.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe.h>
 #include <deal.II/grid/cell_id.h>
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
 
 namespace abut::shim
 {
+  namespace MPI = dealii::Utilities::MPI;
+
   namespace
   {
     /** Order of the face's nodes, as deal.II's reference cell has them, that
@@ -41,22 +43,39 @@ namespace abut::shim
       return order;
     }
 
-    /** All ranks' parts one after the other. Collective. */
-    template <typename Number>
-    std::vector<Number> concatenate(const std::vector<Number> &mine,
-                                    const MPI_Comm communicator)
+    /** Place of each coarse cell along the curve that cuts a distributed mesh
+     * into parts; empty: that of its index. */
+    template <int dim>
+    std::vector<dealii::types::global_dof_index>
+    order_of_coarse_cells(const dealii::Triangulation<dim> &triangulation)
     {
-      namespace MPI = dealii::Utilities::MPI;
-      const int n_ranks = static_cast<int>(MPI::n_mpi_processes(communicator));
-      const int bytes = static_cast<int>(mine.size() * sizeof(Number));
-      std::vector<int> counts(n_ranks), starts(n_ranks + 1, 0);
-      MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT,
-                    communicator);
-      std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
-      std::vector<Number> all(starts[n_ranks] / sizeof(Number));
-      MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(),
-                     starts.data(), MPI_BYTE, communicator);
-      return all;
+      const auto *distributed = dynamic_cast<
+          const dealii::parallel::distributed::Triangulation<dim> *>(
+          &triangulation);
+      if (distributed == nullptr)
+        return {};
+      const auto &order =
+          distributed->get_coarse_cell_to_p4est_tree_permutation();
+      return {order.begin(), order.end()};
+    }
+
+    template <int dim>
+    dealii::AffineConstraints<double>
+    hanging_nodes(const dealii::DoFHandler<dim> &dof_handler)
+    {
+      dealii::IndexSet relevant;
+      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+      dealii::AffineConstraints<double> hanging;
+      hanging.reinit(relevant);
+      dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging);
+      hanging.close();
+      return hanging;
+    }
+
+    template <typename Number> void sort_once(std::vector<Number> &list)
+    {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
     }
   } // namespace
 
@@ -65,14 +84,28 @@ namespace abut::shim
       const dealii::Mapping<dim> &mapping,
       const dealii::DoFHandler<dim> &dof_handler,
       const dealii::AffineConstraints<double> &constraints,
-      const dealii::AffineConstraints<double> &hanging)
+      const std::set<dealii::types::boundary_id> &boundary_ids)
       : mapping_(mapping),
         dof_handler_(dof_handler),
         constraints_(constraints),
-        hanging_(hanging),
-        communicator_(dof_handler.get_communicator())
+        boundary_ids_(boundary_ids),
+        hanging_(hanging_nodes(dof_handler)),
+        post_(dof_handler.get_communicator()),
+        owners_(dof_handler.locally_owned_dofs(),
+                dof_handler.get_communicator())
   {
     tabulate();
+    collect();
+    number_own();
+    announce();
+    add_ring(1, 2);
+    add_ring(2, 3);
+  }
+
+  template <int dim> void SurfaceExchange<dim>::refresh()
+  {
+    described_.clear();
+    nodes_.clear();
   }
 
   template <int dim> void SurfaceExchange<dim>::tabulate()
@@ -114,46 +147,9 @@ namespace abut::shim
     }
   }
 
-  template <int dim>
-  void SurfaceExchange<dim>::add_node(Message &message,
-                                      const dealii::Point<dim> &point,
-                                      const std::array<Index, dim> &dof) const
+  template <int dim> void SurfaceExchange<dim>::collect()
   {
-    for (const Index i : dof)
-      message.nodes.push_back(i);
-    for (unsigned int d = 0; d < dim; ++d)
-      message.values.push_back(point[d]);
-    const auto add_terms = [&](const auto *terms)
-    {
-      message.nodes.push_back(terms == nullptr ? 0 : terms->size());
-      if (terms != nullptr)
-        for (const auto &term : *terms)
-        {
-          message.nodes.push_back(term.first);
-          message.values.push_back(term.second);
-        }
-    };
-    for (const Index i : dof)
-    {
-      // A free unknown is a line with itself as its only term.
-      const bool is_free = !constraints_.is_constrained(i);
-      const std::vector<std::pair<Index, double>> itself = {{i, 1.}};
-      message.values.push_back(is_free ? 0.
-                                       : constraints_.get_inhomogeneity(i));
-      add_terms(is_free ? &itself : constraints_.get_constraint_entries(i));
-    }
-    add_terms(hanging_.get_constraint_entries(dof[0]));
-  }
-
-  template <int dim>
-  typename SurfaceExchange<dim>::Message SurfaceExchange<dim>::collect(
-      const std::set<dealii::types::boundary_id> &boundary_ids) const
-  {
-    Message message;
-    const auto &fe = dof_handler_.get_fe();
-    const auto me = dealii::Utilities::MPI::this_mpi_process(communicator_);
-    std::vector<Index> dofs(fe.n_dofs_per_cell());
-    std::set<Index> known;
+    std::vector<Index> dofs(dof_handler_.get_fe().n_dofs_per_cell());
     for (const auto &cell : dof_handler_.active_cell_iterators())
     {
       if (!cell->is_locally_owned() || !cell->at_boundary())
@@ -162,208 +158,318 @@ namespace abut::shim
       for (const unsigned int face : cell->face_indices())
       {
         if (!cell->at_boundary(face)
-            || boundary_ids.count(cell->face(face)->boundary_id()) == 0)
+            || boundary_ids_.count(cell->face(face)->boundary_id()) == 0)
           continue;
-        for (const auto word : cell->id().template to_binary<dim>())
-          message.facets.push_back(word);
-        message.facets.push_back(face);
-        message.facets.push_back(cell->face(face)->boundary_id());
-        message.facets.push_back(me);
+        FacetRecord record;
+        record.facet.cell = cell->id().template to_binary<dim>();
+        record.facet.face = face;
+        record.facet.boundary_id = cell->face(face)->boundary_id();
+        record.facet.owner = MPI::this_mpi_process(post_.communicator());
         for (const auto &local : cell_dof_[face])
         {
-          std::array<Index, dim> dof;
-          for (unsigned int d = 0; d < dim; ++d)
-            dof[d] = dofs[local[d]];
-          message.facets.push_back(dof[0]);
-          if (known.insert(dof[0]).second)
-            add_node(message,
-                     mapping_.transform_unit_to_real_cell(
-                         cell, fe.unit_support_point(local[0])),
-                     dof);
+          const Index dof = dofs[local[0]];
+          record.nodes.push_back(dof);
+          if (const auto *parents = hanging_.get_constraint_entries(dof))
+            for (const auto &parent : *parents)
+              record.parents.push_back(parent.first);
         }
+        sort_once(record.parents);
+        own_.push_back(std::move(record));
       }
     }
-    add_parents(message, known);
-    return message;
+  }
+
+  template <int dim> void SurfaceExchange<dim>::number_own()
+  {
+    // Ranks have consecutive parts of the curve, so that numbers along it do
+    // not depend on where it is cut.
+    const auto order = order_of_coarse_cells(dof_handler_.get_triangulation());
+    const auto key = [&](const FacetRecord &record)
+    {
+      const dealii::CellId id(record.facet.cell);
+      const Index coarse = id.get_coarse_cell_id();
+      return std::make_tuple(order.empty() ? coarse : order[coarse], id,
+                             record.facet.face);
+    };
+    std::sort(own_.begin(), own_.end(),
+              [&](const FacetRecord &a, const FacetRecord &b)
+              { return key(a) < key(b); });
+    const std::int64_t n_own = own_.size();
+    std::int64_t number = 0;
+    MPI_Exscan(&n_own, &number, 1, MPI_INT64_T, MPI_SUM, post_.communicator());
+    if (MPI::this_mpi_process(post_.communicator()) == 0)
+      number = 0;
+    for (FacetRecord &record : own_)
+      record.facet.number = number++;
+    n_facets_everywhere_ = MPI::sum(n_own, post_.communicator());
   }
 
   template <int dim>
-  void SurfaceExchange<dim>::add_parents(Message &message,
-                                         std::set<Index> &known) const
+  void SurfaceExchange<dim>::take(const FacetRecord &record, const int ring)
   {
-    // Parents lie on faces of coarser neighbours, which may have another
-    // boundary id or another owner.
-    std::set<Index> missing;
-    for (const Index dof : known)
-      if (const auto *parents = hanging_.get_constraint_entries(dof))
-        for (const auto &parent : *parents)
-          if (known.count(parent.first) == 0)
-            missing.insert(parent.first);
-    if (missing.empty())
-      return;
+    FacetRecord &known =
+        facets_.emplace(record.facet.number, record).first->second;
+    known.ring = std::min(known.ring, ring);
+  }
+
+  template <int dim> void SurfaceExchange<dim>::announce()
+  {
+    Mail mail;
+    for (const FacetRecord &record : own_)
+    {
+      std::set<unsigned int> ranks;
+      for (const auto *list : {&record.nodes, &record.parents})
+        for (const Index node : *list)
+          ranks.insert(owners_.of(node));
+      for (const unsigned int rank : ranks)
+        write(record, mail[rank]);
+      take(record, 1);
+    }
+    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    const std::int64_t stride = ContactSurface<dim>::max_nodes;
+    for (auto &[rank, parcel] : post_.exchange(mail))
+      while (!parcel.at_end())
+      {
+        const FacetRecord record = read_facet(parcel);
+        const std::int64_t number = record.facet.number;
+        for (const auto *list : {&record.nodes, &record.parents})
+          for (std::size_t a = 0; a < list->size(); ++a)
+          {
+            if (!owned.is_element((*list)[a]))
+              continue;
+            Place &place = places_[(*list)[a]];
+            place.facets.push_back(number);
+            const std::int64_t name = number * stride + std::int64_t(a);
+            if (list == &record.nodes
+                && (place.number < 0 || name < place.number))
+              place.number = name;
+          }
+        announced_.emplace(number, record);
+        take(record, 1);
+      }
+    for (auto &[dof, place] : places_)
+    {
+      sort_once(place.facets);
+      if (place.number < 0)
+        place.number = n_facets_everywhere_ * stride + std::int64_t(dof);
+    }
+  }
+
+  template <int dim>
+  typename SurfaceExchange<dim>::NodeRecord
+  SurfaceExchange<dim>::describe_node(const dealii::Point<dim> &point,
+                                      const std::array<Index, dim> &dof) const
+  {
+    NodeRecord record;
+    record.node = {point, dof, places_.at(dof[0]).number};
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      // A free unknown is a line with itself as its only term.
+      Line &line = record.lines[d];
+      if (!constraints_.is_constrained(dof[d]))
+      {
+        line.terms = {{dof[d], 1.}};
+        continue;
+      }
+      line.constant = constraints_.get_inhomogeneity(dof[d]);
+      for (const auto &term : *constraints_.get_constraint_entries(dof[d]))
+        line.terms.push_back({term.first, term.second});
+    }
+    if (const auto *parents = hanging_.get_constraint_entries(dof[0]))
+      for (const auto &parent : *parents)
+        record.parents.push_back({parent.first, parent.second});
+    return record;
+  }
+
+  template <int dim> void SurfaceExchange<dim>::describe()
+  {
     const auto &fe = dof_handler_.get_fe();
     std::vector<Index> dofs(fe.n_dofs_per_cell());
-    for (const auto &cell : dof_handler_.active_cell_iterators())
-    {
-      if (cell->is_artificial())
-        continue;
-      cell->get_dof_indices(dofs);
-      for (const auto &nodes : cell_dof_)
-        for (const auto &local : nodes)
-          if (missing.erase(dofs[local[0]]) > 0)
+    // Nodes that others hang on need not be on the boundary.
+    for (const bool at_boundary : {true, false})
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+      {
+        if (described_.size() == places_.size())
+          return;
+        if (cell->is_artificial() || cell->at_boundary() != at_boundary)
+          continue;
+        cell->get_dof_indices(dofs);
+        for (const auto &nodes : cell_dof_)
+          for (const auto &local : nodes)
           {
+            const Index first = dofs[local[0]];
+            if (places_.count(first) == 0 || described_.count(first) != 0)
+              continue;
             std::array<Index, dim> dof;
             for (unsigned int d = 0; d < dim; ++d)
               dof[d] = dofs[local[d]];
-            known.insert(dof[0]);
-            add_node(message,
-                     mapping_.transform_unit_to_real_cell(
-                         cell, fe.unit_support_point(local[0])),
-                     dof);
+            described_.emplace(
+                first, describe_node(mapping_.transform_unit_to_real_cell(
+                                         cell, fe.unit_support_point(local[0])),
+                                     dof));
           }
-      if (missing.empty())
-        return;
-    }
+      }
   }
 
-  namespace
+  template <int dim>
+  void SurfaceExchange<dim>::add_ring(const int from, const int to)
   {
-    /** Nodes in the order in which they came, each once. */
-    template <int dim> struct Arrival
+    std::vector<Index> nodes;
+    for (const auto &[number, record] : facets_)
+      if (record.ring == from)
+        for (const auto *list : {&record.nodes, &record.parents})
+          nodes.insert(nodes.end(), list->begin(), list->end());
+    sort_once(nodes);
+    Mail questions, answers;
+    for (const Index node : nodes)
+      questions[owners_.of(node)].write(node);
+    for (auto &[rank, question] : post_.exchange(questions))
     {
-      using Surface = ContactSurface<dim>;
+      std::vector<std::int64_t> numbers;
+      while (!question.at_end())
+      {
+        const Place &place = places_.at(question.read());
+        numbers.insert(numbers.end(), place.facets.begin(), place.facets.end());
+      }
+      sort_once(numbers);
+      for (const std::int64_t number : numbers)
+        write(announced_.at(number), answers[rank]);
+    }
+    for (auto &[rank, answer] : post_.exchange(answers))
+      while (!answer.at_end())
+        take(read_facet(answer), to);
+  }
 
-      std::vector<typename Surface::Node> nodes;
-      std::vector<typename Surface::Line> lines; ///< [nodes * dim]
-      std::vector<std::vector<typename Surface::Term>> parents;
-      /** Place of a node by its first unknown. */
-      std::unordered_map<typename Surface::Index, std::int32_t> place;
+  template <int dim> void SurfaceExchange<dim>::fetch_nodes()
+  {
+    describe();
+    std::vector<Index> nodes;
+    for (const auto &[number, record] : facets_)
+      for (const auto *list : {&record.nodes, &record.parents})
+        for (const Index node : *list)
+          if (nodes_.count(node) == 0)
+            nodes.push_back(node);
+    sort_once(nodes);
+    Mail questions, answers;
+    for (const Index node : nodes)
+      questions[owners_.of(node)].write(node);
+    for (auto &[rank, question] : post_.exchange(questions))
+      while (!question.at_end())
+        write(described_.at(question.read()), answers[rank]);
+    for (auto &[rank, answer] : post_.exchange(answers))
+      while (!answer.at_end())
+      {
+        NodeRecord record = read_node(answer);
+        nodes_.emplace(record.node.dof[0], std::move(record));
+      }
+  }
+
+  template <int dim>
+  void SurfaceExchange<dim>::write(const FacetRecord &record,
+                                   Parcel &parcel) const
+  {
+    const Facet &facet = record.facet;
+    parcel.write(facet.number);
+    for (const unsigned int k : {0, 2})
+      parcel.write(std::int64_t(facet.cell[k]) << 32 | facet.cell[k + 1]);
+    parcel.write(std::int64_t(facet.owner) << 32 | facet.boundary_id);
+    parcel.write(std::int64_t(record.parents.size()) << 8 | facet.face);
+    for (const auto *list : {&record.nodes, &record.parents})
+      for (const Index node : *list)
+        parcel.write(node);
+  }
+
+  template <int dim>
+  typename SurfaceExchange<dim>::FacetRecord
+  SurfaceExchange<dim>::read_facet(Parcel &parcel) const
+  {
+    FacetRecord record;
+    Facet &facet = record.facet;
+    facet.number = parcel.read();
+    for (const unsigned int k : {0, 2})
+    {
+      const std::uint64_t both = parcel.read();
+      facet.cell[k] = static_cast<std::uint32_t>(both >> 32);
+      facet.cell[k + 1] = static_cast<std::uint32_t>(both);
+    }
+    const std::uint64_t place = parcel.read(), face = parcel.read();
+    facet.owner = static_cast<std::uint32_t>(place >> 32);
+    facet.boundary_id = static_cast<dealii::types::boundary_id>(
+        static_cast<std::uint32_t>(place));
+    facet.face = face & 255;
+    record.nodes.resize(abut_facet_n_nodes(kind_));
+    record.parents.resize(face >> 8);
+    for (auto *list : {&record.nodes, &record.parents})
+      for (Index &node : *list)
+        node = parcel.read();
+    return record;
+  }
+
+  template <int dim>
+  void SurfaceExchange<dim>::write(const NodeRecord &record,
+                                   Parcel &parcel) const
+  {
+    const auto write_terms = [&](const std::vector<Term> &terms)
+    {
+      for (const Term &term : terms)
+      {
+        parcel.write(term.index);
+        parcel.write_value(term.factor);
+      }
     };
-
-    template <int dim>
-    Arrival<dim> read_nodes(const std::vector<std::int64_t> &words,
-                            const std::vector<double> &values)
+    // Free unknowns, which are most, are told by a bit.
+    std::int64_t kinds = std::int64_t(record.parents.size()) << 8;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (record.lines[d].terms.size() == 1
+          && record.lines[d].terms[0].index == record.node.dof[d])
+        kinds |= 1 << d;
+    parcel.write(kinds);
+    parcel.write(record.node.number);
+    for (unsigned int d = 0; d < dim; ++d)
     {
-      using Surface = ContactSurface<dim>;
-      Arrival<dim> arrival;
-      std::size_t i = 0, v = 0;
-      const auto read_terms = [&]
-      {
-        std::vector<typename Surface::Term> terms(words[i++]);
-        for (auto &term : terms)
-          term = {static_cast<typename Surface::Index>(words[i++]),
-                  values[v++]};
-        return terms;
-      };
-      while (i < words.size())
-      {
-        typename Surface::Node node;
-        for (auto &dof : node.dof)
-          dof = words[i++];
-        for (unsigned int d = 0; d < dim; ++d)
-          node.point[d] = values[v++];
-        std::array<typename Surface::Line, dim> line;
-        for (auto &l : line)
-        {
-          l.constant = values[v++];
-          l.terms = read_terms();
-        }
-        auto parents = read_terms();
-        if (!arrival.place.emplace(node.dof[0], arrival.nodes.size()).second)
-          continue;
-        arrival.nodes.push_back(node);
-        arrival.lines.insert(arrival.lines.end(), line.begin(), line.end());
-        arrival.parents.push_back(std::move(parents));
-      }
-      return arrival;
+      const Line &line = record.lines[d];
+      parcel.write(record.node.dof[d]);
+      parcel.write_value(record.node.point[d]);
+      if ((kinds >> d & 1) != 0)
+        continue;
+      parcel.write(line.terms.size());
+      parcel.write_value(line.constant);
+      write_terms(line.terms);
     }
-
-    /** Facets by cell and face, with places of nodes in the arrival. */
-    template <int dim>
-    std::vector<typename ContactSurface<dim>::Facet>
-    read_facets(const std::vector<std::int64_t> &words,
-                const Arrival<dim> &arrival, const unsigned int n_nodes)
-    {
-      const std::size_t stride = 7 + n_nodes;
-      std::vector<typename ContactSurface<dim>::Facet> facets(words.size()
-                                                              / stride);
-      for (std::size_t f = 0; f < facets.size(); ++f)
-      {
-        auto &facet = facets[f];
-        const std::int64_t *word = &words[f * stride];
-        for (unsigned int k = 0; k < 4; ++k)
-          facet.cell[k] = static_cast<std::uint32_t>(word[k]);
-        facet.face = static_cast<std::uint32_t>(word[4]);
-        facet.boundary_id = static_cast<dealii::types::boundary_id>(word[5]);
-        facet.owner = static_cast<std::uint32_t>(word[6]);
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          facet.node[a] = arrival.place.at(word[7 + a]);
-      }
-      std::sort(facets.begin(), facets.end(),
-                [](const auto &a, const auto &b) {
-                  return std::tie(a.cell, a.face) < std::tie(b.cell, b.face);
-                });
-      return facets;
-    }
-
-    /** Number nodes as facets, then hanging nodes, meet them. */
-    template <int dim>
-    void number_nodes(Arrival<dim> &arrival, ContactSurface<dim> &surface)
-    {
-      std::vector<std::int32_t> number(arrival.nodes.size(), -1);
-      const auto take = [&](const std::int32_t place)
-      {
-        if (number[place] < 0)
-        {
-          number[place] = static_cast<std::int32_t>(surface.nodes.size());
-          surface.nodes.push_back(arrival.nodes[place]);
-          for (unsigned int d = 0; d < dim; ++d)
-            surface.lines.push_back(std::move(arrival.lines[place * dim + d]));
-          surface.parents.push_back(std::move(arrival.parents[place]));
-        }
-        return number[place];
-      };
-      for (auto &facet : surface.facets)
-        for (unsigned int a = 0; a < surface.nodes_per_facet(); ++a)
-          facet.node[a] = take(facet.node[a]);
-      // Taking a parent makes the list longer.
-      for (std::size_t n = 0; n < surface.parents.size(); ++n)
-        for (std::size_t k = 0; k < surface.parents[n].size(); ++k)
-        {
-          const auto dof = surface.parents[n][k].index;
-          surface.parents[n][k].index = take(arrival.place.at(dof));
-        }
-    }
-  } // namespace
-
-  template <int dim>
-  ContactSurface<dim> SurfaceExchange<dim>::arrange(const Message &all) const
-  {
-    ContactSurface<dim> surface;
-    surface.kind = kind_;
-    Arrival<dim> arrival = read_nodes<dim>(all.nodes, all.values);
-    surface.facets =
-        read_facets(all.facets, arrival, surface.nodes_per_facet());
-    number_nodes(arrival, surface);
-    return surface;
+    write_terms(record.parents);
   }
 
   template <int dim>
-  ContactSurface<dim> SurfaceExchange<dim>::gather(
-      const std::set<dealii::types::boundary_id> &boundary_ids) const
+  typename SurfaceExchange<dim>::NodeRecord
+  SurfaceExchange<dim>::read_node(Parcel &parcel) const
   {
-    const Message mine = collect(boundary_ids);
-    const Message all = {concatenate(mine.facets, communicator_),
-                         concatenate(mine.nodes, communicator_),
-                         concatenate(mine.values, communicator_)};
-    return arrange(all);
-  }
-
-  template <int dim>
-  void SurfaceExchange<dim>::merge_marks(std::vector<std::uint8_t> &marks) const
-  {
-    MPI_Allreduce(MPI_IN_PLACE, marks.data(), static_cast<int>(marks.size()),
-                  MPI_UINT8_T, MPI_MAX, communicator_);
+    NodeRecord record;
+    const auto read_terms = [&](const std::size_t n)
+    {
+      std::vector<Term> terms(n);
+      for (Term &term : terms)
+      {
+        term.index = parcel.read();
+        term.factor = parcel.read_value();
+      }
+      return terms;
+    };
+    const std::int64_t kinds = parcel.read();
+    record.node.number = parcel.read();
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      Line &line = record.lines[d];
+      record.node.dof[d] = parcel.read();
+      record.node.point[d] = parcel.read_value();
+      line.terms = {{record.node.dof[d], 1.}};
+      if ((kinds >> d & 1) != 0)
+        continue;
+      const std::size_t n = parcel.read();
+      line.constant = parcel.read_value();
+      line.terms = read_terms(n);
+    }
+    record.parents = read_terms(kinds >> 8);
+    return record;
   }
 
   template class SurfaceExchange<2>;

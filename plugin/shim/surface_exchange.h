@@ -3,62 +3,203 @@
 #define ABUT_SHIM_SURFACE_EXCHANGE_H
 
 #include "contact_surface.h"
+#include "handles.h"
+#include "point_to_point.h"
+
+#include <abut/dealii/linear_algebra.h>
+#include <abut/parts.h>
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <set>
+#include <unordered_map>
 
 namespace abut::shim
 {
-  /** Makes the boundary facets of all ranks known where rows need them. Each
-   * rank gets all facets; this class is the only place that knows. */
+  /** Makes boundary facets of other ranks known where rows need them, point to
+   * point. No rank gets the whole interface.
+   *
+   * A rank has the facets of its cells. It learns
+   *
+   *   the facets around the nodes that it owns, because each facet is announced
+   *   to the owners of its nodes and of the nodes that those hang on;
+   *   two rings of facets around these, from the owners of their nodes:
+   *   averaged normals and dropped neighbours are then those of the whole
+   *   surface;
+   *   the facets of the other side that are near these: all ranks gather boxes
+   *   around their parts, and each sends what the core finds near them
+   *   (abut/parts.h); with a ring around them.
+   *
+   * What a rank knows of a node comes from the node's owner. Numbers of facets
+   * run along the mesh, and so do those of nodes. */
   template <int dim> class SurfaceExchange
   {
   public:
-    /** @p hanging holds the hanging nodes alone. All references must outlive
-     * this object. Throws if the displacement is not continuous and of degree
-     * 1 or 2 on lines and quadrilaterals. */
+    /** Two surfaces that may touch; the primary is empty for obstacles. */
+    struct Link
+    {
+      std::string name;
+      std::set<dealii::types::boundary_id> secondary, primary;
+      /** Distance within which facets are looked for; with @ref margin added,
+       * by which nodes may have moved without anything being missed. */
+      double reach = 0., margin = 0.;
+    };
+
+    /** Nodes may also have moved by this part of the size of the smallest
+     * facet. */
+    static constexpr double relative_margin = 0.25;
+
+    /** Find the facets with these boundary ids and the rings around them. All
+     * references must outlive this object. Throws if the displacement is not
+     * continuous and of degree 1 or 2 on lines and quadrilaterals. A pass over
+     * the cells. Collective. */
     SurfaceExchange(const dealii::Mapping<dim> &mapping,
                     const dealii::DoFHandler<dim> &dof_handler,
                     const dealii::AffineConstraints<double> &constraints,
-                    const dealii::AffineConstraints<double> &hanging);
+                    const std::set<dealii::types::boundary_id> &boundary_ids);
 
-    /** The facets with these boundary ids. One pass over the cells.
-     * Collective. */
-    ContactSurface<dim>
-    gather(const std::set<dealii::types::boundary_id> &boundary_ids) const;
+    const std::set<dealii::types::boundary_id> &boundary_ids() const
+    {
+      return boundary_ids_;
+    }
 
-    /** Make a mark that any rank has set known to all. Collective. */
-    void merge_marks(std::vector<std::uint8_t> &marks) const;
+    /** Hanging nodes alone. */
+    const dealii::AffineConstraints<double> &hanging() const
+    {
+      return hanging_;
+    }
+
+    /** Tell that the constraints have changed: what is known of nodes is told
+     * anew by the next gather(), facets are not. */
+    void refresh();
+
+    /** The facets that this rank needs, with those near each other of each
+     * link. Distances in @p links are raised to those of the call before, if
+     * those are larger; then no facet is sent. Throws ContactError on all ranks
+     * for facets without area. Collective. */
+    ContactSurface<dim> gather(abut_context *context, std::vector<Link> &links,
+                               const abut_search_options &search);
+
+    /** A length that the least distance of the two sides of a link does not
+     * exceed, from the boxes of the last gather(). Collective. */
+    double distance_bound(std::size_t link) const;
+
+    /** Displacement of each node of the gathered surface, from the owned
+     * unknowns: what constraints make of it. Collective. */
+    std::vector<dealii::Tensor<1, dim>>
+    displacements(const ContactSurface<dim> &surface, const la::Vector &u);
+
+    /** Make marks that any rank has set known to all that have the node;
+     * @p marks [any number of blocks][nodes of the surface]. Collective. */
+    void merge_marks(const ContactSurface<dim> &surface,
+                     std::vector<std::uint8_t> &marks);
+
+    /** What this rank has sent. */
+    CommunicationReport communication() const;
 
   private:
     using Index = dealii::types::global_dof_index;
+    using Facet = typename ContactSurface<dim>::Facet;
+    using Node = typename ContactSurface<dim>::Node;
+    using Line = typename ContactSurface<dim>::Line;
+    using Term = typename ContactSurface<dim>::Term;
 
-    /** What one rank sends. Nodes are named by their first unknown. */
-    struct Message
+    /** A facet with its nodes, and the nodes that these hang on, named by their
+     * first unknown. */
+    struct FacetRecord
     {
-      std::vector<std::int64_t> facets, nodes;
-      std::vector<double> values;
+      Facet facet;
+      std::vector<Index> nodes, parents;
+      /** How far from own nodes: 1 around them, 3 the second ring around
+       * these; near or beyond: of the other side. */
+      int ring = beyond;
+    };
+    static constexpr int near = 4, beyond = 5;
+
+    /** What the owner of a node tells of it. */
+    struct NodeRecord
+    {
+      Node node;
+      std::array<Line, dim> lines;
+      std::vector<Term> parents;
+    };
+
+    /** What an owner knows of a node's place in the surfaces. */
+    struct Place
+    {
+      std::vector<std::int64_t> facets; ///< that depend on it
+      std::int64_t number = -1;
     };
 
     void tabulate();
-    Message
-    collect(const std::set<dealii::types::boundary_id> &boundary_ids) const;
-    void add_node(Message &message, const dealii::Point<dim> &point,
-                  const std::array<Index, dim> &dof) const;
-    void add_parents(Message &message, std::set<Index> &known) const;
-    ContactSurface<dim> arrange(const Message &all) const;
+    void collect();
+    void number_own();
+    void announce();
+    void describe();
+    NodeRecord describe_node(const dealii::Point<dim> &point,
+                             const std::array<Index, dim> &dof) const;
+    void add_ring(int from, int to);
+    void fetch_nodes();
+    void write(const FacetRecord &record, Parcel &parcel) const;
+    FacetRecord read_facet(Parcel &parcel) const;
+    void write(const NodeRecord &record, Parcel &parcel) const;
+    NodeRecord read_node(Parcel &parcel) const;
+    void take(const FacetRecord &record, int ring);
+
+    /** [2 * links: secondary, primary][ranks] boxes around the facets of a
+     * rank. */
+    using Boxes = std::vector<std::vector<std::vector<abut_box>>>;
+
+    /** Facets of a side of a link, as the core wants them. */
+    struct Part
+    {
+      std::vector<std::int64_t> number;
+      Handle<abut_surface> surface;
+    };
+    template <typename Predicate>
+    Part make_part(abut_context *context,
+                   const std::set<dealii::types::boundary_id> &ids,
+                   const Predicate &belongs) const;
+    std::vector<double> own_boxes(abut_context *context,
+                                  const std::vector<Link> &links) const;
+    void gather_boxes(abut_context *context, const std::vector<Link> &links);
+    std::map<unsigned int, std::set<std::int64_t>>
+    select(abut_context *context, std::size_t side, const Link &link,
+           const abut_search_options &search) const;
+    bool is_known(std::vector<Link> &links,
+                  const abut_search_options &search) const;
+    void find_near(abut_context *context, const std::vector<Link> &links,
+                   const abut_search_options &search);
+    ContactSurface<dim> arrange() const;
+    void share_values(const ContactSurface<dim> &surface);
 
     const dealii::Mapping<dim> &mapping_;
     const dealii::DoFHandler<dim> &dof_handler_;
     const dealii::AffineConstraints<double> &constraints_;
-    const dealii::AffineConstraints<double> &hanging_;
-    const MPI_Comm communicator_;
+    const std::set<dealii::types::boundary_id> boundary_ids_;
+    const dealii::AffineConstraints<double> hanging_;
+    PointToPoint post_;
+    const Owners owners_;
     abut_facet_kind kind_;
     /** [faces of a cell][nodes of a facet][component] unknown of the cell. */
     std::vector<std::vector<std::array<unsigned int, dim>>> cell_dof_;
+
+    std::vector<FacetRecord> own_; ///< in the order of their numbers
+    std::int64_t n_facets_everywhere_ = 0;
+    /** As the owner of nodes. */
+    std::unordered_map<Index, Place> places_;
+    std::unordered_map<std::int64_t, FacetRecord> announced_;
+    std::unordered_map<Index, NodeRecord> described_;
+    /** What is known here. */
+    std::unordered_map<std::int64_t, FacetRecord> facets_;
+    std::unordered_map<Index, NodeRecord> nodes_;
+    /** Of the last selection. */
+    std::vector<Link> links_;
+    abut_search_options search_;
+    Boxes boxes_;
+    SharedValues unknowns_, marks_;
   };
 } // namespace abut::shim
 

@@ -83,7 +83,7 @@ namespace abut::shim
     for (int i = 0; i < la::n_owned(result); ++i)
       if (w[i] > 0.)
         p[i] /= w[i];
-    hanging_.distribute(result);
+    exchange_->hanging().distribute(result);
     return result;
   }
 
@@ -109,7 +109,7 @@ namespace abut::shim
     for (int i = 0; i < la::n_owned(result); ++i)
       if (w[i] > 0.)
         g[i] /= w[i];
-    hanging_.distribute(result);
+    exchange_->hanging().distribute(result);
     return result;
   }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What was met on pairs of surfaces, and what a solve found there.
-#include "pair_diagnosis.h"
 #include "surface_pair_rows.h"
 
 #include <abut/strategy.h>
@@ -22,15 +21,6 @@ namespace abut::shim
 
     /** Initial overlap, in sizes of a facet, that is worth a word. */
     constexpr double large_overlap = 0.3;
-
-    template <int dim>
-    abut_surface_sizes measure(const abut_context *context,
-                               const SurfaceSide<dim> &side)
-    {
-      abut_surface_sizes sizes;
-      check(context, abut_surface_measure(side.surface.get(), &sizes));
-      return sizes;
-    }
 
     template <int dim>
     Tensor<1, 3> cross(const dealii::Point<dim> &x, const Tensor<1, dim> &f)
@@ -60,17 +50,18 @@ namespace abut::shim
     abut_coupling_statistics statistics;
     check(context_,
           abut_coupling_get_statistics(pair.coupling.get(), &statistics));
-    const abut_surface_sizes sizes = measure(context_, pair.secondary);
+    const SideMeasures &sizes = pair.secondary.everywhere;
 
     PairCheck result;
     result.name = pair.data.name;
-    result.secondary_facets = pair.secondary.n_facets();
-    result.primary_facets = pair.primary.n_facets();
+    result.secondary_facets = sizes.n_facets;
+    result.primary_facets = pair.primary.everywhere.n_facets;
     result.n_dropped = n_dropped;
     result.area = MPI::sum(statistics.full_area, communicator_);
     if (result.area == 0.)
       result.area = sizes.area;
-    result.size_ratio = statistics.size_ratio;
+    if (!pair.data.obstacle)
+      result.size_ratio = sizes.median / pair.primary.everywhere.median;
     double covered = 0., overlap = 0.;
     dealii::types::global_dof_index n_rows = 0;
     for (const Row &row : rows_)
@@ -98,19 +89,10 @@ namespace abut::shim
           + " times the size of a facet. If that is not meant as interference, "
             "move the bodies apart.");
     if (result.n_rows == 0)
-    {
-      const double reach =
-          std::max(settings_.search.detection.search.reach, pair.data.reach);
-      const double relative =
-          settings_.search.detection.search.relative_reach
-          * (pair.data.obstacle ? sizes : measure(context_, pair.primary))
-                .largest;
       result.warnings.push_back(
           pair.data.obstacle
               ? "no node of the surface is within reach of the obstacle."
-              : why_no_rows(context_, pair.secondary, pair.primary,
-                            settings_.search, std::max(reach, relative)));
-    }
+              : explain_no_rows(number));
     checks_.push_back(result);
     // Rigid obstacles may come nearer in later steps; the reference
     // configuration of bodies stays as it is.
@@ -184,7 +166,7 @@ namespace abut::shim
             (result.secondary_force + result.primary_force).norm() / force;
         result.moment_imbalance =
             (result.secondary_moment + result.primary_moment).norm()
-            / (force * pairs_[p].secondary.extent());
+            / (force * pairs_[p].secondary.everywhere.extent);
       }
     }
     return results;

@@ -6,8 +6,6 @@
 
 #include <abut/dealii/rigid_obstacle.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,9 +20,6 @@ namespace abut::shim
     /** A node that can move along a direction only this little (1: freely)
      * is held there. */
     constexpr double least_freedom = 0.5;
-
-    /** More than the points of quadrature on any facet. */
-    constexpr std::int64_t points_per_facet = 1 << 24;
 
     abut_discretisation core_word(const Discretisation discretisation)
     {
@@ -53,19 +48,6 @@ namespace abut::shim
       }
       return ids;
     }
-
-    template <int dim>
-    dealii::AffineConstraints<double>
-    hanging_nodes(const dealii::DoFHandler<dim> &dof_handler)
-    {
-      dealii::IndexSet relevant;
-      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-      dealii::AffineConstraints<double> hanging;
-      hanging.reinit(relevant);
-      dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging);
-      hanging.close();
-      return hanging;
-    }
   } // namespace
 
   template <int dim>
@@ -74,28 +56,24 @@ namespace abut::shim
       const dealii::DoFHandler<dim> &dof_handler,
       const dealii::AffineConstraints<double> &constraints,
       const std::vector<ContactPair<dim>> &pairs, const Settings &settings,
-      abut_context *context)
+      abut_context *context, std::shared_ptr<SurfaceExchange<dim>> exchange)
       : mapping_(mapping),
         dof_handler_(dof_handler),
         constraints_(constraints),
         communicator_(dof_handler.get_communicator()),
         settings_(settings),
         context_(context),
-        hanging_(hanging_nodes(dof_handler)),
-        exchange_(mapping, dof_handler, constraints, hanging_),
-        surface_(exchange_.gather(all_ids(pairs)))
+        exchange_(std::move(exchange))
   {
-    std::string message;
-    try
-    {
-      for (const auto &pair : pairs)
-        create_pair(pair);
-    }
-    catch (const std::exception &error)
-    {
-      message = error.what();
-    }
-    throw_everywhere<ContactError>(communicator_, message);
+    const auto ids = all_ids(pairs);
+    if (exchange_ != nullptr && exchange_->boundary_ids() == ids)
+      exchange_->refresh();
+    else
+      exchange_ = std::make_shared<SurfaceExchange<dim>>(mapping, dof_handler,
+                                                         constraints, ids);
+    for (const auto &pair : pairs)
+      create_pair(pair);
+    gather();
   }
 
   template <int dim>
@@ -114,25 +92,7 @@ namespace abut::shim
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
       throw ContactError("Pair '" + data.name + "': " + reason);
-    if (!pairs_.empty())
-      pair.first_id =
-          pairs_.back().first_id
-          + std::max<std::int64_t>(surface_.nodes.size() * dim,
-                                   surface_.facets.size() * points_per_facet);
-    try
-    {
-      pair.secondary =
-          make_side(context_, surface_, data.secondary, settings_.search);
-      pair.primary =
-          make_side(context_, surface_, data.primary, settings_.search);
-      check_sides(pair);
-      create_coupling(pair);
-    }
-    catch (const dealii::ExceptionBase &error)
-    {
-      const char *text = error.what();
-      throw ContactError("Pair '" + data.name + "': " + text);
-    }
+    pair.reach = data.reach;
     pairs_.push_back(std::move(pair));
   }
 
@@ -149,10 +109,10 @@ namespace abut::shim
     if (data.obstacle && data.tied)
       refuse("a body cannot be tied to an obstacle; prescribe its displacement "
              "there instead.");
-    if (pair.secondary.n_facets() == 0)
+    if (pair.secondary.everywhere.n_facets == 0)
       refuse("no facet of the mesh has a boundary id of the secondary "
              "surface.");
-    if (!data.obstacle && pair.primary.n_facets() == 0)
+    if (!data.obstacle && pair.primary.everywhere.n_facets == 0)
       refuse("no facet of the mesh has a boundary id of the primary surface.");
     for (const auto id : data.secondary)
       if (data.primary.count(id) != 0)
@@ -184,54 +144,6 @@ namespace abut::shim
                             context_, pair.secondary.surface.get(),
                             pair.primary.surface.get(), &options, &made));
     pair.coupling.reset(made);
-  }
-
-  template <int dim>
-  std::vector<dealii::Tensor<1, dim>>
-  SurfacePairRows<dim>::node_displacements(const la::Vector &u) const
-  {
-    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
-    std::vector<global_dof_index> columns;
-    for (const auto &line : surface_.lines)
-      for (const auto &term : line.terms)
-        if (!owned.is_element(term.index))
-          columns.push_back(term.index);
-    std::sort(columns.begin(), columns.end());
-    dealii::IndexSet needed(owned.size());
-    needed.add_indices(columns.begin(), columns.end());
-    la::Vector ghosted(owned, needed, communicator_);
-    ghosted = u;
-
-    std::vector<Direction> result(surface_.nodes.size());
-    for (std::size_t n = 0; n < result.size(); ++n)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const auto &line = surface_.lines[n * dim + d];
-        result[n][d] = line.constant;
-        for (const auto &term : line.terms)
-          result[n][d] += term.factor * ghosted(term.index);
-      }
-    return result;
-  }
-
-  template <int dim>
-  double SurfacePairRows<dim>::motion(const Pair &pair,
-                                      const std::vector<Direction> &u) const
-  {
-    // Common translations of both sides do not count; obstacles stand still.
-    Direction lower, upper;
-    bool is_first = !pair.data.obstacle;
-    for (const auto *side : {&pair.secondary, &pair.primary})
-      for (const Node node : side->node)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d] = is_first ? u[node][d] : std::min(lower[d], u[node][d]);
-          upper[d] = is_first ? u[node][d] : std::max(upper[d], u[node][d]);
-        }
-        is_first = false;
-      }
-    return (upper - lower).norm();
   }
 
   template <int dim>
@@ -284,11 +196,10 @@ namespace abut::shim
                                    const double motion)
   {
     const SurfaceSide<dim> &side = pair.secondary;
-    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
     const auto me = MPI::this_mpi_process(communicator_);
     std::vector<std::uint8_t> wanted(side.n_nodes()), facets(side.n_facets());
     for (int n = 0; n < side.n_nodes(); ++n)
-      wanted[n] = owned.is_element(surface_.nodes[side.node[n]].dof[0]);
+      wanted[n] = is_owned(side.node[n]);
     for (int f = 0; f < side.n_facets(); ++f)
       facets[f] = surface_.facets[side.facet[f]].owner == me;
 
@@ -329,12 +240,13 @@ namespace abut::shim
       Row row;
       row.pair = number;
       row.node = view.node[i] < 0 ? -1 : pair.secondary.node[view.node[i]];
+      row.facet = row.node < 0 ? pair.secondary.facet[view.facet[i]] : -1;
       row.id = pair.first_id
                + (row.node >= 0
-                      ? std::int64_t(row.node) * dim + std::max(component, 0)
-                      : pair.secondary.facet[view.facet[i]] * points_per_facet
+                      ? surface_.nodes[row.node].number * dim
+                            + std::max(component, 0)
+                      : surface_.facets[row.facet].number * points_per_facet
                             + view.point[i]);
-      row.facet = row.node < 0 ? pair.secondary.facet[view.facet[i]] : -1;
       for (unsigned int d = 0; d < dim; ++d)
         row.position[d] = view.position[i * dim + d];
       row.weight = view.weight[i];
@@ -370,7 +282,12 @@ namespace abut::shim
     dropped.clear();
     unsigned int n_dropped = 0;
     const auto count = [&]
-    { return std::count(dropped.begin(), dropped.end(), std::uint8_t(1)); };
+    {
+      unsigned int n = 0;
+      for (std::size_t i = 0; i < dropped.size(); ++i)
+        n += dropped[i] != 0 && is_owned(pair.secondary.node[i]);
+      return MPI::sum(n, communicator_);
+    };
     if (!pair.data.tied)
     {
       dropped = dropped_nodes(pair, taken, -1);
@@ -382,7 +299,7 @@ namespace abut::shim
       for (unsigned int d = 0; d < dim; ++d)
       {
         const auto now = dropped_nodes(pair, taken, d);
-        if (d == 0 || now != dropped)
+        if (MPI::logical_or(d == 0 || now != dropped, communicator_))
         {
           dropped = now;
           n_dropped = std::max<unsigned int>(n_dropped, count());
@@ -399,7 +316,7 @@ namespace abut::shim
       for (std::size_t i = first; i < rows_.size(); ++i)
         if (rows_[i].node >= 0)
           taken[rows_[i].node] = 1;
-    exchange_.merge_marks(taken);
+    exchange_->merge_marks(surface_, taken);
     make_check(number, n_dropped);
   }
 
@@ -445,7 +362,7 @@ namespace abut::shim
     rows_.clear();
     entries_.clear();
     checks_.clear();
-    const std::vector<Direction> u = node_displacements(displacement);
+    const std::vector<Direction> u = displacements_in_reach(displacement);
     std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       find_pair(p, motion(pairs_[p], u), taken);

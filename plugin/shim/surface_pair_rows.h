@@ -33,12 +33,21 @@ namespace abut::shim
     };
 
     /** All references must outlive this object. Throws ContactError for pairs
-     * that make no sense. Collective. */
+     * that make no sense. Of the surfaces, each rank holds what is near its own
+     * part. @p exchange may be null. Collective. */
     SurfacePairRows(const dealii::Mapping<dim> &mapping,
                     const dealii::DoFHandler<dim> &dof_handler,
                     const dealii::AffineConstraints<double> &constraints,
                     const std::vector<ContactPair<dim>> &pairs,
-                    const Settings &settings, abut_context *context);
+                    const Settings &settings, abut_context *context,
+                    std::shared_ptr<SurfaceExchange<dim>> exchange);
+
+    /** What knows the facets: to be given to the next object for the same mesh,
+     * so that they need not be found again. */
+    const std::shared_ptr<SurfaceExchange<dim>> &exchange() const
+    {
+      return exchange_;
+    }
 
     void find(const la::Vector &displacement, abut_rows *rows) override;
 
@@ -97,6 +106,10 @@ namespace abut::shim
 
   private:
     using Node = std::int32_t;
+
+    /** More than the points of quadrature on any facet. */
+    static constexpr std::int64_t points_per_facet = 1 << 24;
+
     using Direction = dealii::Tensor<1, dim>;
 
     /** A pair with its two sides and their coupling. */
@@ -106,6 +119,8 @@ namespace abut::shim
       Discretisation discretisation = Discretisation::dual_mortar;
       SurfaceSide<dim> secondary, primary;
       Handle<abut_coupling> coupling;
+      /** Distances that the facets known here suffice for. */
+      double reach = 0., margin = 0.;
       std::int64_t first_id = 0;
       /** [nodes of the secondary] without a multiplier in the present rows. */
       std::vector<std::uint8_t> dropped;
@@ -136,7 +151,7 @@ namespace abut::shim
 
     /** [pairs][nodes of the whole surface] nonzero: a row of the pair holds
      * this node of its secondary, or none can. Collective. */
-    std::vector<std::uint8_t> held_nodes() const;
+    std::vector<std::uint8_t> held_nodes();
     void check_obstacle(const Pair &pair, const std::uint8_t *held,
                         const std::vector<dealii::Point<dim>> &present,
                         double tolerance,
@@ -147,9 +162,15 @@ namespace abut::shim
                         std::vector<Penetration<dim>> &missed);
 
     void create_pair(const ContactPair<dim> &data);
+    void gather();
+    void create_sides(Pair &pair);
     void create_coupling(Pair &pair);
     void check_sides(const Pair &pair) const;
-    std::vector<Direction> node_displacements(const la::Vector &u) const;
+    std::vector<Direction> displacements_in_reach(const la::Vector &u);
+    bool is_in_reach(const Pair &pair, double motion) const;
+    void renew();
+    std::string explain_no_rows(std::size_t pair);
+    bool is_owned(Node node) const;
     double motion(const Pair &pair, const std::vector<Direction> &u) const;
     double freedom(Node node, const Direction &direction) const;
     bool is_free(Node node, unsigned int component) const;
@@ -175,8 +196,7 @@ namespace abut::shim
     const MPI_Comm communicator_;
     const Settings settings_;
     abut_context *const context_;
-    dealii::AffineConstraints<double> hanging_;
-    SurfaceExchange<dim> exchange_;
+    std::shared_ptr<SurfaceExchange<dim>> exchange_;
     ContactSurface<dim> surface_;
     std::vector<Pair> pairs_;
     std::vector<Row> rows_;

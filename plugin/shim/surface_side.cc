@@ -2,6 +2,8 @@
 #include "surface_side.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace abut::shim
 {
@@ -12,22 +14,6 @@ namespace abut::shim
     return it == node.end() || *it != number
                ? -1
                : static_cast<int>(it - node.begin());
-  }
-
-  template <int dim> double SurfaceSide<dim>::extent() const
-  {
-    double largest = 0.;
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      double lower = INFINITY, upper = -INFINITY;
-      for (int n = 0; n < n_nodes(); ++n)
-      {
-        lower = std::min(lower, position[n * dim + d]);
-        upper = std::max(upper, position[n * dim + d]);
-      }
-      largest = std::max(largest, upper - lower);
-    }
-    return largest;
   }
 
   namespace
@@ -93,9 +79,11 @@ namespace abut::shim
     for (const std::int32_t f : side.facet)
       for (unsigned int a = 0; a < whole.nodes_per_facet(); ++a)
         connectivity.push_back(side.local_node(whole.facets[f].node[a]));
-    const std::vector<std::int64_t> node_id(side.node.begin(), side.node.end());
-    const std::vector<std::int64_t> facet_id(side.facet.begin(),
-                                             side.facet.end());
+    std::vector<std::int64_t> node_id, facet_id;
+    for (const std::int32_t n : side.node)
+      node_id.push_back(whole.nodes[n].number);
+    for (const std::int32_t f : side.facet)
+      facet_id.push_back(whole.facets[f].number);
     abut_surface_data data = abut_surface_data_defaults();
     data.dimension = dim;
     data.kind = whole.kind;
@@ -109,6 +97,89 @@ namespace abut::shim
     data.feature_angle = search.feature_angle;
     side.surface = create_surface(context, data);
     return side;
+  }
+
+  namespace
+  {
+    /** The middle one of all ranks' values, of which there are @p n: the value
+     * that more than half of them do not exceed. By cutting [lower, upper],
+     * which holds all of them, in 63 parts at a time. Collective. */
+    double median_everywhere(const std::vector<double> &values,
+                             const std::int64_t n, double lower, double upper,
+                             const MPI_Comm communicator)
+    {
+      constexpr unsigned int n_cuts = 63;
+      while (true)
+      {
+        std::vector<double> cut(n_cuts);
+        for (unsigned int k = 0; k < n_cuts; ++k)
+          cut[k] = lower + (upper - lower) * k / n_cuts;
+        std::vector<std::int64_t> count(n_cuts, 0);
+        for (const double value : values)
+          for (unsigned int k = 0; k < n_cuts; ++k)
+            count[k] += value <= cut[k];
+        MPI_Allreduce(MPI_IN_PLACE, count.data(), n_cuts, MPI_INT64_T, MPI_SUM,
+                      communicator);
+        unsigned int k = 0;
+        while (k < n_cuts && count[k] <= n / 2)
+          ++k;
+        const double below = k > 0 ? cut[k - 1] : lower;
+        const double above = k < n_cuts ? cut[k] : upper;
+        if (k == 0 || !(upper - lower > 1e-13 * upper)
+            || (below == lower && above == upper))
+          return above;
+        lower = below;
+        upper = above;
+      }
+    }
+  } // namespace
+
+  template <int dim>
+  SideMeasures measure_everywhere(const SurfaceSide<dim> &side,
+                                  const ContactSurface<dim> &whole,
+                                  const MPI_Comm communicator)
+  {
+    namespace MPI = dealii::Utilities::MPI;
+    const unsigned int me = MPI::this_mpi_process(communicator);
+    abut_surface_view view;
+    abut_surface_get(side.surface.get(), &view);
+    SideMeasures result;
+    std::vector<double> sizes;
+    std::vector<double> lower(dim, INFINITY), upper(dim, -INFINITY);
+    for (int f = 0; f < side.n_facets(); ++f)
+    {
+      if (whole.facets[side.facet[f]].owner != me)
+        continue;
+      std::vector<double> nodes;
+      for (int e = view.facet_start[f]; e < view.facet_start[f + 1]; ++e)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double x = side.position[view.connectivity[e] * dim + d];
+          nodes.push_back(x);
+          lower[d] = std::min(lower[d], x);
+          upper[d] = std::max(upper[d], x);
+        }
+      abut_facet_measures measures;
+      if (abut_facet_measure(whole.kind, nodes.data(), &measures)
+          == ABUT_SUCCESS)
+        result.area += measures.area;
+      sizes.push_back(abut_facet_size(whole.kind, nodes.data()));
+    }
+    result.n_facets = MPI::sum(std::int64_t(sizes.size()), communicator);
+    result.area = MPI::sum(result.area, communicator);
+    const double inf = std::numeric_limits<double>::infinity();
+    const auto [least, most] = std::minmax_element(sizes.begin(), sizes.end());
+    result.smallest = MPI::min(sizes.empty() ? inf : *least, communicator);
+    result.largest = MPI::max(sizes.empty() ? 0. : *most, communicator);
+    MPI::min(lower, communicator, lower);
+    MPI::max(upper, communicator, upper);
+    if (result.n_facets == 0)
+      return SideMeasures();
+    for (unsigned int d = 0; d < dim; ++d)
+      result.extent = std::max(result.extent, upper[d] - lower[d]);
+    result.median = median_everywhere(sizes, result.n_facets, result.smallest,
+                                      result.largest, communicator);
+    return result;
   }
 
   template <int dim>
@@ -128,6 +199,8 @@ namespace abut::shim
   template SurfaceSide<dim> make_side(                                         \
       abut_context *, const ContactSurface<dim> &,                             \
       const std::set<dealii::types::boundary_id> &, const SearchParameters &); \
+  template SideMeasures measure_everywhere(                                    \
+      const SurfaceSide<dim> &, const ContactSurface<dim> &, MPI_Comm);        \
   template void move_side(const abut_context *,                                \
                           const std::vector<dealii::Point<dim>> &,             \
                           SurfaceSide<dim> &);

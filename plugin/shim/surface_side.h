@@ -11,9 +11,18 @@
 
 namespace abut::shim
 {
+  /** What is known of a side on all ranks together. */
+  struct SideMeasures
+  {
+    std::int64_t n_facets = 0;
+    double area = 0.;                                ///< of all facets
+    double smallest = 0., median = 0., largest = 0.; ///< sizes of facets
+    double extent = 0.; ///< longest side of the box of all nodes, length
+  };
+
   /** One side of a pair as the core wants it: the facets of some boundary ids
    * with a numbering of their own, in the order of the numbers in the whole
-   * surface. */
+   * of what this rank knows. */
   template <int dim> struct SurfaceSide
   {
     std::vector<std::int32_t> facet; ///< [facets] number in the whole
@@ -37,17 +46,23 @@ namespace abut::shim
     /** Number here of a node of the whole, or -1. O(log n). */
     int local_node(std::int32_t number) const;
 
-    /** Longest extent of the box of all nodes, length. */
-    double extent() const;
+    SideMeasures everywhere;
   };
 
   /** Take the facets with these boundary ids. Throws what the core finds wrong
-   * with them. Not collective, but the same on all ranks. */
+   * with them, but perhaps on this rank only. Not collective. */
   template <int dim>
   SurfaceSide<dim> make_side(abut_context *context,
                              const ContactSurface<dim> &whole,
                              const std::set<dealii::types::boundary_id> &ids,
                              const SearchParameters &search);
+
+  /** Measure a side from the facets that ranks have of their own. Collective.
+   */
+  template <int dim>
+  SideMeasures measure_everywhere(const SurfaceSide<dim> &side,
+                                  const ContactSurface<dim> &whole,
+                                  MPI_Comm communicator);
 
   /** Move a side to @p positions of the nodes of the whole. */
   template <int dim>

@@ -22,6 +22,7 @@
  * otherwise, and errors are thrown on all ranks.
  */
 
+#include <abut/dealii/communication_report.h>
 #include <abut/dealii/contact_pair.h>
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/method_parameters.h>
@@ -185,6 +186,10 @@ namespace abut
     /** Number of rows on all ranks. */
     virtual dealii::types::global_dof_index n_rows() const;
 
+    /** Number of rows on this rank: it owns their secondary nodes. Not
+     * collective. */
+    virtual unsigned int n_own_rows() const;
+
     /** Number of rows in contact on all ranks: in the present active set, or
      * for interior methods those with pressure / stiffness > gap. */
     virtual dealii::types::global_dof_index n_active() const;
@@ -254,6 +259,10 @@ namespace abut
      * solves with @p matrix: for studies, not for each step. Throws
      * SolverFailure if a body is held by nothing. */
     virtual double inf_sup_constant(const la::Matrix &matrix) const;
+
+    /** What this rank has sent about the surfaces of pairs since construction,
+     * and what it has of them now. Not collective. */
+    virtual CommunicationReport communication() const;
 
     /** Cost of all linear solves since the last reinit(). */
     virtual const LinearReport &linear_report() const;

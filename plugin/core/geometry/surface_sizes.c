@@ -22,6 +22,14 @@ abut_surface_longest_side(abut_facet_kind kind, const double *nodes)
   return sqrt(longest);
 }
 
+double
+abut_facet_size(abut_facet_kind kind, const double *nodes)
+{
+  return nodes == NULL || abut_facet_n_corners(kind) == 0
+             ? 0
+             : abut_surface_longest_side(kind, nodes);
+}
+
 /* The k-th smallest of v[n] (Hoare's selection); v is reordered. */
 static double
 kth_smallest(double *v, int64_t n, int64_t k)

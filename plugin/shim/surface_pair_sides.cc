@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The sides of pairs, from the facets that a rank knows; and when these do not
+// reach any further.
+#include "agree.h"
+#include "pair_diagnosis.h"
+#include "surface_pair_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Run @p function and throw what it throws on any rank on all. */
+    template <typename Function>
+    void run_everywhere(const MPI_Comm communicator, const std::string &name,
+                        const Function &function)
+    {
+      std::string message;
+      try
+      {
+        function();
+      }
+      catch (const ContactError &error)
+      {
+        message = error.what();
+      }
+      catch (const std::exception &error)
+      {
+        message = "Pair '" + name + "': " + error.what();
+      }
+      throw_everywhere<ContactError>(communicator, message);
+    }
+  } // namespace
+
+  template <int dim> void SurfacePairRows<dim>::gather()
+  {
+    std::vector<typename SurfaceExchange<dim>::Link> links;
+    for (const Pair &pair : pairs_)
+      links.push_back({pair.data.name, pair.data.secondary, pair.data.primary,
+                       pair.reach, pair.margin});
+    surface_ =
+        exchange_->gather(context_, links, settings_.search.detection.search);
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+    {
+      pairs_[i].reach = links[i].reach;
+      pairs_[i].margin = links[i].margin;
+    }
+    std::int64_t first_id = 0;
+    for (Pair &pair : pairs_)
+    {
+      pair.first_id = first_id;
+      first_id += std::max(surface_.node_number_end * dim,
+                           surface_.n_facets_everywhere * points_per_facet);
+      create_sides(pair);
+    }
+  }
+
+  template <int dim> void SurfacePairRows<dim>::create_sides(Pair &pair)
+  {
+    const ContactPair<dim> &data = pair.data;
+    pair.coupling.reset();
+    run_everywhere(communicator_, data.name,
+                   [&]
+                   {
+                     pair.secondary = make_side(
+                         context_, surface_, data.secondary, settings_.search);
+                     pair.primary = make_side(context_, surface_, data.primary,
+                                              settings_.search);
+                   });
+    for (auto *side : {&pair.secondary, &pair.primary})
+      side->everywhere = measure_everywhere(*side, surface_, communicator_);
+    run_everywhere(communicator_, data.name,
+                   [&]
+                   {
+                     check_sides(pair);
+                     create_coupling(pair);
+                   });
+  }
+
+  template <int dim> void SurfacePairRows<dim>::renew()
+  {
+    // What refers to nodes and facets does so by their numbers meanwhile.
+    const auto number_of = [](const auto &list, const std::int32_t index)
+    { return index < 0 ? std::int64_t(-1) : list[index].number; };
+    std::vector<std::int64_t> rows, facets, entries;
+    for (const Row &row : rows_)
+    {
+      rows.push_back(number_of(surface_.nodes, row.node));
+      facets.push_back(number_of(surface_.facets, row.facet));
+    }
+    for (const Entry &entry : entries_)
+      entries.push_back(number_of(surface_.nodes, entry.node));
+    std::vector<std::vector<std::int64_t>> dropped(pairs_.size());
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      for (std::size_t n = 0; n < pairs_[p].dropped.size(); ++n)
+        if (pairs_[p].dropped[n] != 0)
+          dropped[p].push_back(
+              number_of(surface_.nodes, pairs_[p].secondary.node[n]));
+
+    gather();
+
+    const auto index_of = [](const auto &list, const std::int64_t number)
+    {
+      const auto it =
+          std::lower_bound(list.begin(), list.end(), number,
+                           [](const auto &entry, const std::int64_t n)
+                           { return entry.number < n; });
+      return number < 0 ? -1 : static_cast<std::int32_t>(it - list.begin());
+    };
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+    {
+      rows_[i].node = index_of(surface_.nodes, rows[i]);
+      rows_[i].facet = index_of(surface_.facets, facets[i]);
+    }
+    for (std::size_t e = 0; e < entries_.size(); ++e)
+      entries_[e].node = index_of(surface_.nodes, entries[e]);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
+      Pair &pair = pairs_[p];
+      if (!pair.dropped.empty())
+        pair.dropped.assign(pair.secondary.n_nodes(), 0);
+      for (const std::int64_t number : dropped[p])
+        pair.dropped[pair.secondary.local_node(
+            index_of(surface_.nodes, number))] = 1;
+    }
+  }
+
+  template <int dim> bool SurfacePairRows<dim>::is_owned(const Node node) const
+  {
+    return dof_handler_.locally_owned_dofs().is_element(
+        surface_.nodes[node].dof[0]);
+  }
+
+  template <int dim>
+  double SurfacePairRows<dim>::motion(const Pair &pair,
+                                      const std::vector<Direction> &u) const
+  {
+    // Common translations of both sides do not count; obstacles stand still.
+    const double start =
+        pair.data.obstacle ? 0. : std::numeric_limits<double>::infinity();
+    std::vector<double> range(2 * dim, -start);
+    for (const auto *side : {&pair.secondary, &pair.primary})
+      for (const Node node : side->node)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          range[d] = std::max(range[d], u[node][d]);
+          range[dim + d] = std::max(range[dim + d], -u[node][d]);
+        }
+    MPI::max(range, communicator_, range);
+    Direction size;
+    for (unsigned int d = 0; d < dim; ++d)
+      size[d] = range[d] + range[dim + d];
+    return size.norm();
+  }
+
+  template <int dim>
+  bool SurfacePairRows<dim>::is_in_reach(const Pair &pair,
+                                         const double motion) const
+  {
+    if (pair.data.obstacle)
+      return true;
+    const abut_search_options &search = settings_.search.detection.search;
+    const double smallest = std::min(pair.secondary.everywhere.smallest,
+                                     pair.primary.everywhere.smallest);
+    return 1.5 * motion <= std::max(
+               {pair.reach, search.reach, search.relative_reach * smallest})
+           && motion <= pair.margin
+                            + SurfaceExchange<dim>::relative_margin * smallest;
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  SurfacePairRows<dim>::displacements_in_reach(const la::Vector &displacement)
+  {
+    std::vector<Direction> u = exchange_->displacements(surface_, displacement);
+    bool is_far = false;
+    for (Pair &pair : pairs_)
+    {
+      const double moved = motion(pair, u);
+      if (is_in_reach(pair, moved))
+        continue;
+      // As far again before it has to be done anew.
+      pair.reach = std::max(pair.reach, 2. * 1.5 * moved);
+      pair.margin = std::max(pair.margin, 2. * moved);
+      is_far = true;
+    }
+    if (is_far)
+    {
+      renew();
+      u = exchange_->displacements(surface_, displacement);
+    }
+    return u;
+  }
+
+  template <int dim>
+  std::string SurfacePairRows<dim>::explain_no_rows(const std::size_t number)
+  {
+    // Nothing but this message needs facets from so far.
+    Pair &pair = pairs_[number];
+    const abut_search_options &search = settings_.search.detection.search;
+    const double reach =
+        std::max({search.reach, pair.data.reach,
+                  search.relative_reach * pair.primary.everywhere.largest});
+    pair.reach = std::max(pair.reach, exchange_->distance_bound(number));
+    renew();
+    return why_no_rows(context_, pair.secondary, pair.primary, settings_.search,
+                       reach, communicator_);
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template void SurfacePairRows<dim>::gather();                                \
+  template bool SurfacePairRows<dim>::is_owned(Node) const;                    \
+  template double SurfacePairRows<dim>::motion(                                \
+      const Pair &, const std::vector<Direction> &) const;                     \
+  template std::vector<dealii::Tensor<1, dim>>                                 \
+  SurfacePairRows<dim>::displacements_in_reach(const la::Vector &);            \
+  template std::string SurfacePairRows<dim>::explain_no_rows(std::size_t);
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut::shim

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Facets of the other side that are near, and the surface that results.
+#include "agree.h"
+#include "surface_exchange.h"
+
+#include <abut/dealii/contact_pair.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Boxes of a rank's part of a side. More of them fit better around parts
+     * that a space-filling curve has cut out, but all ranks get all boxes. */
+    constexpr std::int32_t boxes_per_part = 8;
+
+    /** Facets up to this ring have a say in the rows of own nodes. */
+    constexpr int last_ring_with_shares = 2;
+
+    using Ids = std::set<dealii::types::boundary_id>;
+
+    bool overlap(const abut_box &a, const abut_box &b)
+    {
+      bool result = true;
+      for (unsigned int d = 0; d < 3; ++d)
+        result = result && a.lower[d] <= b.upper[d] && b.lower[d] <= a.upper[d];
+      return result;
+    }
+
+    /** Run @p function; what it throws in words. */
+    template <typename Function>
+    std::string failure_of(const Function &function)
+    {
+      try
+      {
+        function();
+      }
+      catch (const std::exception &error)
+      {
+        return error.what();
+      }
+      return "";
+    }
+  } // namespace
+
+  template <int dim>
+  template <typename Predicate>
+  typename SurfaceExchange<dim>::Part
+  SurfaceExchange<dim>::make_part(abut_context *context, const Ids &ids,
+                                  const Predicate &belongs) const
+  {
+    Part part;
+    for (const auto &[number, record] : facets_)
+      if (ids.count(record.facet.boundary_id) != 0 && belongs(record))
+        part.number.push_back(number);
+    std::sort(part.number.begin(), part.number.end());
+
+    std::unordered_map<Index, std::int32_t> place;
+    std::vector<std::int32_t> connectivity;
+    std::vector<double> position;
+    for (const std::int64_t number : part.number)
+      for (const Index node : facets_.at(number).nodes)
+      {
+        const auto entry = place.emplace(node, place.size());
+        connectivity.push_back(entry.first->second);
+        if (entry.second)
+          for (unsigned int d = 0; d < dim; ++d)
+            position.push_back(nodes_.at(node).node.point[d]);
+      }
+    abut_surface_data data = abut_surface_data_defaults();
+    data.dimension = dim;
+    data.kind = kind_;
+    data.n_nodes = static_cast<std::int32_t>(place.size());
+    data.n_facets = static_cast<std::int32_t>(part.number.size());
+    data.connectivity = connectivity.data();
+    data.position = position.data();
+    data.facet_id = part.number.data();
+    data.check_orientation = false;
+    if (!part.number.empty())
+      part.surface = create_surface(context, data);
+    return part;
+  }
+
+  template <int dim>
+  std::vector<double>
+  SurfaceExchange<dim>::own_boxes(abut_context *context,
+                                  const std::vector<Link> &links) const
+  {
+    // [links][two sides]: number of boxes, and these.
+    std::vector<double> result;
+    for (const Link &link : links)
+      for (const Ids *ids : {&link.secondary, &link.primary})
+      {
+        std::int32_t n = 0;
+        std::vector<abut_box> box(boxes_per_part);
+        const Part part =
+            make_part(context, *ids,
+                      [](const FacetRecord &record)
+                      { return record.ring <= last_ring_with_shares; });
+        if (part.surface != nullptr && !link.primary.empty())
+          check(context, abut_surface_bounds(part.surface.get(), link.margin,
+                                             boxes_per_part, box.data(), &n));
+        result.push_back(n);
+        for (std::int32_t k = 0; k < n; ++k)
+        {
+          result.insert(result.end(), box[k].lower, box[k].lower + 3);
+          result.insert(result.end(), box[k].upper, box[k].upper + 3);
+        }
+      }
+    return result;
+  }
+
+  template <int dim>
+  void SurfaceExchange<dim>::gather_boxes(abut_context *context,
+                                          const std::vector<Link> &links)
+  {
+    std::vector<double> mine;
+    throw_everywhere<ContactError>(
+        post_.communicator(),
+        failure_of([&] { mine = own_boxes(context, links); }));
+    std::vector<std::size_t> start;
+    const std::vector<double> all = post_.concatenate(mine, start);
+    const std::size_t n_ranks = start.size() - 1;
+    boxes_.assign(2 * links.size(),
+                  std::vector<std::vector<abut_box>>(n_ranks));
+    for (std::size_t rank = 0; rank < n_ranks; ++rank)
+    {
+      const double *place = all.data() + start[rank];
+      for (auto &side : boxes_)
+      {
+        side[rank].resize(static_cast<std::size_t>(*place++));
+        for (abut_box &box : side[rank])
+        {
+          std::copy_n(place, 3, box.lower);
+          std::copy_n(place + 3, 3, box.upper);
+          place += 6;
+        }
+      }
+    }
+  }
+
+  template <int dim>
+  double SurfaceExchange<dim>::distance_bound(const std::size_t link) const
+  {
+    const unsigned int me = MPI::this_mpi_process(post_.communicator());
+    double result = std::numeric_limits<double>::infinity();
+    for (const abut_box &a : boxes_[2 * link][me])
+      for (const auto &side : boxes_[2 * link + 1])
+        for (const abut_box &b : side)
+        {
+          double square = 0.;
+          for (unsigned int d = 0; d < 3; ++d)
+          {
+            const double most =
+                std::max(a.upper[d] - b.lower[d], b.upper[d] - a.lower[d]);
+            square += most * most;
+          }
+          result = std::min(result, std::sqrt(square));
+        }
+    return MPI::min(result, post_.communicator());
+  }
+
+  template <int dim>
+  std::map<unsigned int, std::set<std::int64_t>>
+  SurfaceExchange<dim>::select(abut_context *context, const std::size_t side,
+                               const Link &link,
+                               const abut_search_options &search) const
+  {
+    const unsigned int me = MPI::this_mpi_process(post_.communicator());
+    std::map<unsigned int, std::set<std::int64_t>> result;
+    const Part part = make_part(
+        context, side % 2 == 0 ? link.secondary : link.primary,
+        [&](const FacetRecord &record) { return record.facet.owner == me; });
+    if (part.surface == nullptr)
+      return result;
+    abut_search_options options = search;
+    options.reach = std::max(options.reach, link.reach);
+    options.relative_reach += relative_margin;
+    const auto finder = create_search(context, part.surface.get(), options);
+    abut_surface_sizes sizes;
+    check(context, abut_surface_measure(part.surface.get(), &sizes));
+    // A first look; curved facets may leave the box of their nodes.
+    std::int32_t n = 0;
+    abut_box all;
+    check(context,
+          abut_surface_bounds(
+              part.surface.get(),
+              std::max(options.reach, options.relative_reach * sizes.largest)
+                  + sizes.largest,
+              1, &all, &n));
+    // Near are the facets of the other side.
+    const auto &others = boxes_[side ^ 1];
+    std::vector<std::int32_t> found(part.number.size() + 1);
+    for (unsigned int rank = 0; rank < others.size(); ++rank)
+    {
+      std::vector<abut_box> boxes;
+      for (const abut_box &box : others[rank])
+        if (rank != me && overlap(box, all))
+          boxes.push_back(box);
+      if (boxes.empty())
+        continue;
+      check(context, abut_search_select(finder.get(),
+                                        static_cast<std::int32_t>(boxes.size()),
+                                        boxes.data(), found.data(), &n));
+      for (std::int32_t k = 0; k < n; ++k)
+        result[rank].insert(part.number[found[k]]);
+    }
+    return result;
+  }
+
+  template <int dim>
+  bool SurfaceExchange<dim>::is_known(std::vector<Link> &links,
+                                      const abut_search_options &search) const
+  {
+    bool result = links.size() == links_.size() && search.reach == search_.reach
+                  && search.relative_reach == search_.relative_reach;
+    for (std::size_t i = 0; i < links.size() && result; ++i)
+      result = links[i].secondary == links_[i].secondary
+               && links[i].primary == links_[i].primary
+               && links[i].reach <= links_[i].reach
+               && links[i].margin <= links_[i].margin;
+    if (result)
+      links = links_;
+    return result;
+  }
+
+  template <int dim>
+  void SurfaceExchange<dim>::find_near(abut_context *context,
+                                       const std::vector<Link> &links,
+                                       const abut_search_options &search)
+  {
+    gather_boxes(context, links);
+    std::map<unsigned int, std::set<std::int64_t>> near_ones;
+    const auto select_all = [&]
+    {
+      for (std::size_t side = 0; side < 2 * links.size(); ++side)
+        for (auto &[rank, numbers] :
+             select(context, side, links[side / 2], search))
+          near_ones[rank].merge(numbers);
+    };
+    throw_everywhere<ContactError>(post_.communicator(),
+                                   failure_of(select_all));
+    Mail mail;
+    for (const auto &[rank, numbers] : near_ones)
+      for (const std::int64_t number : numbers)
+        write(facets_.at(number), mail[rank]);
+    for (auto &[rank, parcel] : post_.exchange(mail))
+      while (!parcel.at_end())
+        take(read_facet(parcel), near);
+    add_ring(near, beyond);
+    links_ = links;
+    search_ = search;
+  }
+
+  template <int dim>
+  ContactSurface<dim>
+  SurfaceExchange<dim>::gather(abut_context *context, std::vector<Link> &links,
+                               const abut_search_options &search)
+  {
+    fetch_nodes();
+    if (!is_known(links, search))
+    {
+      find_near(context, links, search);
+      fetch_nodes();
+    }
+    ContactSurface<dim> surface = arrange();
+    share_values(surface);
+    return surface;
+  }
+
+  template <int dim> ContactSurface<dim> SurfaceExchange<dim>::arrange() const
+  {
+    ContactSurface<dim> surface;
+    surface.kind = kind_;
+    surface.n_facets_everywhere = n_facets_everywhere_;
+    surface.node_number_end =
+        n_facets_everywhere_ * ContactSurface<dim>::max_nodes
+        + static_cast<std::int64_t>(dof_handler_.n_dofs());
+    std::vector<const NodeRecord *> nodes;
+    for (const auto &entry : nodes_)
+      nodes.push_back(&entry.second);
+    std::sort(nodes.begin(), nodes.end(),
+              [](const NodeRecord *a, const NodeRecord *b)
+              { return a->node.number < b->node.number; });
+    std::unordered_map<Index, std::int32_t> place;
+    for (const NodeRecord *record : nodes)
+    {
+      place.emplace(record->node.dof[0], place.size());
+      surface.nodes.push_back(record->node);
+      surface.lines.insert(surface.lines.end(), record->lines.begin(),
+                           record->lines.end());
+      surface.parents.push_back(record->parents);
+    }
+    // Parents of a node of a facet are known; a parent does not hang.
+    for (auto &parents : surface.parents)
+      for (Term &parent : parents)
+        parent.index = place.at(parent.index);
+
+    for (const auto &[number, record] : facets_)
+    {
+      surface.facets.push_back(record.facet);
+      for (std::size_t a = 0; a < record.nodes.size(); ++a)
+        surface.facets.back().node[a] = place.at(record.nodes[a]);
+    }
+    std::sort(surface.facets.begin(), surface.facets.end(),
+              [](const Facet &a, const Facet &b)
+              { return a.number < b.number; });
+    return surface;
+  }
+
+  template <int dim>
+  void SurfaceExchange<dim>::share_values(const ContactSurface<dim> &surface)
+  {
+    std::vector<Index> unknowns, nodes;
+    for (const Line &line : surface.lines)
+      for (const Term &term : line.terms)
+        unknowns.push_back(term.index);
+    for (const Node &node : surface.nodes)
+      nodes.push_back(node.dof[0]);
+    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    unknowns_ = SharedValues(owned, std::move(unknowns), post_);
+    marks_ = SharedValues(owned, std::move(nodes), post_);
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  SurfaceExchange<dim>::displacements(const ContactSurface<dim> &surface,
+                                      const la::Vector &u)
+  {
+    unknowns_.fetch(la::data(u), post_);
+    std::vector<dealii::Tensor<1, dim>> result(surface.nodes.size());
+    for (std::size_t n = 0; n < result.size(); ++n)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Line &line = surface.lines[n * dim + d];
+        result[n][d] = line.constant;
+        for (const Term &term : line.terms)
+          result[n][d] += term.factor * unknowns_(term.index);
+      }
+    return result;
+  }
+
+  template <int dim>
+  void SurfaceExchange<dim>::merge_marks(const ContactSurface<dim> &surface,
+                                         std::vector<std::uint8_t> &marks)
+  {
+    const std::size_t n_nodes = surface.nodes.size();
+    const unsigned int n_blocks = MPI::max(
+        n_nodes > 0 ? static_cast<unsigned int>(marks.size() / n_nodes) : 0u,
+        post_.communicator());
+    for (unsigned int block = 0; block < n_blocks; ++block)
+    {
+      marks_.clear();
+      std::uint8_t *mark = marks.data() + block * n_nodes;
+      for (std::size_t n = 0; n < n_nodes; ++n)
+        if (mark[n] != 0)
+          marks_(surface.nodes[n].dof[0]) = 1.;
+      marks_.add_to_owners(post_);
+      marks_.fetch(marks_.owned().data(), post_);
+      for (std::size_t n = 0; n < n_nodes; ++n)
+        mark[n] = marks_(surface.nodes[n].dof[0]) > 0.;
+    }
+  }
+
+  template <int dim>
+  CommunicationReport SurfaceExchange<dim>::communication() const
+  {
+    CommunicationReport report = post_.sent();
+    report.own_facets = own_.size();
+    report.ghost_facets = facets_.size() - own_.size();
+    return report;
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template ContactSurface<dim> SurfaceExchange<dim>::gather(                   \
+      abut_context *, std::vector<Link> &, const abut_search_options &);       \
+  template std::vector<dealii::Tensor<1, dim>>                                 \
+  SurfaceExchange<dim>::displacements(const ContactSurface<dim> &,             \
+                                      const la::Vector &);                     \
+  template void SurfaceExchange<dim>::merge_marks(                             \
+      const ContactSurface<dim> &, std::vector<std::uint8_t> &);               \
+  template CommunicationReport SurfaceExchange<dim>::communication() const;    \
+  template double SurfaceExchange<dim>::distance_bound(std::size_t) const;
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut::shim

@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Bytes and messages that ranks send about contact surfaces.
+
+Finds the pairs of a scene (`abut check`, nothing is solved) on growing meshes
+and numbers of ranks, and writes a table: for the rank that has most, its own
+facets, the facets of other ranks of which it has a copy, what it sent to single
+ranks, and what it received from all of them. Counts do not depend on the
+machine, so that any number of ranks can be run on any number of cores.
+
+    tests/bench/communication.py build/release/abut prm/two-blocks-3d.prm \
+        --levels 2 3 4 --ranks 1 2 4 8 16
+"""
+import argparse
+import math
+import os
+import re
+import subprocess
+
+KEYS = ["dofs", "pair_1_facets", "facets_on_rank", "ghost_facets_on_rank",
+        "communicated_messages", "communicated_bytes", "gathered_bytes"]
+
+
+def environment():
+    result = dict(os.environ, DEAL_II_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    if os.geteuid() == 0:
+        result["OMPI_ALLOW_RUN_AS_ROOT"] = "1"
+        result["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
+    return result
+
+
+def numbers(text, key):
+    """The numbers behind a key of the printed summary."""
+    match = re.search(rf"^\s*{key}\s+(.*)$", text, re.MULTILINE)
+    return [float(n) for n in re.findall(r"[-+.\de]+", match.group(1))]
+
+
+def run(arguments, level, ranks):
+    command = ["mpirun", "--oversubscribe", "-n", str(ranks), arguments.abut,
+               "check", arguments.scene, "--set", f"Refinement/Level={level}",
+               "--set", "Refinement/Nested iteration=false"]
+    for setting in arguments.set:
+        command += ["--set", setting]
+    done = subprocess.run(command, check=True, env=environment(),
+                          capture_output=True, text=True)
+    return {key: numbers(done.stdout, key) for key in KEYS}
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("abut")
+    parser.add_argument("scene")
+    parser.add_argument("--levels", type=int, nargs="+", default=[2, 3, 4])
+    parser.add_argument("--ranks", type=int, nargs="+",
+                        default=[1, 2, 4, 8, 16])
+    parser.add_argument("--set", action="append", default=[],
+                        metavar="SECTION/NAME=VALUE")
+    arguments = parser.parse_args()
+    print("| level | ranks | unknowns | facets | most own | ghosts there at "
+          "most | ghosts / sqrt(own) | messages | kB sent | bytes per ghost "
+          "| kB gathered |")
+    print("|" + "---|" * 11)
+    for level in arguments.levels:
+        for ranks in arguments.ranks:
+            r = run(arguments, level, ranks)
+            own, ghosts = r["facets_on_rank"][1], r["ghost_facets_on_rank"][1]
+            sent = r["communicated_bytes"][0]
+            print(f"| {level} | {ranks} | {r['dofs'][0]:.0f} "
+                  f"| {sum(r['pair_1_facets']):.0f} | {own:.0f} "
+                  f"| {ghosts:.0f} | {ghosts / math.sqrt(max(own, 1)):.1f} "
+                  f"| {r['communicated_messages'][0]:.0f} | {sent / 1e3:.1f} "
+                  f"| {sent / max(ghosts, 1):.0f} "
+                  f"| {r['gathered_bytes'][0] / 1e3:.1f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
