@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Bodies in contact on 1, 2, 3 and 5 ranks: the same forces, and the same
+nodes in contact, wherever the mesh is cut."""
+import json
+import math
+
+import vtu
+from program import Program
+
+RANKS = (1, 2, 3, 5)
+END = """
+subsection Method
+  set Enforcement = lagrange
+  set Final linear tolerance = 1e-12
+end
+"""
+
+# A block on another, turned one: pressed on one edge, lifted on the other, and
+# pushed along, on meshes that are refined where contact ends.
+PUSHED = """
+set Scene = solid
+set Dimension = 3
+subsection Solid
+  set Bodies = 2
+  set Pairs = 1
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 4, 2, 1 : 0, 0, 0 : 2, 1, 0.5 : true
+    set Rotate = 0, 0, 21
+  end
+  set Support = 4: 0, 0, 0
+end
+subsection Body 2
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 3, 3, 1 : 0.37, 0.2, 0.5 : 1.4, 0.9, 1 : true
+  end
+  set Support = 5: 0.03*t, 0.01*t, -0.02*t*(1.1-x)
+end
+subsection Pair 1
+  set Secondary = 2: 4
+  set Primary = 1: 5
+end
+subsection Load steps
+  set Steps = 2
+end
+subsection Refinement
+  set Level = 1
+  set Coarsest level = 1
+  set Adaptive cycles = 1
+end
+""" + END
+
+# A disc that is rolled along a strip: contact begins on one rank and ends on
+# another.
+ROLLED = """
+set Scene = solid
+set Dimension = 2
+subsection Solid
+  set Obstacles = 1
+  set Pairs = 1
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 8, 1 : 0, -1 : 8, 0 : true
+  end
+  set Support = 2: 0, 0
+end
+subsection Obstacle 1
+  set Kind = sphere
+  set Centre = 0, 3
+  set Radius = 3
+  set Motion = 1+1.5*t, -0.05
+end
+subsection Pair 1
+  set Secondary = 1: 3
+  set Obstacle = 1
+end
+subsection Load steps
+  set Steps = 4
+  set End time = 4
+end
+subsection Refinement
+  set Level = 2
+  set Coarsest level = 2
+end
+""" + END
+
+# Two blocks of as many cells, so that on two ranks each has one.
+APART = """
+set Scene = solid
+set Dimension = 3
+subsection Solid
+  set Bodies = 2
+  set Pairs = 1
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 4, 2, 1 : 0, 0, 0 : 1, 1, 1 : true
+  end
+  set Support = 4: 0, 0, 0
+end
+subsection Body 2
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 1, 2, 4 : 0, 0, 1 : 1, 1, 2 : true
+  end
+  set Support = 5: 0, 0, -0.02*(1.1-x)
+end
+subsection Pair 1
+  set Secondary = 1: 5
+  set Primary = 2: 4
+end
+subsection Refinement
+  set Level = 1
+  set Coarsest level = 1
+end
+""" + END
+
+p = Program()
+
+
+def size(values):
+    return math.sqrt(sum(v * v for v in values))
+
+
+def near(one, other, scale, tolerance):
+    return (len(one) == len(other) and scale > 0
+            and size(a - b for a, b in zip(one, other)) <= tolerance * scale)
+
+
+def solve(name, text, ranks):
+    """Summary and what ranks have written of contact, by load step."""
+    out = f"{name}-{ranks}"
+    result = p.call("run", p.write(name + ".prm", text), "--quiet", "--output",
+                    out, ranks=ranks)
+    p.expect(result.returncode == 0, f"{out}: {result.stderr}")
+    steps = [vtu.pieces(path)
+             for path in sorted((p.folder / out).glob("contact_*.vtu"))]
+    return json.loads((p.folder / out / "summary.json").read_text()), steps
+
+
+def nodes(pieces):
+    """States of contact by node of the undeformed mesh: 1 in contact, 0 open,
+    -1 without a row; between, where the node hangs."""
+    result = {}
+    for piece in pieces:
+        for point, state in zip(piece.points, piece.fields["status"]):
+            place = tuple(round(x, 4) for x in point)
+            result.setdefault(place, set()).add(round(state, 3))
+    return result
+
+
+def compare(name, text, n_steps):
+    """Solve on all numbers of ranks; returns what each had."""
+    runs = {ranks: solve(name, text, ranks) for ranks in RANKS}
+    one, steps = runs[1]
+    force = size(one["pair_1_force"])
+    p.expect(len(steps) == n_steps, f"{name}: {len(steps)} steps")
+    for ranks in RANKS[1:]:
+        other, other_steps = runs[ranks]
+        here = f"{name} on {ranks} ranks: "
+        for key in ("dofs", "cells", "pair_1_rows", "pair_1_active"):
+            p.expect(other[key] == one[key],
+                     f"{here}{key} {other[key]} is not {one[key]}")
+        for key in ("pair_1_force", "pair_1_moment", "reaction_1"):
+            p.expect(near(other[key], one[key], force, 1e-8),
+                     f"{here}{key} {other[key]} is not {one[key]}")
+        p.close(other["energy"] / one["energy"], 1, 1e-8, here + "energy")
+        p.expect(other["force_imbalance"] <= 1e-11, here + "balance")
+        for step, (mine, first) in enumerate(zip(other_steps, steps)):
+            p.expect(nodes(mine) == nodes(first),
+                     f"{here}nodes in contact at step {step + 1}")
+        p.expect(len(other_steps) == len(steps), here + "steps")
+    return runs
+
+
+def ranks_in_contact(pieces):
+    return [k for k, piece in enumerate(pieces)
+            if max(piece.fields["status"]) == 1.]
+
+
+def facet_sizes(pieces):
+    """Diagonals of the facets of either side: those without rows are of the
+    primary."""
+    sizes = {False: set(), True: set()}
+    for piece in pieces:
+        for cell in piece.cells:
+            corners = [piece.points[v] for v in cell]
+            rows = max(piece.fields["status"][v] for v in cell) > -1
+            sizes[rows].add(max(round(math.dist(a, b), 3) for a in corners
+                                for b in corners))
+    return sizes
+
+
+def check_pushed():
+    runs = compare("pushed", PUSHED, 2)
+    for ranks in RANKS[1:]:
+        summary, steps = runs[ranks]
+        p.expect(len(steps[-1]) >= 2 and len(ranks_in_contact(steps[-1])) >= 2,
+                 f"contact is cut by {ranks} ranks")
+        p.expect(0 < summary["pair_1_active"] < summary["pair_1_rows"],
+                 "a part is in contact")
+    sizes = facet_sizes(runs[1][1][-1])
+    p.expect(all(len(side) >= 2 for side in sizes.values()),
+             f"hanging nodes on both sides: {sizes}")
+
+
+def check_rolled():
+    runs = compare("rolled", ROLLED, 4)
+    for ranks in RANKS[2:]:
+        places = [ranks_in_contact(pieces) for pieces in runs[ranks][1]]
+        p.expect(len(places) == 4 and places[0] and places[-1]
+                 and max(places[0]) < min(places[-1]),
+                 f"contact moves over {ranks} ranks: {places}")
+
+
+def check_apart():
+    runs = compare("apart", APART, 1)
+    pieces = runs[2][1][-1]
+    states = [set(piece.fields["status"]) for piece in pieces]
+    p.expect(len(states) == 2 and -1. not in states[0] and states[1] == {-1.},
+             f"a body each: {states}")
+    p.expect(runs[2][0]["ghost_facets_on_rank"][0] > 0, "facets of the other")
+
+
+check_pushed()
+check_rolled()
+check_apart()
+p.finish()
