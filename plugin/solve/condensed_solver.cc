@@ -25,7 +25,7 @@ namespace abut::solve
     /** Springs that are stiffer than the body by more than this are beyond
      * multigrid alone; those above the second number are then filtered, and
      * soft in the multigrid method. */
-    constexpr double stiff = 50.;
+    constexpr double stiff = 20.;
     constexpr double filtered = 5.;
 
     /** Whether x.A y = y.A x for two vectors without structure. */

@@ -7,6 +7,68 @@
 namespace abut::solve
 {
   using dealii::TrilinosWrappers::PreconditionAMG;
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Positions about their centre, as parts of the largest distance. */
+    std::vector<dealii::Tensor<1, 3>>
+    relative_positions(const NearNullSpace &space, const MPI_Comm communicator)
+    {
+      double sum[4] = {0., 0., 0., 0.}; // of positions, and how many
+      for (const dealii::Point<3> &point : space.point)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          sum[d] += point[d];
+        sum[3] += 1.;
+      }
+      MPI::sum(sum, communicator, sum);
+      const dealii::Point<3> centre(sum[0] / sum[3], sum[1] / sum[3],
+                                    sum[2] / sum[3]);
+      std::vector<dealii::Tensor<1, 3>> result;
+      double size = 0.;
+      for (const dealii::Point<3> &point : space.point)
+      {
+        result.push_back(point - centre);
+        size = std::max(size, result.back().norm());
+      }
+      size = MPI::max(size, communicator);
+      for (dealii::Tensor<1, 3> &x : result)
+        x /= size > 0. ? size : 1.;
+      return result;
+    }
+
+    /** Translations along all axes and, if it is known where unknowns sit,
+     * rotations in all planes of two axes. One centre does for all bodies:
+     * aggregates are parts of bodies, on which rotations about different
+     * centres differ by translations. */
+    Epetra_MultiVector rigid_motions(const la::Matrix &matrix,
+                                     const NearNullSpace &space)
+    {
+      const unsigned int dim = space.n_components;
+      const bool rotates =
+          MPI::max(space.point.empty() ? 0u : 1u, matrix.get_mpi_communicator())
+          > 0;
+      const unsigned int n_rotations = rotates ? dim * (dim - 1) / 2 : 0;
+      Epetra_MultiVector modes(matrix.trilinos_matrix().DomainMap(),
+                               static_cast<int>(dim + n_rotations));
+      for (std::size_t i = 0; i < space.component.size(); ++i)
+        modes[space.component[i]][i] = 1.;
+      if (!rotates)
+        return modes;
+      const auto x = relative_positions(space, matrix.get_mpi_communicator());
+      for (std::size_t i = 0; i < space.component.size(); ++i)
+        for (unsigned int a = 0, mode = dim; a < dim; ++a)
+          for (unsigned int b = a + 1; b < dim; ++b, ++mode)
+          {
+            if (space.component[i] == a)
+              modes[mode][i] = -x[i][b];
+            if (space.component[i] == b)
+              modes[mode][i] = x[i][a];
+          }
+      return modes;
+    }
+  } // namespace
 
   std::unique_ptr<PreconditionAMG>
   make_multigrid(const la::Matrix &matrix, const SolverParameters &parameters,
@@ -27,13 +89,13 @@ namespace abut::solve
     // aggregates of single unknowns need a third fewer iterations than those
     // of whole nodes.
     data.aggregation_threshold = 0.;
-    const std::size_t n = space.component.size();
-    data.constant_modes.assign(space.n_components, std::vector<bool>(n, false));
-    for (std::size_t i = 0; i < n; ++i)
-      data.constant_modes[space.component[i]][i] = true;
     Teuchos::ParameterList list;
-    std::unique_ptr<Epetra_MultiVector> modes;
-    data.set_parameters(list, modes, matrix);
+    std::unique_ptr<Epetra_MultiVector> unused;
+    data.set_parameters(list, unused, matrix);
+    Epetra_MultiVector modes = rigid_motions(matrix, space);
+    list.set("null space: type", "pre-computed");
+    list.set("null space: dimension", modes.NumVectors());
+    list.set("null space: vectors", modes.Values());
     multigrid->initialize(matrix, list);
     return multigrid;
   }

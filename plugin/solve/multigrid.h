@@ -11,8 +11,10 @@
 
 namespace abut::solve
 {
-  /** ML's smoothed aggregation for @p matrix, with the translations of the
-   * near-null space as coarse functions. The matrix must outlive the result.
+  /** ML's smoothed aggregation for @p matrix, with the rigid motions of the
+   * near-null space as coarse functions: of displacements the translations
+   * and, where positions are known, the rotations, which halve the number of
+   * iterations. The matrix must outlive the result.
    * Collective. */
   std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG>
   make_multigrid(const la::Matrix &matrix, const SolverParameters &parameters,

@@ -18,7 +18,7 @@ namespace abut::solve
    * D = B^T diag(w b/a) B.
    * Iteratively: FGMRES with the block-triangular preconditioner of the
    * augmented system, one ML cycle for K + D + gamma s W B^T B and the
-   * diagonal w / ((1 + gamma) s) for the Schur complement, s being the local
+   * diagonal 3 w / ((1 + gamma) s) for the Schur complement, s being the local
    * stiffness. Directly: a factorisation of the whole by Amesos. */
   class SaddlePoint : public RowSolver
   {

@@ -32,7 +32,7 @@ namespace abut
     unsigned int smoother_sweeps = 2;
     /** Saddle point: augmentation of the leading block as a multiple of the
      * local stiffness. */
-    double augmentation = 1.;
+    double augmentation = 3.;
 
     /** Whether a system of @p n_unknowns of a field with @p n_components is to
      * be factorised. */
