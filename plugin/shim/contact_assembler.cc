@@ -106,6 +106,12 @@ namespace abut
       const dealii::AffineConstraints<double> &constraints)
   {
     Implementation &i = *implementation;
+    namespace MPI = dealii::Utilities::MPI;
+    AssertThrow(MPI::n_mpi_processes(i.communicator)
+                    == MPI::n_mpi_processes(dof_handler.get_communicator()),
+                ExcMessage("The communicator given to ContactAssembler must be "
+                           "that of the triangulation: MPI_COMM_SELF for one "
+                           "that is not distributed."));
     AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(),
                 ExcMessage("The unknowns of a rank must be numbered "
                            "consecutively."));
@@ -131,11 +137,26 @@ namespace abut
     if (i.source_is_outdated)
       i.create_source();
     i.find_rows(displacement);
-    i.is_started = false;
-    i.was_added = false;
     i.start_state.clear();
-    i.start_displacement = displacement;
-    i.compute_gap(displacement);
+    i.starts_from_present = false;
+    i.iteration_tolerance = 0.;
+    i.begin_at(displacement);
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::restart(const la::Vector &displacement,
+                                      const double linear_tolerance)
+  {
+    Implementation &i = *implementation;
+    i.check_rows("restart()");
+    AssertThrow(!i.is_nitsche(), ExcMessage("Nitsche's method is for linear "
+                                            "elastic bodies: do not call "
+                                            "restart() with it."));
+    if (i.is_started)
+      i.start_from_present();
+    i.iteration_tolerance = linear_tolerance;
+    i.has_new_matrix = true;
+    i.begin_at(displacement);
   }
 
   template <int dim>
@@ -183,8 +204,7 @@ namespace abut
                                             la::Vector &increment)
   {
     Implementation &i = *implementation;
-    AssertThrow(i.view.row_start != nullptr || i.n_rows == 0,
-                ExcMessage("Call detect() before solve()."));
+    i.check_rows("solve()");
     i.prepare_solver(matrix);
     AssertThrow(!i.is_started || i.request.action == ABUT_ACTION_SOLVE,
                 ExcMessage("The contact iteration has stopped: call detect() "
@@ -271,6 +291,20 @@ namespace abut
     }
     i.next();
     return i.request.action != ABUT_ACTION_STOP;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::add_contact_forces(la::Vector &forces) const
+  {
+    const Implementation &i = *implementation;
+    i.check_rows("add_contact_forces()");
+    AssertThrow(!i.is_nitsche(), ExcMessage("The forces of Nitsche's method "
+                                            "are not those of its pressures "
+                                            "alone."));
+    std::vector<double> force = i.row_pressures();
+    for (int row = 0; row < i.view.n_rows; ++row)
+      force[row] *= i.view.weight[row];
+    i.coefficients.add_transposed(force.data(), forces);
   }
 
   template <int dim> abut_reason ContactAssembler<dim>::reason() const

@@ -95,6 +95,14 @@ namespace abut
     return *source;
   }
 
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::check_rows(
+      const std::string &function) const
+  {
+    AssertThrow(view.row_start != nullptr || n_rows == 0,
+                ExcMessage("Call detect() before " + function + "."));
+  }
+
   template <int dim> void ContactAssembler<dim>::Implementation::create_source()
   {
     surfaces = nullptr;
@@ -298,13 +306,40 @@ namespace abut
   }
 
   template <int dim>
+  void ContactAssembler<dim>::Implementation::start_from_present()
+  {
+    start_pressure = row_pressures();
+    for (int i = 0; i < view.n_rows; ++i)
+      if (view.bilateral[i] == 0)
+        start_pressure[i] = std::max(0., start_pressure[i]);
+    starts_from_present = true;
+    start_state.clear();
+    if ((method.options.law->flags & ABUT_LAW_INTERIOR) == 0)
+      start_state.assign(request.state, request.state + view.n_rows);
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::begin_at(
+      const la::Vector &displacement)
+  {
+    is_started = false;
+    was_added = false;
+    start_displacement = displacement;
+    compute_gap(displacement);
+  }
+
+  template <int dim>
   void ContactAssembler<dim>::Implementation::begin(const la::Matrix &matrix,
                                                     const la::Vector &residual)
   {
     set_scales(matrix, residual);
     method.options.reduce = reduce_over_ranks;
     method.options.user = const_cast<MPI_Comm *>(&communicator);
-    strategy = shim::create_strategy(context.get(), method.options);
+    abut_strategy_options options = method.options;
+    if (iteration_tolerance > 0.)
+      options.linear_tolerance = options.final_linear_tolerance =
+          iteration_tolerance;
+    strategy = shim::create_strategy(context.get(), options);
 
     stiffness = solve::row_stiffness(matrix, coefficients);
     if (is_nitsche())
@@ -315,7 +350,7 @@ namespace abut
     }
     else if (surfaces != nullptr && is_penalty(*method.options.law))
       surfaces->make_uniform(stiffness);
-    if (surfaces != nullptr && start_state.empty()
+    if (surfaces != nullptr && !starts_from_present
         && (method.options.law->flags & ABUT_LAW_INTERIOR) == 0)
     {
       std::vector<double> scale(stiffness);
@@ -346,7 +381,13 @@ namespace abut
       const la::Matrix &matrix)
   {
     if (solver != nullptr && constant_matrix)
+    {
+      if (has_new_matrix)
+        solver->renew(matrix, view);
+      has_new_matrix = false;
       return;
+    }
+    has_new_matrix = false;
     if (solver == nullptr)
     {
       if (is_nitsche())

@@ -25,6 +25,8 @@ namespace abut
     void check(const abut_status status) const;
     /** The source of the present rows; throws if there is none. */
     const shim::RowSource &present_source() const;
+    /** Throw if there are no rows for @p function. */
+    void check_rows(const std::string &function) const;
     void create_source();
     /** Keep the counts of an exchange that is about to go. */
     void count_messages();
@@ -41,6 +43,9 @@ namespace abut
     double length_scale() const;
     /** Length by pressure: inverse mean of the rows' stiffness. */
     double softness(const la::Matrix &matrix) const;
+    /** Make what has been reached the start of the next iteration. */
+    void start_from_present();
+    void begin_at(const la::Vector &displacement);
     void begin(const la::Matrix &matrix, const la::Vector &residual);
     solve::NearNullSpace near_null_space() const;
     void prepare_solver(const la::Matrix &matrix);
@@ -85,10 +90,13 @@ namespace abut
     std::vector<double> start_pressure;    ///< [rows] of it, at least 0 unless
                                            ///< bilateral; empty: 0
     std::vector<std::uint8_t> start_state; ///< [rows]; empty: from p and g
+    bool starts_from_present = false;      ///< that of the last iteration
     la::Vector start_displacement;
     std::vector<double> gap;       ///< [rows] at the present displacement
     std::vector<double> stiffness; ///< [rows] pressure per length
     double smallest_residual = 0.;
+    double iteration_tolerance = 0.; ///< of linear systems; 0: the method's
+    bool has_new_matrix = false;     ///< since the last solve
 
     /** Null until the first solve with the present rows. */
     std::unique_ptr<solve::RowSolver> solver;

@@ -17,6 +17,8 @@ namespace abut::solve
      * built anew, and the factor that counts as a change. */
     constexpr double rebuild_fraction = 0.08;
     constexpr double rebuild_factor = 3.;
+    /** No residual falls below this part of the first one. */
+    constexpr double round_off = 1e-15;
 
     void zero_held(const Mask &mask, la::Vector &vector)
     {
@@ -49,6 +51,18 @@ namespace abut::solve
     is_built_ = false;
     amg_.reset();
     direct_.reset();
+  }
+
+  void MaskedSolver::renew(const la::Matrix &matrix)
+  {
+    if (&matrix != matrix_ || !is_built_ || is_direct())
+    {
+      reinit(matrix);
+      return;
+    }
+    diagonal_ = la::diagonal(la::local_rows(matrix));
+    if (!is_plain_)
+      cut_off(cut_, built_mask_, true);
   }
 
   bool MaskedSolver::is_direct() const
@@ -236,15 +250,17 @@ namespace abut::solve
 
     la::Vector correction(residual);
     correction = 0.;
-    if (residual.l2_norm() > tolerance)
+    const double norm = residual.l2_norm();
+    if (norm > tolerance)
     {
       if (is_direct())
         direct_->solve(correction, residual);
       else
       {
-        const double digits = std::log10(residual.l2_norm() / tolerance);
+        const double reachable = std::max(tolerance, round_off * norm);
+        const double digits = std::log10(norm / reachable);
         report.n_iterations =
-            solve_iteratively(mask, residual, tolerance, correction);
+            solve_iteratively(mask, residual, reachable, correction);
         report.n_matvecs += report.n_iterations;
         note_speed(digits / std::max(1u, report.n_iterations));
       }

@@ -114,6 +114,10 @@ namespace abut::solve
      */
     void reinit(const la::Matrix &matrix);
 
+    /** Take new values of the same pattern: a multigrid is kept until it is
+     * slow. */
+    void renew(const la::Matrix &matrix);
+
     /** Solve with the Euclidean norm of the residual on the free unknowns
      * at most @p tolerance. @p x holds the values of held unknowns and a
      * start for the free ones; @p start_is_zero says that all of it is 0.

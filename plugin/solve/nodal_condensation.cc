@@ -48,6 +48,15 @@ namespace abut::solve
     }
   }
 
+  void NodalCondensation::renew(const la::Matrix &stiffness,
+                                const abut_rows_view &rows)
+  {
+    if (&stiffness != stiffness_)
+      reinit(stiffness, rows);
+    else
+      solver_.renew(stiffness);
+  }
+
   void NodalCondensation::fill_mask(const abut_request &request)
   {
     const std::size_t n = solver_.diagonal().size();
@@ -105,6 +114,13 @@ namespace abut::solve
     return dealii::Utilities::MPI::max(largest,
                                        stiffness_->get_mpi_communicator())
            == 0.;
+  }
+
+  double NodalCondensation::load_by_held(const la::Vector &increment) const
+  {
+    la::Vector force(increment);
+    stiffness_->vmult(force, increment);
+    return solver_.load(mask_, force);
   }
 
   void NodalCondensation::recover(const la::Vector &residual,
@@ -174,8 +190,11 @@ namespace abut::solve
     fill_right_hand_side(residual, request, rhs);
     const bool start_is_zero = fill_held_values(request, increment);
 
-    const double tolerance = std::max(
-        request.linear_tolerance * solver_.load(mask_, rhs), smallest_residual);
+    double load = solver_.load(mask_, rhs);
+    if (load == 0. && !start_is_zero)
+      load = load_by_held(increment);
+    const double tolerance =
+        std::max(request.linear_tolerance * load, smallest_residual);
     LinearReport report =
         solver_.solve(mask_, rhs, tolerance, increment, start_is_zero);
     recover(residual, request, increment);

@@ -24,6 +24,9 @@ namespace abut::solve
     void reinit(const la::Matrix &stiffness,
                 const abut_rows_view &rows) override;
 
+    void renew(const la::Matrix &stiffness,
+               const abut_rows_view &rows) override;
+
     LinearReport solve(const la::Vector &residual, const abut_request &request,
                        double smallest_residual,
                        la::Vector &increment) override;
@@ -35,6 +38,8 @@ namespace abut::solve
                               la::Vector &rhs) const;
     bool fill_held_values(const abut_request &request,
                           la::Vector &increment) const;
+    /** The load when there is none but the held values of @p increment. */
+    double load_by_held(const la::Vector &increment) const;
     void recover(const la::Vector &residual, const abut_request &request,
                  const la::Vector &increment);
 

@@ -39,6 +39,14 @@ namespace abut::solve
     virtual void reinit(const la::Matrix &stiffness,
                         const abut_rows_view &rows) = 0;
 
+    /** The same when only the values of the matrix are new, and not very
+     * different: a preconditioner may be kept as long as it is good.
+     * Collective. */
+    virtual void renew(const la::Matrix &stiffness, const abut_rows_view &rows)
+    {
+      reinit(stiffness, rows);
+    }
+
     /** Solve with relative tolerance request.linear_tolerance for the
      * residual on the free unknowns, but not below
      * @p smallest_residual. Writes dp and dg into the request's arrays.

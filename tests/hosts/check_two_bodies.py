@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The example two-bodies: the same on all numbers of ranks, equal forces on
-both bodies, and on its first mesh the force that the program finds for the
-same scene."""
+both bodies, the same when contact is loaded at run time instead of linked, and
+on its first mesh the same as the program finds for the same scene."""
 import argparse
 import json
 import os
@@ -26,10 +26,13 @@ def cycles(program, words, ranks, folder):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", required=True)
+    parser.add_argument("--loaded", required=True)
+    parser.add_argument("--plugin", required=True)
     parser.add_argument("--abut", required=True)
     parser.add_argument("--scene", required=True)
     arguments = parser.parse_args()
     failures = []
+    os.environ["ABUT_PLUGIN"] = arguments.plugin
 
     def expect(condition, message):
         if not condition:
@@ -46,6 +49,12 @@ def main():
                 expect(force > 0, f"{what}: force {force}")
                 expect(imbalance < 1e-11, f"{what}: imbalance {imbalance}")
                 expect(steps <= 5, f"{what}: {steps} steps")
+            for one, other in zip(serial, cycles(arguments.loaded, words, 1,
+                                                 folder)):
+                what = f"{dim}D, {one[0]} unknowns, loaded at run time"
+                expect(one[:4] == other[:4], f"{what}: {other}, not {one}")
+                expect(abs(one[4] - other[4]) <= 1e-12 * one[4],
+                       f"{what}: force {other[4]}, not {one[4]}")
             for ranks in (2, 3) if dim == "2" else (2,):
                 for one, other in zip(serial, cycles(arguments.program, words,
                                                      ranks, folder)):

@@ -17,9 +17,11 @@ namespace abut::hosts
   }
 
   /** Solve, print, and compare all errors with @p bound. */
-  template <int dim> bool passes(const Case &run, const double bound)
+  template <int dim,
+            class Mesh = dealii::parallel::distributed::Triangulation<dim>>
+  bool passes(const Case &run, const double bound)
   {
-    const Errors errors = TwoBlocks<dim>(run).solve();
+    const Errors errors = TwoBlocks<dim, Mesh>(run).solve();
     if (MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << run.name << ": " << errors.n_rows << " rows, "
                 << errors.n_active << " in contact, " << errors.steps

@@ -174,17 +174,20 @@ namespace abut::hosts
   };
 
   /** The program. */
-  template <int dim> class TwoBlocks
+  template <int dim,
+            class Mesh = dealii::parallel::distributed::Triangulation<dim>>
+  class TwoBlocks
   {
   public:
     explicit TwoBlocks(const Case &run)
         : run_(run),
-          triangulation_(MPI_COMM_WORLD),
+          triangulation_(make_triangulation()),
+          communicator_(triangulation_->get_communicator()),
           fe_(dealii::FE_Q<dim>(run.degree), dim),
           mapping_(1),
           rotation_(rotation<dim>(!run.pressed)),
-          dof_handler_(triangulation_),
-          contact_(MPI_COMM_WORLD)
+          dof_handler_(*triangulation_),
+          contact_(communicator_)
     {
     }
 
@@ -218,7 +221,7 @@ namespace abut::hosts
     /** Displacement 0, or @p lift of the upper block along the normal. */
     la::Vector displacement(const double lift = 0.) const
     {
-      la::Vector u(owned_, MPI_COMM_WORLD);
+      la::Vector u(owned_, communicator_);
       Tensor<1, dim> normal;
       normal[dim - 1] = lift;
       normal = rotation_ * normal;
@@ -239,7 +242,7 @@ namespace abut::hosts
     Errors solve()
     {
       prepare({pair()});
-      la::Vector u(owned_, MPI_COMM_WORLD), residual(u), increment(u);
+      la::Vector u(owned_, communicator_), residual(u), increment(u);
       constraints_.distribute(u);
       contact_.detect(u);
       Errors errors;
@@ -330,7 +333,7 @@ namespace abut::hosts
       }
       for (Point<dim> &p : vertices)
         p = Point<dim>(rotation_ * Tensor<1, dim>(p));
-      triangulation_.create_triangulation(vertices, cells, faces);
+      triangulation_->create_triangulation(vertices, cells, faces);
       if (!run_.pressed)
         refine();
     }
@@ -341,7 +344,7 @@ namespace abut::hosts
       const Tensor<2, dim> back = transpose(rotation_);
       for (int cycle = 0; cycle < 2; ++cycle)
       {
-        for (const auto &cell : triangulation_.active_cell_iterators())
+        for (const auto &cell : triangulation_->active_cell_iterators())
           if (cell->is_locally_owned())
           {
             const Tensor<1, dim> x = back * Tensor<1, dim>(cell->center());
@@ -349,7 +352,7 @@ namespace abut::hosts
             if (x[0] < towards && x[0] > 0.2 && std::abs(x[dim - 1]) < 0.5)
               cell->set_refine_flag();
           }
-        triangulation_.execute_coarsening_and_refinement();
+        triangulation_->execute_coarsening_and_refinement();
         if (dim == 3)
           return;
       }
@@ -363,7 +366,7 @@ namespace abut::hosts
       constraints_.reinit(relevant_);
       dealii::DoFTools::make_hanging_node_constraints(dof_handler_,
                                                       constraints_);
-      n_hanging_ = MPI::sum(constraints_.n_constraints(), MPI_COMM_WORLD);
+      n_hanging_ = MPI::sum(constraints_.n_constraints(), communicator_);
       if (run_.pressed)
         let_slide();
       else
@@ -373,9 +376,9 @@ namespace abut::hosts
       dealii::DoFTools::make_sparsity_pattern(dof_handler_, pattern,
                                               constraints_, false);
       dealii::SparsityTools::distribute_sparsity_pattern(
-          pattern, owned_, MPI_COMM_WORLD, relevant_);
-      stiffness_.reinit(owned_, owned_, pattern, MPI_COMM_WORLD);
-      load_.reinit(owned_, MPI_COMM_WORLD);
+          pattern, owned_, communicator_, relevant_);
+      stiffness_.reinit(owned_, owned_, pattern, communicator_);
+      load_.reinit(owned_, communicator_);
     }
 
     /** Top and bottom follow the exact displacement. */
@@ -484,7 +487,7 @@ namespace abut::hosts
 
     void measure(const la::Vector &u, Errors &errors) const
     {
-      la::Vector ghosted(owned_, relevant_, MPI_COMM_WORLD);
+      la::Vector ghosted(owned_, relevant_, communicator_);
       ghosted = u;
       const auto results = contact_.pair_results();
       errors.reason = contact_.reason();
@@ -547,10 +550,10 @@ namespace abut::hosts
                 std::max(errors.displacement, (value[q] - e).norm());
           }
         }
-      errors.stress = MPI::max(errors.stress, MPI_COMM_WORLD);
-      errors.normal_stress = MPI::max(errors.normal_stress, MPI_COMM_WORLD);
-      errors.displacement = MPI::max(errors.displacement, MPI_COMM_WORLD)
-                            / MPI::max(scale, MPI_COMM_WORLD);
+      errors.stress = MPI::max(errors.stress, communicator_);
+      errors.normal_stress = MPI::max(errors.normal_stress, communicator_);
+      errors.displacement = MPI::max(errors.displacement, communicator_)
+                            / MPI::max(scale, communicator_);
     }
 
     /** p n must be the secondary's outward normal wherever there is a row. */
@@ -558,7 +561,7 @@ namespace abut::hosts
     {
       const la::Vector p = contact_.pressure(), status = contact_.status();
       const double mean = mean_pressure(errors);
-      la::Vector pressure(owned_, relevant_, MPI_COMM_WORLD), has(pressure);
+      la::Vector pressure(owned_, relevant_, communicator_), has(pressure);
       pressure = p;
       has = status;
       Tensor<1, dim> normal;
@@ -583,11 +586,21 @@ namespace abut::hosts
                                 * normal[fe_.face_system_to_component_index(i)
                                              .first]));
             }
-      errors.pressure = MPI::max(errors.pressure, MPI_COMM_WORLD);
+      errors.pressure = MPI::max(errors.pressure, communicator_);
+    }
+
+    /** A mesh that is not distributed is that of each rank alone. */
+    static std::unique_ptr<Mesh> make_triangulation()
+    {
+      if constexpr (std::is_constructible_v<Mesh, MPI_Comm>)
+        return std::make_unique<Mesh>(MPI_COMM_WORLD);
+      else
+        return std::make_unique<Mesh>();
     }
 
     const Case run_;
-    dealii::parallel::distributed::Triangulation<dim> triangulation_;
+    const std::unique_ptr<Mesh> triangulation_;
+    const MPI_Comm communicator_;
     const dealii::FESystem<dim> fe_;
     const dealii::MappingQ<dim> mapping_;
     const Tensor<2, dim> rotation_;

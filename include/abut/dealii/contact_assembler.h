@@ -114,7 +114,7 @@ namespace abut
     set_normal_stress(std::shared_ptr<const NormalStress<dim>> normal_stress);
 
     /** Say that the matrix given to solve() is the same until the next
-     * reinit(): preconditioners are then kept. Default: false. Not
+     * reinit() or restart(): preconditioners are then kept. Default: false. Not
      * collective. */
     virtual void assume_constant_matrix(bool constant);
 
@@ -134,6 +134,17 @@ namespace abut
      * or the reach given, whichever is most. Pressures of the last solve, or
      * those of set_pressure(), are its start. */
     virtual void detect(const la::Vector &displacement);
+
+    /** Begin a new iteration at @p displacement with the rows of the last
+     * detect(), from the pressures and the set reached so far: for Newton's
+     * method, where each linearisation is a contact problem of its own, see
+     * ContactSolver. The next matrix may have other values even if it was
+     * said to be constant; a preconditioner is kept while it is good. Not for
+     * `nitsche`, whose stress is linear.
+     * @param linear_tolerance relative tolerance of the linear systems of this
+     *   iteration; 0: as the parameters say */
+    virtual void restart(const la::Vector &displacement,
+                         double linear_tolerance = 0.);
 
     /** Pressure to start from, in the form of pressure(), for example
      * interpolated from a coarser mesh. Call between reinit() and detect(). */
@@ -172,6 +183,11 @@ namespace abut
      * and parameters. Returns whether another step is needed; if not,
      * reason() tells why. */
     virtual bool update(const la::Vector &displacement);
+
+    /** Add the present contact forces sum w p B to @p forces: in equilibrium
+     * they are the residual R at unknowns that are free. Throws for nitsche.
+     */
+    virtual void add_contact_forces(la::Vector &forces) const;
 
     /** Why the iteration stopped. Not collective. */
     virtual abut_reason reason() const;

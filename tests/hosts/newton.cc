@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// ContactSolver with a nonlinear material: two blocks of different material and
+// mesh, held sideways, pressed together. Strain and stress are uniform in each,
+// and follow from one scalar equation. What cannot be solved is told apart.
+#include "patch.h"
+
+#include <abut/dealii/contact_solver.h>
+
+#include <functional>
+
+using namespace abut;
+
+namespace
+{
+  /** stress = (lambda + c tr^2) tr I + 2 mu strain. */
+  struct Stiffening
+  {
+    double lambda, mu, c;
+
+    /** With the strain e along one axis alone. */
+    double uniaxial(const double e) const
+    {
+      return (lambda + 2. * mu) * e + c * e * e * e;
+    }
+  };
+
+  constexpr Stiffening materials[] = {{3., 2., 60.}, {1., 4., 20.}};
+  constexpr double distance = 0.05, shortening = 0.2;
+
+  /** The pressure at which both blocks are as short as they have to be. */
+  double exact_pressure()
+  {
+    double low = 0., high = shortening;
+    for (int i = 0; i < 100; ++i)
+    {
+      const double e = 0.5 * (low + high);
+      (materials[0].uniaxial(e) < materials[1].uniaxial(shortening - e)
+           ? low
+           : high) = e;
+    }
+    return materials[0].uniaxial(low);
+  }
+
+  class Blocks
+  {
+  public:
+    explicit Blocks(const bool held = true)
+        : triangulation_(MPI_COMM_WORLD),
+          fe_(dealii::FE_Q<2>(1), 2),
+          mapping_(1),
+          dof_handler_(triangulation_),
+          contact(MPI_COMM_WORLD)
+    {
+      make_mesh();
+      setup(held);
+      ContactPair<2> pair;
+      pair.name = "interface";
+      pair.secondary = {hosts::upper_interface};
+      pair.primary = {hosts::lower_interface};
+      pair.reach = 2. * distance;
+      contact.set_pairs({pair});
+      contact.reinit(mapping_, dof_handler_, constraints);
+      u.reinit(owned_, MPI_COMM_WORLD);
+    }
+
+    HostProblem problem()
+    {
+      HostProblem problem;
+      problem.residual = [this](const la::Vector &at, la::Vector &residual)
+      { assemble(at, nullptr, &residual); };
+      problem.tangent = [this](const la::Vector &at) -> const la::Matrix &
+      {
+        assemble(at, &tangent_, nullptr);
+        return tangent_;
+      };
+      return problem;
+    }
+
+    dealii::AffineConstraints<double> constraints;
+    la::Vector u;
+
+  private:
+    void make_mesh()
+    {
+      dealii::Triangulation<2> lower, upper, both;
+      const auto block = [](dealii::Triangulation<2> &mesh,
+                            const unsigned int n, const double from)
+      {
+        dealii::GridGenerator::subdivided_hyper_rectangle(
+            mesh, {n, n}, dealii::Point<2>(0., from),
+            dealii::Point<2>(1., from + 1.));
+      };
+      block(lower, 3, -1. - distance);
+      block(upper, 4, 0.);
+      for (const auto &cell : upper.active_cell_iterators())
+        cell->set_material_id(1);
+      dealii::GridGenerator::merge_triangulations(lower, upper, both);
+      for (const auto &face : both.active_face_iterators())
+        if (face->at_boundary())
+        {
+          const double y = face->center()[1];
+          face->set_boundary_id(y < -0.999 - distance ? hosts::bottom
+                                : std::abs(y + distance) < 1e-9
+                                    ? hosts::lower_interface
+                                : std::abs(y) < 1e-9 ? hosts::upper_interface
+                                : y > 0.999          ? hosts::top
+                                                     : hosts::free_side);
+        }
+      triangulation_.copy_triangulation(both);
+      triangulation_.refine_global(1);
+    }
+
+    void prescribe(const dealii::types::boundary_id side, const unsigned int c,
+                   const double value)
+    {
+      dealii::ComponentMask mask(2, false);
+      mask.set(c, true);
+      dealii::VectorTools::interpolate_boundary_values(
+          mapping_, dof_handler_, side,
+          dealii::Functions::ConstantFunction<2>(value, 2), constraints, mask);
+    }
+
+    void setup(const bool held)
+    {
+      dof_handler_.distribute_dofs(fe_);
+      owned_ = dof_handler_.locally_owned_dofs();
+      relevant_ = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_);
+      constraints.reinit(relevant_);
+      prescribe(hosts::free_side, 0, 0.);
+      prescribe(hosts::bottom, 1, 0.);
+      if (held)
+        prescribe(hosts::top, 1, -distance - shortening);
+      constraints.close();
+      dealii::DynamicSparsityPattern pattern(relevant_);
+      dealii::DoFTools::make_sparsity_pattern(dof_handler_, pattern,
+                                              constraints, false);
+      dealii::SparsityTools::distribute_sparsity_pattern(
+          pattern, owned_, MPI_COMM_WORLD, relevant_);
+      tangent_.reinit(owned_, owned_, pattern, MPI_COMM_WORLD);
+    }
+
+    void assemble(const la::Vector &at, la::Matrix *matrix,
+                  la::Vector *residual)
+    {
+      const dealii::QGauss<2> quadrature(2);
+      dealii::FEValues<2> values(mapping_, fe_, quadrature,
+                                 dealii::update_gradients
+                                     | dealii::update_JxW_values);
+      const dealii::FEValuesExtractors::Vector displacement(0);
+      const unsigned int n = fe_.n_dofs_per_cell();
+      dealii::FullMatrix<double> k(n, n);
+      dealii::Vector<double> r(n);
+      std::vector<dealii::types::global_dof_index> dofs(n);
+      std::vector<dealii::SymmetricTensor<2, 2>> strain(quadrature.size());
+      la::Vector ghosted(owned_, relevant_, MPI_COMM_WORLD);
+      ghosted = at;
+      if (matrix != nullptr)
+        *matrix = 0.;
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (cell->is_locally_owned())
+        {
+          const Stiffening &m = materials[cell->material_id()];
+          values.reinit(cell);
+          values[displacement].get_function_symmetric_gradients(ghosted,
+                                                                strain);
+          k = 0.;
+          r = 0.;
+          for (unsigned int q = 0; q < quadrature.size(); ++q)
+          {
+            const double t = trace(strain[q]);
+            for (unsigned int i = 0; i < n; ++i)
+            {
+              const auto e = values[displacement].symmetric_gradient(i, q);
+              r(i) += ((m.lambda + m.c * t * t) * t * trace(e)
+                       + 2. * m.mu * (strain[q] * e))
+                      * values.JxW(q);
+              for (unsigned int j = 0; j < n; ++j)
+              {
+                const auto f = values[displacement].symmetric_gradient(j, q);
+                k(i, j) += ((m.lambda + 3. * m.c * t * t) * trace(e) * trace(f)
+                            + 2. * m.mu * (e * f))
+                           * values.JxW(q);
+              }
+            }
+          }
+          cell->get_dof_indices(dofs);
+          if (matrix != nullptr)
+            constraints.distribute_local_to_global(k, dofs, *matrix);
+          if (residual != nullptr)
+            constraints.distribute_local_to_global(r, dofs, *residual);
+        }
+      if (matrix != nullptr)
+        matrix->compress(dealii::VectorOperation::add);
+      if (residual != nullptr)
+      {
+        residual->compress(dealii::VectorOperation::add);
+        constraints.set_zero(*residual);
+      }
+    }
+
+    dealii::parallel::distributed::Triangulation<2> triangulation_;
+    const dealii::FESystem<2> fe_;
+    const dealii::MappingQ<2> mapping_;
+    dealii::DoFHandler<2> dof_handler_;
+    dealii::IndexSet owned_, relevant_;
+    la::Matrix tangent_;
+
+  public:
+    ContactAssembler<2> contact;
+  };
+
+  bool good = true;
+
+  void expect(const bool holds, const std::string &what)
+  {
+    if (!holds && hosts::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << "FAILED: " << what << std::endl;
+    good = good && holds;
+  }
+
+  /** The error of the force, and that of the pressure at all nodes. */
+  void check_answer(const std::string &law, const double bound)
+  {
+    Blocks blocks;
+    SolverParameters direct;
+    direct.linear = SolverParameters::Linear::direct;
+    blocks.contact.set_parameters(hosts::method(law, Discretisation::automatic),
+                                  direct);
+    NewtonParameters parameters;
+    parameters.tolerance = 1e-8;
+    parameters.relaxation_sweeps = law == "barrier" ? 1 : 0;
+    ContactSolver<2> solver(blocks.contact, blocks.constraints,
+                            blocks.problem(), parameters);
+    const NewtonResult result = solver.solve(blocks.u);
+    const PairResult<2> pair = blocks.contact.pair_results()[0];
+    const double exact = exact_pressure();
+    const double force = std::abs(pair.secondary_force[1]) / exact - 1.;
+    const double pressure = pair.pressure / exact - 1.;
+    if (hosts::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << law << ": " << result.n_steps << " linearisations, "
+                << result.n_systems << " systems, " << result.n_residuals
+                << " residuals; error of the force " << force
+                << ", of the largest pressure " << pressure << ", estimated "
+                << result.error << ", residual " << result.residual
+                << std::endl;
+    expect(result.converged(), law + ": " + result.explanation);
+    expect(std::abs(force) <= bound, law + ": force");
+    expect(std::abs(pressure) <= bound, law + ": pressure");
+    expect(result.n_steps <= 8, law + ": number of linearisations");
+    expect(pair.n_active == pair.n_rows, law + ": all rows in contact");
+
+    // From its own answer there is nothing left to do; a barrier begins with
+    // open gaps again.
+    if (law == "barrier")
+      return;
+    const NewtonResult again = solver.solve(blocks.u);
+    expect(again.converged() && again.n_steps == 1, law + ": warm start");
+  }
+
+  /** A linear problem takes one linearisation and no look at the residual
+   * after it, and tells of each system. */
+  void check_linear()
+  {
+    Blocks blocks;
+    const HostProblem nonlinear = blocks.problem();
+    HostProblem problem = nonlinear;
+    const la::Vector zero(blocks.u);
+    problem.linear = true;
+    problem.residual = [&](const la::Vector &u, la::Vector &r)
+    {
+      nonlinear.tangent(zero).vmult(r, u);
+      // The prescribed values act through the nonlinear residual of u = 0.
+      la::Vector prescribed(u);
+      prescribed = 0.;
+      blocks.constraints.distribute(prescribed);
+      la::Vector rest(u);
+      nonlinear.residual(prescribed, rest);
+      r += rest;
+      blocks.constraints.set_zero(r);
+    };
+    problem.tangent = [&](const la::Vector &) -> const la::Matrix &
+    { return nonlinear.tangent(zero); };
+    unsigned int n_systems = 0;
+    problem.monitor = [&](const LinearReport &cost)
+    { n_systems += cost.n_systems; };
+    const NewtonResult result =
+        ContactSolver<2>(blocks.contact, blocks.constraints, problem)
+            .solve(blocks.u);
+    expect(result.converged() && result.n_steps == 1 && result.n_residuals == 1
+               && result.n_systems == n_systems && n_systems > 1,
+           "linear problem: " + result.explanation);
+  }
+
+  NewtonResult fails(const std::function<void(Blocks &, HostProblem &)> &spoil,
+                     const NewtonParameters &parameters = {})
+  {
+    Blocks blocks;
+    HostProblem problem = blocks.problem();
+    spoil(blocks, problem);
+    return ContactSolver<2>(blocks.contact, blocks.constraints, problem,
+                            parameters)
+        .solve(blocks.u);
+  }
+
+  void check_failures()
+  {
+    NewtonParameters few;
+    few.max_steps = 2;
+    NewtonResult result = fails([](Blocks &, HostProblem &) {}, few);
+    expect(result.reason == NewtonReason::step_limit && result.n_steps == 2
+               && result.error > 1e-6,
+           "step limit: " + result.explanation);
+
+    result = fails(
+        [](Blocks &, HostProblem &problem)
+        {
+          const auto residual = problem.residual;
+          problem.residual = [=](const la::Vector &u, la::Vector &r)
+          {
+            la::Vector other(u);
+            other *= -1.;
+            residual(other, r);
+          };
+        });
+    expect(result.reason == NewtonReason::line_search,
+           "a tangent of the wrong sign: " + result.explanation);
+
+    result = fails(
+        [](Blocks &, HostProblem &problem)
+        {
+          const auto residual = problem.residual;
+          bool first = true;
+          problem.residual = [=](const la::Vector &u, la::Vector &r) mutable
+          {
+            residual(u, r);
+            if (!std::exchange(first, false))
+              r *= std::numeric_limits<double>::quiet_NaN();
+          };
+        });
+    expect(result.reason == NewtonReason::not_finite,
+           "a residual that is not a number: " + result.explanation);
+
+    result = fails(
+        [](Blocks &blocks, HostProblem &)
+        {
+          MethodParameters method;
+          method.options.max_steps = 1;
+          blocks.contact.set_parameters(method, SolverParameters());
+        });
+    expect(result.reason == NewtonReason::contact,
+           "one system for each contact problem: " + result.explanation);
+
+    Blocks floating(false);
+    result = ContactSolver<2>(floating.contact, floating.constraints,
+                              floating.problem())
+                 .solve(floating.u);
+    expect(result.reason == NewtonReason::linear_solve
+               && result.explanation.find("holds") != std::string::npos,
+           "a body that nothing holds: " + result.explanation);
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_answer("lagrange", 1e-7);
+  check_answer("augmented lagrangian", 1e-4);
+  check_answer("interior point", 1e-4);
+  check_answer("barrier", 1e-4);
+  check_linear();
+  check_failures();
+  return good ? 0 : 1;
+}
