@@ -223,7 +223,7 @@ namespace abut
      * length) and the natural residual r = min(g, p / s) of 0 <= p _|_ g >= 0
      * (ties: g). Penetration of penalties, pressure across a gap of barriers;
      * 0 for exact multipliers. Valid after the first solve(). */
-    double complementarity_error() const;
+    virtual double complementarity_error() const;
 
     /** Largest penetration max(0, -g), length. */
     virtual double penetration() const;
