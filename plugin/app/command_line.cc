@@ -46,6 +46,8 @@ Solve the scene and write its results.
   --output DIR                folder of the results
                               (default: output/<name of the scene file>)
   --quiet                     print warnings and errors only
+  --explain                   say at the end what could be left out, at the
+                              target error if there is one
 
 Results: summary.json (the figures of the run), levels.csv (a row per mesh
 level or outer step), and what the section Output of the scene asks for.
@@ -122,6 +124,8 @@ Print the commands, or explain one.
           result.output = value_of(words, i);
         else if (words[i] == "--quiet")
           result.quiet = true;
+        else if (words[i] == "--explain" && result.command == Command::run)
+          result.explain = true;
         else if (words[i] == "--plan" && result.command == Command::chart)
           result.plan = true;
         else if (words[i].size() > 1 && words[i][0] == '-')

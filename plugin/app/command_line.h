@@ -27,7 +27,8 @@ namespace abut::app
     std::vector<std::string> overrides;
     std::string output; /**< empty: output/<name of the file> */
     bool quiet = false;
-    bool plan = false; /**< of a chart: stop before the first run */
+    bool explain = false; /**< say what could be left out */
+    bool plan = false;    /**< of a chart: stop before the first run */
   };
 
   /** Read the words after the program's name; throws InputError. */

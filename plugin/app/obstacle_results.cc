@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run of the scene `obstacle` leaves behind.
 #include "collective.h"
+#include "left_out.h"
 #include "obstacle_run.h"
 #include "pictures.h"
 #include "solve/masked_solver.h"
@@ -231,7 +232,14 @@ namespace abut::app
     report.model("contact rows", true,
                  contact_ids.empty() ? "one for each free node of the domain"
                                      : "one for each free node of the contact "
-                                       "boundary");
+                                       "boundary",
+                 {"contact rows and start"});
+    report.model("meshes", true,
+                 std::to_string(levels.size())
+                     + ", with unknowns and pattern of each",
+                 {"mesh", "unknowns and pattern", "transfer"});
+    report.model("stiffness", true, "assembled once on each mesh",
+                 {"assembly"});
     report.model("search", false,
                  "the obstacle is a function: its gap needs no search");
     report.model("friction", false, "a scalar field has no tangent to slide");
@@ -239,16 +247,30 @@ namespace abut::app
                  parameters.refinement.nested
                      ? "each level starts from the one before"
                      : "switched off: the start is displacement 0");
-    report.model("adaptive refinement",
-                 parameters.refinement.adaptive_cycles > 0,
-                 parameters.refinement.adaptive_cycles > 0
+    const RefinementParameters &refinement = parameters.refinement;
+    report.model("adaptive refinement", refinement.adaptive_cycles > 0,
+                 refinement.has_target() ? "refined where the estimate is "
+                                           "large, until the target is met"
+                 : refinement.adaptive_cycles > 0
                      ? "refined where the estimate is large"
-                     : "no Adaptive cycles were asked for");
+                     : "no Adaptive cycles were asked for",
+                 {"error estimate"});
     const LinearReport &linear = levels.back().linear;
     report.model("preconditioner set-ups on the last level",
                  linear.n_setups > 0,
                  std::to_string(linear.n_setups) + " for "
                      + std::to_string(levels.back().steps) + " steps");
+    unsigned int n_steps = 0;
+    for (const ObstacleLevel &level : levels)
+      n_steps += level.steps;
+    report.model("linear systems", true,
+                 std::to_string(n_steps) + " on all meshes", {"solve"});
+    report.model("files", parameters.fields || options.pictures,
+                 "fields and pictures as section Output asks", {"output"});
+    explain_accuracy(report, refinement, control);
+    explain_steps(report, refinement, method, n_steps,
+                  static_cast<unsigned int>(levels.size()));
+    explain_output(report);
   }
 
   template void ObstacleRun<2>::declare_tables();

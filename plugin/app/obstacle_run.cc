@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "obstacle_run.h"
 
+#include "automatic_law.h"
 #include "collective.h"
 #include "estimator.h"
 #include "input_error.h"
@@ -100,6 +101,7 @@ namespace abut::app
     create_coarse_mesh();
     collective(communicator, [&] { set_obstacle(); });
     setup_level();
+    choose_law();
     contact.set_parameters(method, solver);
     contact.reinit(membrane.mapping, membrane.dof_handler,
                    membrane.constraints);
@@ -122,6 +124,17 @@ namespace abut::app
     SectionTimes::Scope scope(report.times, "unknowns and pattern");
     membrane.renumber = parameters.refinement.renumber;
     membrane.setup(data);
+  }
+
+  template <int dim> void ObstacleRun<dim>::choose_law()
+  {
+    const double nodes = double(membrane.dof_handler.n_dofs());
+    choose_law_of_membrane(method, !parameters.refinement.nested,
+                           contact_ids.empty() ? std::pow(nodes, 1. / dim)
+                                               : 0.);
+    control.set_law(method.options.law);
+    if (method.law_is_automatic)
+      report.model("automatic law", true, method.options.law->name);
   }
 
   template <int dim> void ObstacleRun<dim>::assemble()
@@ -431,6 +444,7 @@ namespace abut::app
     collective(communicator, [&] { set_obstacle(); });
     declare_tables();
     setup_level();
+    choose_law();
 
     const bool converged = solve_on_hierarchy();
     write_fields();

@@ -58,6 +58,7 @@ namespace abut::app
     void set_obstacle();
     void declare_tables();
     void setup_level();
+    void choose_law();
     void assemble();
     void refine(bool adaptive);
     void set_tolerance(bool last);
@@ -82,7 +83,7 @@ namespace abut::app
     double counted_seconds() const;
 
     const ObstacleParameters &parameters;
-    const MethodParameters &method;
+    MethodParameters method; ///< its law may be chosen by choose_law()
     const SolverParameters &solver;
     const RunOptions &options;
     Report &report;

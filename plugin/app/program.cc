@@ -85,6 +85,8 @@ namespace abut::app
       report.finish();
       collective(communicator, [&] { report.write(options.output_folder); });
       report.print_summary();
+      if (line.explain)
+        report.explain();
       if (is_root(communicator) && !line.quiet)
         std::cout << "\n  results in " << options.output_folder.string()
                   << std::endl;

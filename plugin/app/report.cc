@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include "json.h"
+#include "peak_memory.h"
 #include "processor_time.h"
 
 #include <deal.II/base/exceptions.h>
@@ -45,14 +46,6 @@ namespace abut::app
                                        "wall_seconds",
                                        "processor_seconds",
                                        "peak_memory_mb"};
-
-    /** Largest resident memory of this process so far, in MiB. */
-    double peak_memory()
-    {
-      dealii::Utilities::System::MemoryStats stats;
-      dealii::Utilities::System::get_memory_stats(stats);
-      return static_cast<double>(stats.VmHWM) / 1024.;
-    }
 
     std::string text_of(const Report::Value &value)
     {
@@ -182,9 +175,15 @@ namespace abut::app
   }
 
   void Report::model(const std::string &what, const bool on,
-                     const std::string &why)
+                     const std::string &why,
+                     const std::vector<std::string> &cost)
   {
-    model_lines.push_back({what, on, why});
+    model_lines.push_back({what, on, why, cost});
+  }
+
+  void Report::leave_out(const std::string &line)
+  {
+    left_out.push_back(line);
   }
 
   double Report::elapsed() const
@@ -219,6 +218,7 @@ namespace abut::app
       sections[i].seconds = MPI::max(section.seconds, communicator);
       sections[i].processor_seconds =
           MPI::sum(section.processor_seconds, communicator);
+      sections[i].memory_mb = MPI::max(section.memory_mb, communicator);
     }
   }
 
@@ -230,12 +230,26 @@ namespace abut::app
       std::visit([&json, &name = name](const auto &v) { json.value(name, v); },
                  value);
     json.value("warnings", warnings);
+    json.value("could_be_left_out", left_out);
+    json.begin("modelled");
+    for (const ModelLine &line : model_lines)
+    {
+      const auto [seconds, memory] = cost_of(line);
+      json.begin(line.what);
+      json.value("on", line.on);
+      json.value("why", line.why);
+      json.value("time_share", seconds / wall_seconds());
+      json.value("memory_mb", memory);
+      json.end();
+    }
+    json.end();
     json.begin("sections");
     for (const SectionTimes::Section &section : sections)
     {
       json.begin(section.name);
       json.value("seconds", section.seconds);
       json.value("processor_seconds", section.processor_seconds);
+      json.value("memory_mb", section.memory_mb);
       json.value("calls", static_cast<std::int64_t>(section.calls));
       json.end();
     }
@@ -278,6 +292,76 @@ namespace abut::app
         dealii::ExcMessage("cannot write " + (folder / "levels.csv").string()));
   }
 
+  double Report::wall_seconds() const
+  {
+    const Value value = get("wall_seconds");
+    return std::holds_alternative<double>(value) ? std::get<double>(value)
+                                                 : elapsed();
+  }
+
+  std::pair<double, double> Report::cost_of(const ModelLine &line) const
+  {
+    std::pair<double, double> sum(0., 0.);
+    for (const SectionTimes::Section &section : sections)
+      if (std::find(line.cost.begin(), line.cost.end(), section.name)
+          != line.cost.end())
+      {
+        sum.first += section.seconds;
+        sum.second += section.memory_mb;
+      }
+    return sum;
+  }
+
+  void Report::print_model(std::ostream &out) const
+  {
+    if (!model_lines.empty())
+      out << "\n  What was modelled\n";
+    std::size_t width = 0;
+    for (const ModelLine &line : model_lines)
+      width = std::max(width, line.what.size());
+    for (const ModelLine &line : model_lines)
+    {
+      out << "  " << padded(line.what, width)
+          << (line.on ? "  on   " : "  off  ") << line.why;
+      const auto [seconds, memory] = cost_of(line);
+      if (!line.cost.empty() && !sections.empty())
+        out << " (" << short_number(100 * seconds / wall_seconds(), 2)
+            << " % of the time, " << short_number(memory, 3) << " MiB)";
+      out << "\n";
+    }
+  }
+
+  void Report::print_cost(std::ostream &out) const
+  {
+    const double wall = wall_seconds();
+    if (!sections.empty())
+      out << "\n  What it cost" << std::string(22, ' ')
+          << "seconds   share       MiB     calls\n";
+    for (const SectionTimes::Section &section : sections)
+    {
+      const std::string name = section.name.substr(section.name.rfind('/') + 1);
+      out << "  " << padded(std::string(2 * section.depth, ' ') + name, 28)
+          << std::fixed << std::setprecision(4) << std::setw(13)
+          << section.seconds << std::setprecision(0) << std::setw(6)
+          << 100 * section.seconds / wall << " %" << std::setprecision(1)
+          << std::setw(10) << section.memory_mb << std::setw(10)
+          << section.calls << "\n";
+    }
+  }
+
+  void Report::explain() const
+  {
+    if (!root)
+      return;
+    std::ostringstream out;
+    out << "\n  What could be left out\n";
+    for (const std::string &line : left_out)
+      out << "  - " << line << "\n";
+    if (left_out.empty())
+      out << "  nothing that this run can tell\n";
+    std::cout << out.str() << std::flush;
+  }
+
   void Report::print_summary() const
   {
     if (!prints())
@@ -292,31 +376,8 @@ namespace abut::app
       if (!text_of(value).empty())
         out << "  " << padded(name, width) << "  " << text_of(value) << "\n";
 
-    if (!model_lines.empty())
-      out << "\n  What was modelled\n";
-    width = 0;
-    for (const ModelLine &line : model_lines)
-      width = std::max(width, line.what.size());
-    for (const ModelLine &line : model_lines)
-      out << "  " << padded(line.what, width)
-          << (line.on ? "  on   " : "  off  ") << line.why << "\n";
-
-    double wall = elapsed();
-    if (const Value value = get("wall_seconds");
-        std::holds_alternative<double>(value))
-      wall = std::get<double>(value);
-    if (!sections.empty())
-      out << "\n  What it cost" << std::string(22, ' ')
-          << "seconds   share     calls\n";
-    for (const SectionTimes::Section &section : sections)
-    {
-      const std::string name = section.name.substr(section.name.rfind('/') + 1);
-      out << "  " << padded(std::string(2 * section.depth, ' ') + name, 28)
-          << std::fixed << std::setprecision(4) << std::setw(13)
-          << section.seconds << std::setprecision(0) << std::setw(6)
-          << 100 * section.seconds / wall << " %" << std::setw(10)
-          << section.calls << "\n";
-    }
+    print_model(out);
+    print_cost(out);
     for (const std::string &line : warnings)
       out << "\n  warning: " << line << "\n";
     std::cout << out.str() << std::flush;

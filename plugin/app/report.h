@@ -84,8 +84,14 @@ namespace abut::app
     void warn(const std::string &line);
 
     /** A line of the closing table of what was modelled: @p what ("adaptive
-     * refinement"), on or off, and the reason. */
-    void model(const std::string &what, bool on, const std::string &why);
+     * refinement"), on or off, and the reason. @p cost names the sections of
+     * times whose share of time and memory is its cost. */
+    void model(const std::string &what, bool on, const std::string &why,
+               const std::vector<std::string> &cost = {});
+
+    /** Something that the answer does not need, with the evidence; printed by
+     * explain(). Collected under the key `could_be_left_out`. */
+    void leave_out(const std::string &line);
     /** @} */
 
     /** Wall times; use `SectionTimes::Scope scope(report.times, "assembly");`.
@@ -105,6 +111,9 @@ namespace abut::app
     /** Print the closing tables (rank 0, unless quiet). */
     void print_summary() const;
 
+    /** Print what could have been left out (rank 0). */
+    void explain() const;
+
     /** The summary as JSON. */
     void write_json(std::ostream &out) const;
 
@@ -119,7 +128,14 @@ namespace abut::app
       std::string what;
       bool on;
       std::string why;
+      std::vector<std::string> cost;
     };
+
+    /** Seconds and MiB of an ingredient's sections. */
+    std::pair<double, double> cost_of(const ModelLine &line) const;
+    double wall_seconds() const;
+    void print_model(std::ostream &out) const;
+    void print_cost(std::ostream &out) const;
 
     void set_value(const std::string &key, Value value);
 
@@ -135,6 +151,7 @@ namespace abut::app
     std::vector<std::vector<double>> rows;
     std::vector<std::string> warnings;
     std::vector<ModelLine> model_lines;
+    std::vector<std::string> left_out;
   };
 } // namespace abut::app
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "section_times.h"
 
+#include "peak_memory.h"
 #include "processor_time.h"
 
 #include <algorithm>
@@ -27,8 +28,9 @@ namespace abut::app
                      [&](const Section &s) { return s.name == full; });
     const std::size_t index = found - all.begin();
     if (found == all.end())
-      all.push_back({full, 0, 0, 0, static_cast<unsigned int>(stack.size())});
-    stack.push_back({index, Clock::now(), processor_seconds()});
+      all.push_back(
+          {full, 0, 0, 0, 0, static_cast<unsigned int>(stack.size())});
+    stack.push_back({index, Clock::now(), processor_seconds(), peak_memory()});
   }
 
   void SectionTimes::leave()
@@ -39,6 +41,7 @@ namespace abut::app
     section.seconds +=
         std::chrono::duration<double>(Clock::now() - open.start).count();
     section.processor_seconds += processor_seconds() - open.processor_start;
+    section.memory_mb += peak_memory() - open.memory_start;
     ++section.calls;
   }
 

@@ -9,9 +9,10 @@
 
 namespace abut::app
 {
-  /** Times of nested sections, on this rank. A section entered within
-   * another is named `outer/inner`; sections stand in the order of their first
-   * entry. Cost of a section: two readings of two clocks. */
+  /** Times and memory of nested sections, on this rank. A section entered
+   * within another is named `outer/inner`; sections stand in the order of their
+   * first entry. Cost of a section: two readings of two clocks and of the
+   * memory's peak. */
   class SectionTimes
   {
   public:
@@ -21,6 +22,7 @@ namespace abut::app
       std::string name;
       double seconds = 0;           /**< on the wall */
       double processor_seconds = 0; /**< of this thread */
+      double memory_mb = 0; /**< by which it raised the process' peak, MiB */
       long calls = 0;
       unsigned int depth = 0; /**< number of sections around it */
     };
@@ -66,6 +68,7 @@ namespace abut::app
       std::size_t section;
       Clock::time_point start;
       double processor_start;
+      double memory_start;
     };
     std::vector<Section> all;
     std::vector<Open> stack;

@@ -44,6 +44,7 @@ namespace abut::app
     try
     {
       contact.detect(u);
+      ++n_detections;
     }
     catch (const ContactError &error)
     {
@@ -141,6 +142,7 @@ namespace abut::app
     begin_contact();
     for (unsigned int round = 0; round < most_rounds; ++round)
     {
+      n_rebuilds += round > 0;
       detect();
       warn_of_pairs();
       iterate();

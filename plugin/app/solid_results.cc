@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run of the scene `solid` leaves behind.
 #include "input_error.h"
+#include "left_out.h"
 #include "nearest_node.h"
 #include "result_row.h"
 #include "solid_run.h"
 
 #include <deal.II/base/mpi.h>
+
+#include <algorithm>
 
 namespace abut::app
 {
@@ -210,6 +213,7 @@ namespace abut::app
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
     }
+    report.set("search_rebuilds", n_rebuilds);
     report.set("force_imbalance", force_imbalance);
     report.set("moment_imbalance", moment_imbalance);
     report.set("method", method.options.law->name);
@@ -301,17 +305,36 @@ namespace abut::app
                  pairs->empty()
                      ? "no pairs were given"
                      : "between " + std::to_string(pairs->pairs().size())
-                           + " pairs of surfaces");
+                           + " pairs of surfaces",
+                 {"contact rows"});
+    report.model("meshes", true, "with unknowns and pattern of each",
+                 {"mesh", "unknowns and pattern", "transfer"});
+    report.model("stiffness", true, "assembled once on each mesh",
+                 {"assembly"});
+    const bool searches = std::any_of(
+        pairs->pairs().begin(), pairs->pairs().end(),
+        [](const ContactPair<dim> &pair) { return pair.obstacle == nullptr; });
+    report.model("search", searches,
+                 searches ? "facets of bodies for each other: "
+                                + std::to_string(n_detections)
+                                + " times, and a check after each solve"
+                          : "gaps to obstacles are formulas: no facet is "
+                            "looked for");
+    if (method.law_is_automatic && !pairs->empty())
+      report.model("automatic law", true, method.options.law->name);
     report.model("friction", false, "surfaces slide freely on each other");
     report.model("nested iteration", parameters.refinement.nested,
                  parameters.refinement.nested
                      ? "each level starts from the one before"
                      : "switched off: the start is displacement 0");
-    report.model("adaptive refinement",
-                 parameters.refinement.adaptive_cycles > 0,
-                 parameters.refinement.adaptive_cycles > 0
+    const RefinementParameters &refinement = parameters.refinement;
+    report.model("adaptive refinement", refinement.adaptive_cycles > 0,
+                 refinement.has_target() ? "refined where the estimate is "
+                                           "large, until the target is met"
+                 : refinement.adaptive_cycles > 0
                      ? "refined where the estimate is large"
-                     : "no Adaptive cycles were asked for");
+                     : "no Adaptive cycles were asked for",
+                 {"error estimate"});
     report.model("load steps", parameters.load_steps.steps > 1,
                  std::to_string(load_steps.n_accepted) + " of "
                      + std::to_string(parameters.load_steps.steps)
@@ -319,6 +342,33 @@ namespace abut::app
     report.model("inertia", false, "each load step is in equilibrium");
     report.model("large strain", false,
                  "strains are linear in the displacement");
+    unsigned int n_steps = 0;
+    for (const SolidState &state : states)
+      n_steps += state.steps;
+    report.model("linear systems", true,
+                 std::to_string(n_steps) + " in all states", {"solve"});
+    report.model("files", parameters.fields || options.pictures,
+                 "fields and pictures as section Output asks", {"output"});
+    explain_accuracy(report, refinement, control);
+    explain_steps(report, refinement, method, n_steps,
+                  static_cast<unsigned int>(states.size()));
+    explain_pairs();
+    explain_output(report);
+  }
+
+  template <int dim> void SolidRun<dim>::explain_pairs()
+  {
+    if (load_steps.n_accepted > 1)
+      report.leave_out(
+          "load steps: without friction the last answer does not depend on "
+          "those before it; if only it is wanted, Load steps/Steps = 1.");
+    if (pairs->empty() || states.empty())
+      return;
+    for (const PairResult<dim> &pair : contact.pair_results())
+      if (pair.n_active == 0)
+        report.leave_out(pair.name + ": none of its "
+                         + std::to_string(pair.n_rows)
+                         + " constraints is in contact.");
   }
 
   template void SolidRun<2>::declare_tables();
@@ -332,6 +382,7 @@ namespace abut::app
   template std::optional<double> SolidRun<3>::relative_error() const;
   template void SolidRun<2>::report_result(bool);
   template void SolidRun<2>::report_model();
+  template void SolidRun<2>::explain_pairs();
   template void SolidRun<3>::declare_tables();
   template void SolidRun<3>::finish_state();
   template void SolidRun<3>::report_points();
@@ -341,4 +392,5 @@ namespace abut::app
   template void SolidRun<3>::report_contact();
   template void SolidRun<3>::report_result(bool);
   template void SolidRun<3>::report_model();
+  template void SolidRun<3>::explain_pairs();
 } // namespace abut::app

@@ -121,6 +121,7 @@ namespace abut::app
     void report_shares();
     void report_result(bool converged);
     void report_model();
+    void explain_pairs();
 
     const SolidParameters &parameters;
     const MethodParameters &method;
@@ -137,6 +138,7 @@ namespace abut::app
     ContactAssembler<dim> contact;
     bool contact_is_ready = false; ///< for the present mesh
     bool has_warned = false;
+    unsigned int n_detections = 0, n_rebuilds = 0;
 
     std::unique_ptr<SolidFunctions<dim>> functions;
     std::unique_ptr<SolidPairs<dim>> pairs;

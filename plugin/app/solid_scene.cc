@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_scene.h"
 
+#include "automatic_law.h"
 #include "solid_run.h"
+
+#include <algorithm>
 
 namespace abut::app
 {
@@ -27,6 +30,10 @@ namespace abut::app
         method.parse_parameters(prm);
         solver.parse_parameters(prm);
         search.parse_parameters(prm);
+        choose_law_of_bodies(method, std::any_of(parameters.pairs.begin(),
+                                                 parameters.pairs.end(),
+                                                 [](const auto &pair)
+                                                 { return pair.tied; }));
       }
 
       void check(const RunOptions &options, Report &report) override

@@ -29,6 +29,12 @@ namespace abut::app
       return target_ != nullptr;
     }
 
+    /** Replace the law, before the first mesh. */
+    void set_law(const abut_law *law)
+    {
+      method_.options.law = law;
+    }
+
     /** The method to solve with. */
     const MethodParameters &method() const
     {
@@ -52,6 +58,12 @@ namespace abut::app
 
     /** What follows, with the method already tightened if that is it. */
     ErrorTarget::Step next(double present_penalty);
+
+    /** What is estimated for the last mesh; with a target only. */
+    const ErrorParts &errors() const
+    {
+      return target_->errors();
+    }
 
     /** Whether the last mesh meets the target. */
     bool is_met() const;

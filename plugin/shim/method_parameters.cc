@@ -72,6 +72,15 @@ namespace abut
       return names;
     }
 
+    /** The law that suits a discretisation, whatever the problem: quadrature
+     * points have more rows than the surface has unknowns, which exact
+     * contact cannot satisfy. */
+    const char *automatic_law(const Discretisation discretisation)
+    {
+      return discretisation == Discretisation::quadrature_point ? "penalty"
+                                                                : "lagrange";
+    }
+
     void declare_number(ParameterHandler &prm, const std::string &name,
                         const double value, const double smallest,
                         const double largest, const std::string &text)
@@ -222,7 +231,7 @@ namespace abut
     const abut_strategy_options defaults = abut_strategy_defaults();
     prm.enter_subsection("Method");
     prm.declare_entry("Enforcement", "lagrange",
-                      Patterns::Selection(law_names()),
+                      Patterns::Selection("auto|" + law_names()),
                       "How contact is enforced. `lagrange`: exactly, by "
                       "multipliers and an active set. `penalty`: by stiff "
                       "springs, with an error that falls as one over the "
@@ -233,7 +242,10 @@ namespace abut
                       "a barrier that goes to zero. `interior point`: the "
                       "same with primal-dual steps from any start. `nitsche`: "
                       "by the bodies' own stress, at quadrature points; for "
-                      "elastic bodies, not for membranes and point masses.");
+                      "elastic bodies, not for membranes and point masses. "
+                      "`auto`: lagrange; nitsche (penalty in programs of "
+                      "your own) with `quadrature point`; interior point for "
+                      "membranes on fine meshes without nested iteration.");
     declare_discretisation(prm);
     declare_penalty(prm, defaults);
     declare_barrier(prm, defaults);
@@ -249,7 +261,6 @@ namespace abut
   void MethodParameters::parse_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Method");
-    options.law = abut_law_find(prm.get("Enforcement").c_str());
     parse_numbers(prm, options, nitsche_theta);
     const std::string word = prm.get("System");
     system = word == "condensed"      ? System::condensed
@@ -259,6 +270,10 @@ namespace abut
     for (const auto &entry : discretisations)
       if (way == entry.second)
         discretisation = entry.first;
+    const std::string law = prm.get("Enforcement");
+    law_is_automatic = law == "auto";
+    options.law = abut_law_find(law_is_automatic ? automatic_law(discretisation)
+                                                 : law.c_str());
     multiplier_degree = prm.get_integer("Multiplier degree");
     quadrature_degree = prm.get_integer("Quadrature degree");
     segments = prm.get_bool("Segments");

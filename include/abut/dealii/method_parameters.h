@@ -55,6 +55,12 @@ namespace abut
     /** The law and all settings of the outer method. */
     abut_strategy_options options = abut_strategy_defaults();
 
+    /** Whether the file leaves the law to choose (`Enforcement = auto`).
+     * parse_parameters() then takes lagrange, or penalty where rows are made
+     * at quadrature points; a program that knows more of its problem may
+     * replace options.law. */
+    bool law_is_automatic = false;
+
     /** Which linear system is solved. */
     System system = System::automatic;
 

@@ -77,8 +77,9 @@ namespace abut::app
     }
 
     /** Whether the values of an axis are all positive and differ by more than
-     * a factor of 20: then its scale is logarithmic. */
-    bool is_wide(const std::vector<ChartRow> &rows, double ChartRow::*x)
+     * @p factor. */
+    bool is_wide(const std::vector<ChartRow> &rows, double ChartRow::*x,
+                 const double factor)
     {
       double smallest = 1e300, largest = 0;
       for (const ChartRow &row : rows)
@@ -87,7 +88,7 @@ namespace abut::app
           smallest = std::min(smallest, row.*x);
           largest = std::max(largest, row.*x);
         }
-      return smallest > 0 && largest > 20 * smallest;
+      return smallest > 0 && largest > factor * smallest;
     }
 
     /** The steps below which no run lies, and rings on the runs of the
@@ -149,8 +150,9 @@ namespace abut::app
       script << gnuplot_header(axes.name, 900, 500) << data.str()
              << "set title " << quoted(chart.title) << " noenhanced\n"
              << "set logscale y\n"
-             << (is_wide(rows, axes.x) ? "set logscale x\n" : "")
+             << (is_wide(rows, axes.x, 20.) ? "set logscale x\n" : "")
              << "set format '%g'\n"
+             << (is_wide(rows, axes.x, 1e6) ? "set format x '10^{%T}'\n" : "")
              << "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n"
              << "set xlabel " << quoted(axes.x_label) << " noenhanced\n"
              << "set ylabel " << quoted(axes.y_label) << " noenhanced\n"

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "automatic_law.h"
+
+namespace abut::app
+{
+  namespace
+  {
+    // An active set that starts far from the solution moves by a layer of
+    // nodes in each step, while the interior point takes ten steps on all
+    // meshes: from here on they are fewer and cost less in all.
+    constexpr double many_layers = 300.;
+  } // namespace
+
+  void choose_law_of_bodies(MethodParameters &method, const bool tied)
+  {
+    if (method.law_is_automatic && !tied
+        && method.discretisation == Discretisation::quadrature_point)
+      method.options.law = abut_law_find("nitsche");
+  }
+
+  void choose_law_of_membrane(MethodParameters &method, const bool cold,
+                              const double nodes_across)
+  {
+    if (method.law_is_automatic && cold && nodes_across > many_layers
+        && method.system != System::saddle_point)
+      method.options.law = abut_law_find("interior point");
+  }
+} // namespace abut::app
