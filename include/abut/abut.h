@@ -20,6 +20,7 @@
 #include <abut/projection.h>
 #include <abut/rows.h>
 #include <abut/search.h>
+#include <abut/self_contact.h>
 #include <abut/status.h>
 #include <abut/strategy.h>
 #include <abut/surface.h>
