@@ -39,12 +39,13 @@ extern "C"
   } abut_box;
 
   /** Boxes that together contain all facets of a surface, inflated by @p
-   * reach: facets are cut into @p max_boxes runs along a space-filling curve.
+   * reach: facets are halved across the longest extent of their centres, until
+   * there are @p max_boxes groups.
    * @param reach length >= 0
    * @param max_boxes >= 1
    * @param boxes [max_boxes] out
    * @param n_boxes out: number of boxes, 0 for an empty surface
-   * O(n). */
+   * O(n log max_boxes + max_boxes^2). */
   ABUT_API abut_status abut_surface_bounds(abut_surface *surface, double reach,
                                            int32_t max_boxes, abut_box *boxes,
                                            int32_t *n_boxes);

@@ -26,6 +26,34 @@ namespace abut::shim
       throw Error(MPI::broadcast(communicator, message, rank));
   }
 
+  /** Run @p function. What it throws on any rank is thrown on all: as an Error
+   * with the message of the lowest such rank, and unchanged if there is only
+   * one. The function must not communicate. Collective. */
+  template <typename Error, typename Function>
+  void run_everywhere(const MPI_Comm communicator, const Function &function)
+  {
+    const bool alone =
+        dealii::Utilities::MPI::n_mpi_processes(communicator) == 1;
+    std::string message;
+    try
+    {
+      function();
+    }
+    catch (const std::exception &error)
+    {
+      if (alone)
+        throw;
+      message = error.what();
+    }
+    catch (...)
+    {
+      if (alone)
+        throw;
+      message = "an exception that is not a std::exception";
+    }
+    throw_everywhere<Error>(communicator, message);
+  }
+
   /** What the core says of a call that failed; empty if it did not. */
   inline std::string message_of(const abut_context *context,
                                 const abut_status status)

@@ -15,12 +15,12 @@ namespace abut::shim
   namespace
   {
     /** Values of an obstacle at all nodes; none, or +-infinity, where there
-     * is no obstacle. */
+     * is no obstacle. Collective. */
     template <int dim>
     std::vector<double>
     evaluate(const std::shared_ptr<const dealii::Function<dim>> &function,
              const std::vector<typename NodalCandidates<dim>::Node> &nodes,
-             const double otherwise)
+             const double otherwise, const MPI_Comm communicator)
     {
       std::vector<double> values(nodes.size(), otherwise);
       if (function == nullptr)
@@ -29,7 +29,8 @@ namespace abut::shim
       points.reserve(nodes.size());
       for (const auto &node : nodes)
         points.push_back(node.point);
-      function->value_list(points, values);
+      run_everywhere<ObstacleError>(communicator, [&]
+                                    { function->value_list(points, values); });
       return values;
     }
 
@@ -93,10 +94,10 @@ namespace abut::shim
   template <int dim>
   void NodalObstacleRows<dim>::check_prescribed_values() const
   {
-    const auto lower =
-        evaluate<dim>(obstacle_.lower, candidates_.prescribed, -INFINITY);
-    const auto upper =
-        evaluate<dim>(obstacle_.upper, candidates_.prescribed, INFINITY);
+    const auto lower = evaluate<dim>(obstacle_.lower, candidates_.prescribed,
+                                     -INFINITY, communicator_);
+    const auto upper = evaluate<dim>(obstacle_.upper, candidates_.prescribed,
+                                     INFINITY, communicator_);
     // Round-off of a formula that is 0 at a node is measured by its values
     // elsewhere.
     double largest = 0.;
@@ -160,10 +161,10 @@ namespace abut::shim
   template <int dim>
   void NodalObstacleRows<dim>::find(const la::Vector &, abut_rows *rows)
   {
-    const auto lower =
-        evaluate<dim>(obstacle_.lower, candidates_.free, -INFINITY);
-    const auto upper =
-        evaluate<dim>(obstacle_.upper, candidates_.free, INFINITY);
+    const auto lower = evaluate<dim>(obstacle_.lower, candidates_.free,
+                                     -INFINITY, communicator_);
+    const auto upper = evaluate<dim>(obstacle_.upper, candidates_.free,
+                                     INFINITY, communicator_);
     check_obstacles(lower, upper);
     check_prescribed_values();
     abut_rows_clear(rows);

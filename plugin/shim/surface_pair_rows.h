@@ -166,6 +166,7 @@ namespace abut::shim
     void create_sides(Pair &pair);
     void create_coupling(Pair &pair);
     void check_sides(const Pair &pair) const;
+    void check_displacements(const std::vector<Direction> &u) const;
     std::vector<Direction> displacements_in_reach(const la::Vector &u);
     bool is_in_reach(const Pair &pair, double motion) const;
     void renew();
@@ -183,6 +184,8 @@ namespace abut::shim
     void take_rows(std::size_t pair, int component);
     void find_pair(std::size_t pair, double motion,
                    std::vector<std::uint8_t> &taken);
+    void append_stress(const NormalStress<dim> &normal_stress,
+                       abut_rows *stress) const;
     /** Put a row with free unknowns into @p rows; false if it has none. */
     bool append(const Row &row, abut_rows *rows, std::string &message) const;
     void make_check(std::size_t pair, unsigned int n_dropped);

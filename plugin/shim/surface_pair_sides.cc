@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace abut::shim
 {
@@ -14,25 +15,29 @@ namespace abut::shim
 
   namespace
   {
-    /** Run @p function and throw what it throws on any rank on all. */
+    /** As run_everywhere(), with the name of the pair before what the core
+     * says. */
     template <typename Function>
-    void run_everywhere(const MPI_Comm communicator, const std::string &name,
-                        const Function &function)
+    void run_for_pair(const MPI_Comm communicator, const std::string &name,
+                      const Function &function)
     {
-      std::string message;
-      try
-      {
-        function();
-      }
-      catch (const ContactError &error)
-      {
-        message = error.what();
-      }
-      catch (const std::exception &error)
-      {
-        message = "Pair '" + name + "': " + error.what();
-      }
-      throw_everywhere<ContactError>(communicator, message);
+      run_everywhere<ContactError>(
+          communicator,
+          [&]
+          {
+            try
+            {
+              function();
+            }
+            catch (const ContactError &)
+            {
+              throw;
+            }
+            catch (const std::exception &error)
+            {
+              throw ContactError("Pair '" + name + "': " + error.what());
+            }
+          });
     }
   } // namespace
 
@@ -63,22 +68,22 @@ namespace abut::shim
   {
     const ContactPair<dim> &data = pair.data;
     pair.coupling.reset();
-    run_everywhere(communicator_, data.name,
-                   [&]
-                   {
-                     pair.secondary = make_side(
-                         context_, surface_, data.secondary, settings_.search);
-                     pair.primary = make_side(context_, surface_, data.primary,
-                                              settings_.search);
-                   });
+    run_for_pair(communicator_, data.name,
+                 [&]
+                 {
+                   pair.secondary = make_side(context_, surface_,
+                                              data.secondary, settings_.search);
+                   pair.primary = make_side(context_, surface_, data.primary,
+                                            settings_.search);
+                 });
     for (auto *side : {&pair.secondary, &pair.primary})
       side->everywhere = measure_everywhere(*side, surface_, communicator_);
-    run_everywhere(communicator_, data.name,
-                   [&]
-                   {
-                     check_sides(pair);
-                     create_coupling(pair);
-                   });
+    run_for_pair(communicator_, data.name,
+                 [&]
+                 {
+                   check_sides(pair);
+                   create_coupling(pair);
+                 });
   }
 
   template <int dim> void SurfacePairRows<dim>::renew()
@@ -173,10 +178,27 @@ namespace abut::shim
   }
 
   template <int dim>
+  void SurfacePairRows<dim>::check_displacements(
+      const std::vector<Direction> &u) const
+  {
+    std::ostringstream message;
+    for (const Pair &pair : pairs_)
+      for (const auto *side : {&pair.secondary, &pair.primary})
+        for (const Node node : side->node)
+          if (!std::isfinite(u[node].norm_square()) && message.tellp() == 0)
+            message << "Pair '" << pair.data.name
+                    << "': the displacement of the node at ("
+                    << surface_.nodes[node].point
+                    << ") is not a number or is infinite.";
+    throw_everywhere<ContactError>(communicator_, message.str());
+  }
+
+  template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   SurfacePairRows<dim>::displacements_in_reach(const la::Vector &displacement)
   {
     std::vector<Direction> u = exchange_->displacements(surface_, displacement);
+    check_displacements(u);
     bool is_far = false;
     for (Pair &pair : pairs_)
     {
@@ -216,6 +238,8 @@ namespace abut::shim
   template bool SurfacePairRows<dim>::is_owned(Node) const;                    \
   template double SurfacePairRows<dim>::motion(                                \
       const Pair &, const std::vector<Direction> &) const;                     \
+  template void SurfacePairRows<dim>::check_displacements(                     \
+      const std::vector<Direction> &) const;                                   \
   template std::vector<dealii::Tensor<1, dim>>                                 \
   SurfacePairRows<dim>::displacements_in_reach(const la::Vector &);            \
   template std::string SurfacePairRows<dim>::explain_no_rows(std::size_t);

@@ -33,10 +33,18 @@ namespace abut::shim
   void SurfacePairRows<dim>::find_stress(const NormalStress<dim> &normal_stress,
                                          abut_rows *stress) const
   {
+    abut_rows_clear(stress);
+    run_everywhere<ContactError>(communicator_,
+                                 [&] { append_stress(normal_stress, stress); });
+  }
+
+  template <int dim>
+  void
+  SurfacePairRows<dim>::append_stress(const NormalStress<dim> &normal_stress,
+                                      abut_rows *stress) const
+  {
     const unsigned int n_dofs = dof_handler_.get_fe().n_dofs_per_cell();
     std::vector<global_dof_index> dofs(n_dofs);
-    std::string message;
-    abut_rows_clear(stress);
     for (std::size_t first = 0, end; first < rows_.size(); first = end)
     {
       // Rows of a facet follow each other.
@@ -80,13 +88,12 @@ namespace abut::shim
             abut_rows_append(stress, rows_[i].id, rows_[i].weight, constant, 0,
                              static_cast<std::int32_t>(column.size()),
                              column.data(), coefficient.data());
-        if (status != ABUT_SUCCESS && message.empty())
-          message = "Pair '" + pairs_[rows_[i].pair].data.name
-                    + "': the normal stress of a body: "
-                    + message_of(context_, status);
+        if (status != ABUT_SUCCESS)
+          throw ContactError("Pair '" + pairs_[rows_[i].pair].data.name
+                             + "': the normal stress of a body: "
+                             + message_of(context_, status));
       }
     }
-    throw_everywhere<ContactError>(communicator_, message);
   }
 
   template void SurfacePairRows<2>::find_stress(const NormalStress<2> &,

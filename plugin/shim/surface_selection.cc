@@ -31,21 +31,6 @@ namespace abut::shim
         result = result && a.lower[d] <= b.upper[d] && b.lower[d] <= a.upper[d];
       return result;
     }
-
-    /** Run @p function; what it throws in words. */
-    template <typename Function>
-    std::string failure_of(const Function &function)
-    {
-      try
-      {
-        function();
-      }
-      catch (const std::exception &error)
-      {
-        return error.what();
-      }
-      return "";
-    }
   } // namespace
 
   template <int dim>
@@ -120,9 +105,8 @@ namespace abut::shim
                                           const std::vector<Link> &links)
   {
     std::vector<double> mine;
-    throw_everywhere<ContactError>(
-        post_.communicator(),
-        failure_of([&] { mine = own_boxes(context, links); }));
+    run_everywhere<ContactError>(post_.communicator(),
+                                 [&] { mine = own_boxes(context, links); });
     std::vector<std::size_t> start;
     const std::vector<double> all = post_.concatenate(mine, start);
     const std::size_t n_ranks = start.size() - 1;
@@ -243,8 +227,7 @@ namespace abut::shim
              select(context, side, links[side / 2], search))
           near_ones[rank].merge(numbers);
     };
-    throw_everywhere<ContactError>(post_.communicator(),
-                                   failure_of(select_all));
+    run_everywhere<ContactError>(post_.communicator(), select_all);
     Mail mail;
     for (const auto &[rank, numbers] : near_ones)
       for (const std::int64_t number : numbers)

@@ -17,4 +17,13 @@ for ranks in (2, 3):
     p.close(summary["contact_force"][0], 2, 1e-12, f"force on {ranks} ranks")
     version = p.call("--version", ranks=ranks).stdout
     p.expect(version.count("deal.II") == 1, "printed once: " + version)
+
+# A formula that is not a number on some ranks only.
+blocks = p.source / "prm/two-blocks-3d.prm"
+for name, formula in (("Pressure", "0: sqrt(0.6-y)"),
+                      ("Support", "5: 0, 0, -0.02*sqrt(0.6-y)"),
+                      ("Body force", "0, 0, sqrt(0.6-y)")):
+    p.expect_error(p.call("run", blocks, "--set", "Refinement/Level=0", "--set",
+                          f"Body 2/{name}={formula}", ranks=3),
+                   f"Body 2/{name}", "not a number")
 p.finish()

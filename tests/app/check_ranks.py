@@ -3,6 +3,7 @@
 nodes in contact, wherever the mesh is cut."""
 import json
 import math
+import re
 
 import vtu
 from program import Program
@@ -228,7 +229,60 @@ def check_apart():
     p.expect(runs[2][0]["ghost_facets_on_rank"][0] > 0, "facets of the other")
 
 
+# Two long strips, of which each of five ranks has a part.
+STRIPS = """
+set Scene = solid
+set Dimension = 2
+subsection Solid
+  set Bodies = 2
+  set Pairs = 1
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 20, 1 : 0, -1 : 20, 0 : true
+  end
+  set Support = 2: 0, 0
+end
+subsection Body 2
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 30, 1 : 0, 0 : 20, 1 : true
+  end
+  set Support = 3: 0, -0.01
+end
+subsection Pair 1
+  set Secondary = 2: 2
+  set Primary = 1: 3
+end
+""" + END
+
+
+def check_volume():
+    """No rank has the whole interface, and twice the facets are twice the
+    bytes."""
+    levels = []
+    for level in (2, 3):
+        done = p.call("check", p.write("strips.prm", STRIPS), "--set",
+                      f"Refinement/Level={level}", "--set",
+                      f"Refinement/Coarsest level={level}", ranks=5)
+        p.expect(done.returncode == 0, "strips: " + done.stderr)
+        found = {line.split()[0]: [float(word) for word in line.split()[1:]]
+                 for line in done.stdout.splitlines()
+                 if re.match(r" *(facets|ghost|communicated|gathered)_", line)}
+        n_facets = 50 * 2**level
+        most = found["facets_on_rank"][1] + found["ghost_facets_on_rank"][1]
+        p.expect(found["ghost_facets_on_rank"][0] > 0 and most < 0.6 * n_facets,
+                 f"strips, level {level}: {found} of {n_facets} facets")
+        levels.append(found)
+    coarse, fine = (found["communicated_bytes"][0] for found in levels)
+    p.expect(coarse < fine <= 2.1 * coarse, f"bytes: {coarse}, then {fine}")
+    p.expect(levels[0]["gathered_bytes"] == levels[1]["gathered_bytes"],
+             "bytes of boxes do not depend on the mesh")
+
+
 check_pushed()
 check_rolled()
 check_apart()
+check_volume()
 p.finish()

@@ -10,6 +10,14 @@ machine, so that any number of ranks can be run on any number of cores.
 
     tests/bench/communication.py build/release/abut prm/two-blocks-3d.prm \
         --levels 2 3 4 --ranks 1 2 4 8 16
+
+Below the table are the factors of the model
+
+    ghosts = a n + b sqrt(n),    n: own facets of the rank that has most,
+
+over the runs on eight ranks and more, whose parts have a rim all around: the
+facets near those of the rank are as many as its own, times the ratio of the two
+sides' densities; those along the rim are as many as the root.
 """
 import argparse
 import math
@@ -17,6 +25,7 @@ import os
 import re
 import subprocess
 
+RANKS_WITH_RIMS = 8
 KEYS = ["dofs", "pair_1_facets", "facets_on_rank", "ghost_facets_on_rank",
         "communicated_messages", "communicated_bytes", "gathered_bytes"]
 
@@ -46,6 +55,19 @@ def run(arguments, level, ranks):
     return {key: numbers(done.stdout, key) for key in KEYS}
 
 
+def fit(points):
+    """a and b of y = a n + b sqrt(n) by least squares of relative differences,
+    and the largest of these."""
+    # Rows (n, sqrt(n)) / y of an overdetermined system with ones.
+    rows = [(n / y, math.sqrt(n) / y) for n, y in points]
+    aa, ab, bb = (sum(r[i] * r[j] for r in rows)
+                  for i, j in ((0, 0), (0, 1), (1, 1)))
+    a1, b1 = (sum(r[i] for r in rows) for i in (0, 1))
+    determinant = aa * bb - ab * ab
+    a, b = (a1 * bb - b1 * ab) / determinant, (b1 * aa - a1 * ab) / determinant
+    return a, b, max(abs(a * r[0] + b * r[1] - 1) for r in rows)
+
+
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__,
@@ -62,6 +84,7 @@ def main():
           "most | ghosts / sqrt(own) | messages | kB sent | bytes per ghost "
           "| kB gathered |")
     print("|" + "---|" * 11)
+    points = []
     for level in arguments.levels:
         for ranks in arguments.ranks:
             r = run(arguments, level, ranks)
@@ -73,6 +96,12 @@ def main():
                   f"| {r['communicated_messages'][0]:.0f} | {sent / 1e3:.1f} "
                   f"| {sent / max(ghosts, 1):.0f} "
                   f"| {r['gathered_bytes'][0] / 1e3:.1f} |", flush=True)
+            if ranks >= RANKS_WITH_RIMS and own > 0:
+                points.append((own, ghosts))
+    if len(points) > 2:
+        a, b, error = fit(points)
+        print(f"\nghosts = {a:.2f} n + {b:.0f} sqrt(n), within "
+              f"{100 * error:.0f} %")
 
 
 if __name__ == "__main__":

@@ -275,6 +275,36 @@ bounds_contain_all_facets(void **state)
   scene_free(&m);
 }
 
+/* Boxes of a rectangle do not overlap: together they have its area. */
+static void
+bounds_are_tight(void **state)
+{
+  (void)state;
+  const double flat[5] = {0, 0, 1, 1, 0};
+  scene_mesh m =
+      scene_patch(ABUT_FACET_QUAD4, 20, 12, scene_plane, flat, false);
+  const abut_surface_data data = scene_data(&m);
+  abut_surface *s = NULL;
+  abut_box boxes[8], all;
+  int32_t n_boxes = 0, n = 0;
+  require(abut_surface_create(context, &data, &s));
+  require(abut_surface_bounds(s, 0, 1, &all, &n));
+  require(abut_surface_bounds(s, 0, 8, boxes, &n_boxes));
+  assert_int_equal(n_boxes, 8);
+  double area = (all.upper[0] - all.lower[0]) * (all.upper[1] - all.lower[1]);
+  assert_true(area > 0);
+  for (int k = 0; k < 8; ++k)
+    area -= (boxes[k].upper[0] - boxes[k].lower[0])
+            * (boxes[k].upper[1] - boxes[k].lower[1]);
+  assert_true(fabs(area) < 1e-12);
+  /* No more boxes than facets. */
+  abut_box many[300];
+  require(abut_surface_bounds(s, 0, 300, many, &n_boxes));
+  assert_int_equal(n_boxes, 240);
+  require(abut_surface_destroy(&s));
+  scene_free(&m);
+}
+
 static void
 damaged_buffers_are_refused(void **state)
 {
@@ -325,6 +355,7 @@ main(void)
       cmocka_unit_test(parts_are_the_whole),
       cmocka_unit_test(ties_between_parts),
       cmocka_unit_test(bounds_contain_all_facets),
+      cmocka_unit_test(bounds_are_tight),
       cmocka_unit_test(damaged_buffers_are_refused)};
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }
