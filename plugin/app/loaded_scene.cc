@@ -23,8 +23,21 @@ namespace abut::app
     file.apply(prm);
   }
 
+  void LoadedScene::find_law()
+  {
+    const std::string law = file.get("Method/Law file", "");
+    if (law.empty())
+      return;
+    RunOptions options;
+    options.scene_file = file.path();
+    prm.enter_subsection("Method");
+    prm.set("Law file", options.input_file(law).string());
+    prm.leave_subsection();
+  }
+
   void LoadedScene::parse()
   {
+    find_law();
     // Errors of deal.II's own carry much text that no user needs.
     try
     {

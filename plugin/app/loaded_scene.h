@@ -38,6 +38,9 @@ namespace abut::app
     std::unique_ptr<Scene> scene;
 
   private:
+    /** As other files of a scene the user's own law may stand beside it. */
+    void find_law();
+
     const SceneKind &scene_kind;
     unsigned int dimension;
     dealii::ParameterHandler prm;

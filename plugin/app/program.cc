@@ -8,6 +8,8 @@
 #include "loaded_scene.h"
 #include "output_folder.h"
 
+#include <abut/version.h>
+
 #include <deal.II/base/config.h>
 #include <deal.II/base/mpi.h>
 

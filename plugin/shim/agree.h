@@ -64,13 +64,16 @@ namespace abut::shim
     return message.empty() ? abut_status_text(status) : message;
   }
 
-  /** Throw on all ranks if a call of the core failed on one. Collective. */
-  inline void check_everywhere(const MPI_Comm communicator,
-                               const abut_context *context,
-                               const abut_status status)
+  /** Throw on all ranks if a call of the core failed on one. Where the core
+   * has agreed on the failure, the rank that saw it has the message.
+   * Collective. */
+  template <typename Error = std::runtime_error>
+  void check_everywhere(const MPI_Comm communicator,
+                        const abut_context *context, const abut_status status)
   {
-    throw_everywhere<std::runtime_error>(communicator,
-                                         message_of(context, status));
+    const std::string message = message_of(context, status);
+    const bool is_hearsay = message.find("another rank") != std::string::npos;
+    throw_everywhere<Error>(communicator, is_hearsay ? "" : message);
   }
 } // namespace abut::shim
 

@@ -70,6 +70,17 @@ namespace abut
   }
 
   template <int dim>
+  void ContactAssembler<dim>::Implementation::check_law(
+      const abut_status status) const
+  {
+    if (method.user_law == nullptr)
+      check(status);
+    else
+      shim::check_everywhere<SolverFailure>(communicator, context.get(),
+                                            status);
+  }
+
+  template <int dim>
   double
   ContactAssembler<dim>::Implementation::row_pressure(const int row) const
   {
@@ -358,7 +369,7 @@ namespace abut
         c *= method.options.complementarity;
       start_state = surfaces->first_contact(gap, start_pressure, scale);
     }
-    check(abut_strategy_start(
+    check_law(abut_strategy_start(
         strategy.get(), view.n_rows, view.id, view.weight, stiffness.data(),
         view.bilateral, law_gap(),
         start_pressure.empty() ? nullptr : start_pressure.data(),
@@ -403,7 +414,7 @@ namespace abut
 
   template <int dim> void ContactAssembler<dim>::Implementation::next()
   {
-    check(abut_strategy_next(strategy.get(), law_gap(), &request));
+    check_law(abut_strategy_next(strategy.get(), law_gap(), &request));
   }
 
   template <int dim>

@@ -23,6 +23,9 @@ namespace abut
     }
 
     void check(const abut_status status) const;
+    /** The same after a call that evaluates the law: a user's own law may
+     * fail, and a smaller load step may help. */
+    void check_law(const abut_status status) const;
     /** The source of the present rows; throws if there is none. */
     const shim::RowSource &present_source() const;
     /** Throw if there are no rows for @p function. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <abut/dealii/method_parameters.h>
 
+#include "user_law.h"
+
 #include <deal.II/base/exceptions.h>
 
 #include <limits>
@@ -63,13 +65,36 @@ namespace abut
                         "obstacles.");
     }
 
-    /** Names of all built-in laws, separated by bars. */
+    /** Names of all laws, separated by bars. */
     std::string law_names()
     {
       std::string names;
       for (std::int32_t i = 0; abut_law_get(i) != nullptr; ++i)
-        names += (i == 0 ? "" : "|") + std::string(abut_law_get(i)->name);
-      return names;
+        names += std::string(abut_law_get(i)->name) + "|";
+      return names + shim::user_law_word;
+    }
+
+    void declare_user_law(ParameterHandler &prm)
+    {
+      prm.declare_entry("Law file", "", Patterns::Anything(),
+                        "Shared object of your own law, for `user`; a relative "
+                        "name is looked up beside the scene's file, then in "
+                        "the working folder. See doc/your-own-law.md.");
+      prm.declare_entry("Law parameters", "",
+                        Patterns::Map(Patterns::Anything(), Patterns::Double(),
+                                      0, 1000, ",", ":"),
+                        "Parameters of your own law: `name: number, ...`, in "
+                        "the units of the scene.");
+    }
+
+    std::shared_ptr<const UserLaw> parse_user_law(ParameterHandler &prm)
+    {
+      const std::map<std::string, double> parameters =
+          Patterns::Tools::Convert<std::map<std::string, double>>::to_value(
+              prm.get("Law parameters"),
+              Patterns::Map(Patterns::Anything(), Patterns::Double(), 0, 1000,
+                            ",", ":"));
+      return shim::load_user_law(prm.get("Law file"), parameters);
     }
 
     /** The law that suits a discretisation, whatever the problem: quadrature
@@ -198,6 +223,10 @@ namespace abut
     const bool hard = (law.flags & ABUT_LAW_HARD) != 0;
     const bool interior = (law.flags & ABUT_LAW_INTERIOR) != 0;
     const std::string with = "Method/Enforcement = " + std::string(law.name);
+    if (tied && abut_law_find(law.name) == nullptr)
+      return "The law '" + std::string(law.name)
+             + "' is for contact, not for tied surfaces. Use lagrange, penalty "
+               "or augmented lagrangian.";
     if (tied && interior)
       return with
              + " cannot glue surfaces: an equality has no interior. Use "
@@ -243,9 +272,11 @@ namespace abut
                       "same with primal-dual steps from any start. `nitsche`: "
                       "by the bodies' own stress, at quadrature points; for "
                       "elastic bodies, not for membranes and point masses. "
+                      "`user`: by your own law of pressure and gap. "
                       "`auto`: lagrange; nitsche (penalty in programs of "
                       "your own) with `quadrature point`; interior point for "
                       "membranes on fine meshes without nested iteration.");
+    declare_user_law(prm);
     declare_discretisation(prm);
     declare_penalty(prm, defaults);
     declare_barrier(prm, defaults);
@@ -274,6 +305,12 @@ namespace abut
     law_is_automatic = law == "auto";
     options.law = abut_law_find(law_is_automatic ? automatic_law(discretisation)
                                                  : law.c_str());
+    if (law == shim::user_law_word)
+    {
+      user_law = parse_user_law(prm);
+      options.law = &user_law->law;
+      options.law_parameters = user_law->parameters.data();
+    }
     multiplier_degree = prm.get_integer("Multiplier degree");
     quadrature_degree = prm.get_integer("Quadrature degree");
     segments = prm.get_bool("Segments");

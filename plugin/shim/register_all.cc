@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <abut/dealii/registry.h>
 
+#include "user_law.h"
+
 namespace abut
 {
   namespace
@@ -14,6 +16,7 @@ namespace abut
         std::vector<std::string> names;
         for (std::int32_t i = 0; abut_law_get(i) != nullptr; ++i)
           names.emplace_back(abut_law_get(i)->name);
+        names.emplace_back(shim::user_law_word);
         return names;
       }
 

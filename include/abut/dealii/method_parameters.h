@@ -10,10 +10,13 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <memory>
 #include <string>
 
 namespace abut
 {
+  struct UserLaw;
+
   /** Linear system in which contact is enforced. */
   enum class System
   {
@@ -61,6 +64,10 @@ namespace abut
      * replace options.law. */
     bool law_is_automatic = false;
 
+    /** Owner of options.law and options.law_parameters if the law is the
+     * user's own (abut/user_law.h), else null. */
+    std::shared_ptr<const UserLaw> user_law;
+
     /** Which linear system is solved. */
     System system = System::automatic;
 
@@ -86,7 +93,9 @@ namespace abut
     static void declare_parameters(dealii::ParameterHandler &prm);
 
     /** Read the section `Method` in the present section of @p prm; throws
-     * dealii::ExceptionBase when two values contradict each other. */
+     * dealii::ExceptionBase when two values contradict each other, or when the
+     * user's own law cannot be loaded. Relative names of its file are looked
+     * up in the working folder. */
     void parse_parameters(dealii::ParameterHandler &prm);
   };
 } // namespace abut

@@ -4,11 +4,9 @@
 #include "app/child_process.h"
 #include "app/report.h"
 
-#include <abut/context.h>
+#include <abut/version.h>
 
 #include <deal.II/base/config.h>
-
-#include <dlfcn.h>
 
 #include <chrono>
 #include <cstring>
@@ -20,15 +18,6 @@ namespace abut::app
 
   namespace
   {
-    /** Path of the shared library that holds @p function. */
-    template <typename Function> std::string library_of(Function *function)
-    {
-      Dl_info info;
-      return dladdr(reinterpret_cast<void *>(function), &info) != 0
-                 ? info.dli_fname
-                 : "";
-    }
-
     std::string hash_of_file(const fs::path &file)
     {
       return RunStore::key(file_bytes(file));
@@ -98,8 +87,7 @@ namespace abut::app
         environment(serial_environment())
   {
     identity = std::string("abut " ABUT_VERSION " ")
-               + hash_of_file("/proc/self/exe") + " "
-               + hash_of_file(library_of(&abut_context_create)) + ", deal.II "
+               + hash_of_file("/proc/self/exe") + ", deal.II "
                + DEAL_II_PACKAGE_VERSION;
   }
 

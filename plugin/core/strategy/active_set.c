@@ -77,9 +77,11 @@ find_maxima(abut_strategy *s, findings *found)
     DEFECT,
     PENETRATION,
     COMPLEMENTARITY,
+    CHANGED,
     N_MAXIMA
   };
   double max[N_MAXIMA] = {0};
+  max[CHANGED] = s->coefficients_changed;
   for (int32_t i = 0; i < s->n; ++i)
   {
     /* Of a length, whatever the units in which the law measures c. */
@@ -95,6 +97,8 @@ find_maxima(abut_strategy *s, findings *found)
   }
   const abut_status status =
       abut_strategy_reduce(s, ABUT_REDUCTION_MAX, max, N_MAXIMA);
+  /* A user's law may have other slopes at the new point in the same state. */
+  s->matrix_changed |= max[CHANGED] > 0;
   found->max_pressure = max[PRESSURE];
   found->max_gap_change = max[GAP_CHANGE];
   found->defect = max[DEFECT];

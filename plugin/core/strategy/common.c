@@ -4,6 +4,7 @@
 #include "strategy/strategy.h"
 
 #include <math.h>
+#include <string.h>
 
 abut_status
 abut_strategy_reduce(abut_strategy *s, abut_reduction op, double *values,
@@ -54,6 +55,66 @@ abut_strategy_points(const abut_strategy *s)
   return points;
 }
 
+/* A number that tells the law's matrix coefficients apart. */
+static uint64_t
+sign_coefficients(const abut_strategy *s)
+{
+  uint64_t sign = 0;
+  for (int32_t i = 0; i < s->n; ++i)
+  {
+    uint64_t a, b;
+    memcpy(&a, &s->d_pressure[i], sizeof(a));
+    memcpy(&b, &s->d_gap[i], sizeof(b));
+    sign = (sign ^ a) * UINT64_C(1099511628211);
+    sign = (sign ^ b) * UINT64_C(1099511628211);
+  }
+  return sign;
+}
+
+/* Why the law's result in row i is of no use; NULL if it is good. */
+static const char *
+fault_of_row(const abut_strategy *s, int32_t i)
+{
+  const double a = s->d_pressure[i], b = s->d_gap[i];
+  if (!isfinite(s->residual[i]) || !isfinite(a) || !isfinite(b))
+    return "a value that is not finite";
+  if (a == 0 && (b == 0 || (s->options.law->flags & ABUT_LAW_HARD) == 0))
+    return "a derivative by the pressure that is zero";
+  return NULL;
+}
+
+static void
+add_row(abut_text *text, const abut_strategy *s, int32_t i)
+{
+  abut_text_add(text, " at gap ");
+  abut_text_add_number(text, s->gap[i]);
+  abut_text_add(text, ", pressure ");
+  abut_text_add_number(text, s->pressure[i]);
+}
+
+/* Look at what the law gave. */
+static abut_status
+check_law_result(abut_strategy *s, abut_status status)
+{
+  const char *fault = status == ABUT_SUCCESS ? NULL : abut_status_text(status);
+  int32_t row = -1;
+  for (int32_t i = 0; i < s->n && fault == NULL; ++i)
+  {
+    fault = fault_of_row(s, i);
+    row = i;
+  }
+  if (fault == NULL)
+    return ABUT_SUCCESS;
+  abut_text text = abut_strategy_remark(s);
+  abut_text_add(&text, "the law '");
+  abut_text_add(&text, s->options.law->name);
+  abut_text_add(&text, status == ABUT_SUCCESS ? "' gives " : "' failed: ");
+  abut_text_add(&text, fault);
+  if (row >= 0)
+    add_row(&text, s, row);
+  return status == ABUT_SUCCESS ? ABUT_NOT_FINITE : status;
+}
+
 abut_status
 abut_strategy_linearise(abut_strategy *s)
 {
@@ -64,22 +125,11 @@ abut_strategy_linearise(abut_strategy *s)
       .d_pressure = s->d_pressure,
       .d_gap = s->d_gap,
   };
-  abut_status status = s->options.law->linearise(&points, s->state, &result);
-  double probe = 0;
-  if (status == ABUT_SUCCESS)
-    for (int32_t i = 0; i < s->n; ++i)
-      probe += (s->residual[i] + s->d_pressure[i] + s->d_gap[i]) * 0.0;
-  if (status == ABUT_SUCCESS && !(probe == 0))
-    status = ABUT_NOT_FINITE;
-  if (status != ABUT_SUCCESS)
-  {
-    abut_text text = abut_strategy_remark(s);
-    abut_text_add(&text, "the law '");
-    abut_text_add(&text, s->options.law->name);
-    abut_text_add(&text, "' failed: ");
-    abut_text_add(&text, abut_status_text(status));
-  }
-  return status;
+  const uint64_t before = sign_coefficients(s);
+  const abut_status status =
+      s->options.law->linearise(&points, s->state, &result);
+  s->coefficients_changed |= sign_coefficients(s) != before;
+  return check_law_result(s, status);
 }
 
 abut_status
@@ -96,6 +146,7 @@ abut_strategy_ask_solve(abut_strategy *s, double tolerance, bool final)
   const abut_status status = abut_strategy_agree(s, abut_strategy_linearise(s));
   if (status != ABUT_SUCCESS)
     return status;
+  s->coefficients_changed = false;
   s->progress.step += 1;
   s->request.action = ABUT_ACTION_SOLVE;
   s->request.linear_tolerance = tolerance;

@@ -47,6 +47,7 @@ struct abut_strategy
 
   double mu; /* barrier, pressure times length */
   bool matrix_changed;
+  bool coefficients_changed; /* here, by the law, since the last SOLVE */
   abut_request request;
   abut_progress progress;
 
@@ -66,7 +67,8 @@ abut_status abut_strategy_agree(abut_strategy *s, abut_status status);
 /* Points of the law at the present gap and pressure. */
 abut_law_points abut_strategy_points(const abut_strategy *s);
 
-/* Evaluate the law in the present state into residual, d_pressure, d_gap. */
+/* Evaluate the law in the present state into residual, d_pressure, d_gap; fails
+ * where the result is of no use, and says in which row. */
 abut_status abut_strategy_linearise(abut_strategy *s);
 
 /* Linearise and ask for a solve, or stop at the limit of steps. */

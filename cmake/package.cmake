@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# cpack -G DEB makes a Debian package. Its dependencies are those of the
+# libraries that the installed files are linked to, as dpkg-shlibdeps knows them.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME abut)
+set(CPACK_PACKAGE_CONTACT "Abut maintainers <abut@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION "Contact search, mortar and other constraints, \
+contact laws, and solvers for elastic bodies and membranes in contact: a \
+program, a library for deal.II, a plugin for deal.II programs, and a C library.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION math)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+# To compile programs; the program abut does not need it.
+if(NOT ABUT_CORE_ONLY)
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libdeal.ii-dev)
+endif()
+include(CPack)

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Make the Debian package and look into it: files, links, and dependencies,
+which must name the packages of all shared libraries that are needed."""
+import argparse
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from installed import Failure, require, run
+
+
+def make(arguments, folder):
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    run(arguments.cpack, "-G", "DEB", "-B", folder, "--config",
+        pathlib.Path(arguments.build) / "CPackConfig.cmake")
+    packages = list(folder.glob("*.deb"))
+    require(len(packages) == 1, f"packages: {packages}")
+    return packages[0]
+
+
+def check_fields(package):
+    def field(name):
+        return run("dpkg-deb", "--field", package, name).stdout.strip()
+
+    require(field("Package") == "abut", field("Package"))
+    require(field("Version") == "0.1.0", field("Version"))
+    require(field("Architecture") == run(
+        "dpkg", "--print-architecture").stdout.strip(), "architecture")
+    require(field("Recommends") == "libdeal.ii-dev", field("Recommends"))
+    depends = {word.split()[0] for word in field("Depends").split(",")}
+    print("Depends:", field("Depends"))
+    return depends
+
+
+def owner(library):
+    """Package of a shared library, as the machine has it."""
+    for path in (library, "/usr" + library, str(pathlib.Path(library).resolve())):
+        result = subprocess.run(["dpkg", "-S", path], capture_output=True,
+                                text=True, check=False)
+        if result.returncode == 0:
+            return result.stdout.split(":")[0]
+    raise Failure(f"no package has {library}")
+
+
+def check_depends(depends, unpacked):
+    """All that the linker wants for program and library is named."""
+    for name in ("bin/abut", "lib/libabut.so.0.1.0"):
+        binary = unpacked / "usr" / name
+        needed = [line.split("[")[1].rstrip("]") for line in
+                  run("readelf", "-d", binary).stdout.splitlines()
+                  if "(NEEDED)" in line]
+        paths = {line.split()[0]: line.split()[2]
+                 for line in run("ldd", binary).stdout.splitlines()
+                 if "=>" in line}
+        for library in needed:
+            package = owner(paths[library])
+            require(package in depends, f"{library} is in {package}")
+        require("RUNPATH" in run("readelf", "-d", binary).stdout, "no RUNPATH")
+        text = run("readelf", "-d", binary).stdout
+        require("build" not in text.split("RUNPATH")[1].split("\n")[0], text)
+
+
+def check_content(unpacked):
+    for name in ("bin/abut", "lib/libabut.so", "lib/libabut_plugin.so",
+                 "lib/libabut_core.so.0.1", "lib/pkgconfig/abut_core.pc",
+                 "lib/cmake/Abut/AbutConfig.cmake",
+                 "include/abut/dealii/load_plugin.h",
+                 "share/abut/prm/step-41.prm", "share/doc/abut/copyright"):
+        require((unpacked / "usr" / name).exists(), f"{name} is missing")
+    output = run(unpacked / "usr/bin/abut", "--version").stdout
+    require(output.startswith("abut 0.1.0"), output)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    for name in ("cpack", "build", "scratch"):
+        parser.add_argument("--" + name, required=True)
+    arguments = parser.parse_args()
+    folder = pathlib.Path(arguments.scratch) / "package"
+    try:
+        package = make(arguments, folder)
+        depends = check_fields(package)
+        unpacked = folder / "unpacked"
+        run("dpkg-deb", "--extract", package, unpacked)
+        check_content(unpacked)
+        check_depends(depends, unpacked)
+    except Failure as failure:
+        print(f"FAILED: {failure}")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Install the build into a folder of its own and use it from there: the
+program, the C library through pkg-config, the library and the plugin through
+find_package. The tree is moved once, to show that no path is built in."""
+import argparse
+import json
+import pathlib
+import shutil
+import sys
+
+from installed import Failure, Tree, require, run
+
+
+def install(arguments):
+    first = pathlib.Path(arguments.scratch) / "first"
+    prefix = pathlib.Path(arguments.scratch) / "prefix"
+    for folder in (first, prefix):
+        shutil.rmtree(folder, ignore_errors=True)
+    run(arguments.cmake, "--install", arguments.build, "--prefix", first)
+    first.rename(prefix)
+    return Tree(prefix, arguments.libdir)
+
+
+def check_files(tree, suffix):
+    expected = [
+        "bin/abut", "include/abut/abut.h", "include/abut/user_law.h",
+        "include/abut/dealii/load_plugin.h", "share/abut/prm/step-41.prm",
+        "share/doc/abut/README.md", "share/doc/abut/parameters.md",
+        "share/doc/abut/examples/user-law/soft_law.c",
+        "share/doc/abut/copyright"]
+    for name in expected:
+        require((tree.prefix / name).is_file(), f"{name} is not installed")
+    for name in ("abut" + suffix, "abut_core"):
+        links = [tree.libraries / f"lib{name}.so{end}"
+                 for end in ("", ".0.1", ".0.1.0")]
+        for link in links[:2]:
+            require(link.is_symlink(), f"{link} is not a link")
+        require(links[0].resolve() == links[2], f"{links[0]} points elsewhere")
+        soname = tree.run("readelf", "-d", links[2]).stdout
+        require(f"soname: [lib{name}.so.0.1]" in soname, soname)
+    require((tree.libraries / f"libabut_plugin{suffix}.so").is_file(),
+            "the plugin is not installed")
+    scenes = list((tree.prefix / "share/abut/prm").glob("*.prm"))
+    require(len(scenes) >= 25, f"{len(scenes)} scenes")
+
+
+def check_program(tree, scratch):
+    tree.run(tree.abut, "run", tree.prefix / "share/abut/prm/string.prm",
+             "--output", scratch / "string", cwd=scratch)
+    summary = json.loads((scratch / "string/summary.json").read_text())
+    require(summary["converged"] is True, "string.prm did not converge")
+
+
+def check_c(tree, scratch):
+    """Force 0.3 and contact from x = 0.2: see the head of the example."""
+    source = tree.prefix / "share/doc/abut/examples/c-interface/two_strings.c"
+    program = scratch / "two_strings"
+    libdir, = tree.pkg_config("--variable=libdir", "abut_core")
+    tree.compile_c(source, program, *tree.pkg_config("--libs", "abut_core"),
+                   "-lm", f"-Wl,-rpath,{libdir}")
+    needed = tree.run("ldd", program).stdout
+    require("deal" not in needed and "mpi" not in needed, needed)
+    check_strings(tree.run(program).stdout)
+
+
+def check_strings(output):
+    words = output.replace(",", " ").split()
+    force = float(words[words.index("force") + 1])
+    edge = float(words[words.index("=") + 1])
+    require(abs(force - 0.3) < 1e-6, output)
+    require(abs(edge - 0.2) <= 1 / 60, output)
+
+
+def check_find_package(tree, arguments, scratch):
+    source = pathlib.Path(__file__).parent / "consumer"
+    build = scratch / "consumer"
+    shutil.rmtree(build, ignore_errors=True)
+    example = tree.prefix / "share/doc/abut/examples/c-interface/two_strings.c"
+    tree.run(arguments.cmake, "-S", source, "-B", build, "-G", "Ninja",
+             f"-DCMAKE_BUILD_TYPE={arguments.mode}",
+             f"-DCMAKE_PREFIX_PATH={tree.prefix}", f"-DEXAMPLE={example}")
+    tree.run(arguments.cmake, "--build", build, "-j1")
+    output = tree.run(build / "consumer").stdout
+    require("is registered already" in output and "same methods: 8" in output,
+            output)
+    check_strings(tree.run(build / "two-strings").stdout)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    for name in ("cmake", "build", "scratch", "libdir", "mode"):
+        parser.add_argument("--" + name, required=True)
+    arguments = parser.parse_args()
+    scratch = pathlib.Path(arguments.scratch)
+    scratch.mkdir(parents=True, exist_ok=True)
+    try:
+        tree = install(arguments)
+        check_files(tree, ".g" if arguments.mode == "Debug" else "")
+        if arguments.mode == "Release":
+            check_program(tree, scratch)
+        check_c(tree, scratch)
+        check_find_package(tree, arguments, scratch)
+    except Failure as failure:
+        print(f"FAILED: {failure}")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
