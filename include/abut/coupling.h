@@ -73,7 +73,9 @@ extern "C"
   /** Ways of discretising the contact condition. */
   typedef enum abut_discretisation
   {
+/** @cond */
 #define ABUT_DISCRETISATION_ENTRY(name, text) ABUT_DISCRETISATION_##name,
+    /** @endcond */
     ABUT_DISCRETISATION_LIST(ABUT_DISCRETISATION_ENTRY)
 #undef ABUT_DISCRETISATION_ENTRY
     /** Number of discretisations; not one. */
@@ -241,8 +243,8 @@ extern "C"
    * facet, then of the point), entries in that of the numbers of nodes. */
   typedef struct abut_coupling_view
   {
-    int32_t dimension; /**< 2 or 3 */
-    int32_t n_rows;
+    int32_t dimension;    /**< 2 or 3 */
+    int32_t n_rows;       /**< number of rows */
     const int32_t *node;  /**< [n_rows] secondary node; -1: quadrature point */
     const int32_t *facet; /**< [n_rows] quadrature point: its secondary facet;
                                node to segment: the primary facet; else -1 */
@@ -256,14 +258,14 @@ extern "C"
     const double *normal;   /**< [n_rows * dimension] n_j = -dg_j/dx_s */
     const double *position; /**< [n_rows * dimension] where the row sits: the
                                  node, or the quadrature point */
-    /** Row j has the secondary entries secondary_start[j] ..
+    /** Row j has the secondary entries from secondary_start[j] to
      * secondary_start[j + 1] - 1. [n_rows + 1] */
     const int64_t *secondary_start;
     const int32_t *secondary_node;       /**< never a hanging node */
     const double *secondary_coefficient; /**< D_jl / W_j */
     const int64_t *primary_start;        /**< [n_rows + 1] */
-    const int32_t *primary_node;
-    const double *primary_coefficient; /**< M_jl / W_j */
+    const int32_t *primary_node;         /**< may hang */
+    const double *primary_coefficient;   /**< M_jl / W_j */
   } abut_coupling_view;
 
   /** View of the rows. O(1). */

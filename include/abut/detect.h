@@ -109,7 +109,9 @@ extern "C"
   /** Reasons. */
   typedef enum abut_rejection
   {
+/** @cond */
 #define ABUT_REJECTION_ENTRY(name, text) ABUT_REJECTION_##name,
+    /** @endcond */
     ABUT_REJECTION_LIST(ABUT_REJECTION_ENTRY)
 #undef ABUT_REJECTION_ENTRY
     /** Number of reasons; not a reason. */

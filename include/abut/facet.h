@@ -61,8 +61,10 @@ extern "C"
   /** Kinds of facets: lines in 2D, triangles and quadrilaterals in 3D. */
   typedef enum abut_facet_kind
   {
+/** @cond */
 #define ABUT_FACET_KIND_ENTRY(kind, name, nodes, corners, dimension)           \
-  ABUT_FACET_##kind,
+/** @endcond */
+    ABUT_FACET_##kind,
     ABUT_FACET_KIND_LIST(ABUT_FACET_KIND_ENTRY)
 #undef ABUT_FACET_KIND_ENTRY
     /** Number of kinds; not a kind. */
@@ -116,7 +118,9 @@ extern "C"
   /** Faults of a facet, in the order in which they are looked for. */
   typedef enum abut_facet_fault
   {
+/** @cond */
 #define ABUT_FACET_FAULT_ENTRY(name, text) ABUT_FACET_FAULT_##name,
+    /** @endcond */
     ABUT_FACET_FAULT_LIST(ABUT_FACET_FAULT_ENTRY)
 #undef ABUT_FACET_FAULT_ENTRY
   } abut_facet_fault;
@@ -141,16 +145,16 @@ extern "C"
                            domain (triangles: at (1/3, 1/3)) */
     double normal[3]; /**< unit mean outward normal; 0 if there is none */
     double lower[3];  /**< box that surely contains the facet */
-    double upper[3];
-    double area;     /**< area (2D: length) */
-    double radius;   /**< ball about the centre that surely contains the facet
-                          (exact for the linear kinds) */
-    double diameter; /**< largest distance of two nodes */
-    double warping;  /**< largest angle of the normal at a node with the mean
-                          normal, radian */
-    double aspect;   /**< squared diameter by area (2D: diameter by length);
-                          about 2 for a square, large for a sliver, infinite
-                          without area */
+    double upper[3];  /**< the box, other corner */
+    double area;      /**< area (2D: length) */
+    double radius;    /**< ball about the centre that surely contains the facet
+                           (exact for the linear kinds) */
+    double diameter;  /**< largest distance of two nodes */
+    double warping;   /**< largest angle of the normal at a node with the mean
+                           normal, radian */
+    double aspect;    /**< squared diameter by area (2D: diameter by length);
+                           about 2 for a square, large for a sliver, infinite
+                           without area */
   } abut_facet_measures;
 
   /** Size of a facet, to which relative reaches refer: the length of its

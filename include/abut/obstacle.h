@@ -53,7 +53,9 @@ extern "C"
   /** Kinds of obstacles; the first five are shapes. */
   typedef enum abut_obstacle_kind
   {
+/** @cond */
 #define ABUT_OBSTACLE_KIND_ENTRY(kind, name) ABUT_OBSTACLE_##kind,
+    /** @endcond */
     ABUT_OBSTACLE_KIND_LIST(ABUT_OBSTACLE_KIND_ENTRY)
 #undef ABUT_OBSTACLE_KIND_ENTRY
     /** Number of kinds; not a kind. */

@@ -34,8 +34,8 @@ extern "C"
   /** Box parallel to the axes; in 2D the third components are 0. */
   typedef struct abut_box
   {
-    double lower[3];
-    double upper[3];
+    double lower[3]; /**< smallest coordinates */
+    double upper[3]; /**< largest coordinates */
   } abut_box;
 
   /** Boxes that together contain all facets of a surface, inflated by @p

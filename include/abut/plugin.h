@@ -54,9 +54,10 @@ extern "C"
   {
     size_t struct_size;             /**< sizeof(abut_plugin) */
     const abut_plugin_stamp *stamp; /**< the same as in the file */
-    /** Add the contact methods to @p registry, an abut::Registry<2> and
-     * abut::Registry<3>. C++ functions: they may throw. */
+    /** Add the contact methods to @p registry, an abut::Registry<2>. A C++
+     * function: it may throw. */
     void (*register_2d)(void *registry);
+    /** The same for an abut::Registry<3>. */
     void (*register_3d)(void *registry);
   } abut_plugin;
 

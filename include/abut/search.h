@@ -131,11 +131,11 @@ extern "C"
   /** Destroy a list and set the handle to NULL. */
   ABUT_API abut_status abut_pairs_destroy(abut_pairs **pairs);
 
-  /** Read-only view of a list: query i has the facets facet[start[i]] ..
+  /** Read-only view of a list: query i has the facets from facet[start[i]] to
    * facet[start[i + 1] - 1], ascending. Valid until the list changes. */
   typedef struct abut_pairs_view
   {
-    int32_t n_queries;
+    int32_t n_queries;    /**< number of queries */
     const int64_t *start; /**< [n_queries + 1] */
     const int32_t *facet; /**< [start[n_queries]] */
   } abut_pairs_view;
@@ -169,7 +169,7 @@ extern "C"
   /** What a search consists of and has done so far. */
   typedef struct abut_search_statistics
   {
-    int64_t n_facets;
+    int64_t n_facets;        /**< of the surface */
     int64_t n_buckets;       /**< uniform: occupied cells; adaptive: buckets of
                                   facets */
     int64_t n_levels;        /**< adaptive: classes of facet size; else 1 */

@@ -34,7 +34,9 @@ extern "C"
   /** Status of a call; see the sign rule above. */
   typedef enum abut_status
   {
+/** @cond */
 #define ABUT_STATUS_ENTRY(name, code, text) ABUT_##name = code,
+    /** @endcond */
     ABUT_STATUS_LIST(ABUT_STATUS_ENTRY)
 #undef ABUT_STATUS_ENTRY
   } abut_status;

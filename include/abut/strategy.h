@@ -125,7 +125,7 @@ extern "C"
   /** What the host is to do, and with which numbers. */
   typedef struct abut_request
   {
-    abut_action action;
+    abut_action action; /**< what to do */
     abut_reason reason; /**< at STOP */
     /** SOLVE, and the SOLVE_AGAIN after it: relative tolerance for the linear
      * system. */

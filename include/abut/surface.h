@@ -104,21 +104,21 @@ extern "C"
   typedef struct abut_surface_view
   {
     int32_t dimension; /**< 2 or 3 */
-    int32_t n_nodes;
-    int32_t n_facets;
-    /** Facet f has the nodes connectivity[facet_start[f]] ..
-     * [facet_start[f + 1] - 1]. [n_facets + 1] */
+    int32_t n_nodes;   /**< number of nodes */
+    int32_t n_facets;  /**< number of facets */
+    /** Facet f has the nodes from connectivity[facet_start[f]] to
+     * connectivity[facet_start[f + 1] - 1]. [n_facets + 1] */
     const int32_t *facet_start;
-    const int32_t *connectivity;
-    const uint8_t *kinds;    /**< [n_facets] abut_facet_kind */
-    const double *position;  /**< [n_nodes * dimension] */
-    const int64_t *node_id;  /**< [n_nodes], or NULL: 0, 1, ... */
-    const int64_t *facet_id; /**< [n_facets], or NULL: 0, 1, ... */
-    const int32_t *group;    /**< [n_facets], or NULL: 0 */
-    /** Facets of node i: node_facet[node_start[i]] .. [node_start[i + 1] - 1],
-     * ascending. [n_nodes + 1] */
+    const int32_t *connectivity; /**< [facet_start[n_facets]] */
+    const uint8_t *kinds;        /**< [n_facets] abut_facet_kind */
+    const double *position;      /**< [n_nodes * dimension] */
+    const int64_t *node_id;      /**< [n_nodes], or NULL: 0, 1, ... */
+    const int64_t *facet_id;     /**< [n_facets], or NULL: 0, 1, ... */
+    const int32_t *group;        /**< [n_facets], or NULL: 0 */
+    /** Facets of node i: from node_facet[node_start[i]] to
+     * node_facet[node_start[i + 1] - 1], ascending. [n_nodes + 1] */
     const int32_t *node_start;
-    const int32_t *node_facet;
+    const int32_t *node_facet; /**< [node_start[n_nodes]] */
     /** [4 * n_facets] the facet across side k of facet f at 4 * f + k, or an
      * abut_neighbour. Side k of a surface facet joins its corners k and k + 1
      * on the way around; sides of a line are its two ends. */

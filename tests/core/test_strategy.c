@@ -462,6 +462,102 @@ a_users_law_is_iterated_to_its_solution(void **unused)
   assert_ok(abut_context_destroy(&context));
 }
 
+/* A law with faults that its parameters choose: the three numbers it gives. */
+static abut_status
+constant_classify(const abut_law_points *points, uint8_t *state)
+{
+  memset(state, ABUT_STATE_CLOSED, (size_t)points->n);
+  return ABUT_SUCCESS;
+}
+
+static abut_status
+constant_linearise(const abut_law_points *points, const uint8_t *state,
+                   abut_law_linearisation *result)
+{
+  const double *numbers = points->parameters;
+  (void)state;
+  for (int32_t i = 0; i < points->n; ++i)
+  {
+    result->residual[i] = numbers[0];
+    result->d_pressure[i] = numbers[1];
+    result->d_gap[i] = numbers[2];
+  }
+  return ABUT_SUCCESS;
+}
+
+static void
+a_useless_law_is_named_with_its_row(void **unused)
+{
+  (void)unused;
+  static const struct
+  {
+    double numbers[3];
+    uint32_t flags;
+    const char *fault; /* or NULL */
+  } cases[] = {
+      {{NAN, 1, 1}, 0, "a value that is not finite"},
+      {{0, INFINITY, 1}, 0, "a value that is not finite"},
+      {{0, 1, NAN}, 0, "a value that is not finite"},
+      {{0, 0, 1}, 0, "a derivative by the pressure that is zero"},
+      {{0, 0, 1}, ABUT_LAW_HARD, NULL},
+      {{0, 0, 0}, ABUT_LAW_HARD, "a derivative by the pressure that is zero"},
+      {{0, 1, 0}, 0, NULL},
+  };
+  for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i)
+  {
+    const abut_law law = {sizeof(abut_law),  "constant",
+                          cases[i].flags,    ABUT_OUTER_NONE,
+                          constant_classify, constant_linearise};
+    abut_strategy_options options = exact_options();
+    options.law = &law;
+    options.law_parameters = cases[i].numbers;
+    fixture s = open_scene(&options);
+    abut_request request;
+    const double gap = -0.25, pressure = 2;
+    assert_ok(abut_strategy_start(s.strategy, 1, NULL, &one, &one, NULL, &gap,
+                                  &pressure, NULL));
+    const abut_status status = abut_strategy_next(s.strategy, NULL, &request);
+    assert_int_equal(status, cases[i].fault ? ABUT_NOT_FINITE : ABUT_SUCCESS);
+    if (cases[i].fault != NULL)
+    {
+      const char *message = abut_context_message(s.context);
+      assert_non_null(strstr(message, "the law 'constant' gives "));
+      assert_non_null(strstr(message, cases[i].fault));
+      assert_non_null(strstr(message, "at gap -0.25, pressure 2"));
+    }
+    close_scene(&s);
+  }
+}
+
+/* Without a change of state the slopes of a user's law may change: the host
+ * must be told, or it would keep a wrong matrix. */
+static void
+changed_slopes_are_reported(void **unused)
+{
+  (void)unused;
+  const exponential parameters = {0.5, 0.25};
+  abut_strategy_options options = exact_options();
+  options.law = &exponential_law;
+  options.law_parameters = &parameters;
+  fixture s = open_scene(&options);
+  abut_request request;
+  assert_ok(abut_strategy_start(s.strategy, 1, NULL, &one, &one, NULL, &one,
+                                NULL, NULL));
+  assert_ok(abut_strategy_next(s.strategy, NULL, &request));
+  /* Same gap, then another: the pressure was 0 in the law's eyes. */
+  const double gaps[] = {1, 0.75};
+  for (int i = 0; i < 2; ++i)
+  {
+    assert_int_equal(request.action, ABUT_ACTION_SOLVE);
+    assert_ok(abut_strategy_next(s.strategy, NULL, &request));
+    assert_int_equal(request.action, ABUT_ACTION_MOVE);
+    assert_ok(abut_strategy_next(s.strategy, &gaps[i], &request));
+    assert_int_equal(request.action, ABUT_ACTION_SOLVE);
+    assert_int_equal(request.matrix_changed, i);
+  }
+  close_scene(&s);
+}
+
 static abut_status
 fail_to_solve(void *user, const abut_request *request)
 {
@@ -606,6 +702,8 @@ main(void)
       cmocka_unit_test(multipliers_that_do_not_contract_stop),
       cmocka_unit_test(reasons_have_texts),
       cmocka_unit_test(a_users_law_is_iterated_to_its_solution),
+      cmocka_unit_test(a_useless_law_is_named_with_its_row),
+      cmocka_unit_test(changed_slopes_are_reported),
       cmocka_unit_test(a_hosts_failure_is_passed_on),
       cmocka_unit_test(no_rows_need_one_tight_solve),
       cmocka_unit_test(closed_rows_are_judged_by_pressure),

@@ -15,6 +15,10 @@ ABI, INDEX, MODE, DEALII, TRILINOS, MPI, COMPILER, LAYOUT = (
     16, 20, 24, 40, 64, 88, 120, 168)
 
 
+# Bytes per cycle.
+LARGEST_GROWTH = 200
+
+
 def number(value):
     return value.to_bytes(4, "little")
 
@@ -81,6 +85,20 @@ class Checker:
         return path
 
 
+def check_memory(check, host):
+    """What is left behind by loading, solving and refining is no more than
+    what a program without contact leaves behind, a few bytes."""
+    result = check.run(host, check.plugin, "cycles=100")
+    words = result.stdout.split()
+    if result.returncode != 0 or len(words) != 8:
+        check.fail(f"cycles: exit code {result.returncode}, {result.stdout}"
+                   f"{result.stderr}")
+        return
+    print(f"100 cycles: {words[5]} bytes per cycle, error {words[3]}")
+    if not float(words[3]) <= 1e-10 or not float(words[5]) <= LARGEST_GROWTH:
+        check.fail("memory or force of cycles")
+
+
 def wrong_files(check):
     text = check.scratch / "text.so"
     text.write_text("This is not a library.\n" * 10, encoding="ascii")
@@ -131,6 +149,7 @@ def check_all(arguments):
     # Springs of 50 times the stiffness of a facet yield by about 1 / 200.
     check.works("penalty", host, check.plugin, "Method/Enforcement=penalty",
                 largest_error=2e-2)
+    check_memory(check, host)
     modes = [f"plugin: it was built with deal.II in mode {mode}",
              f"program with deal.II in mode {other_mode}"]
     check.refused(other_host, [(check.plugin, modes, False)])

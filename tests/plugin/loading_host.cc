@@ -5,7 +5,8 @@
  *     loading_host PLUGIN... ["Method/Enforcement=penalty"]...
  *
  * takes the first plugin that fits; a line on the standard error output tells
- * why another did not.
+ * why another did not. With "cycles=N" all is done N times, with a refined mesh
+ * as well, and the memory that the last nine tenths have left behind is shown.
  *
  * An elastic block of width 2 and height 1 stands on a rigid plane without
  * friction, and its top is moved down by 0.01. In plane strain its vertical
@@ -27,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <malloc.h>
 
 using namespace dealii;
 namespace la = abut::la;
@@ -54,6 +56,44 @@ namespace
       GridGenerator::subdivided_hyper_rectangle(triangulation, {8, 4},
                                                 Point<dim>(0., 0.),
                                                 Point<dim>(width, 1.), true);
+      set_up();
+    }
+
+    /** Smaller cells at the floor. */
+    void refine()
+    {
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->at_boundary(bottom)
+            && cell->center()[0] < 0.5 * width)
+          cell->set_refine_flag();
+      triangulation.execute_coarsening_and_refinement();
+      set_up();
+    }
+
+    /** Solve with contact; returns the contact force. */
+    double solve(abut::ContactAssembler<dim> &contact)
+    {
+      contact.reinit(mapping, dof_handler, constraints);
+      la::Vector u(owned, MPI_COMM_WORLD), residual(u), increment(u);
+      constraints.distribute(u);
+      contact.detect(u);
+      do
+      {
+        stiffness.vmult(residual, u);
+        residual -= load;
+        constraints.set_zero(residual);
+        contact.solve(stiffness, residual, increment);
+        u += increment;
+        constraints.distribute(u);
+      } while (contact.update(u));
+      if (contact.reason() != ABUT_REASON_CONVERGED)
+        throw std::runtime_error(contact.explanation());
+      return contact.contact_force();
+    }
+
+  private:
+    void set_up()
+    {
       dof_handler.distribute_dofs(fe);
       owned = dof_handler.locally_owned_dofs();
       DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
@@ -67,41 +107,10 @@ namespace
       assemble();
     }
 
-    /** Solve with contact; returns the contact force. */
-    double solve(const abut::Registry<dim> &registry, ParameterHandler &prm)
-    {
-      abut_obstacle_shape plane = abut_obstacle_shape_defaults();
-      plane.dimension = dim;
-      plane.axis[1] = 1.;
-      abut::ContactPair<dim> pair;
-      pair.name = "floor";
-      pair.secondary = {bottom};
-      pair.obstacle = registry.make_obstacle(plane);
-
-      const auto contact = registry.create(prm, MPI_COMM_WORLD);
-      contact->set_pairs({pair});
-      contact->reinit(mapping, dof_handler, constraints);
-      la::Vector u(owned, MPI_COMM_WORLD), residual(u), increment(u);
-      constraints.distribute(u);
-      contact->detect(u);
-      do
-      {
-        stiffness.vmult(residual, u);
-        residual -= load;
-        constraints.set_zero(residual);
-        contact->solve(stiffness, residual, increment);
-        u += increment;
-        constraints.distribute(u);
-      } while (contact->update(u));
-      if (contact->reason() != ABUT_REASON_CONVERGED)
-        throw std::runtime_error(contact->explanation());
-      return contact->contact_force();
-    }
-
-  private:
     void prescribe()
     {
       constraints.reinit(relevant);
+      DoFTools::make_hanging_node_constraints(dof_handler, constraints);
       ComponentMask horizontal(dim, false), vertical(dim, false);
       horizontal.set(0, true);
       vertical.set(1, true);
@@ -183,33 +192,95 @@ namespace
     return false;
   }
 
-  int run(const std::vector<std::string> &words)
+  /** The assembler for the block on the floor, with parameters from the command
+   * line. */
+  std::unique_ptr<abut::ContactAssembler<dim>>
+  create(const abut::Registry<dim> &registry,
+         const std::vector<std::string> &parameters)
   {
-    const auto parameters =
-        std::find_if(words.begin(), words.end(),
-                     [](const std::string &word)
-                     { return word.find('=') != std::string::npos; });
-    abut::Registry<dim> registry;
-    if (!load({words.begin(), parameters}, registry))
-      return 2;
     ParameterHandler prm;
     registry.declare_parameters(prm);
-    for (auto word = parameters; word != words.end(); ++word)
+    for (const std::string &word : parameters)
     {
-      const std::size_t slash = word->find('/'), equals = word->find('=');
-      prm.enter_subsection(word->substr(0, slash));
-      prm.set(word->substr(slash + 1, equals - slash - 1),
-              word->substr(equals + 1));
+      const std::size_t slash = word.find('/'), equals = word.find('=');
+      prm.enter_subsection(word.substr(0, slash));
+      prm.set(word.substr(slash + 1, equals - slash - 1),
+              word.substr(equals + 1));
       prm.leave_subsection();
     }
-    Block block;
-    const double force = block.solve(registry, prm);
+    abut_obstacle_shape plane = abut_obstacle_shape_defaults();
+    plane.dimension = dim;
+    plane.axis[1] = 1.;
+    abut::ContactPair<dim> pair;
+    pair.name = "floor";
+    pair.secondary = {bottom};
+    pair.obstacle = registry.make_obstacle(plane);
+    auto contact = registry.create(prm, MPI_COMM_WORLD);
+    contact->set_pairs({pair});
+    return contact;
+  }
+
+  /** Relative error of the force; prints it. */
+  void report(const double force)
+  {
     const double expected =
         width * young / (1. - poisson * poisson) * shortening;
     std::cout.precision(17);
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << "force " << force << " error "
                 << std::abs(force / expected - 1.) << std::endl;
+  }
+
+  /** Load, solve, refine and solve again and again. */
+  int run_cycles(const std::vector<std::string> &plugins,
+                 const std::vector<std::string> &parameters, const int n)
+  {
+    std::size_t before = 0;
+    double force = 0.;
+    for (int cycle = 0; cycle < n; ++cycle)
+    {
+      if (cycle == n / 10)
+        before = mallinfo2().uordblks;
+      abut::Registry<dim> registry;
+      if (!load(plugins, registry))
+        return 2;
+      const auto contact = create(registry, parameters);
+      Block block;
+      for (int mesh = 0; mesh < 3; ++mesh)
+      {
+        if (mesh > 0)
+          block.refine();
+        force = block.solve(*contact);
+      }
+    }
+    const double growth =
+        static_cast<double>(mallinfo2().uordblks) - static_cast<double>(before);
+    report(force);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << "growth " << growth / (n - n / 10) << " bytes per cycle"
+                << std::endl;
+    return 0;
+  }
+
+  int run(const std::vector<std::string> &words)
+  {
+    const auto first =
+        std::find_if(words.begin(), words.end(),
+                     [](const std::string &word)
+                     { return word.find('=') != std::string::npos; });
+    const std::vector<std::string> plugins(words.begin(), first);
+    std::vector<std::string> parameters(first, words.end());
+    if (!parameters.empty() && parameters[0].rfind("cycles=", 0) == 0)
+    {
+      const int n = std::stoi(parameters[0].substr(7));
+      parameters.erase(parameters.begin());
+      return run_cycles(plugins, parameters, n);
+    }
+    abut::Registry<dim> registry;
+    if (!load(plugins, registry))
+      return 2;
+    const auto contact = create(registry, parameters);
+    report(Block().solve(*contact));
     return 0;
   }
 } // namespace

@@ -96,15 +96,20 @@ namespace abut
      * discretisation does not see. Large where the secondary is coarser. */
     double between_rows = 0.;
     double pressure = 0.; /**< largest */
-    /** Resultant contact forces on the two sides. Against an obstacle the
-     * second is minus the first. */
-    dealii::Tensor<1, dim> secondary_force, primary_force;
-    /** Moments about the origin, of the forces at the reference positions; in
-     * 2D the third component alone is not 0. */
-    dealii::Tensor<1, 3> secondary_moment, primary_moment;
-    /** |sum of the forces| / |force|, and |sum of the moments| / (|force| *
-     * diameter of the surface); 0 where there is no force. */
-    double force_imbalance = 0., moment_imbalance = 0.;
+    /** Resultant contact force on the secondary side. */
+    dealii::Tensor<1, dim> secondary_force;
+    /** The same on the primary; against an obstacle minus the first. */
+    dealii::Tensor<1, dim> primary_force;
+    /** Moment about the origin, of the forces on the secondary side at the
+     * reference positions; in 2D the third component alone is not 0. */
+    dealii::Tensor<1, 3> secondary_moment;
+    /** The same on the primary side. */
+    dealii::Tensor<1, 3> primary_moment;
+    /** |sum of the forces| / |force|; 0 where there is no force. */
+    double force_imbalance = 0.;
+    /** |sum of the moments| / (|force| * diameter of the surface); 0 where
+     * there is no force. */
+    double moment_imbalance = 0.;
   };
 
   /** A point of the secondary that has penetrated without a row. */

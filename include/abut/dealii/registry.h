@@ -43,19 +43,23 @@ namespace abut
     virtual std::unique_ptr<ContactAssembler<dim>>
     create(MPI_Comm communicator) const = 0;
 
-    /** @name Constructors of RigidObstacle
-     * @{ */
+    /** Constructor of RigidObstacle: a shape. */
     virtual std::shared_ptr<RigidObstacle<dim>>
     make_obstacle(const abut_obstacle_shape &shape) const = 0;
+
+    /** Another: a height. */
     virtual std::shared_ptr<RigidObstacle<dim>>
     make_obstacle(const HeightObstacle<dim> &height) const = 0;
+
+    /** Another: a function. */
     virtual std::shared_ptr<RigidObstacle<dim>>
     make_obstacle(std::shared_ptr<dealii::Function<dim>> value,
                   bool hollow) const = 0;
+
+    /** Another: a surface of facets. */
     virtual std::shared_ptr<RigidObstacle<dim>>
     make_obstacle(const abut_surface_data &surface,
                   const abut_obstacle_surface &options) const = 0;
-    /** @} */
   };
 
   /** A name that is not registered, or is registered twice. */

@@ -22,8 +22,8 @@ namespace abut
   /** Thicknesses in the form that the detection takes. */
   struct GroupThicknesses
   {
-    std::vector<std::int32_t> groups;
-    std::vector<double> values; /**< of each group, length */
+    std::vector<std::int32_t> groups; /**< numbers of the groups */
+    std::vector<double> values;       /**< of each group, length */
   };
 
   /** The section `Search` of a parameter file.

@@ -20,7 +20,7 @@ namespace abut
       direct     /**< Amesos: MUMPS where it is built in, else KLU */
     };
 
-    Linear linear = Linear::automatic;
+    Linear linear = Linear::automatic; /**< which one */
     /** Iterations after which an iterative solve is given up. */
     unsigned int max_iterations = 1000;
     /** Unknowns up to which `auto` takes the direct solver; 0: 500 for scalar
