@@ -63,8 +63,8 @@ extern "C"
   {
 /** @cond */
 #define ABUT_FACET_KIND_ENTRY(kind, name, nodes, corners, dimension)           \
-/** @endcond */
-    ABUT_FACET_##kind,
+  ABUT_FACET_##kind,
+    /** @endcond */
     ABUT_FACET_KIND_LIST(ABUT_FACET_KIND_ENTRY)
 #undef ABUT_FACET_KIND_ENTRY
     /** Number of kinds; not a kind. */
