@@ -23,3 +23,16 @@ function(abut_dealii_objects target)
     target_precompile_headers(${target} REUSE_FROM abut_shim)
   endif()
 endfunction()
+
+# A program that uses the inside of Abut: a test or benchmark.
+function(abut_inside_program target)
+  add_executable(${target} ${ARGN})
+  deal_ii_setup_target(${target})
+  target_include_directories(${target} PRIVATE
+    ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/plugin)
+  # The precompiled header is one for libraries.
+  target_compile_options(${target} PRIVATE ${ABUT_CXX_WARNINGS} -fPIC
+    $<$<CONFIG:Release>:-g0>)
+  target_precompile_headers(${target} REUSE_FROM abut_shim)
+  target_link_libraries(${target} abut_inside)
+endfunction()
