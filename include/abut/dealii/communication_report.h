@@ -15,14 +15,17 @@ namespace abut
    * solvers send, and sums over all ranks. */
   struct CommunicationReport
   {
-    /** Messages to single other ranks, and their bytes. */
-    std::uint64_t messages = 0, bytes = 0;
+    /** Messages to single other ranks. */
+    std::uint64_t messages = 0;
+    /** Bytes of these messages. */
+    std::uint64_t bytes = 0;
     /** Bytes of boxes that were received from all ranks: proportional to the
      * number of ranks, about half a kilobyte for each. */
     std::uint64_t gathered_bytes = 0;
-    /** Facets of contact surfaces on cells of this rank, and those of other
-     * ranks of which it has a copy. */
-    std::uint64_t own_facets = 0, ghost_facets = 0;
+    /** Facets of contact surfaces on cells of this rank. */
+    std::uint64_t own_facets = 0;
+    /** Facets of other ranks of which this rank has a copy. */
+    std::uint64_t ghost_facets = 0;
   };
 } // namespace abut
 
