@@ -66,6 +66,9 @@ namespace abut
     SolverParameters solver_parameters;
     bool constant_matrix = false;
 
+    /** Before all that is made with it, and so destroyed after it. */
+    shim::Handle<abut_context> context = shim::create_context();
+
     const dealii::Mapping<dim> *mapping = nullptr;
     const dealii::DoFHandler<dim> *dof_handler = nullptr;
     const dealii::AffineConstraints<double> *constraints = nullptr;
@@ -77,7 +80,6 @@ namespace abut
     CommunicationReport sent_before; ///< on earlier meshes
     bool source_is_outdated = true;
 
-    shim::Handle<abut_context> context = shim::create_context();
     shim::Handle<abut_rows> rows = shim::create_rows(context.get());
     shim::Handle<abut_strategy> strategy;
     abut_rows_view view = {};
