@@ -102,7 +102,7 @@ namespace abut
    * ranks. */
   struct NewtonResult
   {
-    NewtonReason reason = NewtonReason::converged;
+    NewtonReason reason = NewtonReason::converged; /**< why it stopped */
     std::string explanation;      /**< in words, with what to try */
     unsigned int n_steps = 0;     /**< linearisations */
     unsigned int n_systems = 0;   /**< linear systems */
