@@ -108,7 +108,16 @@ extern "C"
     /** Sums (or maximum) over ranks of n values in place; NULL in serial. */
     abut_status (*reduce)(void *user, abut_reduction op, double *values,
                           int32_t n);
-    void *user;                 /**< handed to reduce */
+    void *user; /**< handed to reduce */
+    /** Augmented Lagrangian: replace [n] values on this rank's rows by those of
+     * the nearest function in the space of the multipliers, in the weighted
+     * mean square over all ranks; collective. NULL (default): each row has a
+     * multiplier of its own. With more rows than the bodies have unknowns
+     * there, such as quadrature points, multipliers of their own are not
+     * unique and do not settle. Gaps are then closed in the weighted means of
+     * that space; what is left of them at single rows stays a penalty. */
+    abut_status (*project)(void *project_user, int32_t n, double *values);
+    void *project_user;         /**< handed to project */
     const void *law_parameters; /**< handed to the law's functions; may be NULL,
                                      the built-in laws have none */
   } abut_strategy_options;

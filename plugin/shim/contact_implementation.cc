@@ -27,6 +27,20 @@ namespace abut
       return status == MPI_SUCCESS ? ABUT_SUCCESS : ABUT_CALLBACK_FAILED;
     }
 
+    template <int dim>
+    abut_status project_on_nodes(void *user, std::int32_t, double *values)
+    {
+      try
+      {
+        static_cast<const shim::SurfacePairRows<dim> *>(user)->project(values);
+      }
+      catch (const std::exception &)
+      {
+        return ABUT_CALLBACK_FAILED;
+      }
+      return ABUT_SUCCESS;
+    }
+
     /** Whether the penalty is part of the answer. */
     bool is_penalty(const abut_law &law)
     {
@@ -282,11 +296,20 @@ namespace abut
   }
 
   template <int dim>
+  std::vector<double> ContactAssembler<dim>::Implementation::row_stiffness(
+      const la::Matrix &matrix) const
+  {
+    std::vector<double> stiffness = solve::row_stiffness(matrix, coefficients);
+    if (surfaces != nullptr)
+      surfaces->spread_stiffness(stiffness);
+    return stiffness;
+  }
+
+  template <int dim>
   double ContactAssembler<dim>::Implementation::softness(
       const la::Matrix &matrix) const
   {
-    const std::vector<double> stiffness =
-        solve::row_stiffness(matrix, coefficients);
+    const std::vector<double> stiffness = row_stiffness(matrix);
     double sums[2] = {0., 0.};
     for (int i = 0; i < view.n_rows; ++i)
     {
@@ -346,13 +369,16 @@ namespace abut
     set_scales(matrix, residual);
     method.options.reduce = reduce_over_ranks;
     method.options.user = const_cast<MPI_Comm *>(&communicator);
+    const bool has_space = surfaces != nullptr && surfaces->has_points();
+    method.options.project = has_space ? project_on_nodes<dim> : nullptr;
+    method.options.project_user = surfaces;
     abut_strategy_options options = method.options;
     if (iteration_tolerance > 0.)
       options.linear_tolerance = options.final_linear_tolerance =
           iteration_tolerance;
     strategy = shim::create_strategy(context.get(), options);
 
-    stiffness = solve::row_stiffness(matrix, coefficients);
+    stiffness = row_stiffness(matrix);
     if (is_nitsche())
     {
       method.options.penalty = abut_strategy_first_penalty(&method.options);

@@ -44,6 +44,8 @@ namespace abut
     const double *law_gap();
     void set_scales(const la::Matrix &matrix, const la::Vector &residual);
     double length_scale() const;
+    /** [rows] stiffness of the bodies per area, > 0. Collective. */
+    std::vector<double> row_stiffness(const la::Matrix &matrix) const;
     /** Length by pressure: inverse mean of the rows' stiffness. */
     double softness(const la::Matrix &matrix) const;
     /** Make what has been reached the start of the next iteration. */

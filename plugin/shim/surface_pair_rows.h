@@ -92,6 +92,18 @@ namespace abut::shim
                                          const double *row_gap,
                                          const std::uint8_t *row_state) const;
 
+    /** Whether some pair has rows at quadrature points. */
+    bool has_points() const;
+
+    /** Replace values at quadrature points [rows] by the nearest functions of
+     * the secondary's shape functions, pair by pair, in the mean square over
+     * the points; rows of nodes are left alone. Collective. */
+    void project(double *value) const;
+
+    /** Make a stiffness per area [rows] at quadrature points that of the nodes
+     * around them: points with a small weight are not stiffer. Collective. */
+    void spread_stiffness(std::vector<double> &value) const;
+
     /** Give all rows of a pair the same of a positive quantity [rows], the
      * geometric mean: springs of one stiffness leave a uniform pressure
      * uniform. Collective. */
@@ -190,6 +202,9 @@ namespace abut::shim
     bool append(const Row &row, abut_rows *rows, std::string &message) const;
     void make_check(std::size_t pair, unsigned int n_dropped);
     la::Vector field() const;
+    /** Pairs with rows at quadrature points, and these rows. Collective. */
+    template <typename Function>
+    void for_each_point_pair(const Function &function) const;
     template <typename Function>
     void for_each_share(const Function &function) const;
 

@@ -150,6 +150,69 @@ augmented_lagrangian(void **unused)
   }
 }
 
+static abut_status
+take_mean(void *user, int32_t n, double *values)
+{
+  double mean = 0;
+  for (int32_t i = 0; i < n; ++i)
+    mean += values[i] / n;
+  for (int32_t i = 0; i < n; ++i)
+    values[i] = mean;
+  return *(const abut_status *)user;
+}
+
+/* Two floors at h = 1 and 1.2 under one mass, half the area each. Rows by
+ * themselves hold it at the nearer one; with one multiplier for both, the mean
+ * gap is closed, and each floor's spring adds eps times what is left of its
+ * gap. */
+static void
+multipliers_of_a_space(void **unused)
+{
+  (void)unused;
+  const double floors[] = {1, 1.2}, minus_one = -1, middle = 1.1;
+  const int64_t column = 0;
+  abut_context *context = fixture_context();
+  abut_rows *rows = NULL;
+  assert_ok(abut_rows_create(context, &rows));
+  for (int i = 0; i < 2; ++i)
+    assert_ok(
+        abut_rows_append(rows, i, 0.5, floors[i], 0, 1, &column, &minus_one));
+  const abut_dense_model model = {sizeof(model), 1, &k, &weight, rows};
+  abut_status answer = ABUT_SUCCESS;
+  abut_strategy_options options = exact_options();
+  options.law = abut_law_find("augmented lagrangian");
+  options.penalty = 5;
+  options.gap_tolerance = options.pressure_tolerance = 1e-13;
+  options.adaptive_penalty = false;
+  /* The rows' stiffness is k over their weight. */
+  const double eps = options.penalty * k / 0.5;
+  for (int one = 0; one < 2; ++one)
+  {
+    double u = 0, p[2] = {0, 0};
+    abut_reason reason;
+    options.project = one ? take_mean : NULL;
+    options.project_user = &answer;
+    assert_ok(abut_dense_model_solve(context, &model, &options, &u, p, NULL,
+                                     NULL, NULL, NULL, &reason));
+    assert_int_equal(reason, ABUT_REASON_CONVERGED);
+    assert_close(u, one ? middle : 1, 1e-12);
+    const double mean = weight - k * middle;
+    for (int i = 0; i < 2; ++i)
+      assert_close(p[i],
+                   one ? mean + eps * (middle - floors[i])
+                       : (1 - i) * (weight - k) / 0.5,
+                   1e-11);
+  }
+  double u = 0, p[2] = {0, 0};
+  abut_reason reason;
+  answer = ABUT_UNSUPPORTED;
+  assert_int_equal(abut_dense_model_solve(context, &model, &options, &u, p,
+                                          NULL, NULL, NULL, NULL, &reason),
+                   ABUT_CALLBACK_FAILED);
+  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_context_destroy(&context));
+}
+
 static void
 barrier(void **unused)
 {
@@ -326,6 +389,7 @@ main(void)
       cmocka_unit_test(quadratic_penalty),
       cmocka_unit_test(quadratic_penalty_reports_its_cap),
       cmocka_unit_test(augmented_lagrangian),
+      cmocka_unit_test(multipliers_of_a_space),
       cmocka_unit_test(barrier),
       cmocka_unit_test(interior_point),
       cmocka_unit_test(method_of_multipliers),

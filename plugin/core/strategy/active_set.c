@@ -363,14 +363,16 @@ static abut_status
 moved(abut_strategy *s)
 {
   findings found;
-  const abut_status status = inspect(s, &found);
+  abut_status status = inspect(s, &found);
   if (status != ABUT_SUCCESS)
     return status;
   if (found.n_bad == 0 || only_flickers(s, &found))
     return settled(s, &found);
   if (s->options.law->outer == ABUT_OUTER_MULTIPLIER
       && s->options.adaptive_penalty)
-    abut_multiplier_update(s);
+    status = abut_multiplier_update(s);
+  if (status != ABUT_SUCCESS)
+    return status;
   change_set(s, &found);
   return abut_strategy_ask_solve(s, tolerance_of(s), false);
 }

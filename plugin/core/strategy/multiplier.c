@@ -3,7 +3,13 @@
  * Optimization and Lagrange Multiplier Methods, 1982): solve with
  * p = pbar - eps g, then pbar <- max(p, 0). The error falls by about
  * k / (k + eps) per outer step, k the stiffness that the contact surface sees.
- * With adaptive_penalty, eps grows where that is too slow. */
+ * With adaptive_penalty, eps grows where that is too slow.
+ *
+ * Where rows outnumber the unknowns of the surface, multipliers of their own
+ * are not unique: modes that no displacement feels never settle. With a
+ * projection the multipliers are functions of a smaller space, and the update
+ * is pbar <- pbar + P (max(p, 0) - pbar): at its end the gap vanishes in the
+ * weighted means of the space, as in a mortar method. */
 #include "strategy/strategy.h"
 
 #include <math.h>
@@ -17,25 +23,54 @@ enum
   MAX_STAGNANT = 4 /* outer steps without contraction before giving up */
 };
 
-void
-abut_multiplier_update(abut_strategy *s)
+/* Change of pbar in the next update, [n]. */
+static abut_status
+find_change(abut_strategy *s, double *change)
 {
   for (int32_t i = 0; i < s->n; ++i)
-    s->reference[i] =
-        s->bilateral[i] != 0 ? s->pressure[i] : fmax(s->pressure[i], 0);
+    change[i] =
+        (s->bilateral[i] != 0 ? s->pressure[i] : fmax(s->pressure[i], 0))
+        - s->reference[i];
+  if (s->options.project == NULL
+      || s->options.project(s->options.project_user, s->n, change)
+             == ABUT_SUCCESS)
+    return ABUT_SUCCESS;
+  return abut_fail(s->context, ABUT_CALLBACK_FAILED, "abut_strategy_next",
+                   "the projection on the space of the multipliers failed");
+}
+
+static void
+apply(abut_strategy *s, const double *change)
+{
+  for (int32_t i = 0; i < s->n; ++i)
+    s->reference[i] += change[i];
+}
+
+abut_status
+abut_multiplier_update(abut_strategy *s)
+{
+  const abut_status status = find_change(s, s->trial_pressure);
+  if (status == ABUT_SUCCESS)
+    apply(s, s->trial_pressure);
+  return status;
 }
 
 /* Gap error (violated, or open under pressure) relative to the length scale,
- * and the weighted relative change of the pressures against pbar. */
+ * and the weighted relative change of the pressures against pbar. With a space
+ * of multipliers, the gap error is the projected one, by the change of pbar
+ * that it makes. */
 static abut_status
-measure(abut_strategy *s, double *gap_error)
+measure(abut_strategy *s, const double *change, double *gap_error)
 {
   double max = 0, sum[2] = {0, 0};
   for (int32_t i = 0; i < s->n; ++i)
   {
     const bool closed = s->state[i] != ABUT_STATE_OPEN;
-    max = fmax(max, closed ? fabs(s->gap[i]) : fmax(-s->gap[i], 0));
-    sum[0] += s->weight[i] * fabs(s->pressure[i] - s->reference[i]);
+    max = fmax(max, s->options.project != NULL
+                        ? fabs(change[i]) * s->compliance[i]
+                    : closed ? fabs(s->gap[i])
+                             : fmax(-s->gap[i], 0));
+    sum[0] += s->weight[i] * fabs(change[i]);
     sum[1] += s->weight[i] * fabs(s->pressure[i]);
   }
   abut_status status = abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &max, 1);
@@ -65,8 +100,10 @@ abut_multiplier_settled(abut_strategy *s, abut_verdict *verdict)
 {
   const abut_strategy_options *options = &s->options;
   abut_outer_memory *last = &s->outer;
-  double gap_error = 0;
-  const abut_status status = measure(s, &gap_error);
+  double gap_error = 0, *change = s->trial_pressure;
+  abut_status status = find_change(s, change);
+  if (status == ABUT_SUCCESS)
+    status = measure(s, change, &gap_error);
   if (status != ABUT_SUCCESS)
     return status;
   const double merit =
@@ -79,7 +116,7 @@ abut_multiplier_settled(abut_strategy *s, abut_verdict *verdict)
   last->n_stagnant = stagnant ? last->n_stagnant + 1 : 0;
   last->gap_error = gap_error;
   last->merit = merit;
-  abut_multiplier_update(s);
+  apply(s, change);
 
   verdict->go_on = false;
   verdict->reason = ABUT_REASON_CONVERGED;

@@ -27,7 +27,8 @@ abut_status abut_penalty_settled(abut_strategy *s, abut_verdict *verdict);
 /* Method of multipliers: pbar <- p. */
 abut_status abut_multiplier_settled(abut_strategy *s, abut_verdict *verdict);
 
-/* pbar <- max(p, 0), without the clipping for bilateral rows. */
-void abut_multiplier_update(abut_strategy *s);
+/* pbar <- max(p, 0), without the clipping for bilateral rows; with a space of
+ * multipliers pbar <- pbar + projection of that change. Collective. */
+abut_status abut_multiplier_update(abut_strategy *s);
 
 #endif

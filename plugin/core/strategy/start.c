@@ -170,7 +170,10 @@ reset(abut_strategy *s)
   const double penalty = abut_strategy_first_penalty(&s->options);
   if (penalty > 0)
     abut_strategy_set_penalty(s, penalty);
-  abut_multiplier_update(s);
+  /* The starting pressures are in the space of the multipliers. */
+  for (int32_t i = 0; i < s->n; ++i)
+    s->reference[i] =
+        s->bilateral[i] != 0 ? s->pressure[i] : fmax(s->pressure[i], 0);
 }
 
 abut_status
