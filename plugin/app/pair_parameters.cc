@@ -16,7 +16,8 @@ namespace abut::app
                       "3, 4`; several bodies are separated by ';'.");
     prm.declare_entry("Primary", "", Patterns::Anything(),
                       "The surface that it may touch, written like "
-                      "`Secondary`; empty with an obstacle.");
+                      "`Secondary`; empty with an obstacle. The same as "
+                      "`Secondary`: a surface that may touch itself.");
     prm.declare_entry("Obstacle", "0", Patterns::Integer(0),
                       "Number of the rigid obstacle (section `Obstacle N`) "
                       "that takes the place of a primary surface; 0: none.");

@@ -104,6 +104,8 @@ namespace abut::app
       for (std::size_t i = 0; i < results.size(); ++i)
       {
         const ContactPair<dim> &pair = pairs->pairs()[i];
+        if (pair.secondary == pair.primary)
+          continue;
         for (const auto *side : {&pair.secondary, &pair.primary})
           for (const dealii::types::boundary_id id : *side)
             held =

@@ -42,12 +42,15 @@ namespace abut::app
           bodies.surface(given.secondary, given.parameter("Secondary"));
       all[i].primary =
           bodies.surface(given.primary, given.parameter("Primary"));
+      if (all[i].secondary == all[i].primary)
+        continue; // a surface that touches itself
       for (const boundary_id id : all[i].secondary)
         if (all[i].primary.count(id) > 0)
           throw InputError(given.parameter("Primary"),
                            bodies.name(id)
-                               + " is on both sides of the pair: a surface "
-                                 "cannot be its own partner.");
+                               + " is on both sides of the pair. Where a "
+                                 "surface touches itself both sides are the "
+                                 "same altogether.");
     }
   }
 
@@ -58,7 +61,9 @@ namespace abut::app
     for (ContactPair<dim> &pair : all)
       for (const auto *side : {&pair.secondary, &pair.primary})
         for (const boundary_id id : *side)
-          if (floating.count(bodies.body_of(id)) > 0)
+          // nobody holds itself
+          if (floating.count(bodies.body_of(id)) > 0
+              && pair.secondary != pair.primary)
             pair.holds_body = true;
   }
 

@@ -2,6 +2,8 @@
 // Facets of the own cells, and the rings of facets around the own nodes.
 #include "surface_exchange.h"
 
+#include "outward_order.h"
+
 #include <abut/dealii/contact_pair.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -11,7 +13,6 @@
 #include <deal.II/grid/cell_id.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace abut::shim
 {
@@ -19,30 +20,6 @@ namespace abut::shim
 
   namespace
   {
-    /** Order of the face's nodes, as deal.II's reference cell has them, that
-     * makes the normal point out of the cell. */
-    template <int dim>
-    std::vector<unsigned int> outward_order(const abut_facet_kind kind,
-                                            const unsigned int face)
-    {
-      std::vector<unsigned int> order(abut_facet_n_nodes(kind));
-      std::iota(order.begin(), order.end(), 0u);
-      if (dim == 2 ? face == 1 || face == 2 : face % 2 == 1)
-        return order;
-      if (dim == 2)
-        std::swap(order[0], order[1]);
-      else
-      {
-        std::swap(order[1], order[2]);
-        if (kind == ABUT_FACET_QUAD9)
-        {
-          std::swap(order[4], order[6]);
-          std::swap(order[5], order[7]);
-        }
-      }
-      return order;
-    }
-
     /** Place of each coarse cell along the curve that cuts a distributed mesh
      * into parts; empty: that of its index. */
     template <int dim>
@@ -84,11 +61,13 @@ namespace abut::shim
       const dealii::Mapping<dim> &mapping,
       const dealii::DoFHandler<dim> &dof_handler,
       const dealii::AffineConstraints<double> &constraints,
-      const std::set<dealii::types::boundary_id> &boundary_ids)
+      const std::set<dealii::types::boundary_id> &boundary_ids,
+      SelfContact<dim> self_contact)
       : mapping_(mapping),
         dof_handler_(dof_handler),
         constraints_(constraints),
         boundary_ids_(boundary_ids),
+        self_contact_(std::move(self_contact)),
         hanging_(hanging_nodes(dof_handler)),
         post_(dof_handler.get_communicator()),
         owners_(dof_handler.locally_owned_dofs(),
@@ -163,7 +142,8 @@ namespace abut::shim
         FacetRecord record;
         record.facet.cell = cell->id().template to_binary<dim>();
         record.facet.face = face;
-        record.facet.boundary_id = cell->face(face)->boundary_id();
+        record.facet.boundary_id = self_contact_.id(
+            record.facet.cell, face, cell->face(face)->boundary_id());
         record.facet.owner = MPI::this_mpi_process(post_.communicator());
         for (const auto &local : cell_dof_[face])
         {

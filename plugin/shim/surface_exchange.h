@@ -5,6 +5,7 @@
 #include "contact_surface.h"
 #include "handles.h"
 #include "point_to_point.h"
+#include "self_contact.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/parts.h>
@@ -58,11 +59,18 @@ namespace abut::shim
     SurfaceExchange(const dealii::Mapping<dim> &mapping,
                     const dealii::DoFHandler<dim> &dof_handler,
                     const dealii::AffineConstraints<double> &constraints,
-                    const std::set<dealii::types::boundary_id> &boundary_ids);
+                    const std::set<dealii::types::boundary_id> &boundary_ids,
+                    SelfContact<dim> self_contact);
 
     const std::set<dealii::types::boundary_id> &boundary_ids() const
     {
       return boundary_ids_;
+    }
+
+    /** Which facets are on the primary side of their own surface. */
+    const SelfContact<dim> &self_contact() const
+    {
+      return self_contact_;
     }
 
     /** Hanging nodes alone. */
@@ -179,6 +187,7 @@ namespace abut::shim
     const dealii::DoFHandler<dim> &dof_handler_;
     const dealii::AffineConstraints<double> &constraints_;
     const std::set<dealii::types::boundary_id> boundary_ids_;
+    const SelfContact<dim> self_contact_;
     const dealii::AffineConstraints<double> hanging_;
     PointToPoint post_;
     const Owners owners_;

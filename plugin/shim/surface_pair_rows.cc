@@ -55,7 +55,7 @@ namespace abut::shim
       const dealii::Mapping<dim> &mapping,
       const dealii::DoFHandler<dim> &dof_handler,
       const dealii::AffineConstraints<double> &constraints,
-      const std::vector<ContactPair<dim>> &pairs, const Settings &settings,
+      const std::vector<ContactPair<dim>> &given, const Settings &settings,
       abut_context *context, std::shared_ptr<SurfaceExchange<dim>> exchange)
       : mapping_(mapping),
         dof_handler_(dof_handler),
@@ -65,12 +65,15 @@ namespace abut::shim
         context_(context),
         exchange_(std::move(exchange))
   {
+    const auto pairs = SelfContact<dim>::with_sides(given);
     const auto ids = all_ids(pairs);
     if (exchange_ != nullptr && exchange_->boundary_ids() == ids)
       exchange_->refresh();
     else
-      exchange_ = std::make_shared<SurfaceExchange<dim>>(mapping, dof_handler,
-                                                         constraints, ids);
+      exchange_ = std::make_shared<SurfaceExchange<dim>>(
+          mapping, dof_handler, constraints, ids,
+          SelfContact<dim>(mapping, dof_handler, given, settings.search,
+                           context));
     for (const auto &pair : pairs)
       create_pair(pair);
     gather();
@@ -116,8 +119,10 @@ namespace abut::shim
       refuse("no facet of the mesh has a boundary id of the primary surface.");
     for (const auto id : data.secondary)
       if (data.primary.count(id) != 0)
-        refuse("boundary id " + std::to_string(id)
-               + " is on both sides; give the two surfaces ids of their own.");
+        refuse(
+            "boundary id " + std::to_string(id)
+            + " is on both sides; give the two surfaces ids of their own, or "
+              "the same ids to both where a surface touches itself.");
   }
 
   template <int dim> void SurfacePairRows<dim>::create_coupling(Pair &pair)
@@ -135,6 +140,10 @@ namespace abut::shim
     options.normal_cosine = settings_.search.detection.normal_cosine;
     options.search = settings_.search.detection.search;
     options.search.reach = std::max(options.search.reach, pair.data.reach);
+    const double found = exchange_->self_contact().thickness(pair.data);
+    options.thickness =
+        found > 0. ? found
+                   : given_thickness(settings_.search, pair.data.primary);
     abut_coupling *made = nullptr;
     check(context_, pair.data.obstacle
                         ? abut_coupling_create_obstacle(

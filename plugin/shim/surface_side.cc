@@ -134,6 +134,15 @@ namespace abut::shim
     }
   } // namespace
 
+  double given_thickness(const SearchParameters &search,
+                         const std::set<dealii::types::boundary_id> &ids)
+  {
+    const std::vector<double> values =
+        search.group_thicknesses({ids.begin(), ids.end()}).values;
+    return values.empty() ? 0.
+                          : *std::min_element(values.begin(), values.end());
+  }
+
   template <int dim>
   SideMeasures measure_everywhere(const SurfaceSide<dim> &side,
                                   const ContactSurface<dim> &whole,

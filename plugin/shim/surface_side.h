@@ -57,6 +57,11 @@ namespace abut::shim
                              const std::set<dealii::types::boundary_id> &ids,
                              const SearchParameters &search);
 
+  /** Least thickness that `Search/Thickness` gives to bodies with these ids,
+   * length; 0: none. */
+  double given_thickness(const SearchParameters &search,
+                         const std::set<dealii::types::boundary_id> &ids);
+
   /** Measure a side from the facets that ranks have of their own. Collective.
    */
   template <int dim>

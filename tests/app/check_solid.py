@@ -70,8 +70,10 @@ p.expect_error(run("Pair 1/Secondary=3: 0"), "Pair 1/Secondary",
 p.expect_error(run("Pair 1/Secondary="), "Pair 1/Secondary",
                "no secondary surface")
 p.expect_error(run("Pair 1/Primary="), "Pair 1/Primary", "neither")
-p.expect_error(run("Pair 1/Primary=2: 2"), "Pair 1/Primary",
+p.expect_error(run("Pair 1/Primary=2: 2, 3"), "Pair 1/Primary",
                "on both sides of the pair")
+p.expect_error(run("Pair 1/Primary=2: 2"), "Pair 1/Secondary",
+               "no two facets", "face each other", "reach")
 p.expect_error(run("Pair 1/Obstacle=1"), "Pair 1/Obstacle", "primary surface")
 p.expect_error(run("Pair 1/Primary=", "Pair 1/Obstacle=2"), "Pair 1/Obstacle",
                "no obstacle 2")
@@ -84,6 +86,11 @@ p.expect_error(run("Body 2/Mesh/Move=0, 0.6", "Refinement/Level=0"),
                "Pair 1/Secondary", "too far apart", "0.6", "reach")
 p.expect_error(run("Body 2/Mesh/Move=0, -0.3", "Refinement/Level=0"),
                "Pair 1/Secondary", "overlap", "reach")
+deep = ("Body 2/Mesh/Move=0, -0.3", "Pair 1/Reach=1", "Refinement/Level=0")
+p.expect(run(*deep, "Search/Thickness=1").returncode == 0,
+         "an interference that is meant")
+p.expect_error(run(*deep, "Search/Thickness=0.5"), "Pair 1/Secondary",
+               "overlap")
 p.expect_error(run("Pair 1/Secondary=2: 3", "Pair 1/Reach=2"),
                "Pair 1/Secondary", "same way")
 

@@ -21,7 +21,10 @@ namespace abut
 {
   template <int dim> class RigidObstacle;
 
-  /** Two surfaces, or a surface and a rigid obstacle. */
+  /** Two surfaces, or a surface and a rigid obstacle, or a surface that may
+   * touch itself: then both sides have the same boundary ids, and facets that
+   * face each other within reach before anything moves are put on different
+   * sides (abut/self_contact.h). */
   template <int dim> struct ContactPair
   {
     /** Name in messages and tables. */

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A surface that touches itself gives what the same mesh gives when its two
+parts have boundary ids of their own, on any number of ranks; a closed crack
+passes a uniform pressure on, up to the facets at its tip."""
+from program import Program
+
+p = Program()
+QUIET = {"Output/Fields": "false", "Output/Pictures": "false",
+         "Method/Final linear tolerance": 1e-12}
+KEYS = ("energy", "contact_force", "pair_1_pressure", "pair_1_covered_area")
+
+
+def same(one, two, what, tolerance=1e-9):
+    p.expect(one["active"] == two["active"] > 0,
+             f"{what}: {one['active']} and {two['active']} in contact")
+    p.expect(one["constraints"] == two["constraints"],
+             f"{what}: {one['constraints']} and {two['constraints']} rows")
+    for key in KEYS:
+        p.close(two[key] / one[key], 1., tolerance, f"{what}: {key}")
+
+
+def solve(scene, settings, ranks=0):
+    words = [word for key, value in {**QUIET, **settings}.items()
+             for word in ("--set", f"{key}={value}")]
+    return p.solve(scene, *words, ranks=ranks)
+
+
+# The slot that closes, from an open one on, whose two faces do not match.
+LIPS = {"Pair 1/Secondary": "1: 1", "Pair 1/Primary": "1: 2"}
+for settings in ({"Method/Discretisation": "dual mortar"},
+                 {"Method/Discretisation": "mortar"},
+                 {"Method/Discretisation": "node to segment"},
+                 {"Solid/Degree": 2, "Refinement/Level": 3},
+                 {"Method/Enforcement": "penalty"},
+                 {"Refinement/Level": 2, "Refinement/Adaptive cycles": 3}):
+    one, rows = solve("self-contact.prm", settings)
+    two, _ = solve("self-contact.prm", {**settings, **LIPS})
+    same(two, one, f"slot, {settings}")
+    p.expect(one["force_imbalance"] < 1e-11,
+             f"slot, {settings}: {one['force_imbalance']}")
+    if not settings.get("Refinement/Adaptive cycles"):
+        p.expect(one["active"] < one["constraints"],
+                 f"slot, {settings}: closed altogether")
+first, _ = solve("self-contact.prm", {})
+for ranks in (2, 3):
+    same(first, solve("self-contact.prm", {}, ranks)[0], f"{ranks} ranks", 1e-8)
+
+
+def crack(dim):
+    """Half of the middle plane of a unit cube is a crack under pressure."""
+    free = ", ".join(["free"] * (dim - 1))
+    held = "; ".join(
+        f"{2 + d}: " + ", ".join("0" if i == d else "free" for i in range(dim))
+        for d in range(dim))
+    sides = "; ".join(f"{2 + d}: {'xyz'[d]} > 0.999999" for d in range(dim))
+    return p.folder / p.write("crack.prm", f"""
+set Scene = solid
+set Dimension = {dim}
+subsection Solid
+  set Bodies = 1
+  set Pairs = 1
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = hyper_cube_slit
+    set Arguments = 0 : 1 : false
+    set Boundary ids = 1: abs(x - 0.5) < 1e-6; {sides}; 9: x < 1e-6
+  end
+  set Young modulus = 1
+  set Poisson ratio = 0.3
+  set Support = {held}
+  set Pressure = 9: 0.01
+end
+subsection Pair 1
+  set Secondary = 1: 1
+  set Primary = 1: 1
+end
+""")
+
+
+# Which side is the secondary is of no consequence: the two match. Facets at
+# the tip have a node in common, and no rows.
+for dim, levels in ((2, (3, 4, 5)), (3, (2, 3))):
+    errors = []
+    for level in levels:
+        one, _ = solve(crack(dim), {"Refinement/Level": level})
+        errors.append(1. - one["contact_force"] / 0.005)
+    print(f"crack, {dim}D: force too small by", *errors)
+    for one, two in zip(errors, errors[1:]):
+        p.expect(0. < two < 0.6 * one, f"crack, {dim}D: {errors}")
+
+# Mistakes.
+def refused(*settings):
+    words = [word for setting in settings for word in ("--set", setting)]
+    return p.call("run", p.source / "prm/self-contact.prm", "--output", "out",
+                  "--quiet", *words)
+
+
+p.expect_error(refused("Pair 1/Reach=0.001", "Refinement/Level=5"),
+               "Pair 1/Secondary", "face each other", "reach")
+p.expect_error(refused("Pair 1/Tied=true"), "Pair 1/Secondary",
+               "tied to itself")
+p.expect_error(refused("Pair 1/Primary=1: 1, 2"), "Pair 1/Primary",
+               "on both sides of the pair")
+p.finish()
