@@ -13,6 +13,7 @@
 #include <abut/dealii/contact_assembler.h>
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -242,8 +243,14 @@ namespace abut::hosts
     Errors solve()
     {
       prepare({pair()});
-      la::Vector u(owned_, communicator_), residual(u), increment(u);
-      constraints_.distribute(u);
+      la::Vector u = start();
+      return solve(u);
+    }
+
+    /** Solve from the displacement @p u on, and put the solution there. */
+    Errors solve(la::Vector &u)
+    {
+      la::Vector residual(u), increment(u);
       contact_.detect(u);
       Errors errors;
       const auto find_residual = [&]
@@ -270,9 +277,60 @@ namespace abut::hosts
       return errors;
     }
 
+    /** Cut the mesh anew, with another weight of the cells of the upper block,
+     * and take displacement and pressures along. */
+    la::Vector repartition(const la::Vector &u, const unsigned int weight)
+    {
+      la::Vector displacement(owned_, relevant_, communicator_),
+          pressure(displacement);
+      displacement = u;
+      pressure = contact_.pressure();
+      dealii::parallel::distributed::SolutionTransfer<dim, la::Vector> transfer(
+          dof_handler_);
+      transfer.prepare_for_coarsening_and_refinement(
+          std::vector<const la::Vector *>{&displacement, &pressure});
+      const auto connection = triangulation_->signals.weight.connect(
+          [weight](const auto &cell, const auto) -> unsigned int
+          { return cell->material_id() == 1 ? weight : 1000; });
+      triangulation_->repartition();
+      connection.disconnect();
+      setup();
+      assemble();
+      la::Vector moved(owned_, communicator_), p(moved);
+      std::vector<la::Vector *> targets = {&moved, &p};
+      transfer.interpolate(targets);
+      constraints_.distribute(moved);
+      contact_.reinit(mapping_, dof_handler_, constraints_);
+      contact_.set_pressure(p);
+      return moved;
+    }
+
+    /** Start from 0, with the prescribed displacements. */
+    la::Vector start() const
+    {
+      la::Vector u(owned_, communicator_);
+      constraints_.distribute(u);
+      return u;
+    }
+
+    unsigned int n_own_cells() const
+    {
+      return triangulation_->n_locally_owned_active_cells();
+    }
+
     ContactAssembler<dim> &contact()
     {
       return contact_;
+    }
+
+    const dealii::DoFHandler<dim> &dof_handler() const
+    {
+      return dof_handler_;
+    }
+
+    const la::Matrix &stiffness() const
+    {
+      return stiffness_;
     }
 
   private:
