@@ -3,6 +3,7 @@
 #define ABUT_SHIM_AGREE_H
 
 #include <abut/context.h>
+#include <abut/parts.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -13,17 +14,23 @@
 namespace abut::shim
 {
   /** Throw @p message on all ranks if it is not empty on one: that of the
-   * lowest such rank. Collective. */
+   * lowest such rank, of those where the failure happened if there are any.
+   * Collective. */
   template <typename Error>
   void throw_everywhere(const MPI_Comm communicator, const std::string &message)
   {
     namespace MPI = dealii::Utilities::MPI;
     const unsigned int me = MPI::this_mpi_process(communicator);
+    const unsigned int n_ranks = MPI::n_mpi_processes(communicator);
     const unsigned int none = std::numeric_limits<unsigned int>::max();
-    const unsigned int rank =
-        MPI::min(message.empty() ? none : me, communicator);
-    if (rank != none)
-      throw Error(MPI::broadcast(communicator, message, rank));
+    const bool happened_here =
+        message.find(ABUT_FAILED_ON_ANOTHER_RANK) == std::string::npos;
+    const unsigned int first = MPI::min(message.empty() ? none
+                                        : happened_here ? me
+                                                        : n_ranks + me,
+                                        communicator);
+    if (first != none)
+      throw Error(MPI::broadcast(communicator, message, first % n_ranks));
   }
 
   /** Run @p function. What it throws on any rank is thrown on all: as an Error

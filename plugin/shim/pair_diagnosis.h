@@ -4,10 +4,30 @@
 
 #include "surface_side.h"
 
+#include <abut/dealii/contact_pair.h>
+
 #include <string>
 
 namespace abut::shim
 {
+  /** Run @p function; what the core says goes on with the name of the pair. */
+  template <typename Function>
+  void run_named(const std::string &pair, const Function &function)
+  {
+    try
+    {
+      function();
+    }
+    catch (const ContactError &)
+    {
+      throw;
+    }
+    catch (const std::exception &error)
+    {
+      throw ContactError("Pair '" + pair + "': " + error.what());
+    }
+  }
+
   /** Why two surfaces have no part in contact range: too far apart, deeper in
    * each other than the reach, or turned the wrong way; in words, with what to
    * do. Of the facets known here: they must be those up to the least distance

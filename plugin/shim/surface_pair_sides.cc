@@ -21,23 +21,8 @@ namespace abut::shim
     void run_for_pair(const MPI_Comm communicator, const std::string &name,
                       const Function &function)
     {
-      run_everywhere<ContactError>(
-          communicator,
-          [&]
-          {
-            try
-            {
-              function();
-            }
-            catch (const ContactError &)
-            {
-              throw;
-            }
-            catch (const std::exception &error)
-            {
-              throw ContactError("Pair '" + name + "': " + error.what());
-            }
-          });
+      run_everywhere<ContactError>(communicator,
+                                   [&] { run_named(name, function); });
     }
   } // namespace
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Facets of the other side that are near, and the surface that results.
 #include "agree.h"
+#include "pair_diagnosis.h"
 #include "surface_exchange.h"
-
-#include <abut/dealii/contact_pair.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,25 +77,31 @@ namespace abut::shim
   {
     // [links][two sides]: number of boxes, and these.
     std::vector<double> result;
-    for (const Link &link : links)
-      for (const Ids *ids : {&link.secondary, &link.primary})
+    const auto append = [&](const Link &link, const Ids &ids)
+    {
+      std::int32_t n = 0;
+      std::vector<abut_box> box(boxes_per_part);
+      const Part part = make_part(context, ids,
+                                  [](const FacetRecord &record) {
+                                    return record.ring <= last_ring_with_shares;
+                                  });
+      if (part.surface != nullptr && !link.primary.empty())
+        check(context, abut_surface_bounds(part.surface.get(), link.margin,
+                                           boxes_per_part, box.data(), &n));
+      result.push_back(n);
+      for (std::int32_t k = 0; k < n; ++k)
       {
-        std::int32_t n = 0;
-        std::vector<abut_box> box(boxes_per_part);
-        const Part part =
-            make_part(context, *ids,
-                      [](const FacetRecord &record)
-                      { return record.ring <= last_ring_with_shares; });
-        if (part.surface != nullptr && !link.primary.empty())
-          check(context, abut_surface_bounds(part.surface.get(), link.margin,
-                                             boxes_per_part, box.data(), &n));
-        result.push_back(n);
-        for (std::int32_t k = 0; k < n; ++k)
-        {
-          result.insert(result.end(), box[k].lower, box[k].lower + 3);
-          result.insert(result.end(), box[k].upper, box[k].upper + 3);
-        }
+        result.insert(result.end(), box[k].lower, box[k].lower + 3);
+        result.insert(result.end(), box[k].upper, box[k].upper + 3);
       }
+    };
+    for (const Link &link : links)
+      run_named(link.name,
+                [&]
+                {
+                  append(link, link.secondary);
+                  append(link, link.primary);
+                });
     return result;
   }
 
@@ -223,9 +228,13 @@ namespace abut::shim
     const auto select_all = [&]
     {
       for (std::size_t side = 0; side < 2 * links.size(); ++side)
-        for (auto &[rank, numbers] :
-             select(context, side, links[side / 2], search))
-          near_ones[rank].merge(numbers);
+        run_named(links[side / 2].name,
+                  [&]
+                  {
+                    for (auto &[rank, numbers] :
+                         select(context, side, links[side / 2], search))
+                      near_ones[rank].merge(numbers);
+                  });
     };
     run_everywhere<ContactError>(post_.communicator(), select_all);
     Mail mail;

@@ -219,6 +219,31 @@ namespace
     }
   }
 
+  bool law_fails = false;
+
+  /** A law of the host that fails on one rank says so on all, in the words of
+   * that rank. */
+  void check_law()
+  {
+    static const abut_law *const penalty = abut_law_find("penalty");
+    abut_law law = *penalty;
+    law.linearise = [](const abut_law_points *points, const std::uint8_t *state,
+                       abut_law_linearisation *result)
+    {
+      return law_fails ? ABUT_NOT_FINITE
+                       : penalty->linearise(points, state, result);
+    };
+    hosts::Case run;
+    run.method = hosts::method("penalty", Discretisation::automatic);
+    run.method.options.law = &law;
+    hosts::TwoBlocks<2> blocks(run);
+    blocks.prepare({blocks.pair()});
+    law_fails = me() == rank_at_interface(blocks);
+    la::Vector u = blocks.start();
+    throws_everywhere("law that fails", [&] { blocks.solve(u); }, {"law"});
+    law_fails = false;
+  }
+
   /** A residual of which one rank's part is not a number stops all. */
   void check_residual()
   {
@@ -250,6 +275,7 @@ main(int argc, char **argv)
   check_displacement();
   check_obstacle();
   check_stress();
+  check_law();
   check_residual();
   return good ? 0 : 1;
 }

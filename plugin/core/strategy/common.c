@@ -3,6 +3,8 @@
  * present point. */
 #include "strategy/strategy.h"
 
+#include <abut/parts.h>
+
 #include <math.h>
 #include <string.h>
 
@@ -31,7 +33,7 @@ abut_strategy_agree(abut_strategy *s, abut_status status)
     return reduced;
   return abut_fail(s->context,
                    (abut_status)(worst[1] > 0 ? -worst[1] : worst[0]),
-                   "abut_strategy", "another rank reported a failure");
+                   "abut_strategy", ABUT_FAILED_ON_ANOTHER_RANK);
 }
 
 abut_law_points
