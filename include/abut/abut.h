@@ -13,6 +13,7 @@
 #include <abut/detect.h>
 #include <abut/export.h>
 #include <abut/facet.h>
+#include <abut/failure.h>
 #include <abut/law.h>
 #include <abut/obstacle.h>
 #include <abut/obstacle_surface.h>

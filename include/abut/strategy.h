@@ -24,6 +24,7 @@
  * core knows no MPI: sums over ranks go through the callback reduce.
  */
 
+#include <abut/failure.h>
 #include <abut/law.h>
 #include <stdbool.h>
 
@@ -173,6 +174,13 @@ extern "C"
         cycle_length; /**< of the last detected cycle of active sets, or 0 */
     int32_t fallback_steps; /**< steps in which only one row was flipped */
   } abut_progress;
+
+  /** The known failure behind the end of a strategy with this law, and
+   * CYCLE where it converged only by changing rows one by one; else NONE. NULL
+   * arguments give NONE. */
+  ABUT_API abut_failure abut_reason_failure(abut_reason reason,
+                                            const abut_law *law,
+                                            const abut_progress *progress);
 
   /** Create a strategy. */
   ABUT_API abut_status abut_strategy_create(

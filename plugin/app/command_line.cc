@@ -13,15 +13,11 @@ namespace abut::app
     using Command = CommandLine::Command;
 
     const std::map<std::string, Command> commands = {
-        {"run", Command::run},
-        {"check", Command::check},
-        {"search", Command::search},
-        {"chart", Command::chart},
-        {"parameters", Command::parameters},
-        {"help", Command::help},
-        {"--help", Command::help},
-        {"-h", Command::help},
-        {"--version", Command::version}};
+        {"run", Command::run},       {"check", Command::check},
+        {"search", Command::search}, {"chart", Command::chart},
+        {"atlas", Command::atlas},   {"parameters", Command::parameters},
+        {"help", Command::help},     {"--help", Command::help},
+        {"-h", Command::help},       {"--version", Command::version}};
 
     const char *const general_help =
         R"(abut - contact mechanics with deal.II
@@ -30,6 +26,7 @@ namespace abut::app
   abut check SCENE.prm    read a scene, check its data and stop before solving
   abut search SCENE.prm   search contact on two surfaces: pairs, time, memory
   abut chart FILE.prm     run a scene in many ways: error against time, work, ...
+  abut atlas [FOLDER]     run the scenes of known failures and their cures
   abut parameters         print the reference of all parameters (Markdown)
   abut help COMMAND       explain a command
   abut --version          print the versions of abut, deal.II and Trilinos
@@ -87,6 +84,18 @@ changed setting, scene or program is a new run.
 Exit code: 0 charted, 2 wrong input, 3 no run gave an answer to chart, 1
 internal error.
 )"},
+        {"atlas", R"(abut atlas [FOLDER | SCENE.prm] [options]
+
+Run the failure atlas, pairs of scenes NAME.prm that fail and NAME.cure.prm
+that do not (default: prm/failures), or one pair of it. Compare what the runs
+show with what the comments in the files expect, and write a page about it.
+
+  --output DIR    folder of the runs (default: output/atlas)
+  --report FILE   the page (default: failures.md in that folder)
+  --quiet         print only what is not as expected
+
+Exit code: 0 all as expected, 3 not all, 2 wrong input.
+)"},
         {"parameters", R"(abut parameters
 
 Print all parameters of all scenes with their defaults, legal values and
@@ -114,11 +123,18 @@ Print the commands, or explain one.
       return words[++i];
     }
 
+    std::vector<std::string> options_of(const Command command)
+    {
+      if (command == Command::atlas)
+        return {"--output", "--report", "--quiet"};
+      return {"--set", "--output", "--quiet"};
+    }
+
     void parse_file_command(const std::vector<std::string> &words,
                             CommandLine &result)
     {
       for (std::size_t i = 1; i < words.size(); ++i)
-        if (words[i] == "--set")
+        if (words[i] == "--set" && result.command != Command::atlas)
           result.overrides.push_back(value_of(words, i));
         else if (words[i] == "--output" && result.command != Command::check)
           result.output = value_of(words, i);
@@ -128,16 +144,19 @@ Print the commands, or explain one.
           result.explain = true;
         else if (words[i] == "--plan" && result.command == Command::chart)
           result.plan = true;
+        else if (words[i] == "--report" && result.command == Command::atlas)
+          result.report = value_of(words, i);
         else if (words[i].size() > 1 && words[i][0] == '-')
           throw InputError(
-              "",
-              "'" + words[0] + "' has no option '" + words[i] + "'."
-                  + did_you_mean(words[i], {"--set", "--output", "--quiet"}));
+              "", "'" + words[0] + "' has no option '" + words[i] + "'."
+                      + did_you_mean(words[i], options_of(result.command)));
         else if (!result.file.empty())
           throw InputError("", "one file at a time: '" + result.file + "' and '"
                                    + words[i] + "' were given.");
         else
           result.file = words[i];
+      if (result.file.empty() && result.command == Command::atlas)
+        result.file = "prm/failures";
       if (result.file.empty())
         throw InputError("", "'" + words[0] + "' needs a scene file: abut "
                                  + words[0] + " FILE.prm");
@@ -156,8 +175,8 @@ Print the commands, or explain one.
                                + " 'abut --help' lists the commands.");
     result.command = command->second;
     if (result.command == Command::run || result.command == Command::check
-        || result.command == Command::search
-        || result.command == Command::chart)
+        || result.command == Command::search || result.command == Command::chart
+        || result.command == Command::atlas)
       parse_file_command(words, result);
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];

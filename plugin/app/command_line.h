@@ -16,16 +16,18 @@ namespace abut::app
       check,
       search,
       chart,
+      atlas,
       parameters,
       version,
       help
     };
 
     Command command = Command::help;
-    std::string file;  /**< of the scene, or of the chart */
+    std::string file;  /**< of the scene or the chart; folder of the atlas */
     std::string topic; /**< of `abut help TOPIC` */
     std::vector<std::string> overrides;
     std::string output; /**< empty: output/<name of the file> */
+    std::string report; /**< page of the atlas; empty: in its output */
     bool quiet = false;
     bool explain = false; /**< say what could be left out */
     bool plan = false;    /**< of a chart: stop before the first run */

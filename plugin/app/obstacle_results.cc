@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run of the scene `obstacle` leaves behind.
 #include "collective.h"
+#include "diagnosis.h"
 #include "left_out.h"
 #include "obstacle_run.h"
 #include "pictures.h"
@@ -222,6 +223,17 @@ namespace abut::app
     const auto entries = MPI::min_max_avg(here[1], communicator);
     report.set("largest_share_of_cells", cells.max / cells.sum);
     report.set("largest_share_of_matrix", entries.max / entries.sum);
+    std::vector<double> energies;
+    double condition = 0.;
+    for (const ObstacleLevel &level : levels)
+    {
+      condition = std::max(condition, level.linear.condition);
+      if (level.level <= parameters.refinement.level)
+        energies.push_back(level.energy);
+    }
+    if (converged && !parameters.refinement.has_target())
+      diagnose_order(report, energies);
+    diagnose_condition(report, condition, last.progress.penalty);
     report.set("converged", converged);
     if (control.is_on())
       control.report(report, relative_error(last));

@@ -3,6 +3,7 @@
 
 #include "automatic_law.h"
 #include "collective.h"
+#include "diagnosis.h"
 #include "estimator.h"
 #include "input_error.h"
 #include "memory_check.h"
@@ -294,15 +295,39 @@ namespace abut::app
     }
     catch (const SolverFailure &failure)
     {
-      report.warn(failure.what());
+      report.warn(
+          diagnose_solver_failure(failure.what(), contact.progress().penalty));
       return false;
     }
     present.reason = contact.reason();
-    if (present.reason != ABUT_REASON_CONVERGED)
-      report.warn("The contact iteration ended without an answer after "
-                  + std::to_string(present.steps)
-                  + " steps: " + contact.explanation());
-    return present.reason == ABUT_REASON_CONVERGED;
+    if (present.reason == ABUT_REASON_CONVERGED)
+      diagnose_iteration(report, contact.progress(),
+                         !parameters.refinement.nested
+                             && method.options.law->outer == ABUT_OUTER_NONE);
+    else
+      report.warn(coded(contact.failure(),
+                        "The contact iteration ended without an answer after "
+                            + std::to_string(present.steps)
+                            + " steps: " + contact.explanation()));
+    return present.reason == ABUT_REASON_CONVERGED && is_balanced();
+  }
+
+  template <int dim> bool ObstacleRun<dim>::is_balanced()
+  {
+    // Coarser meshes are solved roughly on purpose, and with a target error
+    // all are.
+    if (present.level != parameters.refinement.last_mesh()
+        || parameters.refinement.has_target())
+      return true;
+    la::Vector residual = membrane.vector();
+    membrane.residual(u, residual);
+    std::string failure;
+    if (diagnose_balance(
+            report, contact.imbalance(residual, 1e-4 * membrane.load.l2_norm()),
+            contact.progress().penalty, failure))
+      return true;
+    report.warn(failure);
+    return false;
   }
 
   template <int dim> double ObstacleRun<dim>::energy() const
@@ -443,6 +468,7 @@ namespace abut::app
     create_coarse_mesh();
     collective(communicator, [&] { set_obstacle(); });
     declare_tables();
+    diagnose_penalty(report, method);
     setup_level();
     choose_law();
 

@@ -64,6 +64,7 @@ namespace abut::app
     void set_tolerance(bool last);
     void prepare_start(bool warm, la::Vector &residual);
     bool solve_level(bool warm);
+    bool is_balanced();
     void judge();
     double solution_norm() const;
     bool solve_on_hierarchy();

@@ -2,6 +2,7 @@
 #include "point_mass.h"
 
 #include "common_parameters.h"
+#include "diagnosis.h"
 #include "input_error.h"
 #include "json.h"
 #include "parameters.h"
@@ -345,8 +346,13 @@ namespace abut::app
       }();
       fill_table(report, solution);
       fill_summary(report, solution);
-      if (solution.reason != ABUT_REASON_CONVERGED)
-        report.warn(abut_reason_text(solution.reason));
+      if (solution.reason == ABUT_REASON_CONVERGED)
+        diagnose_iteration(report, solution.progress, false);
+      else
+        report.warn(
+            coded(abut_reason_failure(solution.reason, method.options.law,
+                                      &solution.progress),
+                  abut_reason_text(solution.reason)));
 
       SectionTimes::Scope scope(report.times, "output");
       if (Utilities::MPI::this_mpi_process(options.communicator) == 0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "program.h"
 
+#include "atlas/atlas.h"
 #include "chart/chart.h"
 #include "collective.h"
 #include "command_line.h"
@@ -137,14 +138,36 @@ namespace abut::app
         throw file->placed(error);
       }
     }
-    ExitCode chart_command(MPI_Comm communicator, const CommandLine &line)
+
+    /** For commands that run this program again for each scene. */
+    void require_one_rank(MPI_Comm communicator, const CommandLine &line)
     {
       if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
-        throw InputError("", "'abut chart' starts a process for each run, one "
-                             "after the other: start it without mpirun.");
+        throw InputError(
+            "", std::string("'abut ")
+                    + (line.command == Command::chart ? "chart" : "atlas")
+                    + "' starts a process for each run, one after "
+                      "the other: start it without mpirun.");
+    }
+
+    ExitCode chart_command(MPI_Comm communicator, const CommandLine &line)
+    {
+      require_one_rank(communicator, line);
       Report report(communicator, line.quiet);
       return make_chart(line.file, line.overrides, output_folder(line),
                         line.plan, report);
+    }
+
+    ExitCode atlas_command(MPI_Comm communicator, const CommandLine &line)
+    {
+      require_one_rank(communicator, line);
+      AtlasOptions options;
+      options.path = line.file;
+      options.output = line.output.empty() ? "output/atlas" : line.output;
+      options.report = line.report.empty() ? options.output / "failures.md"
+                                           : std::filesystem::path(line.report);
+      options.quiet = line.quiet;
+      return run_atlas(options);
     }
   } // namespace
 
@@ -161,6 +184,8 @@ namespace abut::app
       return scene_command(communicator, line);
     case Command::chart:
       return chart_command(communicator, line);
+    case Command::atlas:
+      return atlas_command(communicator, line);
     case Command::parameters:
       write_reference(text);
       write_chart_reference(text);

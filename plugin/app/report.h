@@ -9,6 +9,8 @@
 
 #include "section_times.h"
 
+#include <abut/dealii/coded.h>
+
 #include <mpi.h>
 
 #include <chrono>
@@ -80,7 +82,8 @@ namespace abut::app
     void progress(const std::string &line);
 
     /** A line for the user that is printed even when quiet, and again at the
-     * end. Collected under the key `warnings`. */
+     * end. Collected under the key `warnings`. Those about known failures begin
+     * with a code, see coded(). */
     void warn(const std::string &line);
 
     /** A line of the closing table of what was modelled: @p what ("adaptive

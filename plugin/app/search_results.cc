@@ -10,6 +10,9 @@ namespace abut::app
 {
   namespace
   {
+    /** Facets looked at for each pair, above which buckets do not help. */
+    constexpr double wasteful_tests = 50.;
+
     /** "rejected_facing_away": keys of the summary, by reason. */
     std::string rejection_key(const int reason)
     {
@@ -88,16 +91,20 @@ namespace abut::app
   void SearchRun::report_warnings(const abut_detection_report &found)
   {
     if (found.n_paired == 0)
-      report.warn("no node of the secondary surface is paired: "
-                  + std::string(view.n_candidates == 0
-                                    ? "no facet is within reach (Search/Reach "
-                                      "and Search/Relative reach)."
-                                    : "all candidates were rejected, see the "
-                                      "reasons."));
+      report.warn(coded(
+          ABUT_FAILURE_NO_PARTNER,
+          "no node of the secondary surface is paired: "
+              + std::string(view.n_candidates == 0
+                                ? "no facet is within reach (Search/Reach "
+                                  "and Search/Relative reach)."
+                                : "all candidates were rejected, see "
+                                  "the reasons.")));
     if (found.n_reversed > 0)
-      report.warn(std::to_string(found.n_reversed)
-                  + " nodes have facets within reach, but all face the same "
-                    "way as the node: is one of the surfaces inside out?");
+      report.warn(coded(
+          ABUT_FAILURE_WRONG_SIDE,
+          std::to_string(found.n_reversed)
+              + " nodes have facets within reach, but all face the same way "
+                "as the node: is one of the surfaces inside out?"));
     if (found.n_overlaps > 0)
     {
       const auto dim = static_cast<std::size_t>(secondary.arrays.dimension);
@@ -107,16 +114,19 @@ namespace abut::app
                  + short_text(
                      secondary.arrays
                          .position[dim * std::size_t(found.deepest_node) + d]);
-      report.warn(std::to_string(found.n_overlaps)
-                  + " nodes overlap the primary surface from the start, by up "
-                    "to "
-                  + short_text(found.largest_overlap) + " at (" + place + ").");
+      report.warn(coded(
+          ABUT_FAILURE_OVERLAP,
+          std::to_string(found.n_overlaps)
+              + " nodes overlap the primary surface from the start, by up to "
+              + short_text(found.largest_overlap) + " at (" + place + ")."));
     }
     if (found.size_ratio > 3)
-      report.warn("the facets of the secondary surface are "
-                  + short_text(found.size_ratio)
-                  + " times as large as those of the primary surface, which "
-                    "may pass between its nodes: exchange the two.");
+      report.warn(
+          coded(ABUT_FAILURE_COARSE_SECONDARY,
+                "the facets of the secondary surface are "
+                    + short_text(found.size_ratio)
+                    + " times as large as those of the primary surface, which "
+                      "may pass between its nodes: exchange the two."));
   }
 
   void SearchRun::report_statistics()
@@ -134,9 +144,28 @@ namespace abut::app
     report.set("core_peak_mb",
                double(abut_context_memory(context.get()).peak_bytes)
                    / 1048576.);
+    const double tests = double(s.n_block_tests + s.n_box_tests);
+    const Report::Value candidates = report.get("candidates");
+    const auto *found = std::get_if<std::int64_t>(&candidates);
+    const double per_pair =
+        tests / std::max(1., found != nullptr ? double(*found) : 0.);
+    report.set("facets_tested", tests);
+    report.set("tests_per_pair", per_pair);
+    if (per_pair > wasteful_tests
+        && parameters.search.detection.search.algorithm
+               != ABUT_SEARCH_ALL_PAIRS)
+      report.warn(coded(
+          ABUT_FAILURE_BUCKETS,
+          short_text(per_pair)
+              + " facets were looked at for each pair found: the buckets are "
+                "far from the size of the facets. Set Search/Bucket size = 0, "
+                "or Search/Algorithm = adaptive buckets where sizes differ "
+                "much."));
     if (s.bucket_raised != 0)
-      report.warn("Search/Bucket size is below the search radius; the edge "
-                  + short_text(s.bucket_edge) + " was used.");
+      report.warn(
+          coded(ABUT_FAILURE_BUCKETS,
+                "Search/Bucket size is below the search radius; the edge "
+                    + short_text(s.bucket_edge) + " was used."));
   }
 
   void SearchRun::report_model()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The contact iteration of the scene `solid`.
+#include "diagnosis.h"
 #include "elastic_normal_stress.h"
 #include "input_error.h"
 #include "solid_run.h"
@@ -59,7 +60,7 @@ namespace abut::app
     has_warned = true;
     for (const PairCheck &check : contact.pair_checks())
       for (const std::string &warning : check.warnings)
-        report.warn(check.name + ": " + warning);
+        report.warn(about(check.name, warning));
   }
 
   template <int dim> void SolidRun<dim>::iterate()
@@ -113,14 +114,31 @@ namespace abut::app
       }
       if (held)
         continue;
-      failure = "Nothing holds body " + std::to_string(body + 1)
-                + ": its supports allow " + freedom[body].description
-                + ", and it touches nothing. Press it against something, or "
-                  "give it a support (Body "
-                + std::to_string(body + 1) + "/Support).";
+      failure = coded(
+          ABUT_FAILURE_FLOATING_BODY,
+          "Nothing holds body " + std::to_string(body + 1)
+              + ": its supports allow " + freedom[body].description
+              + ", and it touches nothing. Press it against something, or "
+                "give it a support (Body "
+              + std::to_string(body + 1) + "/Support).");
       return false;
     }
     return true;
+  }
+
+  template <int dim> bool SolidRun<dim>::is_balanced()
+  {
+    // Coarser meshes are solved roughly on purpose, and with a target error
+    // all are; and not every variant of Nitsche's method balances forces.
+    if (!is_last_mesh() || parameters.refinement.has_target()
+        || ((method.options.law->flags & ABUT_LAW_STRESS) != 0
+            && method.nitsche_theta != 0.))
+      return true;
+    la::Vector residual = elasticity.vector();
+    elasticity.residual(u, residual);
+    return diagnose_balance(
+        report, contact.imbalance(residual, 1e-4 * elasticity.load.l2_norm()),
+        contact.progress().penalty, failure);
   }
 
   template <int dim> bool SolidRun<dim>::is_complete()
@@ -150,20 +168,27 @@ namespace abut::app
       iterate();
       if (present.reason != ABUT_REASON_CONVERGED)
       {
-        failure = "The contact iteration ended without an answer after "
-                  + std::to_string(present.steps)
-                  + " steps: " + contact.explanation();
+        failure = coded(contact.failure(),
+                        "The contact iteration ended without an answer after "
+                            + std::to_string(present.steps)
+                            + " steps: " + contact.explanation());
         return false;
       }
-      if (!is_held())
+      if (!is_held() || !is_balanced())
         return false;
+      diagnose_iteration(report, contact.progress(),
+                         !parameters.refinement.nested && round == 0
+                             && load_steps.n_accepted == 0
+                             && method.options.law->outer == ABUT_OUTER_NONE);
       if (is_complete())
         return true;
     }
-    failure = "Nodes keep on penetrating without a constraint after "
-              + std::to_string(most_rounds)
-              + " searches: use smaller load steps (Load steps/Steps), or a "
-                "larger Reach of the pair.";
+    failure = coded(
+        ABUT_FAILURE_NO_PARTNER,
+        "Nodes keep on penetrating without a constraint after "
+            + std::to_string(most_rounds)
+            + " searches: use smaller load steps (Load steps/Steps), or a "
+              "larger Reach of the pair.");
     return false;
   }
 
@@ -172,6 +197,7 @@ namespace abut::app
   template void SolidRun<2>::warn_of_pairs();
   template void SolidRun<2>::iterate();
   template bool SolidRun<2>::is_held();
+  template bool SolidRun<2>::is_balanced();
   template bool SolidRun<2>::is_complete();
   template bool SolidRun<2>::solve_with_contact();
   template void SolidRun<3>::begin_contact();
@@ -179,6 +205,7 @@ namespace abut::app
   template void SolidRun<3>::warn_of_pairs();
   template void SolidRun<3>::iterate();
   template bool SolidRun<3>::is_held();
+  template bool SolidRun<3>::is_balanced();
   template bool SolidRun<3>::is_complete();
   template bool SolidRun<3>::solve_with_contact();
 } // namespace abut::app

@@ -4,6 +4,8 @@
 #include "input_error.h"
 #include "make_rigid_obstacle.h"
 
+#include <abut/dealii/coded.h>
+
 #include <cmath>
 
 namespace abut::app
@@ -47,10 +49,11 @@ namespace abut::app
       for (const boundary_id id : all[i].secondary)
         if (all[i].primary.count(id) > 0)
           throw InputError(given.parameter("Primary"),
-                           bodies.name(id)
-                               + " is on both sides of the pair. Where a "
-                                 "surface touches itself both sides are the "
-                                 "same altogether.");
+                           coded(ABUT_FAILURE_BOTH_SIDES,
+                                 bodies.name(id)
+                                     + " is on both sides of the pair. Where a "
+                                       "surface touches itself both sides are "
+                                       "the same altogether."));
     }
   }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run of the scene `solid` leaves behind.
+#include "diagnosis.h"
 #include "input_error.h"
 #include "left_out.h"
 #include "nearest_node.h"
 #include "result_row.h"
 #include "solid_run.h"
+#include "volumetric_locking.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -19,6 +21,12 @@ namespace abut::app
     /** Part of the largest displacement. */
     constexpr double suspicious_penetration = 0.1;
 
+    /** Part of a pressure that goes astray. */
+    constexpr double visible_transfer_error = 1e-3;
+
+    /** Poisson ratio from which on locking is looked for, and the part of the
+     * strain energy that is worth a word. */
+    constexpr double least_locking_ratio = 0.45, visible_locking = 0.1;
     /** Least and largest value on any rank. Collective. */
     std::vector<double> range_over_ranks(const double value,
                                          const MPI_Comm communicator)
@@ -177,9 +185,29 @@ namespace abut::app
       report.set(key + "_dropped", check.n_dropped);
       report.set(key + "_reversed", check.n_reversed);
       for (const std::string &warning : check.warnings)
-        report.warn(check.name + ": " + warning);
+        report.warn(about(check.name, warning));
     }
     report.set("constraints", contact.n_rows());
+  }
+
+  template <int dim> void SolidRun<dim>::report_transfer()
+  {
+    unsigned int number = 0;
+    for (const double error : contact.transfer_errors(u))
+    {
+      const std::string key = "pair_" + std::to_string(++number);
+      report.set(key + "_transfer_error", error);
+      if (error > visible_transfer_error)
+        report.warn(coded(
+            ABUT_FAILURE_TRANSFER,
+            "Pair " + std::to_string(number) + " hands "
+                + short_number(100. * error, 2)
+                + " % of a uniform pressure to wrong nodes of its primary "
+                  "surface, because the meshes do not match: the contact "
+                  "pressure has an error of this size, which refinement does "
+                  "not lower. Use Method/Discretisation = mortar or dual "
+                  "mortar."));
+    }
   }
 
   template <int dim> void SolidRun<dim>::report_contact()
@@ -188,6 +216,7 @@ namespace abut::app
     { return std::vector<double>(tensor.begin_raw(), tensor.end_raw()); };
     unsigned int number = 0;
     double force_imbalance = 0., moment_imbalance = 0.;
+    const std::vector<PairCheck> checks = contact.pair_checks();
     const double way = u.linfty_norm();
     for (const PairResult<dim> &pair : contact.pair_results())
     {
@@ -200,19 +229,38 @@ namespace abut::app
       report.set(key + "_moment", vector(pair.secondary_moment));
       report.set(key + "_pressure", pair.pressure);
       report.set(key + "_penetration", pair.penetration);
+      const double facet = checks.at(number - 1).facet_size;
+      if (facet > 0.)
+        report.set(key + "_penetration_by_facet", pair.penetration / facet);
       report.set(key + "_between_rows", pair.between_rows);
       if (way > 0. && pair.between_rows > suspicious_penetration * way)
-        report.warn(pair.name
-                    + ": nodes of the primary surface are inside the secondary "
-                      "by up to "
-                    + short_number(pair.between_rows, 3)
-                    + " between its constraints, where nothing moves by more "
-                      "than "
-                    + short_number(way, 3)
-                    + ": exchange the two sides, or refine the secondary.");
+        report.warn(coded(
+            ABUT_FAILURE_COARSE_SECONDARY,
+            pair.name
+                + ": nodes of the primary surface are inside the secondary by "
+                  "up to "
+                + short_number(pair.between_rows, 3)
+                + " between its constraints, where nothing moves by more than "
+                + short_number(way, 3)
+                + ": exchange the two sides, or refine the secondary."));
+      report.set(key + "_held_inside", pair.held_inside);
+      if (way > 0. && pair.held_inside > suspicious_penetration * way)
+        report.warn(coded(
+            ABUT_FAILURE_HELD_NODES,
+            pair.name
+                + ": supports hold nodes of the secondary surface inside the "
+                  "other side, by up to "
+                + short_number(pair.held_inside, 3)
+                + ", where nothing moves by more than " + short_number(way, 3)
+                + ": contact cannot move them. Leave these nodes free along "
+                  "the normal, or move what supports them."));
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
     }
+    if (method.discretisation == Discretisation::node_to_segment
+        || method.discretisation == Discretisation::quadrature_point
+        || (method.options.law->flags & ABUT_LAW_STRESS) != 0)
+      report_transfer();
     report.set("search_rebuilds", n_rebuilds);
     report.set("force_imbalance", force_imbalance);
     report.set("moment_imbalance", moment_imbalance);
@@ -222,12 +270,14 @@ namespace abut::app
     report.set("max_penetration", contact.penetration());
     report.set("max_complementarity", contact.complementarity());
     if (way > 0. && contact.penetration() > suspicious_penetration * way)
-      report.warn("The bodies penetrate each other by "
-                  + short_number(contact.penetration(), 3)
-                  + ", where nothing moves by more than " + short_number(way, 3)
-                  + ": the contact is far too soft. Use a larger "
-                    "Method/Penalty, or the method augmented lagrangian or "
-                    "lagrange.");
+      report.warn(coded(
+          ABUT_FAILURE_PENALTY,
+          "The bodies penetrate each other by "
+              + short_number(contact.penetration(), 3)
+              + ", where nothing moves by more than " + short_number(way, 3)
+              + ": the contact is far too soft. Use a larger "
+                "Method/Penalty, or the method augmented lagrangian or "
+                "lagrange."));
   }
 
   template <int dim> std::optional<double> SolidRun<dim>::relative_error() const
@@ -297,6 +347,43 @@ namespace abut::app
     report_shares();
     if (!pairs->empty())
       report_contact();
+    if (converged)
+      report_numerics();
+  }
+
+  template <int dim> void SolidRun<dim>::report_numerics()
+  {
+    std::vector<double> energies;
+    double condition = 0., penalty = 0.;
+    for (const SolidState &state : states)
+    {
+      condition = std::max(condition, state.linear.condition);
+      penalty = state.progress.penalty;
+      if (state.load_step == 1 && state.level <= parameters.refinement.level)
+        energies.push_back(state.energy);
+    }
+    if (!parameters.refinement.has_target())
+      diagnose_order(report, energies);
+    diagnose_condition(report, condition, penalty);
+    double poisson_ratio = 0.;
+    for (const auto &material : data.materials)
+      poisson_ratio = std::max(poisson_ratio, material.second.poisson_ratio);
+    if (parameters.degree > 1 || parameters.plane == PlaneModel::stress
+        || poisson_ratio < least_locking_ratio)
+      return;
+    const double locked =
+        volumetric_locking(elasticity.mapping, elasticity.dof_handler,
+                           elasticity.ghosted(u), data.materials);
+    report.set("locked_energy", locked);
+    if (locked > visible_locking)
+      report.warn(coded(
+          ABUT_FAILURE_LOCKING,
+          short_number(100. * locked, 2)
+              + " % of the strain energy is volume change within cells, which "
+                "linear elements cannot avoid: with Poisson ratio "
+              + short_number(poisson_ratio, 6)
+              + " they lock, displacements are too small and contact forces "
+                "too large. Set Solid/Degree = 2."));
   }
 
   template <int dim> void SolidRun<dim>::report_model()
@@ -377,6 +464,8 @@ namespace abut::app
   template void SolidRun<2>::report_reactions();
   template void SolidRun<2>::report_checks();
   template void SolidRun<2>::report_shares();
+  template void SolidRun<2>::report_numerics();
+  template void SolidRun<2>::report_transfer();
   template void SolidRun<2>::report_contact();
   template std::optional<double> SolidRun<2>::relative_error() const;
   template std::optional<double> SolidRun<3>::relative_error() const;
@@ -389,6 +478,8 @@ namespace abut::app
   template void SolidRun<3>::report_reactions();
   template void SolidRun<3>::report_checks();
   template void SolidRun<3>::report_shares();
+  template void SolidRun<3>::report_numerics();
+  template void SolidRun<3>::report_transfer();
   template void SolidRun<3>::report_contact();
   template void SolidRun<3>::report_result(bool);
   template void SolidRun<3>::report_model();

@@ -2,6 +2,7 @@
 #include "solid_run.h"
 
 #include "collective.h"
+#include "diagnosis.h"
 #include "input_error.h"
 
 namespace abut::app
@@ -77,10 +78,11 @@ namespace abut::app
       floating.insert(body);
       if (touched.count(body) == 0)
         throw InputError(bodies[body].parameter("Support"),
-                         "body " + std::to_string(body + 1)
-                             + " is held too little: its supports allow "
-                             + freedom[body].description
-                             + ", and it is in no contact pair.");
+                         coded(ABUT_FAILURE_FLOATING_BODY,
+                               "body " + std::to_string(body + 1)
+                                   + " is held too little: its supports allow "
+                                   + freedom[body].description
+                                   + ", and it is in no contact pair."));
     }
     pairs->hold(bodies, floating);
   }
@@ -190,7 +192,8 @@ namespace abut::app
     }
     catch (const SolverFailure &error)
     {
-      failure = error.what();
+      failure = diagnose_solver_failure(
+          error.what(), pairs->empty() ? 0. : contact.progress().penalty);
       return false;
     }
   }
@@ -245,6 +248,8 @@ namespace abut::app
   {
     prepare();
     declare_tables();
+    if (!pairs->empty())
+      diagnose_penalty(report, method);
     bool goes_on = true;
     while (goes_on && !target_is_missed && !load_steps.is_finished())
     {

@@ -88,6 +88,7 @@ namespace abut::app
     void warn_of_pairs();
     void iterate();
     bool is_held();
+    bool is_balanced();
     bool is_complete();
     bool solve_with_contact();
 
@@ -115,6 +116,8 @@ namespace abut::app
     void report_points();
     void report_reactions();
     void report_checks();
+    void report_transfer();
+    void report_numerics();
     void report_contact();
     std::optional<double> relative_error() const;
     /** What single ranks have and had to say. */

@@ -323,6 +323,13 @@ namespace abut
            + (failed && !seen.empty() ? " (" + seen + ")" : "");
   }
 
+  template <int dim> abut_failure ContactAssembler<dim>::failure() const
+  {
+    const abut_progress present = progress();
+    return abut_reason_failure(reason(), implementation->method.options.law,
+                               &present);
+  }
+
   template <int dim> abut_progress ContactAssembler<dim>::progress() const
   {
     abut_progress progress = {};

@@ -81,6 +81,22 @@ namespace abut
   }
 
   template <int dim>
+  double ContactAssembler<dim>::imbalance(const la::Vector &residual,
+                                          const double least) const
+  {
+    const Implementation &i = *implementation;
+    std::vector<double> force(i.view.n_rows);
+    for (int row = 0; row < i.view.n_rows; ++row)
+      force[row] = i.view.weight[row] * i.row_pressure(row);
+    la::Vector contact(residual);
+    contact = 0.;
+    i.coefficients.add_transposed(force.data(), contact);
+    const double size = std::max(contact.l2_norm(), least);
+    contact -= residual;
+    return size > 0. ? contact.l2_norm() / size : 0.;
+  }
+
+  template <int dim>
   std::vector<PairCheck> ContactAssembler<dim>::pair_checks() const
   {
     const auto *surfaces = implementation->surfaces;
@@ -95,6 +111,15 @@ namespace abut
       return {};
     return i.surfaces->results(i.row_pressures().data(), i.gap.data(),
                                i.is_started ? i.request.state : nullptr);
+  }
+
+  template <int dim>
+  std::vector<double>
+  ContactAssembler<dim>::transfer_errors(const la::Vector &displacement) const
+  {
+    const auto *surfaces = implementation->surfaces;
+    return surfaces == nullptr ? std::vector<double>()
+                               : surfaces->transfer_errors(displacement);
   }
 
   template <int dim>
@@ -113,12 +138,16 @@ namespace abut
   template double ContactAssembler<dim>::complementarity() const;              \
   template double ContactAssembler<dim>::complementarity_error() const;        \
   template double ContactAssembler<dim>::penetration() const;                  \
+  template double ContactAssembler<dim>::imbalance(const la::Vector &, double) \
+      const;                                                                   \
   template la::Vector ContactAssembler<dim>::pressure() const;                 \
   template la::Vector ContactAssembler<dim>::gap() const;                      \
   template la::Vector ContactAssembler<dim>::status() const;                   \
   template std::vector<PairCheck> ContactAssembler<dim>::pair_checks() const;  \
   template std::vector<PairResult<dim>> ContactAssembler<dim>::pair_results()  \
       const;                                                                   \
+  template std::vector<double> ContactAssembler<dim>::transfer_errors(         \
+      const la::Vector &) const;                                               \
   template std::vector<Penetration<dim>>                                       \
   ContactAssembler<dim>::check_penetration(const la::Vector &, double);
 

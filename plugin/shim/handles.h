@@ -3,6 +3,7 @@
 #define ABUT_SHIM_HANDLES_H
 
 #include <abut/coupling.h>
+#include <abut/dealii/coded.h>
 #include <abut/detect.h>
 #include <abut/obstacle.h>
 #include <abut/rows.h>
@@ -62,11 +63,14 @@ namespace abut::shim
   /** Throw what the core says when a call failed. */
   inline void check(const abut_context *context, const abut_status status)
   {
+    const bool has_message =
+        context != nullptr && *abut_context_message(context) != 0;
     AssertThrow(status == ABUT_SUCCESS,
-                dealii::ExcMessage(
-                    context != nullptr && *abut_context_message(context) != 0
-                        ? abut_context_message(context)
-                        : abut_status_text(status)));
+                dealii::ExcMessage(coded(
+                    status == ABUT_INVALID_MESH ? ABUT_FAILURE_DEGENERATE_FACET
+                                                : ABUT_FAILURE_NONE,
+                    has_message ? abut_context_message(context)
+                                : abut_status_text(status))));
   }
 
   inline Handle<abut_context> create_context()

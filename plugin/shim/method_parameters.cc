@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <abut/dealii/coded.h>
 #include <abut/dealii/method_parameters.h>
 
 #include "user_law.h"
@@ -241,11 +242,12 @@ namespace abut
                        "point.");
     if (discretisation == Discretisation::quadrature_point
         && (tied || hard || law.outer == ABUT_OUTER_PRIMAL_DUAL))
-      return (tied ? "Tied surfaces" : with)
-             + std::string(
-                 " with Method/Discretisation = quadrature point has more "
-                 "conditions than the surface has unknowns: it locks. Use "
-                 "dual mortar, or penalty or augmented lagrangian.");
+      return coded(ABUT_FAILURE_RICH_MULTIPLIERS,
+                   (tied ? "Tied surfaces" : with)
+                       + " with Method/Discretisation = quadrature point has "
+                         "more conditions than the surface has unknowns: it "
+                         "locks. Use dual mortar, or penalty or augmented "
+                         "lagrangian.");
     if (discretisation == Discretisation::mortar && hard
         && system == System::condensed)
       return with

@@ -2,6 +2,7 @@
 #include "pair_diagnosis.h"
 
 #include "agree.h"
+#include <abut/dealii/coded.h>
 
 #include <cmath>
 #include <sstream>
@@ -57,29 +58,36 @@ namespace abut::shim
     const double facing = search.detection.normal_cosine;
     const Nearest opposed =
         nearest(context, secondary, primary, search, facing, communicator);
+    abut_failure failure = ABUT_FAILURE_NO_PARTNER;
     std::ostringstream text;
     if (opposed.above < INFINITY && opposed.above <= opposed.below)
       text << "the surfaces are too far apart: the smallest distance is "
            << opposed.above << ", the reach is " << reach
            << ". Move the bodies together, or give the pair a larger reach.";
     else if (opposed.below < INFINITY)
+    {
+      failure = ABUT_FAILURE_OVERLAP;
       text << "the bodies overlap by at least " << opposed.below
            << ", more than the reach of " << reach
            << ". Move them apart, or give the pair a larger reach if the "
               "overlap is meant as interference.";
+    }
     else
     {
       const Nearest any =
           nearest(context, secondary, primary, search, 1., communicator);
       if (std::min(any.above, any.below) < INFINITY)
+      {
+        failure = ABUT_FAILURE_WRONG_SIDE;
         text << "the outward normals of the two surfaces point the same way. "
                 "Take the sides that face each other, or turn the mesh whose "
                 "cells are inside out.";
+      }
       else
         text << "no point of one surface lies opposite the other. Check the "
                 "boundary ids and the position of the bodies.";
     }
-    return text.str();
+    return coded(failure, text.str());
   }
 
   template std::string why_no_rows(abut_context *, const SurfaceSide<2> &,

@@ -61,6 +61,14 @@ namespace abut::shim
           result.push_back({pair, point, depth, on_primary});
       return result;
     }
+
+    /** Whether a support keeps node @p n of the secondary of @p pair from
+     * having a row. */
+    template <typename Pair>
+    bool is_supported(const Pair &pair, const std::size_t n)
+    {
+      return n < pair.dropped.size() && pair.dropped[n] == 2;
+    }
   } // namespace
 
   template <int dim>
@@ -97,20 +105,31 @@ namespace abut::shim
 
   template <int dim>
   void SurfacePairRows<dim>::check_obstacle(
-      const Pair &pair, const std::uint8_t *held,
+      Pair &pair, const std::uint8_t *held,
       const std::vector<dealii::Point<dim>> &present, const double tolerance,
       std::vector<Penetration<dim>> &missed) const
   {
     std::vector<dealii::Point<dim>> points;
-    for (const Node node : pair.secondary.node)
-      if (is_owned(node) && held[node] == 0)
-        points.push_back(present[node]);
+    std::vector<bool> supported;
+    for (std::size_t n = 0; n < pair.secondary.node.size(); ++n)
+    {
+      const Node node = pair.secondary.node[n];
+      const bool support = is_supported(pair, n);
+      if (!is_owned(node) || (held[node] != 0 && !support))
+        continue;
+      points.push_back(present[node]);
+      supported.push_back(support);
+    }
     std::vector<double> distance;
     pair.data.obstacle->distance(points, distance);
     for (std::size_t n = 0; n < points.size(); ++n)
-      if (distance[n] + pair.data.gap < -tolerance)
-        missed.push_back(
-            {pair.data.name, points[n], -distance[n] - pair.data.gap, false});
+    {
+      const double depth = -distance[n] - pair.data.gap;
+      if (supported[n])
+        pair.held_inside = std::max(pair.held_inside, depth);
+      else if (depth > tolerance)
+        missed.push_back({pair.data.name, points[n], depth, false});
+    }
   }
 
   template <int dim>
@@ -125,9 +144,11 @@ namespace abut::shim
                            settings_.search, reach, depth))
     {
       const Node node = pair.secondary.node[inside.node];
-      if (held[node] == 0 && is_owned(node))
-        missed.push_back({pair.data.name, present[node],
-                          inside.depth - pair.data.gap, false});
+      const double found = inside.depth - pair.data.gap;
+      if (is_supported(pair, inside.node) && is_owned(node))
+        pair.held_inside = std::max(pair.held_inside, found);
+      else if (held[node] == 0 && is_owned(node))
+        missed.push_back({pair.data.name, present[node], found, false});
     }
     for (const Inside &inside :
          penetrating_nodes(context_, pair.primary, pair.secondary,
@@ -173,7 +194,7 @@ namespace abut::shim
       try
       {
         Pair &pair = pairs_[p];
-        pair.between_rows = 0.;
+        pair.between_rows = pair.held_inside = 0.;
         if (pair.data.tied || !pair.data.geometric_gap)
           continue;
         const std::uint8_t *marks = held.data() + p * surface_.nodes.size();
@@ -196,16 +217,18 @@ namespace abut::shim
       }
     throw_everywhere<ContactError>(communicator_, message);
     for (Pair &pair : pairs_)
+    {
       pair.between_rows = MPI::max(pair.between_rows, communicator_);
+      pair.held_inside = MPI::max(pair.held_inside, communicator_);
+    }
     return everywhere(missed, communicator_);
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template std::vector<std::uint8_t> SurfacePairRows<dim>::held_nodes();       \
   template void SurfacePairRows<dim>::check_obstacle(                          \
-      const Pair &, const std::uint8_t *,                                      \
-      const std::vector<dealii::Point<dim>> &, double,                         \
-      std::vector<Penetration<dim>> &) const;                                  \
+      Pair &, const std::uint8_t *, const std::vector<dealii::Point<dim>> &,   \
+      double, std::vector<Penetration<dim>> &) const;                          \
   template void SurfacePairRows<dim>::check_surfaces(                          \
       Pair &, const std::uint8_t *, const std::vector<dealii::Point<dim>> &,   \
       double, double, std::vector<Penetration<dim>> &);                        \

@@ -2,6 +2,7 @@
 // What was met on pairs of surfaces, and what a solve found there.
 #include "surface_pair_rows.h"
 
+#include <abut/dealii/coded.h>
 #include <abut/strategy.h>
 
 #include <algorithm>
@@ -18,6 +19,10 @@ namespace abut::shim
     /** Facets of the secondary as a multiple of those of the primary, above
      * which nodes of the primary can pass between those of the secondary. */
     constexpr double coarse_secondary = 2.5;
+
+    /** Angle between the normals of two facets that is too much for a smooth
+     * surface, degrees: a circle of 12 facets. */
+    constexpr double large_turn = 30.;
 
     /** Initial overlap, in sizes of a facet, that is worth a word. */
     constexpr double large_overlap = 0.3;
@@ -43,6 +48,46 @@ namespace abut::shim
   } // namespace
 
   template <int dim>
+  std::string SurfacePairRows<dim>::turning_facets(const Pair &pair) const
+  {
+    // Only what is near the other side: facets at the nodes of rows.
+    std::vector<std::uint8_t> near(surface_.nodes.size(), 0);
+    for (const Row &row : rows_)
+      if (&pairs_[row.pair] == &pair)
+        for (std::size_t e = row.first; e < row.end; ++e)
+          near[entries_[e].node] = 1;
+    const auto turns = [&](const SurfaceSide<dim> &side)
+    {
+      std::vector<std::uint8_t> mask(side.n_facets());
+      abut_surface_view view;
+      check(context_, abut_surface_get(side.surface.get(), &view));
+      check(context_, abut_surface_features(side.surface.get(),
+                                            large_turn * M_PI / 180. - 1e-6,
+                                            mask.data()));
+      bool found = false;
+      for (int f = 0; f < side.n_facets() && !found; ++f)
+      {
+        bool is_near = false;
+        for (std::int32_t i = view.facet_start[f]; i < view.facet_start[f + 1];
+             ++i)
+          is_near = is_near || near[side.node[view.connectivity[i]]] != 0;
+        for (int k = 0; k < 4 && is_near; ++k)
+          found =
+              found
+              || ((mask[f] >> k & 1) != 0
+                  && view.neighbour[4 * static_cast<std::size_t>(f) + k] >= 0);
+      }
+      return MPI::max(found ? 1 : 0, communicator_) != 0;
+    };
+    const bool secondary = turns(pair.secondary);
+    const bool primary = !pair.data.obstacle && turns(pair.primary);
+    return secondary && primary ? "two surfaces"
+           : secondary          ? "secondary surface"
+           : primary            ? "primary surface"
+                                : "";
+  }
+
+  template <int dim>
   void SurfacePairRows<dim>::make_check(const std::size_t number,
                                         const unsigned int n_dropped)
   {
@@ -60,6 +105,7 @@ namespace abut::shim
     result.area = MPI::sum(statistics.full_area, communicator_);
     if (result.area == 0.)
       result.area = sizes.area;
+    result.facet_size = sizes.median;
     if (!pair.data.obstacle)
       result.size_ratio = sizes.median / pair.primary.everywhere.median;
     double covered = 0., overlap = 0.;
@@ -76,22 +122,34 @@ namespace abut::shim
     result.overlap = MPI::max(overlap, communicator_);
 
     if (result.size_ratio > coarse_secondary)
-      result.warnings.push_back(
+      result.warnings.push_back(coded(
+          ABUT_FAILURE_COARSE_SECONDARY,
           "The secondary surface is " + text(result.size_ratio)
-          + " times as coarse as the primary, whose nodes can pass between "
-            "those of the secondary: exchange the two sides, or refine the "
-            "secondary.");
+              + " times as coarse as the primary, whose nodes can pass between "
+                "those of the secondary: exchange the two sides, or refine the "
+                "secondary."));
     // Obstacles are moved into bodies on purpose.
     if (!pair.data.obstacle && result.overlap > large_overlap * sizes.median)
       result.warnings.push_back(
-          "The surfaces overlap by " + text(result.overlap)
-          + " before anything is loaded, " + text(result.overlap / sizes.median)
-          + " times the size of a facet. If that is not meant as interference, "
-            "move the bodies apart.");
+          coded(ABUT_FAILURE_OVERLAP,
+                "The surfaces overlap by " + text(result.overlap)
+                    + " before anything is loaded, "
+                    + text(result.overlap / sizes.median)
+                    + " times the size of a facet. If that is not meant as "
+                      "interference, move the bodies apart."));
+    const std::string bends = turning_facets(pair);
+    if (!bends.empty())
+      result.warnings.push_back(coded(
+          ABUT_FAILURE_COARSE_CURVE,
+          "Facets of the " + bends + " turn by more than " + text(large_turn)
+              + " degrees at a node in the contact zone: normals and gaps "
+                "there are those of a polygon, and so are the pressures. "
+                "Refine the surface, or leave the corner out of the pair."));
     if (result.n_rows == 0)
       result.warnings.push_back(
           pair.data.obstacle
-              ? "no node of the surface is within reach of the obstacle."
+              ? coded(ABUT_FAILURE_NO_PARTNER,
+                      "no node of the surface is within reach of the obstacle.")
               : explain_no_rows(number));
     checks_.push_back(result);
     // Rigid obstacles may come nearer in later steps; the reference
@@ -112,6 +170,7 @@ namespace abut::shim
     {
       results[p].name = pairs_[p].data.name;
       results[p].between_rows = pairs_[p].between_rows;
+      results[p].held_inside = pairs_[p].held_inside;
     }
     for (std::size_t i = 0; i < rows_.size(); ++i)
     {

@@ -4,6 +4,7 @@
 
 #include "agree.h"
 
+#include <abut/dealii/coded.h>
 #include <abut/dealii/rigid_obstacle.h>
 
 #include <algorithm>
@@ -47,6 +48,21 @@ namespace abut::shim
         ids.insert(pair.primary.begin(), pair.primary.end());
       }
       return ids;
+    }
+
+    bool have_common(const std::set<dealii::types::boundary_id> &a,
+                     const std::set<dealii::types::boundary_id> &b)
+    {
+      return std::any_of(a.begin(), a.end(),
+                         [&](const auto id) { return b.count(id) > 0; });
+    }
+
+    /** Whether two pairs are one with its sides exchanged. */
+    template <int dim>
+    bool are_both_sides(const ContactPair<dim> &a, const ContactPair<dim> &b)
+    {
+      return have_common(a.secondary, b.primary)
+             && have_common(a.primary, b.secondary);
     }
   } // namespace
 
@@ -95,6 +111,18 @@ namespace abut::shim
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
       throw ContactError("Pair '" + data.name + "': " + reason);
+    const std::uint32_t exact = ABUT_LAW_HARD | ABUT_LAW_INTERIOR;
+    for (const Pair &other : pairs_)
+      if (are_both_sides(data, other.data)
+          && (data.tied || (law.flags & exact) != 0))
+        throw ContactError(
+            "Pair '" + data.name + "': "
+            + coded(ABUT_FAILURE_BOTH_SIDES,
+                    "it has the sides of pair '" + other.data.name
+                        + "' exchanged. Conditions on both sides say the same "
+                          "twice, and their pressures are not determined. "
+                          "Leave one pair out, or use penalty or augmented "
+                          "lagrangian."));
     pair.reach = data.reach;
     pairs_.push_back(std::move(pair));
   }
@@ -125,12 +153,15 @@ namespace abut::shim
               "the same ids to both where a surface touches itself.");
   }
 
-  template <int dim> void SurfacePairRows<dim>::create_coupling(Pair &pair)
+  template <int dim>
+  Handle<abut_coupling>
+  SurfacePairRows<dim>::make_coupling(const Pair &pair,
+                                      const Discretisation discretisation) const
   {
     abut_coupling_options options = abut_coupling_defaults();
-    options.discretisation = core_word(pair.discretisation);
+    options.discretisation = core_word(discretisation);
     options.multiplier_degree =
-        pair.discretisation == Discretisation::mortar
+        discretisation == Discretisation::mortar
             ? static_cast<std::int32_t>(settings_.method.multiplier_degree)
             : 0;
     options.quadrature_degree =
@@ -152,7 +183,7 @@ namespace abut::shim
                         : abut_coupling_create(
                             context_, pair.secondary.surface.get(),
                             pair.primary.surface.get(), &options, &made));
-    pair.coupling.reset(made);
+    return Handle<abut_coupling>(made);
   }
 
   template <int dim>
@@ -192,17 +223,19 @@ namespace abut::shim
       for (unsigned int d = 0; d < dim; ++d)
         direction[d] = component < 0 ? normal[n * dim + d]
                                      : (d == static_cast<unsigned>(component));
-      dropped[n] = taken[node] != 0
-                   || (direction.norm_square() > 0.
-                       && freedom(node, direction) < least_freedom);
+      if (taken[node] != 0)
+        dropped[n] = 1;
+      else if (direction.norm_square() > 0.
+               && freedom(node, direction) < least_freedom)
+        dropped[n] = 2;
     }
     return dropped;
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::build(const Pair &pair,
+  void SurfacePairRows<dim>::build(const Pair &pair, abut_coupling *coupling,
                                    const std::vector<std::uint8_t> &dropped,
-                                   const double motion)
+                                   const double motion) const
   {
     const SurfaceSide<dim> &side = pair.secondary;
     const auto me = MPI::this_mpi_process(communicator_);
@@ -221,8 +254,7 @@ namespace abut::shim
     nodes.hanging_start = side.hanging_start.data();
     nodes.hanging_parent = side.hanging_parent.data();
     nodes.hanging_weight = side.hanging_weight.data();
-    const abut_status status =
-        abut_coupling_build(pair.coupling.get(), &nodes, motion);
+    const abut_status status = abut_coupling_build(coupling, &nodes, motion);
     std::string message;
     if (status != ABUT_SUCCESS)
     {
@@ -301,7 +333,7 @@ namespace abut::shim
     {
       dropped = dropped_nodes(pair, taken, -1);
       n_dropped = count();
-      build(pair, dropped, motion);
+      build(pair, pair.coupling.get(), dropped, motion);
       take_rows(number, -1);
     }
     else
@@ -312,7 +344,7 @@ namespace abut::shim
         {
           dropped = now;
           n_dropped = std::max<unsigned int>(n_dropped, count());
-          build(pair, dropped, motion);
+          build(pair, pair.coupling.get(), dropped, motion);
         }
         take_rows(number, d);
       }

@@ -109,6 +109,11 @@ namespace abut::shim
      * uniform. Collective. */
     void make_uniform(std::vector<double> &value) const;
 
+    /** By pair: the part of a uniform pressure's force that the rows hand to
+     * wrong nodes of the primary surface, in [0, 1]; 0 against obstacles. It is
+     * found by building a mortar coupling beside the pair's own. Collective. */
+    std::vector<double> transfer_errors(const la::Vector &displacement) const;
+
     /** Points of the secondary that have penetrated by more than @p tolerance
      * (length) at @p displacement without a row: its own nodes, and nodes of
      * the primary in facets of the secondary without any row. How deep the
@@ -134,9 +139,10 @@ namespace abut::shim
       /** Distances that the facets known here suffice for. */
       double reach = 0., margin = 0.;
       std::int64_t first_id = 0;
-      /** [nodes of the secondary] without a multiplier in the present rows. */
+      /** [nodes of the secondary] without a multiplier in the present rows:
+       * 1 because of another pair, 2 because of supports. */
       std::vector<std::uint8_t> dropped;
-      double between_rows = 0.; ///< as in PairResult
+      double between_rows = 0., held_inside = 0.; ///< as in PairResult
     };
 
     /** A row before constraints are put in. Its entries are dg/du = direction
@@ -164,7 +170,8 @@ namespace abut::shim
     /** [pairs][nodes of the whole surface] nonzero: a row of the pair holds
      * this node of its secondary, or none can. Collective. */
     std::vector<std::uint8_t> held_nodes();
-    void check_obstacle(const Pair &pair, const std::uint8_t *held,
+    std::string turning_facets(const Pair &pair) const;
+    void check_obstacle(Pair &pair, const std::uint8_t *held,
                         const std::vector<dealii::Point<dim>> &present,
                         double tolerance,
                         std::vector<Penetration<dim>> &missed) const;
@@ -176,7 +183,8 @@ namespace abut::shim
     void create_pair(const ContactPair<dim> &data);
     void gather();
     void create_sides(Pair &pair);
-    void create_coupling(Pair &pair);
+    Handle<abut_coupling> make_coupling(const Pair &pair,
+                                        Discretisation discretisation) const;
     void check_sides(const Pair &pair) const;
     void check_displacements(const std::vector<Direction> &u) const;
     std::vector<Direction> displacements_in_reach(const la::Vector &u);
@@ -191,8 +199,8 @@ namespace abut::shim
     std::vector<std::uint8_t>
     dropped_nodes(const Pair &pair, const std::vector<std::uint8_t> &taken,
                   int component) const;
-    void build(const Pair &pair, const std::vector<std::uint8_t> &dropped,
-               double motion);
+    void build(const Pair &pair, abut_coupling *coupling,
+               const std::vector<std::uint8_t> &dropped, double motion) const;
     void take_rows(std::size_t pair, int component);
     void find_pair(std::size_t pair, double motion,
                    std::vector<std::uint8_t> &taken);

@@ -67,7 +67,7 @@ namespace abut::shim
                  [&]
                  {
                    check_sides(pair);
-                   create_coupling(pair);
+                   pair.coupling = make_coupling(pair, pair.discretisation);
                  });
   }
 
@@ -84,12 +84,14 @@ namespace abut::shim
     }
     for (const Entry &entry : entries_)
       entries.push_back(number_of(surface_.nodes, entry.node));
-    std::vector<std::vector<std::int64_t>> dropped(pairs_.size());
+    using Dropped = std::pair<std::int64_t, std::uint8_t>;
+    std::vector<std::vector<Dropped>> dropped(pairs_.size());
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       for (std::size_t n = 0; n < pairs_[p].dropped.size(); ++n)
         if (pairs_[p].dropped[n] != 0)
-          dropped[p].push_back(
-              number_of(surface_.nodes, pairs_[p].secondary.node[n]));
+          dropped[p].emplace_back(
+              number_of(surface_.nodes, pairs_[p].secondary.node[n]),
+              pairs_[p].dropped[n]);
 
     gather();
 
@@ -113,9 +115,9 @@ namespace abut::shim
       Pair &pair = pairs_[p];
       if (!pair.dropped.empty())
         pair.dropped.assign(pair.secondary.n_nodes(), 0);
-      for (const std::int64_t number : dropped[p])
+      for (const auto &[number, why] : dropped[p])
         pair.dropped[pair.secondary.local_node(
-            index_of(surface_.nodes, number))] = 1;
+            index_of(surface_.nodes, number))] = why;
     }
   }
 

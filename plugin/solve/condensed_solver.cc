@@ -144,7 +144,8 @@ namespace abut::solve
     double stiffest = 0.;
     for (int i = 0; i < rows_->n_rows(); ++i)
       stiffest = std::max(stiffest, relative(i));
-    if (MPI::max(stiffest, rows_->communicator()) <= stiff)
+    if (!parameters_.contact_filter
+        || MPI::max(stiffest, rows_->communicator()) <= stiff)
     {
       multigrid_ = make_multigrid(system, parameters_, space_);
       return;
@@ -234,8 +235,13 @@ namespace abut::solve
     try
     {
       if (is_symmetric_)
-        dealii::SolverCG<la::Vector>(control).solve(matrix_, x, rhs,
-                                                    Cycle(*this));
+      {
+        dealii::SolverCG<la::Vector> solver(control);
+        solver.connect_condition_number_slot(
+            [&](const double estimate)
+            { report.condition = std::max(report.condition, estimate); });
+        solver.solve(matrix_, x, rhs, Cycle(*this));
+      }
       else
         dealii::SolverFGMRES<la::Vector>(
             control, dealii::SolverFGMRES<la::Vector>::AdditionalData(60))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "direct_solver.h"
 
+#include <abut/dealii/coded.h>
+
 #include <Amesos.h>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_LinearProblem.h>
@@ -18,11 +20,12 @@ namespace abut::solve
 
     [[noreturn]] void throw_failure(const int status)
     {
-      throw SolverFailure("The direct solver failed (Amesos status "
-                          + std::to_string(status)
-                          + "). The matrix is singular, for example because "
-                            "nothing holds a body, or there is too little "
-                            "memory: try Solver/Linear solver = iterative.");
+      throw SolverFailure(coded(
+          ABUT_FAILURE_FLOATING_BODY,
+          "The direct solver failed (Amesos status " + std::to_string(status)
+              + "). The matrix is singular, for example because "
+                "nothing holds a body, or there is too little "
+                "memory: try Solver/Linear solver = iterative."));
     }
   } // namespace
 

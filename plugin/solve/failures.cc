@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "failures.h"
 
+#include <abut/dealii/coded.h>
 #include <abut/dealii/solver_parameters.h>
 
 #include <cmath>
@@ -24,7 +25,10 @@ namespace abut::solve
     else
       text << "A value is not a number: look for infinite data, or for a "
               "matrix that is singular because nothing holds a body.";
-    throw SolverFailure(text.str());
+    throw SolverFailure(coded(std::isfinite(failure.last_residual)
+                                  ? ABUT_FAILURE_LINEAR_SOLVER
+                                  : ABUT_FAILURE_FLOATING_BODY,
+                              text.str()));
   }
 
   void check_direct_solution(const double before, const double after)
@@ -35,6 +39,6 @@ namespace abut::solve
     text << "The direct solver left a residual of " << after << " of " << before
          << ". The matrix is singular or nearly so, for example because "
             "nothing holds a body: give it supports.";
-    throw SolverFailure(text.str());
+    throw SolverFailure(coded(ABUT_FAILURE_FLOATING_BODY, text.str()));
   }
 } // namespace abut::solve

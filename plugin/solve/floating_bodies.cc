@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "floating_bodies.h"
 
+#include <abut/dealii/coded.h>
 #include <abut/dealii/solver_parameters.h>
 
 #include <cmath>
@@ -273,6 +274,6 @@ namespace abut::solve
             "without friction holds it along the normal only), tie it, or "
             "begin with the bodies in contact: a smaller initial gap, or a "
             "prescribed displacement in place of a force.";
-    throw SolverFailure(text.str());
+    throw SolverFailure(coded(ABUT_FAILURE_FLOATING_BODY, text.str()));
   }
 } // namespace abut::solve

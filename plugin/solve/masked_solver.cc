@@ -183,12 +183,16 @@ namespace abut::solve
   unsigned int MaskedSolver::solve_iteratively(const Mask &mask,
                                                const la::Vector &residual,
                                                const double tolerance,
-                                               la::Vector &correction)
+                                               la::Vector &correction,
+                                               LinearReport &report)
   {
     const MaskedOperator matrix(*matrix_, mask);
     dealii::SolverControl control(parameters_.max_iterations, tolerance, false,
                                   false);
     dealii::SolverCG<la::Vector> cg(control);
+    cg.connect_condition_number_slot(
+        [&](const double estimate)
+        { report.condition = std::max(report.condition, estimate); });
     try
     {
       cg.solve(matrix, correction, residual, preconditioner(mask, residual));
@@ -260,7 +264,7 @@ namespace abut::solve
         const double reachable = std::max(tolerance, round_off * norm);
         const double digits = std::log10(norm / reachable);
         report.n_iterations =
-            solve_iteratively(mask, residual, reachable, correction);
+            solve_iteratively(mask, residual, reachable, correction, report);
         report.n_matvecs += report.n_iterations;
         note_speed(digits / std::max(1u, report.n_iterations));
       }

@@ -156,7 +156,8 @@ namespace abut::solve
                  bool everything);
     void build(const Mask &mask);
     unsigned int solve_iteratively(const Mask &mask, const la::Vector &residual,
-                                   double tolerance, la::Vector &correction);
+                                   double tolerance, la::Vector &correction,
+                                   LinearReport &report);
     void note_speed(double digits_per_iteration);
 
     SolverParameters parameters_;

@@ -50,6 +50,12 @@ namespace abut
                       "by this multiple of the local stiffness on rows in "
                       "contact, which changes the condition number and not "
                       "the solution.");
+    prm.declare_entry(
+        "Contact filter", standard.contact_filter ? "true" : "false",
+        dealii::Patterns::Bool(),
+        "Whether contact springs that are too stiff for multigrid are filtered "
+        "by a direct solve on the unknowns that they act on. Off, to see what "
+        "that saves.");
     prm.leave_subsection();
   }
 
@@ -65,6 +71,7 @@ namespace abut
     aggregation_threshold = prm.get_double("Aggregation threshold");
     smoother_sweeps = prm.get_integer("Smoother sweeps");
     augmentation = prm.get_double("Saddle point augmentation");
+    contact_filter = prm.get_bool("Contact filter");
     prm.leave_subsection();
   }
 } // namespace abut

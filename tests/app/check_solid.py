@@ -83,16 +83,18 @@ p.expect_error(run("Solid/Pairs=0"), "no section 'Pair 1'")
 
 # Surfaces that cannot meet.
 p.expect_error(run("Body 2/Mesh/Move=0, 0.6", "Refinement/Level=0"),
-               "Pair 1/Secondary", "too far apart", "0.6", "reach")
+               "Pair 1/Secondary", "ABUT-F24", "too far apart", "0.6", "reach")
 p.expect_error(run("Body 2/Mesh/Move=0, -0.3", "Refinement/Level=0"),
-               "Pair 1/Secondary", "overlap", "reach")
+               "Pair 1/Secondary", "ABUT-F11", "overlap", "reach")
 deep = ("Body 2/Mesh/Move=0, -0.3", "Pair 1/Reach=1", "Refinement/Level=0")
 p.expect(run(*deep, "Search/Thickness=1").returncode == 0,
          "an interference that is meant")
 p.expect_error(run(*deep, "Search/Thickness=0.5"), "Pair 1/Secondary",
                "overlap")
 p.expect_error(run("Pair 1/Secondary=2: 3", "Pair 1/Reach=2"),
-               "Pair 1/Secondary", "same way")
+               "Pair 1/Secondary", "ABUT-F23", "same way")
+p.expect_error(run("Body 2/Mesh/Move=3, 0"), "Pair 1/Secondary", "ABUT-F24",
+               "no point of one surface lies opposite the other")
 
 # What is merely odd is a warning.
 coarse = run("Body 1/Refinements=3", "Refinement/Level=0")
@@ -107,6 +109,26 @@ soft = run("Method/Enforcement=quadratic penalty", "Method/Penalty=1e-3",
 p.expect(soft.returncode == 3 and soft.stderr.count("at its cap") == 1,
          f"soft quadratic penalty: {soft.stderr}")
 
+# Penalties without sense: refused, or said before anything else; then either
+# the answer is right, or the run says that there is none.
+for law, code in (("penalty", "ABUT-F06"), ("augmented lagrangian", "ABUT-F06"),
+                  ("nitsche", "ABUT-F31")):
+    method = f"Method/Enforcement={law}"
+    for value in ("-1", "nan", "inf"):
+        p.expect_error(run(method, f"Method/Penalty={value}"), "Method/Penalty")
+    for value in ("1e-30", "1e15", "1e30", "1e300"):
+        result = run(method, f"Method/Penalty={value}")
+        warnings = [line for line in result.stderr.splitlines()
+                    if line.startswith("abut: warning: " + code)]
+        p.expect(warnings and "sensible range" in warnings[0],
+                 f"{law}, {value}: {result.stderr}")
+        if result.returncode == 0:
+            p.close(p.results()[0]["contact_force"],
+                    summary["contact_force"], 1e-3, f"{law}, {value}: force")
+        else:
+            p.expect(result.returncode == 3,
+                     f"{law}, {value}: exit code {result.returncode}")
+
 # Pulled apart: the upper block has nothing to hold it, its own supports let it
 # go up and down.
 gone = run("Body 2/Support=0, 1: 0, free", "Body 2/Traction=3: 0, 0.01")
@@ -119,6 +141,16 @@ p.close(pushed["contact_force"], 0.01, 1e-6, "pushed together")
 p.expect_error(run("Body 2/Support=", "Pair 1/Secondary=1: 3",
                    "Pair 1/Primary=1: 2"), "Body 2/Support",
                "every rigid motion", "in no contact pair")
+
+# A corner that is held both ways: the lower block's side goes up by more than
+# the upper one's side, which is held, too.
+held = "Body 1/Support=2: 0, 0; 0: 0, 0.02*y"
+p.expect_error(run("Body 2/Support=3: 0, -0.01; 0: 0, 0", held),
+               "Body 2/Support", "different displacements", "corner")
+corner = run("Body 2/Support=3: 0, -0.01; 0: 0, 0.01 - 0.01*y", held)
+p.expect(corner.returncode == 0 and "ABUT-F26" in corner.stderr
+         and "supports hold nodes" in corner.stderr,
+         f"a corner held both ways: {corner.stderr}")
 
 # Corners where a support meets the contact surface.
 corner, _ = solved("Body 2/Support=3: 0, -0.01; 0: 0, free",

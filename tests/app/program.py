@@ -17,20 +17,22 @@ class Program:
         parser = argparse.ArgumentParser()
         parser.add_argument("--abut", required=True)
         parser.add_argument("--source", required=True)
+        parser.add_argument("--part", type=int, help="of a test in parts")
         arguments = parser.parse_args()
         self.abut = arguments.abut
+        self.part = arguments.part
         self.source = pathlib.Path(arguments.source)
         self._folder = tempfile.TemporaryDirectory(prefix="abut-test-")
         self.folder = pathlib.Path(self._folder.name)
         self.failures = 0
 
-    def call(self, *words, ranks=0, environment=None):
+    def call(self, *words, ranks=0, environment=None, timeout=120):
         """Run `abut words`; ranks > 0: under mpirun."""
         command = [self.abut, *map(str, words)]
         if ranks > 0:
             command = ["mpirun", "--oversubscribe", "-n", str(ranks)] + command
         return subprocess.run(command, cwd=self.folder, text=True,
-                              capture_output=True, timeout=120,
+                              capture_output=True, timeout=timeout,
                               env={**os.environ, **(environment or {})})
 
     def write(self, name, text):

@@ -196,6 +196,10 @@ namespace abut
      */
     virtual std::string explanation() const;
 
+    /** The known failure behind reason(), or CYCLE where the iteration
+     * converged only by changing rows one by one. Not collective. */
+    virtual abut_failure failure() const;
+
     /** State of the iteration. Not collective. */
     virtual abut_progress progress() const;
 
@@ -246,11 +250,26 @@ namespace abut
      * pairs: 1 in contact, in each of the first dim components. */
     virtual la::Vector status() const;
 
+    /** Forces out of balance after a step, as a part of the contact forces: the
+     * norm of @p residual (internal minus external forces) minus the contact
+     * forces of the present pressures, by the norm of the latter or @p least,
+     * whichever is more. Not small: a linear solver has failed its promise. Not
+     * for nitsche with theta other than 0, which is no balance of forces. */
+    virtual double imbalance(const la::Vector &residual, double least) const;
+
     /** What detect() met on each pair; empty without pairs. Not collective. */
     virtual std::vector<PairCheck> pair_checks() const;
 
     /** Forces, moments and extremes on each pair; empty without pairs. */
     virtual std::vector<PairResult<dim>> pair_results() const;
+
+    /** By pair: which part of the force of a uniform pressure the rows hand to
+     * wrong nodes of the primary surface, in [0, 1]. Round-off for mortar; for
+     * node to segment and quadrature points an error of the contact pressure
+     * that refinement does not lower. 0 against obstacles. To be called after
+     * detect(), which it costs as much as. */
+    virtual std::vector<double>
+    transfer_errors(const la::Vector &displacement) const;
 
     /** Search the bodies displaced by @p displacement, without regard to
      * rows, for points of secondary surfaces that are inside the other body (or

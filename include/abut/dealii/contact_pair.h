@@ -80,6 +80,7 @@ namespace abut
                                      pair */
     unsigned int n_reversed = 0; /**< nodes that only found facets with a
                                       normal that points the same way */
+    double facet_size = 0.;      /**< median of the secondary surface, length */
     double size_ratio = 0.;      /**< median facet size, secondary by primary */
     std::vector<std::string> warnings; /**< in words, with what to do */
   };
@@ -98,6 +99,10 @@ namespace abut
      * hold it, length >= 0, by the last check_penetration(): what the
      * discretisation does not see. Large where the secondary is coarser. */
     double between_rows = 0.;
+    /** How deep nodes of the secondary are in the other side that supports
+     * hold along the normal and that have no row therefore, length >= 0, by
+     * the last check_penetration(): what contact would have to move. */
+    double held_inside = 0.;
     double pressure = 0.; /**< largest */
     /** Resultant contact force on the secondary side. */
     dealii::Tensor<1, dim> secondary_force;

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -33,6 +34,9 @@ namespace abut
     /** Saddle point: augmentation of the leading block as a multiple of the
      * local stiffness. */
     double augmentation = 3.;
+    /** Whether contact springs that are beyond multigrid are filtered: solved
+     * directly on the unknowns that they act on. */
+    bool contact_filter = true;
 
     /** Whether a system of @p n_unknowns of a field with @p n_components is to
      * be factorised. */
@@ -62,10 +66,13 @@ namespace abut
     unsigned int n_iterations = 0; /**< of the Krylov method */
     unsigned int n_matvecs = 0;    /**< products with the matrix */
     unsigned int n_setups = 0;     /**< preconditioners or factorisations */
-    double setup_seconds = 0.;     /**< time for these */
-    double solve_seconds = 0.;     /**< time for the rest */
-    double tolerance = 0.;         /**< relative, of the last system */
-    std::string method;            /**< of the last system, in words */
+    /** Largest condition number of a preconditioned matrix that conjugate
+     * gradients have met, by Lanczos' estimate from below; 0: none. */
+    double condition = 0.;
+    double setup_seconds = 0.; /**< time for these */
+    double solve_seconds = 0.; /**< time for the rest */
+    double tolerance = 0.;     /**< relative, of the last system */
+    std::string method;        /**< of the last system, in words */
 
     /** Add the cost of another solve. */
     LinearReport &operator+=(const LinearReport &other)
@@ -74,6 +81,7 @@ namespace abut
       n_iterations += other.n_iterations;
       n_matvecs += other.n_matvecs;
       n_setups += other.n_setups;
+      condition = std::max(condition, other.condition);
       setup_seconds += other.setup_seconds;
       solve_seconds += other.solve_seconds;
       if (other.n_systems > 0)

@@ -32,6 +32,60 @@ abut_reason_text(abut_reason reason)
   return "unknown reason";
 }
 
+static abut_failure
+failure_at_limit(const abut_law *law, const abut_progress *progress)
+{
+  switch (law->outer)
+  {
+  case ABUT_OUTER_PENALTY:
+    return ABUT_FAILURE_PENALTY;
+  case ABUT_OUTER_MULTIPLIER:
+    return ABUT_FAILURE_MULTIPLIERS_STALL;
+  case ABUT_OUTER_BARRIER:
+  case ABUT_OUTER_PRIMAL_DUAL:
+    return ABUT_FAILURE_INTERIOR;
+  case ABUT_OUTER_NONE:
+    break;
+  }
+  if ((law->flags & ABUT_LAW_STRESS) != 0)
+    return ABUT_FAILURE_NITSCHE;
+  return progress->fallback_steps > 0 ? ABUT_FAILURE_CYCLE
+                                      : ABUT_FAILURE_COLD_START;
+}
+
+static abut_failure
+failure_to_contract(const abut_law *law, const abut_progress *progress)
+{
+  if (law->outer == ABUT_OUTER_NONE)
+    return progress->penalty > 0 ? ABUT_FAILURE_PENALTY
+                                 : ABUT_FAILURE_LINEAR_SOLVER;
+  return failure_at_limit(law, progress);
+}
+
+abut_failure
+abut_reason_failure(abut_reason reason, const abut_law *law,
+                    const abut_progress *progress)
+{
+  if (law == NULL || progress == NULL)
+    return ABUT_FAILURE_NONE;
+  switch (reason)
+  {
+  case ABUT_REASON_NONE:
+  case ABUT_REASON_CONVERGED:
+    return progress->fallback_steps > 0 ? ABUT_FAILURE_CYCLE
+                                        : ABUT_FAILURE_NONE;
+  case ABUT_REASON_STEP_LIMIT:
+    return failure_at_limit(law, progress);
+  case ABUT_REASON_STAGNATION:
+    return failure_to_contract(law, progress);
+  case ABUT_REASON_INFEASIBLE:
+    return ABUT_FAILURE_INFEASIBLE_START;
+  case ABUT_REASON_NOT_FINITE:
+    return ABUT_FAILURE_FLOATING_BODY;
+  }
+  return ABUT_FAILURE_NONE;
+}
+
 static const abut_method *
 method_of(const abut_law *law)
 {

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_FAILURE_H
+#define ABUT_FAILURE_H
+
+/** @file
+ * The known ways in which contact computations fail, each with a code that
+ * never changes its meaning. Warnings and errors that name one begin with the
+ * code, `ABUT-F06: ...`, followed by what was seen and what to do.
+ */
+
+#include <abut/export.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+/** One list yields the enumeration and the table: name in the program, number
+ * of the code, name for people, remedy in general. Numbers are never used
+ * again for something else; gaps belong to failures that cannot occur yet. */
+#define ABUT_FAILURE_LIST(X)                                                   \
+  X(BOTH_SIDES, 1, "multipliers on both sides",                                \
+    "let one side of a pair of surfaces carry the rows")                       \
+  X(RICH_MULTIPLIERS, 2, "more multipliers than the surface can bear",         \
+    "mortar or dual mortar; or penalty, augmented lagrangian or nitsche")      \
+  X(TRANSFER, 3, "uniform pressure is not transferred",                        \
+    "mortar or dual mortar")                                                   \
+  X(CROSSPOINT, 4, "contact meets a support",                                  \
+    "hand the share of dropped multipliers to their neighbours")               \
+  X(COVERAGE, 5, "surface partly without a partner",                           \
+    "let the primary surface reach as far as the secondary")                   \
+  X(PENALTY, 6, "penalty out of range",                                        \
+    "leave Method/Penalty = 0, or use augmented lagrangian or lagrange")       \
+  X(MULTIPLIERS_STALL, 7, "method of multipliers does not contract",           \
+    "Method/Adaptive penalty = true, or a larger Method/Penalty")              \
+  X(CYCLE, 8, "active sets come back",                                         \
+    "leave the fallback to single changes on; interior point")                 \
+  X(COLD_START, 9, "too many steps from a cold start",                         \
+    "Refinement/Nested iteration = true")                                      \
+  X(INFEASIBLE_START, 10, "barrier from inside an obstacle",                   \
+    "interior point, which needs no open start")                               \
+  X(OVERLAP, 11, "bodies overlap from the start",                              \
+    "move the bodies apart, or say that it is interference (Pair/Initial "     \
+    "gap)")                                                                    \
+  X(FLOATING_BODY, 12, "nothing holds a body",                                 \
+    "give the body a support, or press it against something")                  \
+  X(LOCKING, 16, "nearly incompressible material", "Solid/Degree = 2")         \
+  X(COARSE_SECONDARY, 19, "secondary surface much coarser than the primary",   \
+    "exchange the two sides of the pair")                                      \
+  X(DEGENERATE_FACET, 20, "facets without area, or inside out",                \
+    "repair the mesh: each facet once, with corners that differ")              \
+  X(COARSE_CURVE, 21, "surface too coarse for its curvature",                  \
+    "refine it, or leave its corners out of the pair")                         \
+  X(BUCKETS, 22, "buckets far from the size of facets",                        \
+    "Search/Bucket size = 0, or adaptive buckets")                             \
+  X(WRONG_SIDE, 23, "surfaces that face the same way",                         \
+    "take the sides that face each other; turn cells that are inside out")     \
+  X(NO_PARTNER, 24, "surfaces do not find each other",                         \
+    "a larger Reach of the pair, or smaller load steps")                       \
+  X(HELD_NODES, 26, "supports hold nodes that contact must move",              \
+    "leave such nodes free along the normal, or move what supports them")      \
+  X(LINEAR_SOLVER, 30, "linear solver does not converge",                      \
+    "Solver/Linear solver = direct or auto")                                   \
+  X(NITSCHE, 31, "Nitsche's parameter too small",                              \
+    "leave Method/Penalty = 0, or Method/Nitsche theta = -1")                  \
+  X(NEGATIVE_WEIGHTS, 32, "dual multipliers of negative weight",               \
+    "Method/Discretisation = mortar")                                          \
+  X(INTERIOR, 33, "interior method stalls",                                    \
+    "lagrange, or a looser Method/Gap tolerance")                              \
+  X(SINGULAR, 34, "energy converges slowly",                                   \
+    "Refinement/Adaptive cycles; smooth data")
+
+  /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
+  typedef enum abut_failure
+  {
+    ABUT_FAILURE_NONE = 0, /**< no failure with a code */
+#define ABUT_FAILURE_ENTRY(name, number, text, remedy)                         \
+  ABUT_FAILURE_##name = number,
+    ABUT_FAILURE_LIST(ABUT_FAILURE_ENTRY)
+#undef ABUT_FAILURE_ENTRY
+  } abut_failure;
+
+  /** An entry of the table. All texts are constant. */
+  typedef struct abut_failure_entry
+  {
+    abut_failure failure;
+    const char *code;   /**< `ABUT-F06` */
+    const char *name;   /**< a few words */
+    const char *remedy; /**< what helps in general */
+  } abut_failure_entry;
+
+  /** Entry @p index >= 0 of the table in order of codes; NULL behind its end.
+   */
+  ABUT_API const abut_failure_entry *abut_failure_at(int32_t index);
+
+  /** Entry of a failure; NULL for NONE and for numbers without a failure. */
+  ABUT_API const abut_failure_entry *abut_failure_get(abut_failure failure);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "volumetric_locking.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Energies of one cell: all of it, and what varying volume costs. */
+    template <int dim>
+    void add_cell(const dealii::FEValues<dim> &points,
+                  const la::Vector &displacement,
+                  const ElasticMaterial &material, double (&energies)[2])
+    {
+      const dealii::FEValuesExtractors::Vector field(0);
+      const unsigned int n = points.n_quadrature_points;
+      std::vector<dealii::Tensor<1, dim>> u(n);
+      std::vector<dealii::Tensor<2, dim>> gradient(n);
+      points[field].get_function_values(displacement, u);
+      points[field].get_function_gradients(displacement, gradient);
+      double volume = 0., first = 0., second = 0.;
+      for (unsigned int q = 0; q < n; ++q)
+      {
+        const dealii::Point<dim> &x = points.quadrature_point(q);
+        const double weight = points.JxW(q) * material.template measure<dim>(x);
+        double dilation = trace(gradient[q]);
+        if (material.template is_axisymmetric<dim>())
+          dilation += u[q][0] / x[0];
+        volume += weight;
+        first += weight * dilation;
+        second += weight * dilation * dilation;
+        energies[0] += weight * strain_product(material, gradient[q], u[q], x);
+      }
+      energies[1] += material.template lambda<dim>()
+                     * std::max(0., second - first * first / volume);
+    }
+  } // namespace
+
+  template <int dim>
+  double volumetric_locking(const dealii::Mapping<dim> &mapping,
+                            const dealii::DoFHandler<dim> &dof_handler,
+                            const la::Vector &displacement,
+                            const ElasticMaterials &materials)
+  {
+    const auto &fe = dof_handler.get_fe();
+    dealii::FEValues<dim> points(
+        mapping, fe, dealii::QGauss<dim>(fe.degree + 1),
+        dealii::update_values | dealii::update_gradients
+            | dealii::update_quadrature_points | dealii::update_JxW_values);
+    double energies[2] = {0., 0.};
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        points.reinit(cell);
+        add_cell(points, displacement, materials.at(cell->material_id()),
+                 energies);
+      }
+    dealii::Utilities::MPI::sum(energies, dof_handler.get_communicator(),
+                                energies);
+    return energies[0] > 0. ? energies[1] / energies[0] : 0.;
+  }
+
+  template double volumetric_locking(const dealii::Mapping<2> &,
+                                     const dealii::DoFHandler<2> &,
+                                     const la::Vector &,
+                                     const ElasticMaterials &);
+  template double volumetric_locking(const dealii::Mapping<3> &,
+                                     const dealii::DoFHandler<3> &,
+                                     const la::Vector &,
+                                     const ElasticMaterials &);
+} // namespace abut::app

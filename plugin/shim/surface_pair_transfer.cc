@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// How well rows hand a uniform pressure to the primary surface: the question
+// that the contact patch test asks, answered without solving anything.
+#include "surface_pair_rows.h"
+
+#include <cmath>
+
+namespace abut::shim
+{
+  template <int dim>
+  std::vector<double>
+  SurfacePairRows<dim>::transfer_errors(const la::Vector &displacement) const
+  {
+    const std::vector<Direction> u =
+        exchange_->displacements(surface_, displacement);
+    std::vector<double> errors(pairs_.size(), 0.);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
+      const Pair &pair = pairs_[p];
+      if (pair.data.obstacle)
+        continue;
+      // The first unknown of a node stands for it.
+      const auto unknown = [&](const Node node)
+      { return surface_.nodes[node].dof[0]; };
+      la::Vector exact = field();
+      const Handle<abut_coupling> mortar =
+          make_coupling(pair, Discretisation::mortar);
+      build(pair, mortar.get(),
+            std::vector<std::uint8_t>(pair.secondary.n_nodes(), 0),
+            motion(pair, u));
+      abut_coupling_view view;
+      check(context_, abut_coupling_get(mortar.get(), &view));
+      for (std::int32_t i = 0; i < view.n_rows; ++i)
+        for (auto e = view.primary_start[i]; e < view.primary_start[i + 1]; ++e)
+          exact(unknown(pair.primary.node[view.primary_node[e]])) +=
+              view.weight[i] * view.primary_coefficient[e];
+      exact.compress(dealii::VectorOperation::add);
+
+      la::Vector wrong(exact);
+      for (const Row &row : rows_)
+        // A tie has a row for each direction.
+        if (row.pair == p && (!pair.data.tied || row.direction[0] == 1.))
+          for (std::size_t e = row.first_primary; e < row.end; ++e)
+            wrong(unknown(entries_[e].node)) -=
+                row.weight * entries_[e].coefficient;
+      wrong.compress(dealii::VectorOperation::add);
+      const double total = exact.l1_norm();
+      errors[p] = total > 0. ? 0.5 * wrong.l1_norm() / total : 0.;
+    }
+    return errors;
+  }
+
+  template std::vector<double>
+  SurfacePairRows<2>::transfer_errors(const la::Vector &) const;
+  template std::vector<double>
+  SurfacePairRows<3>::transfer_errors(const la::Vector &) const;
+} // namespace abut::shim
