@@ -15,8 +15,9 @@ ABI, INDEX, MODE, DEALII, TRILINOS, MPI, COMPILER, LAYOUT = (
     16, 20, 24, 40, 64, 88, 120, 168)
 
 
-# Bytes per cycle.
-LARGEST_GROWTH = 200
+# Bytes per cycle. Allocators keep some ten thousand bytes more at the end than
+# after ten cycles; the smallest object that can be forgotten has 576.
+LARGEST_GROWTH = 400
 
 
 def number(value):
@@ -90,7 +91,7 @@ def check_memory(check, host):
     what a program without contact leaves behind, a few bytes."""
     result = check.run(host, check.plugin, "cycles=100")
     words = result.stdout.split()
-    if result.returncode != 0 or len(words) != 8:
+    if result.returncode != 0 or len(words) != 9:
         check.fail(f"cycles: exit code {result.returncode}, {result.stdout}"
                    f"{result.stderr}")
         return
