@@ -75,19 +75,19 @@ extern "C"
   typedef enum abut_failure
   {
     ABUT_FAILURE_NONE = 0, /**< no failure with a code */
-#define ABUT_FAILURE_ENTRY(name, number, text, remedy)                         \
-  ABUT_FAILURE_##name = number,
-    ABUT_FAILURE_LIST(ABUT_FAILURE_ENTRY)
+/** @cond */
+#define ABUT_FAILURE_ENTRY(name, code, t, remedy) ABUT_FAILURE_##name = code,
+    ABUT_FAILURE_LIST(ABUT_FAILURE_ENTRY) /** @endcond */
 #undef ABUT_FAILURE_ENTRY
   } abut_failure;
 
   /** An entry of the table. All texts are constant. */
   typedef struct abut_failure_entry
   {
-    abut_failure failure;
-    const char *code;   /**< `ABUT-F06` */
-    const char *name;   /**< a few words */
-    const char *remedy; /**< what helps in general */
+    abut_failure failure; /**< which one */
+    const char *code;     /**< `ABUT-F06` */
+    const char *name;     /**< a few words */
+    const char *remedy;   /**< what helps in general */
   } abut_failure_entry;
 
   /** Entry @p index >= 0 of the table in order of codes; NULL behind its end.

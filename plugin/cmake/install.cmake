@@ -24,7 +24,7 @@ else()
   install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/abut)
 endif()
 
-configure_package_config_file(cmake/AbutConfig.cmake.in
+configure_package_config_file(plugin/cmake/AbutConfig.cmake.in
   ${PROJECT_BINARY_DIR}/AbutConfig.cmake
   INSTALL_DESTINATION ${ABUT_CMAKE_DIR} PATH_VARS CMAKE_INSTALL_LIBDIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/AbutConfigVersion.cmake
@@ -36,7 +36,7 @@ install(FILES ${PROJECT_BINARY_DIR}/AbutConfig.cmake
 # Found from where the file is, so that an installed tree can be moved.
 file(RELATIVE_PATH ABUT_PREFIX_FROM_PKGCONFIG
   /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
-configure_file(cmake/abut_core.pc.in ${PROJECT_BINARY_DIR}/abut_core.pc @ONLY)
+configure_file(plugin/cmake/abut_core.pc.in ${PROJECT_BINARY_DIR}/abut_core.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/abut_core.pc
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
