@@ -333,10 +333,12 @@ namespace abut
   template <int dim> abut_progress ContactAssembler<dim>::progress() const
   {
     abut_progress progress = {};
+    // A strategy whose law fails is not started any more.
     if (implementation->is_started)
-      shim::check(
-          implementation->context.get(),
-          abut_strategy_progress(implementation->strategy.get(), &progress));
+      if (const abut_status status =
+              abut_strategy_progress(implementation->strategy.get(), &progress);
+          status != ABUT_WRONG_ORDER)
+        shim::check(implementation->context.get(), status);
     return progress;
   }
 

@@ -61,9 +61,10 @@ namespace abut::shim
       std::vector<std::uint8_t> mask(side.n_facets());
       abut_surface_view view;
       check(context_, abut_surface_get(side.surface.get(), &view));
-      check(context_, abut_surface_features(side.surface.get(),
-                                            large_turn * M_PI / 180. - 1e-6,
-                                            mask.data()));
+      if (side.n_facets() > 0)
+        check(context_, abut_surface_features(side.surface.get(),
+                                              large_turn * M_PI / 180. - 1e-6,
+                                              mask.data()));
       bool found = false;
       for (int f = 0; f < side.n_facets() && !found; ++f)
       {

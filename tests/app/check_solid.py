@@ -94,7 +94,7 @@ p.expect_error(run(*deep, "Search/Thickness=0.5"), "Pair 1/Secondary",
 p.expect_error(run("Pair 1/Secondary=2: 3", "Pair 1/Reach=2"),
                "Pair 1/Secondary", "ABUT-F23", "same way")
 p.expect_error(run("Body 2/Mesh/Move=3, 0"), "Pair 1/Secondary", "ABUT-F24",
-               "no point of one surface lies opposite the other")
+               "too far apart", "reach")
 
 # What is merely odd is a warning.
 coarse = run("Body 1/Refinements=3", "Refinement/Level=0")

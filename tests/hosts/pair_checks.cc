@@ -52,7 +52,7 @@ namespace
     refuses(run, &pair, {"wheel on rail", "neither"});
     pair.primary = {77};
     refuses(run, &pair, {"wheel on rail", "no facet", "primary"});
-    pair.primary = {hosts::upper_interface};
+    pair.primary = {hosts::upper_interface, hosts::lower_interface};
     refuses(run, &pair, {"wheel on rail", "both sides"});
     // The top of the upper block looks the same way as that of the lower.
     pair.primary = {hosts::lower_interface};

@@ -174,7 +174,7 @@ namespace
       blocks.contact().set_pairs({pair});
       throws_everywhere(throws ? "obstacle that throws" : "obstacle of NaN",
                         [&] { blocks.contact().detect(blocks.displacement()); },
-                        {"floor", throws ? "table of heights" : "number"});
+                        {"floor", throws ? "table of heights" : "finite"});
     }
   }
 
