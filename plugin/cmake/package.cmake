@@ -5,8 +5,8 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME abut)
 set(CPACK_PACKAGE_CONTACT "Abut maintainers <abut@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION "Contact search, mortar and other constraints, \
-contact laws, and solvers for elastic bodies and membranes in contact: a \
-program, a library for deal.II, a plugin for deal.II programs, and a C library.")
+contact laws, and solvers\nfor elastic bodies and membranes in contact: a program, \
+a library for\ndeal.II, a plugin for deal.II programs, and a C library.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -15,8 +15,10 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
-# To compile programs; the program abut does not need it.
+# To run in parallel, to draw, and to compile programs: one rank and figures
+# need none of them.
 if(NOT ABUT_CORE_ONLY)
-  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libdeal.ii-dev)
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
+    "gnuplot-nox | gnuplot, libdeal.ii-dev, mpi-default-bin")
 endif()
 include(CPack)

@@ -29,7 +29,8 @@ def check_fields(package):
     require(field("Version") == "0.1.0", field("Version"))
     require(field("Architecture") == run(
         "dpkg", "--print-architecture").stdout.strip(), "architecture")
-    require(field("Recommends") == "libdeal.ii-dev", field("Recommends"))
+    for word in ("libdeal.ii-dev", "mpi-default-bin", "gnuplot-nox"):
+        require(word in field("Recommends"), field("Recommends"))
     depends = {word.split()[0] for word in field("Depends").split(",")}
     print("Depends:", field("Depends"))
     return depends
@@ -70,8 +71,27 @@ def check_content(unpacked):
                  "include/abut/dealii/load_plugin.h",
                  "share/abut/prm/step-41.prm", "share/doc/abut/copyright"):
         require((unpacked / "usr" / name).exists(), f"{name} is missing")
+    folders = {str(path.parent.relative_to(unpacked / "usr"))
+               for path in unpacked.rglob("*") if not path.is_dir()}
+    for folder in folders:
+        require(folder in ("bin", "lib", "lib/cmake/Abut", "lib/pkgconfig")
+                or folder.startswith(("include/abut", "share/abut/prm",
+                                      "share/doc/abut")), folder)
     output = run(unpacked / "usr/bin/abut", "--version").stdout
     require(output.startswith("abut 0.1.0"), output)
+
+
+def check_paths(unpacked, build):
+    """No file names a folder of the build, and all may read all of them."""
+    folder = str(pathlib.Path(build).resolve())
+    for path in unpacked.rglob("*"):
+        if path.is_symlink():
+            continue
+        mode = path.stat().st_mode & 0o777
+        expected = 0o755 if path.is_dir() or path.parent.name == "bin" else 0o644
+        require(mode == expected, f"{path} has mode {mode:o}")
+        require(path.is_dir() or folder.encode() not in path.read_bytes(),
+                f"{path} names {folder}")
 
 
 def main():
@@ -86,6 +106,7 @@ def main():
         unpacked = folder / "unpacked"
         run("dpkg-deb", "--extract", package, unpacked)
         check_content(unpacked)
+        check_paths(unpacked, arguments.build)
         check_depends(depends, unpacked)
     except Failure as failure:
         print(f"FAILED: {failure}")
