@@ -3,6 +3,7 @@
 #include "collective.h"
 #include "diagnosis.h"
 #include "left_out.h"
+#include "modelled.h"
 #include "obstacle_run.h"
 #include "pictures.h"
 #include "solve/masked_solver.h"
@@ -255,18 +256,8 @@ namespace abut::app
     report.model("search", false,
                  "the obstacle is a function: its gap needs no search");
     report.model("friction", false, "a scalar field has no tangent to slide");
-    report.model("nested iteration", parameters.refinement.nested,
-                 parameters.refinement.nested
-                     ? "each level starts from the one before"
-                     : "switched off: the start is displacement 0");
     const RefinementParameters &refinement = parameters.refinement;
-    report.model("adaptive refinement", refinement.adaptive_cycles > 0,
-                 refinement.has_target() ? "refined where the estimate is "
-                                           "large, until the target is met"
-                 : refinement.adaptive_cycles > 0
-                     ? "refined where the estimate is large"
-                     : "no Adaptive cycles were asked for",
-                 {"error estimate"});
+    model_meshes(report, refinement);
     const LinearReport &linear = levels.back().linear;
     report.model("preconditioner set-ups on the last level",
                  linear.n_setups > 0,
@@ -277,8 +268,7 @@ namespace abut::app
       n_steps += level.steps;
     report.model("linear systems", true,
                  std::to_string(n_steps) + " on all meshes", {"solve"});
-    report.model("files", parameters.fields || options.pictures,
-                 "fields and pictures as section Output asks", {"output"});
+    model_files(report, parameters.fields || options.pictures);
     explain_accuracy(report, refinement, control);
     explain_steps(report, refinement, method, n_steps,
                   static_cast<unsigned int>(levels.size()));

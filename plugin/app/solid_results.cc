@@ -3,6 +3,7 @@
 #include "diagnosis.h"
 #include "input_error.h"
 #include "left_out.h"
+#include "modelled.h"
 #include "nearest_node.h"
 #include "result_row.h"
 #include "solid_run.h"
@@ -233,27 +234,27 @@ namespace abut::app
       if (facet > 0.)
         report.set(key + "_penetration_by_facet", pair.penetration / facet);
       report.set(key + "_between_rows", pair.between_rows);
-      if (way > 0. && pair.between_rows > suspicious_penetration * way)
-        report.warn(coded(
-            ABUT_FAILURE_COARSE_SECONDARY,
-            pair.name
-                + ": nodes of the primary surface are inside the secondary by "
-                  "up to "
-                + short_number(pair.between_rows, 3)
-                + " between its constraints, where nothing moves by more than "
-                + short_number(way, 3)
-                + ": exchange the two sides, or refine the secondary."));
+      const auto warn_of = [&](const double depth, const abut_failure failure,
+                               const std::string &where,
+                               const std::string &remedy)
+      {
+        if (way > 0. && depth > suspicious_penetration * way)
+          report.warn(coded(failure, pair.name + ": " + where + " by up to "
+                                         + short_number(depth, 3)
+                                         + ", where nothing moves by more than "
+                                         + short_number(way, 3) + ": "
+                                         + remedy));
+      };
+      warn_of(pair.between_rows, ABUT_FAILURE_COARSE_SECONDARY,
+              "nodes of the primary surface are inside the secondary, between "
+              "its constraints,",
+              "exchange the two sides, or refine the secondary.");
       report.set(key + "_held_inside", pair.held_inside);
-      if (way > 0. && pair.held_inside > suspicious_penetration * way)
-        report.warn(coded(
-            ABUT_FAILURE_HELD_NODES,
-            pair.name
-                + ": supports hold nodes of the secondary surface inside the "
-                  "other side, by up to "
-                + short_number(pair.held_inside, 3)
-                + ", where nothing moves by more than " + short_number(way, 3)
-                + ": contact cannot move them. Leave these nodes free along "
-                  "the normal, or move what supports them."));
+      warn_of(pair.held_inside, ABUT_FAILURE_HELD_NODES,
+              "supports hold nodes of the secondary surface inside the other "
+              "side",
+              "contact cannot move them. Leave these nodes free along the "
+              "normal, or move what supports them.");
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
     }
@@ -410,18 +411,8 @@ namespace abut::app
     if (method.law_is_automatic && !pairs->empty())
       report.model("automatic law", true, method.options.law->name);
     report.model("friction", false, "surfaces slide freely on each other");
-    report.model("nested iteration", parameters.refinement.nested,
-                 parameters.refinement.nested
-                     ? "each level starts from the one before"
-                     : "switched off: the start is displacement 0");
     const RefinementParameters &refinement = parameters.refinement;
-    report.model("adaptive refinement", refinement.adaptive_cycles > 0,
-                 refinement.has_target() ? "refined where the estimate is "
-                                           "large, until the target is met"
-                 : refinement.adaptive_cycles > 0
-                     ? "refined where the estimate is large"
-                     : "no Adaptive cycles were asked for",
-                 {"error estimate"});
+    model_meshes(report, refinement);
     report.model("load steps", parameters.load_steps.steps > 1,
                  std::to_string(load_steps.n_accepted) + " of "
                      + std::to_string(parameters.load_steps.steps)
@@ -434,8 +425,7 @@ namespace abut::app
       n_steps += state.steps;
     report.model("linear systems", true,
                  std::to_string(n_steps) + " in all states", {"solve"});
-    report.model("files", parameters.fields || options.pictures,
-                 "fields and pictures as section Output asks", {"output"});
+    model_files(report, parameters.fields || options.pictures);
     explain_accuracy(report, refinement, control);
     explain_steps(report, refinement, method, n_steps,
                   static_cast<unsigned int>(states.size()));

@@ -301,10 +301,7 @@ namespace abut
     AssertThrow(!i.is_nitsche(), ExcMessage("The forces of Nitsche's method "
                                             "are not those of its pressures "
                                             "alone."));
-    std::vector<double> force = i.row_pressures();
-    for (int row = 0; row < i.view.n_rows; ++row)
-      force[row] *= i.view.weight[row];
-    i.coefficients.add_transposed(force.data(), forces);
+    i.add_forces(forces);
   }
 
   template <int dim> abut_reason ContactAssembler<dim>::reason() const

@@ -112,6 +112,16 @@ namespace abut
   }
 
   template <int dim>
+  void
+  ContactAssembler<dim>::Implementation::add_forces(la::Vector &forces) const
+  {
+    std::vector<double> force = row_pressures();
+    for (int row = 0; row < view.n_rows; ++row)
+      force[row] *= view.weight[row];
+    coefficients.add_transposed(force.data(), forces);
+  }
+
+  template <int dim>
   const shim::RowSource &
   ContactAssembler<dim>::Implementation::present_source() const
   {

@@ -58,6 +58,8 @@ namespace abut
     void next();
     double row_pressure(int row) const;
     std::vector<double> row_pressures() const;
+    /** Add the forces of the rows' pressures. */
+    void add_forces(la::Vector &forces) const;
 
     const MPI_Comm communicator;
     Obstacle<dim> obstacle;

@@ -85,12 +85,9 @@ namespace abut
                                           const double least) const
   {
     const Implementation &i = *implementation;
-    std::vector<double> force(i.view.n_rows);
-    for (int row = 0; row < i.view.n_rows; ++row)
-      force[row] = i.view.weight[row] * i.row_pressure(row);
     la::Vector contact(residual);
     contact = 0.;
-    i.coefficients.add_transposed(force.data(), contact);
+    i.add_forces(contact);
     const double size = std::max(contact.l2_norm(), least);
     contact -= residual;
     return size > 0. ? contact.l2_norm() / size : 0.;

@@ -4,17 +4,15 @@ what `Enforcement = auto` takes."""
 import csv
 import json
 
-from program import Program
+from program import Program, set_words
 
 p = Program()
 
 
 def run(scene, settings=None, *words, code=0):
     """Summary, meshes and output of a run."""
-    arguments = []
-    for name, value in {"Output/Fields": "false", "Output/Pictures": "false",
-                        **(settings or {})}.items():
-        arguments += ["--set", f"{name}={value}"]
+    arguments = set_words({"Output/Fields": "false",
+                           "Output/Pictures": "false", **(settings or {})})
     result = p.call("run", p.source / "prm" / (scene + ".prm"), "--output",
                     "out", *arguments, *words)
     p.expect(result.returncode == code,

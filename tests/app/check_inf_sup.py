@@ -3,19 +3,20 @@
 refinement; with more pressures than the surface has unknowns they are 0, and
 the program refuses to take those as multipliers. Prints the table of
 doc/inf-sup.md."""
-from program import Program
+from block_scene import block, pair, section, solid
+from program import Program, set_words
 
 p = Program()
 
 
-def block(dim, number, cells, support, below):
+def cube(dim, number, cells, support, below):
     """Unit cube with the contact surface on top, or below."""
     low, high = ("0" if below else "1"), ("1" if below else "2")
     first = ", ".join(["0"] * (dim - 1) + [low])
     last = ", ".join(["1"] * (dim - 1) + [high])
     far = 2 * dim - 2 if below else 2 * dim - 1
     zero = ", ".join(["0"] * dim)
-    load = "" if below else f"  set Pressure = {far}: 0.01\n"
+    load = [] if below else [f"Pressure = {far}: 0.01"]
     sides = ", ".join(map(str, range(2 * dim - 2)))
     held = f"{far}: {zero}" if below else ""
     if support == "clamped":
@@ -23,44 +24,22 @@ def block(dim, number, cells, support, below):
     elif not below:
         sideways = ", ".join(["0"] * (dim - 1) + ["free"])
         held = f"{sides}: {sideways}"
-    return f"""
-subsection Body {number}
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = {', '.join([str(cells)] * dim)} : {first} : {last} : true
-  end
-  set Support = {held}
-{load}end
-"""
+    return block(number, f"{', '.join([str(cells)] * dim)} : {first} : {last} "
+                 ": true", held, more=load)
 
 
 def scene(dim, lower, upper, support):
-    return p.write("blocks.prm", f"""
-set Scene = solid
-set Dimension = {dim}
-subsection Solid
-  set Bodies = 2
-  set Pairs = 1
-end
-{block(dim, 1, lower, support, True)}
-{block(dim, 2, upper, support, False)}
-subsection Pair 1
-  set Secondary = 2: {2 * dim - 2}
-  set Primary = 1: {2 * dim - 1}
-end
-subsection Output
-  set Fields = false
-  set Pictures = false
-  set Inf-sup constant = true
-end
-""")
+    return p.write("blocks.prm", solid(
+        dim, cube(dim, 1, lower, support, True),
+        cube(dim, 2, upper, support, False),
+        pair(f"2: {2 * dim - 2}", f"1: {2 * dim - 1}"),
+        section("Output", "Fields = false", "Pictures = false",
+                "Inf-sup constant = true")))
 
 
 def run(name, **settings):
-    words = []
-    for key, value in settings.items():
-        words += ["--set", f"{key}={value}"]
-    return p.call("run", name, "--output", "out", "--quiet", *words)
+    return p.call("run", name, "--output", "out", "--quiet",
+                  *set_words(settings))
 
 
 def constants(what, dim, lower, upper, settings, level, support="slides"):

@@ -78,13 +78,11 @@ for scene, settings in (
         ("two-cylinders.prm", {"Refinement/Adaptive cycles": 2}),
         ("patch-3d.prm", {"Refinement/Level": 1})):
     settings = {**QUIET, **TIGHT, **settings}
-    words = [word for key, value in settings.items()
-             for word in ("--set", f"{key}={value}")]
-    one, _ = p.solve(scene, *words)
+    one, _ = p.solve_with(scene, settings)
     for order, ranks in (("none", 2), ("none", 3), ("Cuthill-McKee", 1),
                          ("Cuthill-McKee", 3)):
-        two, _ = p.solve(scene, *words, "--set",
-                         f"Refinement/Renumber={order}", ranks=ranks)
+        two, _ = p.solve_with(
+            scene, {**settings, "Refinement/Renumber": order}, ranks)
         same(one, two, KEYS,
              f"{scene}, {settings}, order {order}, {ranks} ranks")
 p.finish()

@@ -6,121 +6,45 @@ import math
 import re
 
 import vtu
+from block_scene import block, pair, section, solid
 from program import Program
 
 RANKS = (1, 2, 3, 5)
-END = """
-subsection Method
-  set Enforcement = lagrange
-  set Final linear tolerance = 1e-12
-end
-"""
+EXACT = section("Method", "Enforcement = lagrange",
+                "Final linear tolerance = 1e-12")
+
+
+def from_level(level, *more):
+    return section("Refinement", f"Level = {level}",
+                   f"Coarsest level = {level}", *more)
+
 
 # A block on another, turned one: pressed on one edge, lifted on the other, and
 # pushed along, on meshes that are refined where contact ends.
-PUSHED = """
-set Scene = solid
-set Dimension = 3
-subsection Solid
-  set Bodies = 2
-  set Pairs = 1
-end
-subsection Body 1
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = 4, 2, 1 : 0, 0, 0 : 2, 1, 0.5 : true
-    set Rotate = 0, 0, 21
-  end
-  set Support = 4: 0, 0, 0
-end
-subsection Body 2
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = 3, 3, 1 : 0.37, 0.2, 0.5 : 1.4, 0.9, 1 : true
-  end
-  set Support = 5: 0.03*t, 0.01*t, -0.02*t*(1.1-x)
-end
-subsection Pair 1
-  set Secondary = 2: 4
-  set Primary = 1: 5
-end
-subsection Load steps
-  set Steps = 2
-end
-subsection Refinement
-  set Level = 1
-  set Coarsest level = 1
-  set Adaptive cycles = 1
-end
-""" + END
+PUSHED = solid(
+    3,
+    block(1, "4, 2, 1 : 0, 0, 0 : 2, 1, 0.5 : true", "4: 0, 0, 0",
+          "Rotate = 0, 0, 21"),
+    block(2, "3, 3, 1 : 0.37, 0.2, 0.5 : 1.4, 0.9, 1 : true",
+          "5: 0.03*t, 0.01*t, -0.02*t*(1.1-x)"),
+    pair("2: 4", "1: 5"), section("Load steps", "Steps = 2"),
+    from_level(1, "Adaptive cycles = 1"), EXACT)
 
 # A disc that is rolled along a strip: contact begins on one rank and ends on
 # another.
-ROLLED = """
-set Scene = solid
-set Dimension = 2
-subsection Solid
-  set Obstacles = 1
-  set Pairs = 1
-end
-subsection Body 1
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = 8, 1 : 0, -1 : 8, 0 : true
-  end
-  set Support = 2: 0, 0
-end
-subsection Obstacle 1
-  set Kind = sphere
-  set Centre = 0, 3
-  set Radius = 3
-  set Motion = 1+1.5*t, -0.05
-end
-subsection Pair 1
-  set Secondary = 1: 3
-  set Obstacle = 1
-end
-subsection Load steps
-  set Steps = 4
-  set End time = 4
-end
-subsection Refinement
-  set Level = 2
-  set Coarsest level = 2
-end
-""" + END
+ROLLED = solid(
+    2, block(1, "8, 1 : 0, -1 : 8, 0 : true", "2: 0, 0"),
+    section("Obstacle 1", "Kind = sphere", "Centre = 0, 3", "Radius = 3",
+            "Motion = 1+1.5*t, -0.05"),
+    section("Pair 1", "Secondary = 1: 3", "Obstacle = 1"),
+    section("Load steps", "Steps = 4", "End time = 4"), from_level(2), EXACT,
+    bodies=1, obstacles=1)
 
 # Two blocks of as many cells, so that on two ranks each has one.
-APART = """
-set Scene = solid
-set Dimension = 3
-subsection Solid
-  set Bodies = 2
-  set Pairs = 1
-end
-subsection Body 1
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = 4, 2, 1 : 0, 0, 0 : 1, 1, 1 : true
-  end
-  set Support = 4: 0, 0, 0
-end
-subsection Body 2
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = 1, 2, 4 : 0, 0, 1 : 1, 1, 2 : true
-  end
-  set Support = 5: 0, 0, -0.02*(1.1-x)
-end
-subsection Pair 1
-  set Secondary = 1: 5
-  set Primary = 2: 4
-end
-subsection Refinement
-  set Level = 1
-  set Coarsest level = 1
-end
-""" + END
+APART = solid(
+    3, block(1, "4, 2, 1 : 0, 0, 0 : 1, 1, 1 : true", "4: 0, 0, 0"),
+    block(2, "1, 2, 4 : 0, 0, 1 : 1, 1, 2 : true", "5: 0, 0, -0.02*(1.1-x)"),
+    pair("1: 5", "2: 4"), from_level(1), EXACT)
 
 p = Program()
 
@@ -230,32 +154,10 @@ def check_apart():
 
 
 # Two long strips, of which each of five ranks has a part.
-STRIPS = """
-set Scene = solid
-set Dimension = 2
-subsection Solid
-  set Bodies = 2
-  set Pairs = 1
-end
-subsection Body 1
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = 20, 1 : 0, -1 : 20, 0 : true
-  end
-  set Support = 2: 0, 0
-end
-subsection Body 2
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = 30, 1 : 0, 0 : 20, 1 : true
-  end
-  set Support = 3: 0, -0.01
-end
-subsection Pair 1
-  set Secondary = 2: 2
-  set Primary = 1: 3
-end
-""" + END
+STRIPS = solid(
+    2, block(1, "20, 1 : 0, -1 : 20, 0 : true", "2: 0, 0"),
+    block(2, "30, 1 : 0, 0 : 20, 1 : true", "3: 0, -0.01"),
+    pair("2: 2", "1: 3"), EXACT)
 
 
 def check_volume():

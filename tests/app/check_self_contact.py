@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A surface that touches itself gives what the same mesh gives when its two
 parts have boundary ids of their own, on any number of ranks."""
-from program import Program
+from program import Program, set_words
 
 p = Program()
 QUIET = {"Output/Fields": "false", "Output/Pictures": "false",
@@ -19,9 +19,7 @@ def same(one, two, what, tolerance=1e-9):
 
 
 def solve(scene, settings, ranks=0):
-    words = [word for key, value in {**QUIET, **settings}.items()
-             for word in ("--set", f"{key}={value}")]
-    return p.solve(scene, *words, ranks=ranks)
+    return p.solve_with(scene, {**QUIET, **settings}, ranks)
 
 
 # The slot that closes, from an open one on, whose two faces do not match.
@@ -51,9 +49,8 @@ for ranks in (2, 3):
 
 # Mistakes.
 def refused(*settings):
-    words = [word for setting in settings for word in ("--set", setting)]
     return p.call("run", p.source / "prm/self-contact.prm", "--output", "out",
-                  "--quiet", *words)
+                  "--quiet", *set_words(settings))
 
 
 p.expect_error(refused("Pair 1/Reach=0.001", "Refinement/Level=5"),

@@ -1,49 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Scenes of two bodies that cannot be solved, or only with a warning, and what
 the program says; secondary and primary exchanged; load steps."""
-from program import Program
+from block_scene import block, pair, section, solid
+from program import Program, set_words
 
 p = Program()
-
-SCENE = """
-set Scene = solid
-set Dimension = 2
-subsection Solid
-  set Bodies = 2
-  set Pairs = 1
-end
-subsection Body 1
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = 3, 3 : 0, 0 : 1, 1 : true
-  end
-  set Support = 2: 0, 0
-end
-subsection Body 2
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = 4, 4 : 0, 1 : 1, 2 : true
-  end
-  set Support = 3: 0, -0.01
-end
-subsection Pair 1
-  set Secondary = 2: 2
-  set Primary = 1: 3
-end
-subsection Refinement
-  set Level = 1
-end
-subsection Output
-  set Fields = false
-end
-"""
-scene = p.write("blocks.prm", SCENE)
+scene = p.write("blocks.prm", solid(
+    2, block(1, "3, 3 : 0, 0 : 1, 1 : true", "2: 0, 0"),
+    block(2, "4, 4 : 0, 1 : 1, 2 : true", "3: 0, -0.01"),
+    pair("2: 2", "1: 3"), section("Refinement", "Level = 1"),
+    section("Output", "Fields = false")))
 
 
 def run(*settings, command="run"):
-    words = []
-    for setting in settings:
-        words += ["--set", setting]
+    words = set_words(settings)
     if command == "run":
         words += ["--output", "out", "--quiet"]
     return p.call(command, scene, *words)

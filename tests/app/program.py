@@ -10,6 +10,14 @@ import subprocess
 import tempfile
 
 
+def set_words(settings):
+    """Words of the command line that set parameters: a dict by path, or a
+    list of SECTION/NAME=VALUE."""
+    if isinstance(settings, dict):
+        settings = [f"{key}={value}" for key, value in settings.items()]
+    return [word for setting in settings for word in ("--set", setting)]
+
+
 class Program:
     """The program under test with a folder of its own to work in."""
 
@@ -72,12 +80,9 @@ class Program:
                     + result.stderr)
         return self.results()
 
-    def solve_with(self, scene, settings):
+    def solve_with(self, scene, settings, ranks=0):
         """Run a shipped scene with other values of some parameters."""
-        words = []
-        for key, value in settings.items():
-            words += ["--set", f"{key}={value}"]
-        return self.solve(scene, *words)
+        return self.solve(scene, *set_words(settings), ranks=ranks)
 
     def results(self):
         summary = json.loads((self.folder / "out/summary.json").read_text())

@@ -16,12 +16,13 @@ unsymmetric ones, bodies in the plane) has hardly any.
 
 The folder keeps the runs: started again, only missing ones are made.
 """
-import argparse
 import csv
 import os
 import pathlib
 import subprocess
 import sys
+
+import measured
 
 LAWS = ["auto", "lagrange", "penalty", "augmented lagrangian",
         "interior point"]
@@ -99,18 +100,14 @@ def judge(folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("abut", help="the program")
+    parser = measured.options(__doc__)
     parser.add_argument("scenes", nargs="*", default=list(SCENES))
     parser.add_argument("--output", default="output/automatic-law")
     parser.add_argument("--repeats", type=int, default=3)
     arguments = parser.parse_args()
     source = pathlib.Path(__file__).resolve().parents[2]
-    print("| scene | s | fastest law, its s | its force differs by | products "
-          "| least, by | within 1.5 |\n|---|---|---|---|---|---|---|",
-          flush=True)
+    measured.head(["scene", "s", "fastest law, its s", "its force differs by",
+                   "products", "least, by", "within 1.5"])
     passed = 0
     for name in arguments.scenes:
         folder = pathlib.Path(arguments.output) / name.replace(", ", "-")

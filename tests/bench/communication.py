@@ -19,23 +19,14 @@ over the runs on eight ranks and more, whose parts have a rim all around: the
 facets near those of the rank are as many as its own, times the ratio of the two
 sides' densities; those along the rim are as many as the root.
 """
-import argparse
 import math
-import os
 import re
-import subprocess
+
+import measured
 
 RANKS_WITH_RIMS = 8
 KEYS = ["dofs", "pair_1_facets", "facets_on_rank", "ghost_facets_on_rank",
         "communicated_messages", "communicated_bytes", "gathered_bytes"]
-
-
-def environment():
-    result = dict(os.environ, DEAL_II_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    if os.geteuid() == 0:
-        result["OMPI_ALLOW_RUN_AS_ROOT"] = "1"
-        result["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
-    return result
 
 
 def numbers(text, key):
@@ -45,14 +36,11 @@ def numbers(text, key):
 
 
 def run(arguments, level, ranks):
-    command = ["mpirun", "--oversubscribe", "-n", str(ranks), arguments.abut,
-               "check", arguments.scene, "--set", f"Refinement/Level={level}",
-               "--set", "Refinement/Nested iteration=false"]
-    for setting in arguments.set:
-        command += ["--set", setting]
-    done = subprocess.run(command, check=True, env=environment(),
-                          capture_output=True, text=True)
-    return {key: numbers(done.stdout, key) for key in KEYS}
+    printed = measured.call(
+        arguments.abut, ["check"], arguments.scene,
+        [f"Refinement/Level={level}", "Refinement/Nested iteration=false",
+         *arguments.set], ranks)
+    return {key: numbers(printed, key) for key in KEYS}
 
 
 def fit(points):
@@ -69,33 +57,29 @@ def fit(points):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("abut")
+    parser = measured.options(__doc__)
     parser.add_argument("scene")
     parser.add_argument("--levels", type=int, nargs="+", default=[2, 3, 4])
     parser.add_argument("--ranks", type=int, nargs="+",
                         default=[1, 2, 4, 8, 16])
-    parser.add_argument("--set", action="append", default=[],
-                        metavar="SECTION/NAME=VALUE")
+    measured.add_set(parser)
     arguments = parser.parse_args()
-    print("| level | ranks | unknowns | facets | most own | ghosts there at "
-          "most | ghosts / sqrt(own) | messages | kB sent | bytes per ghost "
-          "| kB gathered |")
-    print("|" + "---|" * 11)
+    measured.head(["level", "ranks", "unknowns", "facets", "most own",
+                   "ghosts there at most", "ghosts / sqrt(own)", "messages",
+                   "kB sent", "bytes per ghost", "kB gathered"])
     points = []
     for level in arguments.levels:
         for ranks in arguments.ranks:
             r = run(arguments, level, ranks)
             own, ghosts = r["facets_on_rank"][1], r["ghost_facets_on_rank"][1]
             sent = r["communicated_bytes"][0]
-            print(f"| {level} | {ranks} | {r['dofs'][0]:.0f} "
-                  f"| {sum(r['pair_1_facets']):.0f} | {own:.0f} "
-                  f"| {ghosts:.0f} | {ghosts / math.sqrt(max(own, 1)):.1f} "
-                  f"| {r['communicated_messages'][0]:.0f} | {sent / 1e3:.1f} "
-                  f"| {sent / max(ghosts, 1):.0f} "
-                  f"| {r['gathered_bytes'][0] / 1e3:.1f} |", flush=True)
+            measured.row([
+                level, ranks, f"{r['dofs'][0]:.0f}",
+                f"{sum(r['pair_1_facets']):.0f}", f"{own:.0f}", f"{ghosts:.0f}",
+                f"{ghosts / math.sqrt(max(own, 1)):.1f}",
+                f"{r['communicated_messages'][0]:.0f}", f"{sent / 1e3:.1f}",
+                f"{sent / max(ghosts, 1):.0f}",
+                f"{r['gathered_bytes'][0] / 1e3:.1f}"])
             if ranks >= RANKS_WITH_RIMS and own > 0:
                 points.append((own, ghosts))
     if len(points) > 2:

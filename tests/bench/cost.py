@@ -12,13 +12,9 @@ three. Seconds are the processor's.
 
     tests/bench/cost.py build/release/abut prm/two-blocks-3d.prm
 """
-import argparse
-import csv
-import json
-import os
 import statistics
-import subprocess
-import tempfile
+
+import measured
 
 SECTIONS = ["assembly", "transfer", "contact rows", "solve"]
 COLUMNS = ["level", "unknowns", "solve", "steps", "iterations"] + [
@@ -28,27 +24,14 @@ COLUMNS = ["level", "unknowns", "solve", "steps", "iterations"] + [
 
 def run(arguments, level, settings):
     """Seconds of the sections, numbers of unknowns, steps and iterations."""
-    settings = dict({"Refinement/Level": level, "Output/Fields": "false"},
-                    **settings)
-    with tempfile.TemporaryDirectory() as folder:
-        command = [arguments.abut, "run", arguments.scene, "--quiet",
-                   "--output", folder]
-        for name, value in settings.items():
-            command += ["--set", f"{name}={value}"]
-        for setting in arguments.set:
-            command += ["--set", setting]
-        environment = dict(os.environ, DEAL_II_NUM_THREADS="1",
-                           OMP_NUM_THREADS="1")
-        subprocess.run(command, check=True, env=environment)
-        with open(os.path.join(folder, "summary.json")) as file:
-            summary = json.load(file)
-        with open(os.path.join(folder, "steps.csv")) as file:
-            steps = [step for step in csv.DictReader(file)
-                     if int(step["level"]) == level]
-    result = {name: summary["sections"].get(name, {}).get(
-                  "processor_seconds", 0.0) for name in SECTIONS}
+    one = measured.Run(arguments.abut, arguments.scene,
+                       {"Refinement/Level": level, "Output/Fields": "false",
+                        **settings}, arguments.set)
+    steps = [step for step in one.steps if int(step["level"]) == level]
+    result = {name: one.seconds(name, "processor_seconds")
+              for name in SECTIONS}
     result["all"] = sum(result.values())
-    result["dofs"] = summary["dofs"]
+    result["dofs"] = one.summary["dofs"]
     result["steps"] = len(steps)
     result["iterations"] = sum(int(step["linear_iterations"])
                                for step in steps)
@@ -62,21 +45,16 @@ def median(runs):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("abut", help="the program")
+    parser = measured.options(__doc__)
     parser.add_argument("scene", help="a scene of the kind solid")
     parser.add_argument("--levels", default="3")
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--tied", default="Pair 1/Tied=true",
                         help="what ties the bodies")
-    parser.add_argument("--set", action="append", default=[],
-                        help="further parameters, as for abut run")
+    measured.add_set(parser)
     arguments = parser.parse_args()
 
-    print("| " + " | ".join(COLUMNS) + " |")
-    print("|" + "---|" * len(COLUMNS), flush=True)
+    measured.head(COLUMNS)
     tie, tied = arguments.tied.split("=", 1)
     for level in [int(word) for word in arguments.levels.split(",")]:
         alone = {"Refinement/Coarsest level": level}
@@ -92,7 +70,7 @@ def main():
             row += [f"{one[name]:.2f}" for name in SECTIONS]
             row += [f"{one['all']:.2f}", f"{one['all'] / unit:.2f}",
                     f"{100 * one['contact rows'] / unit:.1f} %"]
-            print("| " + " | ".join(row) + " |", flush=True)
+            measured.row(row)
 
 
 if __name__ == "__main__":

@@ -16,18 +16,13 @@ without loads.
 
     tests/bench/economy.py build/release/abut [SCENE...]
 """
-import argparse
-import csv
-import json
 import math
-import os
 import pathlib
-import subprocess
 import sys
-import tempfile
+
+import measured
 
 ITERATIVE = {"Solver/Linear solver": "iterative"}
-SILENT = {"Output/Fields": "false", "Output/Pictures": "false"}
 HABIT = {"Refinement/Nested iteration": "false",
          "Refinement/Adaptive cycles": "0", "Method/Linear tolerance": "1e-10",
          "Method/Final linear tolerance": "1e-10"}
@@ -46,33 +41,18 @@ SCENES = {
 }
 
 
-class Run:
-    """One run of a scene."""
+class Run(measured.Run):
+    """One run of a scene, and what it cost."""
 
     def __init__(self, abut, scene, settings):
-        with tempfile.TemporaryDirectory() as folder:
-            command = [abut, "run", scene, "--quiet", "--output", folder]
-            for name, value in {**SILENT, **settings}.items():
-                command += ["--set", f"{name}={value}"]
-            result = subprocess.run(
-                command, capture_output=True, text=True,
-                env={**os.environ, "DEAL_II_NUM_THREADS": "1",
-                     "OMP_NUM_THREADS": "1"})
-            if result.returncode != 0:
-                raise RuntimeError(f"{' '.join(command)}\n{result.stderr}")
-            with open(os.path.join(folder, "summary.json")) as file:
-                self.summary = json.load(file)
-            with open(os.path.join(folder, "levels.csv")) as file:
-                meshes = list(csv.DictReader(file))
+        super().__init__(abut, scene, {**measured.SILENT, **settings})
         self.work = sum(float(mesh["dofs"]) * float(mesh["matvecs"])
-                        for mesh in meshes)
-        self.meshes = len(meshes)
+                        for mesh in self.levels)
         self.dofs = self.summary["dofs"]
         self.energy = self.summary["energy"]
-        apart = sum(self.summary["sections"].get(name, {})
-                    .get("processor_seconds", 0)
-                    for name in ("results", "output"))
-        self.seconds = self.summary["processor_seconds"] - apart
+        self.cost = self.summary["processor_seconds"] - sum(
+            self.seconds(name, "processor_seconds")
+            for name in ("results", "output"))
 
     def error(self, reference):
         """Relative error, from the run itself or a finer run's energy."""
@@ -97,27 +77,23 @@ def compare(abut, scene, name):
     times = habit.work / economy.work
     good = error <= target and times >= wanted
     print(f"| {name} | {target} | {error:.2g} | {economy.dofs} | "
-          f"{economy.work / 1e6:.3g} | {economy.seconds:.2g} | "
+          f"{economy.work / 1e6:.3g} | {economy.cost:.2g} | "
           f"{habit.error(reference):.2g} | {habit.dofs} | "
-          f"{habit.work / 1e6:.3g} | {habit.seconds:.2g} | {times:.1f} | "
-          f"{habit.seconds / economy.seconds:.1f} | "
+          f"{habit.work / 1e6:.3g} | {habit.cost:.2g} | {times:.1f} | "
+          f"{habit.cost / economy.cost:.1f} | "
           f"{'yes' if good else 'no'}, {wanted} |", flush=True)
     return good
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("abut", help="the program")
+    parser = measured.options(__doc__)
     parser.add_argument("scenes", nargs="*", default=list(SCENES))
     arguments = parser.parse_args()
     folder = pathlib.Path(__file__).resolve().parents[2] / "prm"
     columns = ["scene", "target", "error", "unknowns", "work, 1e6", "s",
                "habit: error", "unknowns", "work, 1e6", "s", "times less work",
                "times less s", "as wanted"]
-    print("| " + " | ".join(columns) + " |\n" + "|---" * len(columns) + "|",
-          flush=True)
+    measured.head(columns)
     good = [compare(arguments.abut, str(folder / (name + ".prm")), name)
             for name in arguments.scenes]
     return 0 if all(good) else 1

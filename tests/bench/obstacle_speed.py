@@ -11,89 +11,57 @@ the finest mesh, the median of five in the same run. Medians over runs.
 
     tests/bench/obstacle_speed.py build/release/abut prm/step-41.prm
 """
-import argparse
-import csv
-import json
-import os
 import statistics
-import subprocess
-import tempfile
+
+import measured
 
 SECTIONS = ["mesh", "unknowns and pattern", "assembly", "transfer",
             "contact rows and start", "solve"]
 
 
 def run(arguments, level):
-    """Summary and last level of one run."""
-    with tempfile.TemporaryDirectory() as folder:
-        command = [arguments.abut, "run", arguments.scene, "--quiet",
-                   "--output", folder]
-        settings = {"Refinement/Level": level, "Output/Fields": "false",
-                    "Output/Pictures": "false",
-                    "Output/Linear solves for comparison": 5}
-        for name, value in settings.items():
-            command += ["--set", f"{name}={value}"]
-        for setting in arguments.set:
-            command += ["--set", setting]
-        if arguments.ranks > 1:
-            command = ["mpirun", "--oversubscribe", "-n",
-                       str(arguments.ranks)] + command
-        environment = dict(os.environ, DEAL_II_NUM_THREADS="1",
-                           OMP_NUM_THREADS="1")
-        subprocess.run(command, check=True, env=environment)
-        with open(os.path.join(folder, "summary.json")) as file:
-            summary = json.load(file)
-        with open(os.path.join(folder, "levels.csv")) as file:
-            last = list(csv.DictReader(file))[-1]
-    return summary, last
-
-
-def seconds(summary, name):
-    """Seconds of a section of the summary's table."""
-    entry = summary["sections"].get(name, {})
-    return entry.get("seconds", 0.0) if isinstance(entry, dict) else entry
+    """One run on a level."""
+    return measured.Run(
+        arguments.abut, arguments.scene,
+        {"Refinement/Level": level, **measured.SILENT,
+         "Output/Linear solves for comparison": 5}, arguments.set,
+        arguments.ranks)
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("abut", help="the program")
+    parser = measured.options(__doc__)
     parser.add_argument("scene", help="a scene of the kind obstacle")
     parser.add_argument("--levels", default="7,8,9,10")
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--set", action="append", default=[],
-                        help="further parameters, as for abut run")
+    measured.add_set(parser)
     arguments = parser.parse_args()
 
     columns = ["level", "unknowns", "linear solve", "contact solve", "ratio",
                "all-in"] + SECTIONS + ["ML set-up, last level",
                                        "Krylov, last level",
                                        "bytes per unknown"]
-    print("| " + " | ".join(columns) + " |")
-    print("|" + "---|" * len(columns), flush=True)
+    measured.head(columns)
     for level in [int(word) for word in arguments.levels.split(",")]:
         runs = [run(arguments, level) for _ in range(arguments.repeats)]
 
         def middle(value):
-            return statistics.median(value(*one) for one in runs)
+            return statistics.median(value(one) for one in runs)
 
-        dofs = runs[0][0]["dofs"]
+        dofs = runs[0].summary["dofs"]
         row = [f"{level}", f"{dofs}",
-               f"{middle(lambda s, _: s['linear_solve_seconds']):.3f}",
-               f"{middle(lambda s, _: s['contact_solve_seconds']):.3f}",
-               f"{middle(lambda s, _: s['contact_to_linear_ratio']):.2f}"]
-        all_in = middle(lambda s, _: sum(seconds(s, name)
-                                         for name in SECTIONS))
+               f"{middle(lambda r: r.summary['linear_solve_seconds']):.3f}",
+               f"{middle(lambda r: r.summary['contact_solve_seconds']):.3f}",
+               f"{middle(lambda r: r.summary['contact_to_linear_ratio']):.2f}"]
+        all_in = middle(lambda r: sum(map(r.seconds, SECTIONS)))
         row.append(f"{all_in:.3f}")
         for name in SECTIONS:
-            row.append(f"{middle(lambda s, _: seconds(s, name)):.3f}")
-        row.append(f"{middle(lambda _, l: float(l['setup_seconds'])):.3f}")
-        row.append(f"{middle(lambda _, l: float(l['krylov_seconds'])):.3f}")
-        memory = middle(lambda s, _: s["peak_memory_mb"]) * 2 ** 20 / dofs
+            row.append(f"{middle(lambda r: r.seconds(name)):.3f}")
+        for name in ("setup_seconds", "krylov_seconds"):
+            row.append(f"{middle(lambda r: float(r.levels[-1][name])):.3f}")
+        memory = middle(lambda r: r.summary["peak_memory_mb"]) * 2 ** 20 / dofs
         row.append(f"{memory:.0f}")
-        print("| " + " | ".join(row) + " |", flush=True)
+        measured.row(row)
 
 
 if __name__ == "__main__":

@@ -100,7 +100,8 @@ def main():
         parser.add_argument("--" + name, required=True)
     arguments = parser.parse_args()
     folder = pathlib.Path(arguments.scratch) / "package"
-    try:
+
+    def checks():
         package = make(arguments, folder)
         depends = check_fields(package)
         unpacked = folder / "unpacked"
@@ -108,10 +109,8 @@ def main():
         check_content(unpacked)
         check_paths(unpacked, arguments.build)
         check_depends(depends, unpacked)
-    except Failure as failure:
-        print(f"FAILED: {failure}")
-        return 1
-    return 0
+
+    return passed(checks)
 
 
 if __name__ == "__main__":

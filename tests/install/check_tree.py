@@ -94,17 +94,16 @@ def main():
     arguments = parser.parse_args()
     scratch = pathlib.Path(arguments.scratch)
     scratch.mkdir(parents=True, exist_ok=True)
-    try:
+
+    def checks():
         tree = install(arguments)
         check_files(tree, ".g" if arguments.mode == "Debug" else "")
         if arguments.mode == "Release":
             check_program(tree, scratch)
         check_c(tree, scratch)
         check_find_package(tree, arguments, scratch)
-    except Failure as failure:
-        print(f"FAILED: {failure}")
-        return 1
-    return 0
+
+    return passed(checks)
 
 
 if __name__ == "__main__":

@@ -132,14 +132,13 @@ def main():
     scratch = pathlib.Path(arguments.scratch) / "user-law"
     scratch.mkdir(parents=True, exist_ok=True)
     tree = Tree(pathlib.Path(arguments.scratch) / "prefix", arguments.libdir)
-    try:
+
+    def checks():
         check_example(tree, arguments, scratch)
         check_parameters(arguments, scratch)
         check_faults(tree, arguments, scratch)
-    except Failure as failure:
-        print(f"FAILED: {failure}")
-        return 1
-    return 0
+
+    return passed(checks)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,16 @@ def require(condition, message):
         raise Failure(message)
 
 
+def passed(checks):
+    """Exit code of a test: 1 and a line if the checks, a function, fail."""
+    try:
+        checks()
+    except Failure as failure:
+        print(f"FAILED: {failure}")
+        return 1
+    return 0
+
+
 def run(*command, code=0, **options):
     """Run a command; fail unless it ends with the code."""
     words = [str(word) for word in command]

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "run_figures.h"
 
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
-
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -13,31 +10,6 @@ namespace abut::app
 {
   namespace
   {
-    using boost::property_tree::ptree;
-
-    /** Numbers and truth values of an object, members inside by slashes. */
-    void collect(const ptree &object, const std::string &prefix,
-                 std::map<std::string, double> &numbers)
-    {
-      unsigned int index = 0;
-      for (const auto &[name, member] : object)
-      {
-        // Elements of arrays have no name.
-        const std::string path =
-            name.empty()     ? prefix + "[" + std::to_string(index++) + "]"
-            : prefix.empty() ? name
-                             : prefix + "/" + name;
-        const std::string &text = member.data();
-        char *end = nullptr;
-        const double number = std::strtod(text.c_str(), &end);
-        if (text == "true" || text == "false")
-          numbers[path] = text == "true" ? 1. : 0.;
-        else if (!text.empty() && *end == '\0')
-          numbers[path] = number;
-        collect(member, path, numbers);
-      }
-    }
-
     std::vector<std::string> cells(const std::string &line)
     {
       std::vector<std::string> result;
@@ -59,13 +31,8 @@ namespace abut::app
   } // namespace
 
   RunFigures::RunFigures(const std::filesystem::path &folder)
+      : summary(folder / "summary.json")
   {
-    if (std::ifstream in(folder / "summary.json"); in)
-    {
-      ptree summary;
-      read_json(in, summary);
-      collect(summary, "", numbers);
-    }
     std::ifstream in(folder / "levels.csv");
     std::string line;
     if (!in || !std::getline(in, line))
@@ -95,8 +62,6 @@ namespace abut::app
         return std::isfinite(result) ? std::optional<double>(result)
                                      : std::nullopt;
       }
-    const auto number = numbers.find(name);
-    return number == numbers.end() ? std::nullopt
-                                   : std::optional<double>(number->second);
+    return summary.number(name);
   }
 } // namespace abut::app

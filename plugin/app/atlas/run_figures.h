@@ -2,6 +2,8 @@
 #ifndef ABUT_APP_ATLAS_RUN_FIGURES_H
 #define ABUT_APP_ATLAS_RUN_FIGURES_H
 
+#include "app/run_summary.h"
+
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -22,16 +24,14 @@ namespace abut::app
 
     /** A number by name, if there is one:
      *
-     *     contact_force           of summary.json; true and false are 1 and 0
-     *     pair_1_force[1]         a component, counted from 0
-     *     sections/solve/seconds  of an object inside
      *     order(h1_error)         log2 of the last two rows of levels.csv
      *     growth(energy)          last row by the one before
+     *     contact_force           of summary.json, see RunSummary::number()
      */
     std::optional<double> value(const std::string &name) const;
 
   private:
-    std::map<std::string, double> numbers;
+    RunSummary summary;
     std::map<std::string, std::vector<double>> columns;
   };
 } // namespace abut::app

@@ -11,10 +11,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -22,18 +20,6 @@
 namespace abut::app
 {
   namespace fs = std::filesystem;
-
-  namespace
-  {
-    std::optional<double> number_of(const std::string &text)
-    {
-      char *end = nullptr;
-      const double value = std::strtod(text.c_str(), &end);
-      if (text.empty() || *end != '\0' || !std::isfinite(value))
-        return std::nullopt;
-      return value;
-    }
-  } // namespace
 
   std::uint64_t hash(const std::string &bytes)
   {
@@ -62,63 +48,6 @@ namespace abut::app
     if (!out)
       throw std::runtime_error("cannot write " + part.string());
     fs::rename(part, file);
-  }
-
-  RunSummary::RunSummary(const fs::path &file)
-  {
-    try
-    {
-      boost::property_tree::read_json(file.string(), tree);
-    }
-    catch (const boost::property_tree::json_parser_error &)
-    {
-      tree.clear();
-    }
-  }
-
-  std::optional<double> RunSummary::number(const std::string &key) const
-  {
-    const std::size_t bracket = key.find('[');
-    const auto entry = tree.find(key.substr(0, bracket));
-    if (entry == tree.not_found())
-      return std::nullopt;
-    if (bracket == std::string::npos)
-      return number_of(entry->second.data());
-    std::size_t left = std::strtoul(&key[bracket + 1], nullptr, 10);
-    for (const auto &component : entry->second)
-      if (left-- == 0)
-        return number_of(component.second.data());
-    return std::nullopt;
-  }
-
-  double RunSummary::section(const std::string &name,
-                             const std::string &key) const
-  {
-    const auto sections = tree.find("sections");
-    if (sections == tree.not_found())
-      return 0;
-    const auto entry = sections->second.find(name);
-    return entry == sections->second.not_found()
-               ? 0
-               : entry->second.get<double>(key, 0.);
-  }
-
-  std::optional<double> RunSummary::cost(const std::string &key) const
-  {
-    auto result = number(key);
-    if (result && (key == "processor_seconds" || key == "wall_seconds"))
-      for (const char *name : {"results", "output"})
-        *result -= section(name, key == "wall_seconds" ? "seconds"
-                                                       : "processor_seconds");
-    return result;
-  }
-
-  std::vector<std::string> RunSummary::keys() const
-  {
-    std::vector<std::string> result;
-    for (const auto &entry : tree)
-      result.push_back(entry.first);
-    return result;
   }
 
   RunStore::RunStore(const fs::path &chart_folder)

@@ -11,41 +11,15 @@
  * result.
  */
 
-#include <boost/property_tree/ptree.hpp>
+#include "app/run_summary.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace abut::app
 {
-  /** The summary.json of a run. */
-  class RunSummary
-  {
-  public:
-    RunSummary() = default;
-
-    /** Read @p file; without it, or if it is not whole, there are no values. */
-    explicit RunSummary(const std::filesystem::path &file);
-
-    /** Value of a key, or of a component of it, `key[0]`; none when it is not
-     * there or not a number. */
-    std::optional<double> number(const std::string &key) const;
-
-    /** @p key without the sections `results` and `output`, which measure and
-     * write: for processor_seconds and wall_seconds. */
-    std::optional<double> cost(const std::string &key) const;
-
-    std::vector<std::string> keys() const;
-
-  private:
-    double section(const std::string &name, const std::string &key) const;
-
-    boost::property_tree::ptree tree;
-  };
-
   /** What is kept of a run. */
   struct RunRecord
   {
