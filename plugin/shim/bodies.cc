@@ -69,7 +69,7 @@ namespace abut::shim
         continue;
       values.reinit(cell);
       cell->get_dof_indices(dofs);
-      auto ancestor = cell;
+      typename dealii::Triangulation<dim>::cell_iterator ancestor = cell;
       while (ancestor->level() > 0)
         ancestor = ancestor->parent();
       for (unsigned int i = 0; i < dofs.size(); ++i)
