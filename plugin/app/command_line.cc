@@ -174,9 +174,15 @@ Print the commands, or explain one.
                                + did_you_mean(words[0], names(commands))
                                + " 'abut --help' lists the commands.");
     result.command = command->second;
-    if (result.command == Command::run || result.command == Command::check
-        || result.command == Command::search || result.command == Command::chart
-        || result.command == Command::atlas)
+    if (words.size() == 2 && (words[1] == "--help" || words[1] == "-h"))
+    {
+      result.command = Command::help;
+      result.topic = words[0];
+    }
+    else if (result.command == Command::run || result.command == Command::check
+             || result.command == Command::search
+             || result.command == Command::chart
+             || result.command == Command::atlas)
       parse_file_command(words, result);
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];
