@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 
-from installed import Failure, require, run
+from installed import Failure, passed, require, run
 
 
 def make(arguments, folder):

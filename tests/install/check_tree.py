@@ -9,7 +9,7 @@ import pathlib
 import shutil
 import sys
 
-from installed import Failure, Tree, require, run
+from installed import Tree, passed, require, run
 
 
 def install(arguments):

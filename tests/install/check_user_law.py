@@ -11,7 +11,7 @@ import math
 import pathlib
 import sys
 
-from installed import C_FLAGS, Failure, Tree, require, run
+from installed import C_FLAGS, Tree, passed, require, run
 
 TOUCH, CLEARANCE = 5., 0.002
 PARAMETERS = f"touch pressure: {TOUCH}, clearance: {CLEARANCE}"
