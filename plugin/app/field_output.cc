@@ -90,7 +90,10 @@ namespace abut::app
     dealii::DataOutBase::VtkFlags flags;
     flags.time = time;
     flags.cycle = static_cast<unsigned int>(records.size());
-    flags.write_higher_order_cells = fields.dof_handler.get_fe().degree > 1;
+    // Lines are drawn straight, in pieces: deal.II 9.6 knows no curved ones.
+    const int cell_dim = fields.faces.empty() ? dim : dim - 1;
+    flags.write_higher_order_cells =
+        cell_dim > 1 && fields.dof_handler.get_fe().degree > 1;
     // The smallest files would take longer to pack than the fields to solve
     // for; these are about a quarter larger. (The enumeration has another name
     // in later versions of deal.II.)

@@ -55,7 +55,12 @@ namespace
 int
 main(int argc, char *argv[])
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // deal.II starts PETSc too, which would take our words for options of its own
+  // and print those that it does not know.
+  int n_names = 1;
+  char *name[] = {argv[0], nullptr};
+  char **names = name;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, names, 1);
   MPI_Comm end_of_run;
   MPI_Comm_dup(MPI_COMM_WORLD, &end_of_run);
   ExitCode code;

@@ -58,7 +58,7 @@ namespace abut::app
     std::ofstream out(file);
     // Better compression takes many times as long and saves little.
     dealii::DataOutBase::VtkFlags flags;
-    flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+    flags.compression_level = decltype(flags.compression_level)::best_speed;
     dealii::DataOutBase::write_vtu(patches, names, {}, flags, out);
     if (!out.flush())
       throw std::runtime_error("cannot write " + file.string());

@@ -86,10 +86,11 @@ namespace
                                + std::to_string(angle) + ", laws "
                                + std::to_string(static_cast<int>(laws));
       const auto errors = blocks.errors(exact.increment);
-      // Springs of 1e6 cost as many digits of the forces.
-      Expect::near(errors.first, 0., laws == Laws::hard ? 1e-11 : 1e-8,
-                   name + ": forces");
-      Expect::near(errors.second, 0., 1e-11, name + ": laws");
+      // Springs of 1e6 cost as many digits of the forces, and one of the laws
+      // with some versions of the direct solver.
+      const bool hard = laws == Laws::hard;
+      Expect::near(errors.first, 0., hard ? 1e-11 : 1e-8, name + ": forces");
+      Expect::near(errors.second, 0., hard ? 1e-11 : 1e-10, name + ": laws");
       const std::vector<double> dp = blocks.dp;
       double largest = 0.;
       for (const double p : dp)

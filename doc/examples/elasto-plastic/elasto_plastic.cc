@@ -352,7 +352,11 @@ Indentation::run()
 int
 main(int argc, char **argv)
 {
-  const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // deal.II starts PETSc too, which would take our words for its own.
+  int n_names = 1;
+  char *name[] = {argv[0], nullptr};
+  char **names = name;
+  const Utilities::MPI::MPI_InitFinalize mpi(n_names, names, 1);
   Settings settings;
   const std::vector<std::string> words(argv + 1, argv + argc);
   AssertThrow(!words.empty(), ExcMessage("elasto-plastic PLUGIN [cycles]"));
