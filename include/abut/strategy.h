@@ -199,7 +199,8 @@ extern "C"
    * @param bilateral [n] or NULL
    * @param gap [n] at the starting displacement
    * @param pressure [n] starting pressure, or NULL for 0. Augmented
-   *   Lagrangian takes it as the first multiplier; interior point makes a
+   *   Lagrangian takes it as the first multiplier, replaced as
+   *   options.project says; interior point makes a
    *   warm start of it if some pressure is positive
    * @param state [n] starting set, or NULL for the one that p and g call for
    * Arrays are copied. O(n). A rank whose arguments are wrong makes all ranks

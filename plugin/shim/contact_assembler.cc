@@ -115,12 +115,19 @@ namespace abut
     AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(),
                 ExcMessage("The unknowns of a rank must be numbered "
                            "consecutively."));
+    i.keep_rows();
+    i.rows_mesh = 0;
     i.mapping = &mapping;
     i.dof_handler = &dof_handler;
     i.constraints = &constraints;
     i.clear_source();
     i.solver.reset();
+    // Assigned anew, they would keep the ranks that unknowns had before, where
+    // the number of unknowns is the same.
     i.start_field = la::Vector();
+    i.start_displacement = la::Vector();
+    i.start_pressure.clear();
+    i.starts_from_present = false;
     i.is_started = false;
     i.report = LinearReport();
   }
@@ -132,7 +139,7 @@ namespace abut
     AssertThrow(i.dof_handler != nullptr,
                 ExcMessage("Call reinit() before detect()."));
     // The pressures reached so far are the start of the next solve.
-    if (i.is_started)
+    if (i.is_started || i.starts_from_present)
       i.start_field = pressure();
     if (i.source_is_outdated)
       i.create_source();

@@ -98,7 +98,9 @@ namespace abut
   double
   ContactAssembler<dim>::Implementation::row_pressure(const int row) const
   {
-    return is_started ? request.pressure[row] : 0.;
+    return is_started               ? request.pressure[row]
+           : start_pressure.empty() ? 0.
+                                    : start_pressure[row];
   }
 
   template <int dim>
@@ -119,6 +121,19 @@ namespace abut
     for (int row = 0; row < view.n_rows; ++row)
       force[row] *= view.weight[row];
     coefficients.add_transposed(force.data(), forces);
+  }
+
+  template <int dim>
+  std::vector<std::uint8_t>
+  ContactAssembler<dim>::Implementation::row_states() const
+  {
+    if (is_started)
+      return {request.state, request.state + view.n_rows};
+    std::vector<std::uint8_t> result(view.n_rows, ABUT_STATE_OPEN);
+    for (std::size_t row = 0; row < start_pressure.size(); ++row)
+      if (view.bilateral[row] != 0 || start_pressure[row] > 0.)
+        result[row] = ABUT_STATE_CLOSED;
+    return result;
   }
 
   template <int dim>
@@ -194,6 +209,7 @@ namespace abut
   void ContactAssembler<dim>::Implementation::find_rows(
       const la::Vector &displacement)
   {
+    rows_mesh = 0;
     source->find(displacement, rows.get());
     check(abut_rows_get(rows.get(), &view));
     n_rows = MPI::sum(static_cast<global_dof_index>(view.n_rows), communicator);
@@ -210,14 +226,67 @@ namespace abut
       find_stress();
       solver.reset();
     }
+    rows_mesh = surfaces != nullptr ? surfaces->mesh_signature() : 0;
     start_pressure.clear();
+    starts_from_kept = false;
     if (start_field.size() > 0)
     {
       start_pressure = source->row_pressure(start_field);
       for (int i = 0; i < view.n_rows; ++i)
         if (view.bilateral[i] == 0)
           start_pressure[i] = std::max(0., start_pressure[i]);
+      take_kept_rows();
     }
+  }
+
+  template <int dim>
+  bool ContactAssembler<dim>::Implementation::has_pressure() const
+  {
+    return is_started || starts_from_present || start_field.size() > 0;
+  }
+
+  template <int dim> void ContactAssembler<dim>::Implementation::keep_rows()
+  {
+    // Unknowns of obstacles in a domain are numbered by rank.
+    if (rows_mesh == 0 || !has_pressure())
+    {
+      kept.clear();
+      return;
+    }
+    kept.keep(rows_mesh, view, row_pressures());
+    if (is_started)
+    {
+      // A strategy whose law fails is not started any more: 0 then.
+      abut_progress progress = {};
+      abut_strategy_progress(strategy.get(), &progress);
+      kept_penalty.reached = progress.penalty;
+    }
+    else if (!starts_from_kept)
+      kept_penalty = Penalty();
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::take_kept_rows()
+  {
+    if (rows_mesh == 0)
+      return;
+    constexpr double same_field = 1e-8;
+    shim::PointToPoint post(communicator);
+    std::vector<double> pressure;
+    const bool is_same = kept.find(rows_mesh, view, post, pressure);
+    const CommunicationReport &sent = post.sent();
+    sent_before.messages += sent.messages;
+    sent_before.bytes += sent.bytes;
+    if (!is_same)
+      return;
+    const la::Vector field = source->pressure(pressure.data());
+    la::Vector difference(field);
+    difference = start_field;
+    difference -= field;
+    if (difference.linfty_norm() > same_field * field.linfty_norm())
+      return;
+    start_pressure = pressure;
+    starts_from_kept = true;
   }
 
   template <int dim>
@@ -383,6 +452,13 @@ namespace abut
     method.options.project = has_space ? project_on_nodes<dim> : nullptr;
     method.options.project_user = surfaces;
     abut_strategy_options options = method.options;
+    const double first = abut_strategy_first_penalty(&options);
+    if (!starts_from_kept || kept_penalty.law != options.law
+        || kept_penalty.first != first)
+      kept_penalty = {options.law, first, 0.};
+    else if (kept_penalty.reached > 0.)
+      options.penalty = kept_penalty.reached;
+    kept.clear();
     if (iteration_tolerance > 0.)
       options.linear_tolerance = options.final_linear_tolerance =
           iteration_tolerance;

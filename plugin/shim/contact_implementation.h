@@ -2,6 +2,7 @@
 #ifndef ABUT_SHIM_CONTACT_IMPLEMENTATION_H
 #define ABUT_SHIM_CONTACT_IMPLEMENTATION_H
 
+#include "carried_rows.h"
 #include "handles.h"
 #include "row_source.h"
 #include "solve/nitsche_solver.h"
@@ -36,6 +37,13 @@ namespace abut
     /** Forget the mesh. */
     void clear_source();
     void find_rows(const la::Vector &displacement);
+    /** Whether there are pressures, of a solve or to start from. */
+    bool has_pressure() const;
+    /** Keep the pressures of the rows in case that only ranks change. */
+    void keep_rows();
+    /** Start from the pressures kept, if these are the rows that they were kept
+     * of and if the host wants them: start_field is theirs. */
+    void take_kept_rows();
     void find_stress();
     void compute_gap(const la::Vector &displacement);
     /** Whether the law needs the normal stress of the bodies. */
@@ -56,10 +64,12 @@ namespace abut
     void prepare_solver(const la::Matrix &matrix);
     void push_inside(la::Vector &displacement);
     void next();
+    /** Pressures and states reached, or those to start from. */
     double row_pressure(int row) const;
     std::vector<double> row_pressures() const;
     /** Add the forces of the rows' pressures. */
     void add_forces(la::Vector &forces) const;
+    std::vector<std::uint8_t> row_states() const;
 
     const MPI_Comm communicator;
     Obstacle<dim> obstacle;
@@ -100,6 +110,16 @@ namespace abut
                                            ///< bilateral; empty: 0
     std::vector<std::uint8_t> start_state; ///< [rows]; empty: from p and g
     bool starts_from_present = false;      ///< that of the last iteration
+    std::uint64_t rows_mesh = 0; ///< signature of the rows' mesh; 0: no rows
+    shim::CarriedRows kept;      ///< of the mesh before reinit()
+    /** The penalty that an outer iteration has reached there, and the method
+     * that it belongs to. */
+    struct Penalty
+    {
+      const abut_law *law = nullptr;
+      double first = 0., reached = 0.;
+    } kept_penalty;
+    bool starts_from_kept = false;
     la::Vector start_displacement;
     std::vector<double> gap;       ///< [rows] at the present displacement
     std::vector<double> stiffness; ///< [rows] pressure per length

@@ -77,7 +77,7 @@ namespace abut
   template <int dim> la::Vector ContactAssembler<dim>::status() const
   {
     const Implementation &i = *implementation;
-    return i.present_source().status(i.is_started ? i.request.state : nullptr);
+    return i.present_source().status(i.row_states().data());
   }
 
   template <int dim>
@@ -107,7 +107,7 @@ namespace abut
     if (i.surfaces == nullptr)
       return {};
     return i.surfaces->results(i.row_pressures().data(), i.gap.data(),
-                               i.is_started ? i.request.state : nullptr);
+                               i.row_states().data());
   }
 
   template <int dim>

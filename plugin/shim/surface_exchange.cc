@@ -7,7 +7,6 @@
 #include <abut/dealii/contact_pair.h>
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe.h>
 #include <deal.II/grid/cell_id.h>
@@ -20,22 +19,6 @@ namespace abut::shim
 
   namespace
   {
-    /** Place of each coarse cell along the curve that cuts a distributed mesh
-     * into parts; empty: that of its index. */
-    template <int dim>
-    std::vector<dealii::types::global_dof_index>
-    order_of_coarse_cells(const dealii::Triangulation<dim> &triangulation)
-    {
-      const auto *distributed = dynamic_cast<
-          const dealii::parallel::distributed::Triangulation<dim> *>(
-          &triangulation);
-      if (distributed == nullptr)
-        return {};
-      const auto &order =
-          distributed->get_coarse_cell_to_p4est_tree_permutation();
-      return {order.begin(), order.end()};
-    }
-
     template <int dim>
     dealii::AffineConstraints<double>
     hanging_nodes(const dealii::DoFHandler<dim> &dof_handler)
@@ -162,14 +145,12 @@ namespace abut::shim
   template <int dim> void SurfaceExchange<dim>::number_own()
   {
     // Ranks have consecutive parts of the curve, so that numbers along it do
-    // not depend on where it is cut.
-    const auto order = order_of_coarse_cells(dof_handler_.get_triangulation());
+    // not depend on where it is cut. CellIds are in the order of the curve:
+    // that of a coarse cell is its place there, not its index.
     const auto key = [&](const FacetRecord &record)
     {
-      const dealii::CellId id(record.facet.cell);
-      const Index coarse = id.get_coarse_cell_id();
-      return std::make_tuple(order.empty() ? coarse : order[coarse], id,
-                             record.facet.face);
+      return std::make_pair(dealii::CellId(record.facet.cell),
+                            record.facet.face);
     };
     std::sort(own_.begin(), own_.end(),
               [&](const FacetRecord &a, const FacetRecord &b)

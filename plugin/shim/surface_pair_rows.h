@@ -92,6 +92,10 @@ namespace abut::shim
                                          const double *row_gap,
                                          const std::uint8_t *row_state) const;
 
+    /** A number that is the same for the same facets and pairs, whatever ranks
+     * the cells are on: then rows have the same numbers. Collective. */
+    std::uint64_t mesh_signature() const;
+
     /** Whether some pair has rows at quadrature points. */
     bool has_points() const;
 

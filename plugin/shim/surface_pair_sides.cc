@@ -49,6 +49,38 @@ namespace abut::shim
     }
   }
 
+  template <int dim> std::uint64_t SurfacePairRows<dim>::mesh_signature() const
+  {
+    // Each facet is hashed (FNV-1a), and hashes are added: sums do not depend
+    // on the order.
+    std::uint64_t hash = 0;
+    const auto begin = [&] { hash = 14695981039346656037u; };
+    const auto mix = [&](const std::uint64_t word)
+    { hash = (hash ^ word) * 1099511628211u; };
+    const auto me = MPI::this_mpi_process(communicator_);
+    std::uint64_t sum = 0;
+    for (const auto &facet : surface_.facets)
+    {
+      if (facet.owner != me)
+        continue;
+      begin();
+      mix(facet.number);
+      for (const std::uint32_t word : facet.cell)
+        mix(word);
+      mix(facet.face);
+      mix(facet.boundary_id);
+      sum += hash;
+    }
+    begin();
+    mix(MPI::sum(sum, communicator_));
+    for (const Pair &pair : pairs_)
+    {
+      mix(pair.first_id);
+      mix(static_cast<std::uint64_t>(pair.discretisation));
+    }
+    return hash;
+  }
+
   template <int dim> void SurfacePairRows<dim>::create_sides(Pair &pair)
   {
     const ContactPair<dim> &data = pair.data;
@@ -222,6 +254,7 @@ namespace abut::shim
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template void SurfacePairRows<dim>::gather();                                \
+  template std::uint64_t SurfacePairRows<dim>::mesh_signature() const;         \
   template bool SurfacePairRows<dim>::is_owned(Node) const;                    \
   template double SurfacePairRows<dim>::motion(                                \
       const Pair &, const std::vector<Direction> &) const;                     \

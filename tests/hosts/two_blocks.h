@@ -277,14 +277,23 @@ namespace abut::hosts
       return errors;
     }
 
-    /** Cut the mesh anew, with another weight of the cells of the upper block,
-     * and take displacement and pressures along. */
-    la::Vector repartition(const la::Vector &u, const unsigned int weight)
+    /** Cut the mesh anew, with another weight of the cells of the upper block
+     * (those of the lower one have 1000), and take displacement and pressures
+     * along. If @p refine, cells on part of the interface are refined, too. */
+    la::Vector repartition(const la::Vector &u, const unsigned int weight,
+                           const bool refine = false)
     {
       la::Vector displacement(owned_, relevant_, communicator_),
           pressure(displacement);
+      // Copied, because a temporary would be moved, and the ghosts be lost.
+      const la::Vector present = contact_.pressure();
       displacement = u;
-      pressure = contact_.pressure();
+      pressure = present;
+      if (refine)
+      {
+        flag(0.5, 0.25);
+        triangulation_->prepare_coarsening_and_refinement();
+      }
       dealii::parallel::distributed::SolutionTransfer<dim, la::Vector> transfer(
           dof_handler_);
       transfer.prepare_for_coarsening_and_refinement(
@@ -292,7 +301,10 @@ namespace abut::hosts
       const auto connection = triangulation_->signals.weight.connect(
           [weight](const auto &cell, const auto) -> unsigned int
           { return cell->material_id() == 1 ? weight : 1000; });
-      triangulation_->repartition();
+      if (refine)
+        triangulation_->execute_coarsening_and_refinement();
+      else
+        triangulation_->repartition();
       connection.disconnect();
       setup();
       assemble();
@@ -300,9 +312,15 @@ namespace abut::hosts
       std::vector<la::Vector *> targets = {&moved, &p};
       transfer.interpolate(targets);
       constraints_.distribute(moved);
-      contact_.reinit(mapping_, dof_handler_, constraints_);
+      forget();
       contact_.set_pressure(p);
       return moved;
+    }
+
+    /** Forget what contact has found. */
+    void forget()
+    {
+      contact_.reinit(mapping_, dof_handler_, constraints_);
     }
 
     /** Start from 0, with the prescribed displacements. */
@@ -311,11 +329,6 @@ namespace abut::hosts
       la::Vector u(owned_, communicator_);
       constraints_.distribute(u);
       return u;
-    }
-
-    unsigned int n_own_cells() const
-    {
-      return triangulation_->n_locally_owned_active_cells();
     }
 
     ContactAssembler<dim> &contact()
@@ -396,20 +409,26 @@ namespace abut::hosts
         refine();
     }
 
+    /** Flag cells of both blocks up to @p towards along the interface and up to
+     * @p depth from it. */
+    void flag(const double towards, const double depth)
+    {
+      const Tensor<2, dim> back = transpose(rotation_);
+      for (const auto &cell : triangulation_->active_cell_iterators())
+        if (cell->is_locally_owned())
+        {
+          const Tensor<1, dim> x = back * Tensor<1, dim>(cell->center());
+          if (x[0] < towards && x[0] > 0.2 && std::abs(x[dim - 1]) < depth)
+            cell->set_refine_flag();
+        }
+    }
+
     /** Some cells at the interface and in the bulk of both blocks. */
     void refine()
     {
-      const Tensor<2, dim> back = transpose(rotation_);
       for (int cycle = 0; cycle < 2; ++cycle)
       {
-        for (const auto &cell : triangulation_->active_cell_iterators())
-          if (cell->is_locally_owned())
-          {
-            const Tensor<1, dim> x = back * Tensor<1, dim>(cell->center());
-            const double towards = cycle == 0 ? 0.9 : 0.35;
-            if (x[0] < towards && x[0] > 0.2 && std::abs(x[dim - 1]) < 0.5)
-              cell->set_refine_flag();
-          }
+        flag(cycle == 0 ? 0.9 : 0.35, 0.5);
         triangulation_->execute_coarsening_and_refinement();
         if (dim == 3)
           return;

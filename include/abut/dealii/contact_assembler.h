@@ -15,6 +15,24 @@
  *       u += du;
  *     } while (contact.update(u));
  *
+ * When the mesh is refined, coarsened or cut anew for the ranks, the host takes
+ * displacement and pressures along like any other fields:
+ *
+ *     // u, p: with ghosts, p copied from a variable that has pressure(): an
+ *     // assignment of the temporary itself would move it, and lose the ghosts
+ *     transfer.prepare_for_coarsening_and_refinement({&u, &p});
+ *     triangulation.execute_coarsening_and_refinement(); // or repartition()
+ *     // distribute unknowns, make constraints, vectors u and p without ghosts
+ *     transfer.interpolate({&u, &p});
+ *     contact.reinit(mapping, dof_handler, constraints);
+ *     contact.set_pressure(p);
+ *     contact.detect(u);
+ *
+ * The active set follows from pressures and gaps. If the mesh is the same and
+ * only ranks of cells have changed, rows start from exactly what they had, and
+ * so do the multipliers of quadrature points, which p cannot hold, and the
+ * penalty that an outer iteration had reached: reinit() keeps them.
+ *
  * Signs: gap > 0 is open, pressure > 0 is compression. R holds no contact
  * force; rows of R and K that the constraints eliminate must be zero and
  * diagonal, as AffineConstraints::distribute_local_to_global() leaves them.
@@ -120,7 +138,8 @@ namespace abut
 
     /** Take a mesh with its unknowns and constraints (closed; hanging nodes
      * and prescribed values). All three must outlive the next reinit().
-     * Forgets pressures; see set_pressure(). One pass over the cells. */
+     * To be called after each change of the mesh or of the ranks of its cells.
+     * Forgets pressures unless set_pressure() follows. */
     virtual void reinit(const dealii::Mapping<dim> &mapping,
                         const dealii::DoFHandler<dim> &dof_handler,
                         const dealii::AffineConstraints<double> &constraints);
@@ -147,7 +166,11 @@ namespace abut
                          double linear_tolerance = 0.);
 
     /** Pressure to start from, in the form of pressure(), for example
-     * interpolated from a coarser mesh. Call between reinit() and detect(). */
+     * interpolated from a coarser mesh. Call between reinit() and detect(). If
+     * it is what pressure() was before reinit(), on the same mesh with cells on
+     * any ranks, rows start from the pressures that they had themselves. From
+     * detect() on it is what pressure(), status() and pair_results() tell,
+     * until there is a solve. */
     virtual void set_pressure(const la::Vector &pressure);
 
     /** Add the couplings that add() needs: those of all rows, in contact or

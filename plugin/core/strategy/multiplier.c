@@ -23,6 +23,17 @@ enum
   MAX_STAGNANT = 4 /* outer steps without contraction before giving up */
 };
 
+abut_status
+abut_multiplier_project(abut_strategy *s, double *value)
+{
+  if (s->options.project == NULL
+      || s->options.project(s->options.project_user, s->n, value)
+             == ABUT_SUCCESS)
+    return ABUT_SUCCESS;
+  return abut_fail(s->context, ABUT_CALLBACK_FAILED, "abut_strategy_next",
+                   "the projection on the space of the multipliers failed");
+}
+
 /* Change of pbar in the next update, [n]. */
 static abut_status
 find_change(abut_strategy *s, double *change)
@@ -31,12 +42,7 @@ find_change(abut_strategy *s, double *change)
     change[i] =
         (s->bilateral[i] != 0 ? s->pressure[i] : fmax(s->pressure[i], 0))
         - s->reference[i];
-  if (s->options.project == NULL
-      || s->options.project(s->options.project_user, s->n, change)
-             == ABUT_SUCCESS)
-    return ABUT_SUCCESS;
-  return abut_fail(s->context, ABUT_CALLBACK_FAILED, "abut_strategy_next",
-                   "the projection on the space of the multipliers failed");
+  return abut_multiplier_project(s, change);
 }
 
 static void

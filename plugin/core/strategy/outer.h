@@ -27,6 +27,10 @@ abut_status abut_penalty_settled(abut_strategy *s, abut_verdict *verdict);
 /* Method of multipliers: pbar <- p. */
 abut_status abut_multiplier_settled(abut_strategy *s, abut_verdict *verdict);
 
+/* Replace values [n] by the nearest ones in the space of the multipliers, if
+ * there is such a space. Collective. */
+abut_status abut_multiplier_project(abut_strategy *s, double *value);
+
 /* pbar <- max(p, 0), without the clipping for bilateral rows; with a space of
  * multipliers pbar <- pbar + projection of that change. Collective. */
 abut_status abut_multiplier_update(abut_strategy *s);

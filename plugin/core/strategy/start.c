@@ -170,10 +170,18 @@ reset(abut_strategy *s)
   const double penalty = abut_strategy_first_penalty(&s->options);
   if (penalty > 0)
     abut_strategy_set_penalty(s, penalty);
-  /* The starting pressures are in the space of the multipliers. */
+}
+
+/* The first multipliers are what an update makes of the starting pressures. */
+static abut_status
+first_reference(abut_strategy *s)
+{
   for (int32_t i = 0; i < s->n; ++i)
     s->reference[i] =
         s->bilateral[i] != 0 ? s->pressure[i] : fmax(s->pressure[i], 0);
+  return s->options.law->outer == ABUT_OUTER_MULTIPLIER
+             ? abut_multiplier_project(s, s->reference)
+             : ABUT_SUCCESS;
 }
 
 abut_status
@@ -190,12 +198,14 @@ abut_strategy_start(abut_strategy *strategy, int32_t n, const int64_t *id,
   if (status != ABUT_SUCCESS)
     return status;
   s->phase = ABUT_PHASE_CREATED;
-  status = place_arrays(s, n);
+  status = abut_strategy_agree(s, place_arrays(s, n));
   if (status == ABUT_SUCCESS)
   {
     copy_inputs(s, &in);
     reset(s);
-    if ((s->options.law->flags & ABUT_LAW_INTERIOR) == 0)
+    status = first_reference(s);
+    if (status == ABUT_SUCCESS
+        && (s->options.law->flags & ABUT_LAW_INTERIOR) == 0)
       status = first_state(s, state);
   }
   status = abut_strategy_agree(s, status);
