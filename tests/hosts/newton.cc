@@ -334,7 +334,8 @@ namespace
           {
             residual(u, r);
             if (!std::exchange(first, false))
-              r *= std::numeric_limits<double>::quiet_NaN();
+              r(*r.locally_owned_elements().begin()) =
+                  std::numeric_limits<double>::quiet_NaN();
           };
         });
     expect(result.reason == NewtonReason::not_finite,
