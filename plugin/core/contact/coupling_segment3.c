@@ -261,7 +261,9 @@ integrate(work *w, const segment *g, const abut_clip3 *polygon,
     const double *b = polygon->vertex[i - 1], *d = polygon->vertex[i];
     const double area = (b[0] - a[0]) * (d[1] - a[1])
                         - (b[1] - a[1]) * (d[0] - a[0]); /* twice */
-    if (!(area > 0.))
+    /* Nearly equal vertices are round-off: no points, or else the numbers of
+     * those that follow would depend on it. */
+    if (!(area > ABUT_CLIP_SMALLEST * polygon->area))
       continue;
     for (int q = 0; q < rule->n; ++q)
     {
