@@ -486,8 +486,8 @@ namespace abut
         view.bilateral, law_gap(),
         start_pressure.empty() ? nullptr : start_pressure.data(),
         start_state.empty() ? nullptr : start_state.data()));
-    is_started = true;
     next();
+    is_started = true;
   }
 
   template <int dim>
