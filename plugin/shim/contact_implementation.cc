@@ -4,6 +4,7 @@
 
 #include "agree.h"
 #include "bodies.h"
+#include "fnv_hash.h"
 #include "nodal_obstacle_rows.h"
 
 #include <cmath>
@@ -48,21 +49,19 @@ namespace abut
              && law.outer != ABUT_OUTER_MULTIPLIER;
     }
 
-    /** Number that tells sets of rows apart (FNV-1a): places and values of
-     * their arrays, but gaps. */
+    /** Number that tells sets of rows apart: places and values of their arrays,
+     * but gaps. */
     std::uint64_t signature(const abut_rows_view &view)
     {
-      std::uint64_t hash = 14695981039346656037u;
+      shim::FnvHash hash;
       const auto add = [&](const auto *data, const std::size_t n)
       {
-        const auto mix = [&](const std::uint64_t word)
-        { hash = (hash ^ word) * 1099511628211u; };
-        mix(reinterpret_cast<std::uintptr_t>(data));
+        hash.mix(reinterpret_cast<std::uintptr_t>(data));
         for (std::size_t i = 0; i < n; ++i)
         {
           std::uint64_t word = 0;
           std::memcpy(&word, data + i, sizeof(data[i]));
-          mix(word);
+          hash.mix(word);
         }
       };
       const std::size_t n = view.n_rows;
@@ -72,7 +71,7 @@ namespace abut
       add(view.row_start, n > 0 ? n + 1 : 0);
       add(view.column, n_entries);
       add(view.coefficient, n_entries);
-      return hash;
+      return hash.value;
     }
   } // namespace
 

@@ -2,6 +2,7 @@
 // The sides of pairs, from the facets that a rank knows; and when these do not
 // reach any further.
 #include "agree.h"
+#include "fnv_hash.h"
 #include "pair_diagnosis.h"
 #include "surface_pair_rows.h"
 
@@ -51,34 +52,29 @@ namespace abut::shim
 
   template <int dim> std::uint64_t SurfacePairRows<dim>::mesh_signature() const
   {
-    // Each facet is hashed (FNV-1a), and hashes are added: sums do not depend
-    // on the order.
-    std::uint64_t hash = 0;
-    const auto begin = [&] { hash = 14695981039346656037u; };
-    const auto mix = [&](const std::uint64_t word)
-    { hash = (hash ^ word) * 1099511628211u; };
+    // Hashes of facets are added: sums do not depend on the order.
     const auto me = MPI::this_mpi_process(communicator_);
     std::uint64_t sum = 0;
     for (const auto &facet : surface_.facets)
     {
       if (facet.owner != me)
         continue;
-      begin();
-      mix(facet.number);
+      FnvHash hash;
+      hash.mix(facet.number);
       for (const std::uint32_t word : facet.cell)
-        mix(word);
-      mix(facet.face);
-      mix(facet.boundary_id);
-      sum += hash;
+        hash.mix(word);
+      hash.mix(facet.face);
+      hash.mix(facet.boundary_id);
+      sum += hash.value;
     }
-    begin();
-    mix(MPI::sum(sum, communicator_));
+    FnvHash hash;
+    hash.mix(MPI::sum(sum, communicator_));
     for (const Pair &pair : pairs_)
     {
-      mix(pair.first_id);
-      mix(static_cast<std::uint64_t>(pair.discretisation));
+      hash.mix(pair.first_id);
+      hash.mix(static_cast<std::uint64_t>(pair.discretisation));
     }
-    return hash;
+    return hash.value;
   }
 
   template <int dim> void SurfacePairRows<dim>::create_sides(Pair &pair)

@@ -41,25 +41,28 @@ static void
 ends_of_strategies_name_their_failure(void **state)
 {
   (void)state;
-  assert_int_equal(failure_of(ABUT_REASON_CONVERGED, "lagrange", 0),
-                   ABUT_FAILURE_NONE);
-  assert_int_equal(failure_of(ABUT_REASON_CONVERGED, "lagrange", 1),
-                   ABUT_FAILURE_CYCLE);
-  assert_int_equal(failure_of(ABUT_REASON_STEP_LIMIT, "lagrange", 0),
-                   ABUT_FAILURE_COLD_START);
-  assert_int_equal(failure_of(ABUT_REASON_STEP_LIMIT, "quadratic penalty", 0),
-                   ABUT_FAILURE_PENALTY);
-  assert_int_equal(
-      failure_of(ABUT_REASON_STAGNATION, "augmented lagrangian", 0),
-      ABUT_FAILURE_MULTIPLIERS_STALL);
-  assert_int_equal(failure_of(ABUT_REASON_INFEASIBLE, "barrier", 0),
-                   ABUT_FAILURE_INFEASIBLE_START);
-  assert_int_equal(failure_of(ABUT_REASON_STEP_LIMIT, "interior point", 0),
-                   ABUT_FAILURE_INTERIOR);
-  assert_int_equal(failure_of(ABUT_REASON_STEP_LIMIT, "nitsche", 1),
-                   ABUT_FAILURE_NITSCHE);
-  assert_int_equal(failure_of(ABUT_REASON_NOT_FINITE, "penalty", 0),
-                   ABUT_FAILURE_FLOATING_BODY);
+  static const struct
+  {
+    abut_reason reason;
+    const char *law;
+    int32_t fallback_steps;
+    abut_failure failure;
+  } cases[] = {
+      {ABUT_REASON_CONVERGED, "lagrange", 0, ABUT_FAILURE_NONE},
+      {ABUT_REASON_CONVERGED, "lagrange", 1, ABUT_FAILURE_CYCLE},
+      {ABUT_REASON_STEP_LIMIT, "lagrange", 0, ABUT_FAILURE_COLD_START},
+      {ABUT_REASON_STEP_LIMIT, "quadratic penalty", 0, ABUT_FAILURE_PENALTY},
+      {ABUT_REASON_STAGNATION, "augmented lagrangian", 0,
+       ABUT_FAILURE_MULTIPLIERS_STALL},
+      {ABUT_REASON_INFEASIBLE, "barrier", 0, ABUT_FAILURE_INFEASIBLE_START},
+      {ABUT_REASON_STEP_LIMIT, "interior point", 0, ABUT_FAILURE_INTERIOR},
+      {ABUT_REASON_STEP_LIMIT, "nitsche", 1, ABUT_FAILURE_NITSCHE},
+      {ABUT_REASON_NOT_FINITE, "penalty", 0, ABUT_FAILURE_FLOATING_BODY},
+  };
+  for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i)
+    assert_int_equal(
+        failure_of(cases[i].reason, cases[i].law, cases[i].fallback_steps),
+        cases[i].failure);
   assert_int_equal(abut_reason_failure(ABUT_REASON_CONVERGED, NULL, NULL),
                    ABUT_FAILURE_NONE);
 }

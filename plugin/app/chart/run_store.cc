@@ -4,6 +4,7 @@
 #include "app/input_error.h"
 #include "app/json.h"
 #include "app/output_folder.h"
+#include "shim/fnv_hash.h"
 
 #include <boost/property_tree/json_parser.hpp>
 
@@ -23,10 +24,10 @@ namespace abut::app
 
   std::uint64_t hash(const std::string &bytes)
   {
-    std::uint64_t result = 14695981039346656037u;
+    shim::FnvHash result;
     for (const char c : bytes)
-      result = (result ^ static_cast<unsigned char>(c)) * 1099511628211u;
-    return result;
+      result.mix(static_cast<unsigned char>(c));
+    return result.value;
   }
 
   std::string file_bytes(const fs::path &file)
