@@ -299,7 +299,11 @@ namespace abut::app
       char *end = nullptr;
       const double value = std::strtod(word.c_str(), &end);
       if (*end != '\0' || !std::isfinite(value))
-        throw InputError(parameter, "'" + word + "' is not a finite number.");
+        throw InputError(parameter,
+                         "'" + word + "'"
+                             + (word == text ? "" : " in '" + text + "'")
+                             + " is not a finite number; formulas are not "
+                               "possible here.");
       numbers.push_back(value);
     }
     return numbers;
