@@ -1,8 +1,30 @@
 # Common set-up of the targets that use deal.II.
 
+# Sources of each folder in groups that are compiled as one.
+function(abut_unity_groups target)
+  foreach(source ${ARGN})
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "n_${folder}" n)
+    math(EXPR ${n} "${${n}} + 1")
+    math(EXPR group "(${${n}} - 1) / ${ABUT_UNITY_FILES}")
+    get_filename_component(name ${folder} NAME)
+    set_source_files_properties(${source} PROPERTIES
+      UNITY_GROUP ${name}_${group})
+  endforeach()
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ON UNITY_BUILD_MODE GROUP
+    UNITY_BUILD_CODE_AFTER_INCLUDE "#undef ABUT_INSTANTIATE")
+  # Members of unnamed namespaces are no mistake in a file that is included once.
+  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+endfunction()
+
 # An object library of the C++ sources of this folder, compiled with deal.II's
 # flags and with the precompiled header of plugin/pch.h, which is built once.
 # Further arguments are sources of the folder that do not belong to it.
+#
+# With ABUT_UNITY, up to ABUT_UNITY_FILES sources of a folder are compiled as one:
+# what the headers bring costs more than most files. Names in unnamed namespaces
+# must therefore differ within a folder.
 function(abut_dealii_objects target)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS
     ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
@@ -16,6 +38,9 @@ function(abut_dealii_objects target)
     $<$<CONFIG:Release>:-g0>)
   # What is exported is decided by the list of symbols at link time.
   set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET default)
+  if(ABUT_UNITY)
+    abut_unity_groups(${target} ${sources})
+  endif()
   if(target STREQUAL "abut_shim")
     target_precompile_headers(${target} PRIVATE
       ${PROJECT_SOURCE_DIR}/plugin/pch.h)
@@ -24,15 +49,20 @@ function(abut_dealii_objects target)
   endif()
 endfunction()
 
+# The precompiled header, which is one for libraries, in a program that is set up
+# for deal.II, too; without debug information in release builds, as above.
+function(abut_precompiled_headers target)
+  target_compile_options(${target} PRIVATE -fPIC $<$<CONFIG:Release>:-g0>)
+  target_precompile_headers(${target} REUSE_FROM abut_shim)
+endfunction()
+
 # A program that uses the inside of Abut: a test or benchmark.
 function(abut_inside_program target)
   add_executable(${target} ${ARGN})
   deal_ii_setup_target(${target})
   target_include_directories(${target} PRIVATE
     ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/plugin)
-  # The precompiled header is one for libraries.
-  target_compile_options(${target} PRIVATE ${ABUT_CXX_WARNINGS} -fPIC
-    $<$<CONFIG:Release>:-g0>)
-  target_precompile_headers(${target} REUSE_FROM abut_shim)
+  target_compile_options(${target} PRIVATE ${ABUT_CXX_WARNINGS})
+  abut_precompiled_headers(${target})
   target_link_libraries(${target} abut_inside)
 endfunction()

@@ -89,7 +89,7 @@ namespace abut::app
       }
     }
 
-    bool begins_with(const std::string &text, const std::string &beginning)
+    bool starts_with(const std::string &text, const std::string &beginning)
     {
       return text.compare(0, beginning.size(), beginning) == 0;
     }
@@ -132,11 +132,11 @@ namespace abut::app
     for (char **variable = environ; *variable != nullptr; ++variable)
     {
       const std::string text = *variable;
-      const bool of_mpi = begins_with(text, "PMI")
-                          || (begins_with(text, "OMPI_")
-                              && !begins_with(text, "OMPI_ALLOW_RUN_AS_ROOT"));
-      const bool of_threads = begins_with(text, "DEAL_II_NUM_THREADS=")
-                              || begins_with(text, "OMP_NUM_THREADS=");
+      const bool of_mpi = starts_with(text, "PMI")
+                          || (starts_with(text, "OMPI_")
+                              && !starts_with(text, "OMPI_ALLOW_RUN_AS_ROOT"));
+      const bool of_threads = starts_with(text, "DEAL_II_NUM_THREADS=")
+                              || starts_with(text, "OMP_NUM_THREADS=");
       if (!of_mpi && !of_threads)
         result.push_back(text);
     }

@@ -11,14 +11,14 @@ namespace abut::app
   namespace
   {
     /** What has to be known of an exception to throw it again elsewhere. */
-    struct Description
+    struct ErrorDescription
     {
       bool is_input_error = false;
       std::string parameter;
       std::string message;
     };
 
-    Description describe(const std::exception_ptr &exception)
+    ErrorDescription describe(const std::exception_ptr &exception)
     {
       try
       {
@@ -60,7 +60,8 @@ namespace abut::app
     if (size == 1)
       std::rethrow_exception(mine);
 
-    Description error = rank == thrower ? describe(mine) : Description();
+    ErrorDescription error =
+        rank == thrower ? describe(mine) : ErrorDescription();
     int is_input_error = error.is_input_error;
     MPI_Bcast(&is_input_error, 1, MPI_INT, thrower, communicator);
     broadcast(communicator, thrower, error.parameter);

@@ -10,7 +10,7 @@ namespace abut::app
 {
   namespace
   {
-    std::string quoted(const std::string &text)
+    std::string json_string(const std::string &text)
     {
       std::string result = "\"";
       for (const char c : text)
@@ -67,7 +67,7 @@ namespace abut::app
   void JsonWriter::member(const std::string &name)
   {
     out << (empty.back() ? "\n" : ",\n") << std::string(2 * empty.size(), ' ')
-        << quoted(name) << ": ";
+        << json_string(name) << ": ";
     empty.back() = false;
   }
 
@@ -98,7 +98,7 @@ namespace abut::app
   void JsonWriter::value(const std::string &name, const std::string &value)
   {
     member(name);
-    out << quoted(value);
+    out << json_string(value);
   }
 
   void JsonWriter::value(const std::string &name,
@@ -117,7 +117,7 @@ namespace abut::app
     member(name);
     out << "[";
     for (std::size_t i = 0; i < value.size(); ++i)
-      out << (i == 0 ? "" : ", ") << quoted(value[i]);
+      out << (i == 0 ? "" : ", ") << json_string(value[i]);
     out << "]";
   }
 } // namespace abut::app

@@ -11,7 +11,7 @@ namespace abut::app
 {
   namespace
   {
-    std::string lower_case(std::string text)
+    std::string in_lower_case(std::string text)
     {
       for (char &c : text)
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -47,12 +47,12 @@ namespace abut::app
   std::string nearest_word(const std::string &word,
                            const std::vector<std::string> &words)
   {
-    const std::string wanted = lower_case(word);
+    const std::string wanted = in_lower_case(word);
     std::string nearest;
     std::size_t smallest = 0;
     for (const std::string &candidate : words)
     {
-      const std::string lower = lower_case(candidate);
+      const std::string lower = in_lower_case(candidate);
       std::size_t distance = edit_distance(wanted, lower);
       // "lagrang multiplier" for "lagrange": the first words are near.
       if (wanted.find(' ') != std::string::npos)

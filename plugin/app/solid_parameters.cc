@@ -58,7 +58,7 @@ namespace abut::app
       prm.leave_subsection();
     }
 
-    void declare_results(ParameterHandler &prm)
+    void declare_solid_results(ParameterHandler &prm)
     {
       prm.enter_subsection("Exact solution");
       prm.declare_entry("Displacement", "", Patterns::Anything(),
@@ -117,7 +117,7 @@ namespace abut::app
     }
     LoadStepParameters::declare(prm);
     RefinementParameters::declare(prm, "2", "0");
-    declare_results(prm);
+    declare_solid_results(prm);
   }
 
   void SolidParameters::parse(ParameterHandler &prm, const SolidCounts &counts)

@@ -27,7 +27,7 @@ namespace abut::app
 {
   namespace
   {
-    constexpr std::size_t header = 80, prefix = 84, record = 50;
+    constexpr std::size_t header = 80, prefix = 84, triangle_size = 50;
 
     class Reader
     {
@@ -74,7 +74,7 @@ namespace abut::app
       {
         return bytes.size() >= prefix
                && bytes.size()
-                      == prefix + record * std::size_t(bits_at(header));
+                      == prefix + triangle_size * std::size_t(bits_at(header));
       }
 
       void add(const std::array<double, 3> &x, const std::string &where)
@@ -103,7 +103,7 @@ namespace abut::app
             for (std::size_t d = 0; d < 3; ++d)
             {
               const std::uint32_t bits =
-                  bits_at(prefix + record * i + 12 * (v + 1) + 4 * d);
+                  bits_at(prefix + triangle_size * i + 12 * (v + 1) + 4 * d);
               float value;
               std::memcpy(&value, &bits, sizeof value);
               x[d] = static_cast<double>(value);

@@ -18,7 +18,7 @@ namespace abut
     namespace Utilities = dealii::Utilities;
 
     constexpr double degree = dealii::numbers::PI / 180;
-    constexpr double huge = 1e40;
+    constexpr double largest_number = 1e40;
 
     std::string algorithm_names()
     {
@@ -47,7 +47,7 @@ namespace abut
                         "buckets that follow the sizes of the facets.");
       prm.declare_entry("Bucket size",
                         Patterns::Tools::to_string(d.bucket_size),
-                        Patterns::Double(0, huge),
+                        Patterns::Double(0, largest_number),
                         "Edge of a bucket as a multiple of the median facet "
                         "size; 0 chooses it from the data. `uniform buckets` "
                         "raises a value below the search radius and says so; "
@@ -58,15 +58,15 @@ namespace abut
                         "`adaptive buckets`: most facets in a bucket; 0 "
                         "leaves it to `Bucket size`.");
       prm.declare_entry("Reach", Patterns::Tools::to_string(d.reach),
-                        Patterns::Double(0, huge),
+                        Patterns::Double(0, largest_number),
                         "Length within which a facet is a candidate; the "
                         "larger of this and `Relative reach` counts.");
       prm.declare_entry("Relative reach",
                         Patterns::Tools::to_string(d.relative_reach),
-                        Patterns::Double(0, huge),
+                        Patterns::Double(0, largest_number),
                         "The same as a multiple of the size of the facet.");
       prm.declare_entry("Skin", Patterns::Tools::to_string(d.skin),
-                        Patterns::Double(0, huge),
+                        Patterns::Double(0, largest_number),
                         "Length by which lists of candidates are made too "
                         "long, so that they serve again after small motion; "
                         "0 makes them anew after each motion.");
@@ -79,7 +79,7 @@ namespace abut
                         "Degrees within which two surfaces must face each "
                         "other, 0 being exactly opposed.");
       prm.declare_entry("Extension", Patterns::Tools::to_string(d.extension),
-                        Patterns::Double(0, huge),
+                        Patterns::Double(0, largest_number),
                         "How far a node may lie beyond the border of the "
                         "primary surface and still be paired with a facet "
                         "there, as a multiple of the size of the facet.");
@@ -127,7 +127,7 @@ namespace abut
                                    : Utilities::trim(entry.substr(0, colon));
         const double value = number(
             entry.substr(colon == std::string::npos ? 0 : colon + 1), entry);
-        AssertThrow(value > 0 && value <= huge,
+        AssertThrow(value > 0 && value <= largest_number,
                     dealii::ExcMessage("Search/Thickness: '" + entry
                                        + "': a thickness is positive."));
         if (id == "*")
