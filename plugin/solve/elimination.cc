@@ -19,8 +19,8 @@ namespace abut::solve
 
   namespace
   {
-    /** Sparse line over a rank's own numbering of columns. */
-    struct Line
+    /** Line over a rank's own numbering of columns. */
+    struct SparseLine
     {
       std::vector<int> column;
       std::vector<double> value;
@@ -87,36 +87,36 @@ namespace abut::solve
         line_.value[place] += value;
       }
 
-      void add(const Line &line, const double factor)
+      void add(const SparseLine &line, const double factor)
       {
         for (std::size_t k = 0; k < line.column.size(); ++k)
           add(line.column[k], factor * line.value[k]);
       }
 
       /** The sum, which is empty afterwards. */
-      Line take()
+      SparseLine take()
       {
         for (const int column : line_.column)
           place_[column] = -1;
-        return std::exchange(line_, Line());
+        return std::exchange(line_, SparseLine());
       }
 
     private:
       std::vector<int> place_;
-      Line line_;
+      SparseLine line_;
     };
 
     /** Lines of Z of this rank's pivots, by local unknown. */
-    std::vector<Line> own_lines(const RowOperator &rows,
-                                const std::vector<std::int64_t> &pivot,
-                                Columns &columns)
+    std::vector<SparseLine> own_lines(const RowOperator &rows,
+                                      const std::vector<std::int64_t> &pivot,
+                                      Columns &columns)
     {
-      std::vector<Line> lines(columns.size());
+      std::vector<SparseLine> lines(columns.size());
       for (int i = 0; i < rows.n_rows(); ++i)
       {
         if (pivot[i] == Condensate::none)
           continue;
-        Line &line = lines[rows.column(pivot[i])];
+        SparseLine &line = lines[rows.column(pivot[i])];
         for (auto e = rows.begin(i); e < rows.end(i); ++e)
         {
           line.column.push_back(
@@ -136,7 +136,7 @@ namespace abut::solve
      * with a symmetric pattern, the owners of the pivots' neighbours. A line is
      * sent as its pivot with its length, then its entries. */
     void import_lines(const la::Matrix &matrix, Columns &columns,
-                      std::vector<Line> &lines)
+                      std::vector<SparseLine> &lines)
     {
       const MPI_Comm communicator = matrix.get_mpi_communicator();
       if (MPI::n_mpi_processes(communicator) == 1)
@@ -182,7 +182,7 @@ namespace abut::solve
 
     /** Which entry of which pivot's line touches an unknown. */
     std::vector<std::vector<std::pair<int, double>>>
-    transpose(const std::vector<Line> &lines, const int n_owned,
+    transpose(const std::vector<SparseLine> &lines, const int n_owned,
               const int n_columns)
     {
       std::vector<std::vector<std::pair<int, double>>> result(n_columns);
@@ -198,19 +198,19 @@ namespace abut::solve
                                const std::vector<std::int64_t> &pivot)
   {
     Columns columns(matrix);
-    std::vector<Line> z = own_lines(rows, pivot, columns);
+    std::vector<SparseLine> z = own_lines(rows, pivot, columns);
     import_lines(matrix, columns, z);
     z.resize(columns.size());
 
     const la::LocalRows t = la::local_rows(matrix);
     LineSum sum(columns.size());
-    std::vector<std::pair<int, Line>> result;
-    std::vector<Line> h(t.n_rows);
+    std::vector<std::pair<int, SparseLine>> result;
+    std::vector<SparseLine> h(t.n_rows);
     for (int i = 0; i < t.n_rows; ++i)
     {
       for (int k = t.start[i]; k < t.start[i + 1]; ++k)
         sum.add(z[t.column[k]], t.value[k]);
-      Line line = sum.take();
+      SparseLine line = sum.take();
       if (!z[i].empty())
       {
         sum.add(line, 1.);
@@ -226,7 +226,7 @@ namespace abut::solve
     {
       for (const auto &[q, value] : users[j])
         sum.add(h[q], value);
-      Line line = sum.take();
+      SparseLine line = sum.take();
       if (!line.empty())
         result.emplace_back(j, std::move(line));
     }
