@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 /* An error on one rank becomes the same error on all of them, and the ranks
  * can go on together afterwards. To be run on several ranks. */
-#include "app/collective.h"
-#include "app/input_error.h"
+#include "app/input/collective.h"
+#include "app/input/input_error.h"
 
 #include <cstdio>
 #include <stdexcept>

@@ -7,7 +7,7 @@
  * Expect::failures() > 0.
  */
 
-#include "app/input_error.h"
+#include "app/input/input_error.h"
 
 #include <cmath>
 #include <functional>

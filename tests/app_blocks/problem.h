@@ -6,7 +6,7 @@
  * Meshes of the unit cube with nodal fields, for tests.
  */
 
-#include "app/expression.h"
+#include "app/input/expression.h"
 
 #include "expect.h"
 

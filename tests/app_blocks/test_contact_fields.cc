@@ -2,12 +2,12 @@
 //
 // Stresses and contact fields in files, and meshes that follow contact.
 
-#include "app/body_pictures.h"
-#include "app/contact_line.h"
-#include "app/contact_output.h"
-#include "app/contact_refinement.h"
-#include "app/field_output.h"
-#include "app/stress_output.h"
+#include "app/adapt/contact_refinement.h"
+#include "app/physics/stress_output.h"
+#include "app/pictures/body_pictures.h"
+#include "app/pictures/contact_line.h"
+#include "app/pictures/contact_output.h"
+#include "app/pictures/field_output.h"
 
 #include "expect.h"
 #include "problem.h"

@@ -2,11 +2,11 @@
 //
 // Expressions, boundary lists, height maps, meshes, the memory check.
 
-#include "app/boundary_expressions.h"
-#include "app/expression.h"
-#include "app/height_map.h"
-#include "app/memory_check.h"
-#include "app/mesh.h"
+#include "app/input/boundary_expressions.h"
+#include "app/input/expression.h"
+#include "app/input/height_map.h"
+#include "app/mesh/memory_check.h"
+#include "app/mesh/mesh.h"
 
 #include "expect.h"
 #include "run_checks.h"

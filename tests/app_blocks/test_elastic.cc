@@ -2,10 +2,10 @@
 //
 // Elastic bodies: Hooke's law, error norms, estimator, contact traction.
 
-#include "app/contact_traction.h"
-#include "app/elastic_estimator.h"
-#include "app/elastic_material.h"
-#include "app/error_norms.h"
+#include "app/adapt/elastic_estimator.h"
+#include "app/physics/contact_traction.h"
+#include "app/physics/elastic_material.h"
+#include "app/physics/error_norms.h"
 
 #include "expect.h"
 #include "problem.h"

@@ -2,13 +2,13 @@
 //
 // Estimator, error norms, energy, rasters, field files and pictures.
 
-#include "app/error_norms.h"
-#include "app/estimator.h"
-#include "app/expression.h"
-#include "app/field_output.h"
-#include "app/pictures.h"
-#include "app/raster.h"
-#include "app/report.h"
+#include "app/adapt/estimator.h"
+#include "app/input/expression.h"
+#include "app/physics/error_norms.h"
+#include "app/pictures/field_output.h"
+#include "app/pictures/pictures.h"
+#include "app/pictures/raster.h"
+#include "app/report/report.h"
 
 #include "expect.h"
 #include "problem.h"

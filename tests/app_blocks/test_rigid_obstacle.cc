@@ -3,7 +3,7 @@
 // Rigid obstacles as a deal.II program and as a scene file makes them:
 // distances from formulas, motion, and bad input.
 
-#include "app/make_rigid_obstacle.h"
+#include "app/mesh/make_rigid_obstacle.h"
 
 #include "expect.h"
 #include "run_checks.h"

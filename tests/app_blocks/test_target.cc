@@ -2,8 +2,8 @@
 //
 // When an answer is good enough: sequences of meshes whose errors are known.
 
-#include "app/error_target.h"
-#include "app/tighten_method.h"
+#include "app/adapt/error_target.h"
+#include "app/adapt/tighten_method.h"
 
 #include "expect.h"
 #include "run_checks.h"

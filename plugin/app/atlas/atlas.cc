@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "atlas.h"
 
-#include "app/child_process.h"
-#include "app/output_folder.h"
+#include "app/input/output_folder.h"
+#include "app/pictures/child_process.h"
 
 #include <fstream>
 #include <iostream>

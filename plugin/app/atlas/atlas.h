@@ -10,7 +10,7 @@
  * the numbers that a run left, atlas_report writes the page.
  */
 
-#include "app/input_error.h"
+#include "app/input/input_error.h"
 #include "atlas_entry.h"
 
 #include <iosfwd>

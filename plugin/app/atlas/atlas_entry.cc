@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "atlas_entry.h"
 
-#include "app/input_error.h"
-#include "app/nearest_word.h"
+#include "app/input/input_error.h"
+#include "app/input/nearest_word.h"
 
 #include <deal.II/base/utilities.h>
 

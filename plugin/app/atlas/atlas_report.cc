@@ -2,7 +2,8 @@
 // The failure atlas as a page.
 #include "atlas.h"
 
-#include "app/report.h"
+#include "app/input/short_number.h"
+#include "app/report/report.h"
 
 #include <algorithm>
 #include <ostream>

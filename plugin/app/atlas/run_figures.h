@@ -2,7 +2,7 @@
 #ifndef ABUT_APP_ATLAS_RUN_FIGURES_H
 #define ABUT_APP_ATLAS_RUN_FIGURES_H
 
-#include "app/run_summary.h"
+#include "app/report/run_summary.h"
 
 #include <filesystem>
 #include <map>

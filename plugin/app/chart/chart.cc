@@ -8,14 +8,15 @@
  * solve coarse meshes no more tightly than a user's run does. */
 #include "chart.h"
 
+#include "app/input/short_number.h"
 #include "chart_clock.h"
 #include "chart_file.h"
 #include "chart_output.h"
 #include "chart_rows.h"
 #include "run_maker.h"
 
-#include "app/common_parameters.h"
-#include "app/output_folder.h"
+#include "app/input/output_folder.h"
+#include "app/scenes/common_parameters.h"
 
 #include <algorithm>
 #include <ostream>

@@ -10,8 +10,8 @@
  * chart_pictures show it.
  */
 
-#include "app/input_error.h"
-#include "app/report.h"
+#include "app/input/input_error.h"
+#include "app/report/report.h"
 
 #include <filesystem>
 #include <iosfwd>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "chart_clock.h"
 
-#include "app/report.h"
+#include "app/input/short_number.h"
+#include "app/report/report.h"
 
 #include <cmath>
 

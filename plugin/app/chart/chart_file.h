@@ -6,7 +6,7 @@
  * What a chart file asks for.
  */
 
-#include "app/parameters.h"
+#include "app/input/parameters.h"
 
 #include <deal.II/base/parameter_handler.h>
 

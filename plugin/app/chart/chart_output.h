@@ -9,7 +9,7 @@
 #include "chart_file.h"
 #include "chart_rows.h"
 
-#include "app/report.h"
+#include "app/report/report.h"
 
 #include <filesystem>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "chart_output.h"
 
-#include "app/gnuplot.h"
-#include "app/picture_parts.h"
+#include "app/pictures/gnuplot.h"
+#include "app/pictures/picture_parts.h"
 
 #include <algorithm>
 #include <functional>

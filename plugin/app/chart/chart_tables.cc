@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "chart_output.h"
 
-#include "app/json.h"
+#include "app/input/short_number.h"
+#include "app/report/json.h"
 
 #include <sstream>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "run_maker.h"
 
-#include "app/child_process.h"
-#include "app/report.h"
+#include "app/input/short_number.h"
+#include "app/pictures/child_process.h"
+#include "app/report/report.h"
 
 #include <abut/version.h>
 

@@ -8,7 +8,7 @@
 
 #include "run_store.h"
 
-#include "app/loaded_scene.h"
+#include "app/scenes/loaded_scene.h"
 
 #include <string>
 #include <vector>

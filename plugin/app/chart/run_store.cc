@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "run_store.h"
 
-#include "app/input_error.h"
-#include "app/json.h"
-#include "app/output_folder.h"
+#include "app/input/input_error.h"
+#include "app/input/output_folder.h"
+#include "app/report/json.h"
 #include "shim/fnv_hash.h"
 
 #include <boost/property_tree/json_parser.hpp>

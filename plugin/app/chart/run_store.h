@@ -11,7 +11,7 @@
  * result.
  */
 
-#include "app/run_summary.h"
+#include "app/report/run_summary.h"
 
 #include <cstdint>
 #include <filesystem>

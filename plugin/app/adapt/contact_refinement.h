@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_CONTACT_REFINEMENT_H
+#define ABUT_APP_CONTACT_REFINEMENT_H
+
+/** @file
+ * What contact asks of a mesh beside small errors, and fields carried from one
+ * mesh to the next.
+ */
+
+#include "app/report/section_times.h"
+
+#include <abut/dealii/linear_algebra.h>
+#include <deal.II/base/types.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_handler.h>
+
+#include <functional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace abut::app
+{
+  /** Boundary ids of the secondary and the primary side of a pair. */
+  using ContactSides = std::pair<std::set<dealii::types::boundary_id>,
+                                 std::set<dealii::types::boundary_id>>;
+
+  /** Flag the cells at whose secondary faces contact begins or ends: with one
+   * node in contact (status > 0) and one open (0); nodes without a row
+   * (status < 0) do not count. Flags to coarsen them are taken back.
+   * @param status ghosted; for vectors the first component counts
+   * Not collective. Returns the number of this rank's cells flagged anew. */
+  template <int dim>
+  unsigned int
+  flag_contact_border(const dealii::DoFHandler<dim> &dof_handler,
+                      const la::Vector &status,
+                      const std::set<dealii::types::boundary_id> &secondary);
+
+  /** Flag cells until no face, refined as flagged, is more than @p limit times
+   * as large as the nearest of the other side of its pair; faces further apart
+   * than their size do not count. Where multipliers are far coarser than the
+   * other side, or far finer, contact is solved badly or in vain.
+   *
+   * Collective. All ranks look at all contact faces, O(n log n). Returns the
+   * number of cells flagged anew on all ranks. */
+  template <int dim>
+  unsigned int
+  limit_size_ratio(dealii::parallel::distributed::Triangulation<dim> &mesh,
+                   const std::vector<ContactSides> &pairs, double limit = 4.);
+
+  /** Refine and coarsen a mesh as flagged and interpolate nodal fields.
+   *
+   * @param fields ghosted, of @p dof_handler
+   * @param setup numbers the unknowns of the new mesh
+   * @param times gets the sections `mesh` and `transfer`
+   * @return the fields on the new mesh, owned entries, constraints not applied.
+   * Collective. */
+  template <int dim>
+  std::vector<la::Vector>
+  refine_mesh(dealii::parallel::distributed::Triangulation<dim> &mesh,
+              const dealii::DoFHandler<dim> &dof_handler,
+              const std::vector<la::Vector> &fields,
+              const std::function<void()> &setup, SectionTimes &times);
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "program.h"
+
+#include "app/atlas/atlas.h"
+#include "app/chart/chart.h"
+#include "app/input/collective.h"
+#include "app/input/output_folder.h"
+#include "app/scenes/common_parameters.h"
+#include "app/scenes/loaded_scene.h"
+#include "command_line.h"
+
+#include <abut/version.h>
+
+#include <deal.II/base/config.h>
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+namespace abut::app
+{
+  namespace
+  {
+    using Command = CommandLine::Command;
+
+    bool is_root(MPI_Comm communicator)
+    {
+      return dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    }
+
+    void print_version(std::ostream &out)
+    {
+      out << "abut " << ABUT_VERSION << "\n"
+          << "deal.II " << DEAL_II_PACKAGE_VERSION << "\n"
+          << "Trilinos " << DEAL_II_TRILINOS_VERSION_MAJOR << "."
+          << DEAL_II_TRILINOS_VERSION_MINOR << "."
+          << DEAL_II_TRILINOS_VERSION_SUBMINOR << "\n";
+    }
+
+    void require_search(const LoadedScene &loaded)
+    {
+      const std::string kind = loaded.kind();
+      if (kind != "search")
+        throw InputError("Scene", "'abut search' takes scenes of kind "
+                                  "'search'; this one is of kind '"
+                                      + kind + "', which searches no facets.");
+    }
+
+    std::filesystem::path output_folder(const CommandLine &line)
+    {
+      if (!line.output.empty())
+        return line.output;
+      return "output" / std::filesystem::path(line.file).stem();
+    }
+
+    void prepare_output(MPI_Comm communicator,
+                        const std::filesystem::path &folder)
+    {
+      collective(communicator,
+                 [&]
+                 {
+                   if (is_root(communicator))
+                     make_output_folder(folder);
+                 });
+    }
+
+    RunOptions run_options(MPI_Comm communicator, const CommandLine &line,
+                           LoadedScene &loaded)
+    {
+      RunOptions options;
+      options.communicator = communicator;
+      options.scene_file = line.file;
+      options.output_folder = output_folder(line);
+      options.pictures = loaded.get("Output", "Pictures") == "true";
+      return options;
+    }
+
+    ExitCode run_scene(LoadedScene &loaded, const RunOptions &options,
+                       const CommandLine &line)
+    {
+      MPI_Comm communicator = options.communicator;
+      prepare_output(communicator, options.output_folder);
+      Report report(communicator, line.quiet);
+      loaded.describe(report);
+      const Outcome outcome = loaded.scene->run(options, report);
+      report.set("converged", outcome == Outcome::converged);
+      report.finish();
+      collective(communicator, [&] { report.write(options.output_folder); });
+      report.print_summary();
+      if (line.explain)
+        report.explain();
+      if (is_root(communicator) && !line.quiet)
+        std::cout << "\n  results in " << options.output_folder.string()
+                  << std::endl;
+      return outcome == Outcome::converged ? ExitCode::success
+                                           : ExitCode::unusable_answer;
+    }
+
+    ExitCode check_scene(LoadedScene &loaded, const RunOptions &options,
+                         const CommandLine &line)
+    {
+      Report report(options.communicator, line.quiet);
+      loaded.describe(report);
+      loaded.scene->check(options, report);
+      report.print_summary();
+      if (is_root(options.communicator) && !line.quiet)
+        std::cout << "\n  " << line.file << ": no errors found" << std::endl;
+      return ExitCode::success;
+    }
+
+    /** run, check and search. An error in the input is thrown with the place of
+     * the parameter in front of the message. */
+    ExitCode scene_command(MPI_Comm communicator, const CommandLine &line)
+    {
+      std::optional<LoadedScene> loaded;
+      std::optional<ParameterFile> file;
+      try
+      {
+        collective(communicator,
+                   [&]
+                   {
+                     file.emplace(line.file, line.overrides);
+                     loaded.emplace(*file);
+                     if (line.command == Command::search)
+                       require_search(*loaded);
+                     loaded->parse();
+                   });
+        const RunOptions options = run_options(communicator, line, *loaded);
+        return line.command == Command::check
+                   ? check_scene(*loaded, options, line)
+                   : run_scene(*loaded, options, line);
+      }
+      catch (const InputError &error)
+      {
+        if (!file)
+          throw;
+        throw file->placed(error);
+      }
+    }
+
+    /** For commands that run this program again for each scene. */
+    void require_one_rank(MPI_Comm communicator, const CommandLine &line)
+    {
+      if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+        throw InputError(
+            "", std::string("'abut ")
+                    + (line.command == Command::chart ? "chart" : "atlas")
+                    + "' starts a process for each run, one after "
+                      "the other: start it without mpirun.");
+    }
+
+    ExitCode chart_command(MPI_Comm communicator, const CommandLine &line)
+    {
+      require_one_rank(communicator, line);
+      Report report(communicator, line.quiet);
+      return make_chart(line.file, line.overrides, output_folder(line),
+                        line.plan, report);
+    }
+
+    ExitCode atlas_command(MPI_Comm communicator, const CommandLine &line)
+    {
+      require_one_rank(communicator, line);
+      AtlasOptions options;
+      options.path = line.file;
+      options.output = line.output.empty() ? "output/atlas" : line.output;
+      options.report = line.report.empty() ? options.output / "failures.md"
+                                           : std::filesystem::path(line.report);
+      options.quiet = line.quiet;
+      return run_atlas(options);
+    }
+  } // namespace
+
+  ExitCode run_program(MPI_Comm communicator,
+                       const std::vector<std::string> &words)
+  {
+    const CommandLine line = parse_command_line(words);
+    std::ostringstream text;
+    switch (line.command)
+    {
+    case Command::run:
+    case Command::check:
+    case Command::search:
+      return scene_command(communicator, line);
+    case Command::chart:
+      return chart_command(communicator, line);
+    case Command::atlas:
+      return atlas_command(communicator, line);
+    case Command::parameters:
+      write_reference(text);
+      write_chart_reference(text);
+      break;
+    case Command::version:
+      print_version(text);
+      break;
+    case Command::help:
+      text << help_text(line.topic);
+      break;
+    }
+    if (is_root(communicator))
+      std::cout << text.str() << std::flush;
+    return ExitCode::success;
+  }
+} // namespace abut::app

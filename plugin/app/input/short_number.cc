@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "short_number.h"
+
+#include <cstdio>
+
+namespace abut::app
+{
+  std::string short_number(const double value, const int digits)
+  {
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.*g", digits, value);
+    return text;
+  }
+} // namespace abut::app

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "bodies.h"
+
+#include "app/input/boundary_expressions.h"
+#include "app/input/input_error.h"
+#include "app/input/parameters.h"
+#include "memory_check.h"
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Vertices, cells and marked faces of one level, as deal.II builds
+     * meshes from. */
+    template <int dim> struct Description
+    {
+      std::vector<dealii::Point<dim>> vertices;
+      std::vector<dealii::CellData<dim>> cells;
+      dealii::SubCellData faces;
+    };
+
+    template <int structdim, class Change>
+    void append(const std::vector<dealii::CellData<structdim>> &from,
+                const unsigned int first_vertex, const Change &change,
+                std::vector<dealii::CellData<structdim>> &to)
+    {
+      for (dealii::CellData<structdim> cell : from)
+      {
+        for (unsigned int &vertex : cell.vertices)
+          vertex += first_vertex;
+        change(cell);
+        to.push_back(cell);
+      }
+    }
+
+    /** Boundary faces, and edges in 3D, with their ids: all of them, since the
+     * ids are numbered anew. */
+    template <int dim>
+    Description<dim> describe(const dealii::Triangulation<dim> &mesh)
+    {
+      Description<dim> result;
+      std::tie(result.vertices, result.cells, result.faces) =
+          dealii::GridTools::get_coarse_mesh_description(mesh);
+      result.faces.boundary_lines.clear();
+      result.faces.boundary_quads.clear();
+      for (const auto &face : mesh.active_face_iterators())
+      {
+        const bool curved =
+            face->manifold_id() != dealii::numbers::flat_manifold_id;
+        if (!face->at_boundary() && !curved)
+          continue;
+        dealii::CellData<dim - 1> data(face->n_vertices());
+        for (const unsigned int v : face->vertex_indices())
+          data.vertices[v] = face->vertex_index(v);
+        data.boundary_id = face->boundary_id();
+        data.manifold_id = face->manifold_id();
+        if constexpr (dim == 2)
+          result.faces.boundary_lines.push_back(data);
+        else
+          result.faces.boundary_quads.push_back(data);
+      }
+      if constexpr (dim == 3)
+      {
+        std::vector<bool> seen(mesh.n_raw_lines(), false);
+        for (const auto &face : mesh.active_face_iterators())
+          for (unsigned int l = 0; l < face->n_lines(); ++l)
+          {
+            const auto line = face->line(l);
+            // Boundary edges take the id of a boundary face.
+            if (seen[line->index()]
+                || (line->at_boundary()
+                        ? !face->at_boundary()
+                        : line->manifold_id()
+                              == dealii::numbers::flat_manifold_id))
+              continue;
+            seen[line->index()] = true;
+            dealii::CellData<1> data;
+            data.vertices = {line->vertex_index(0), line->vertex_index(1)};
+            data.boundary_id =
+                line->at_boundary() ? face->boundary_id() : line->boundary_id();
+            data.manifold_id = line->manifold_id();
+            result.faces.boundary_lines.push_back(data);
+          }
+      }
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  Bodies<dim>::Bodies(const std::vector<BodyParameters> &parameters)
+      : parameters(parameters)
+  {
+  }
+
+  template <int dim>
+  void Bodies<dim>::merge(const std::vector<Mesh> &meshes, Mesh &all)
+  {
+    Description<dim> whole;
+    std::map<dealii::types::manifold_id, std::pair<unsigned int, unsigned int>>
+        manifolds;
+    dealii::types::manifold_id next_manifold = 0;
+    for (unsigned int body = 0; body < size(); ++body)
+    {
+      const Mesh &mesh = meshes[body];
+      user_ids.push_back(mesh.get_boundary_ids());
+      for (const BoundaryId id : user_ids.back())
+      {
+        numbers[{body, id}] = static_cast<BoundaryId>(origin.size());
+        origin.push_back({body, id});
+      }
+      std::map<dealii::types::manifold_id, dealii::types::manifold_id> renamed =
+          {{dealii::numbers::flat_manifold_id,
+            dealii::numbers::flat_manifold_id}};
+      for (const auto id : mesh.get_manifold_ids())
+        if (id != dealii::numbers::flat_manifold_id)
+        {
+          manifolds[next_manifold] = {body, id};
+          renamed[id] = next_manifold++;
+        }
+      const Description<dim> part = describe(mesh);
+      const auto first = static_cast<unsigned int>(whole.vertices.size());
+      whole.vertices.insert(whole.vertices.end(), part.vertices.begin(),
+                            part.vertices.end());
+      append(
+          part.cells, first,
+          [&](dealii::CellData<dim> &cell)
+          {
+            cell.material_id = body;
+            cell.manifold_id = renamed.at(cell.manifold_id);
+          },
+          whole.cells);
+      const auto face = [&](auto &data)
+      {
+        if (data.boundary_id != dealii::numbers::internal_face_boundary_id)
+          data.boundary_id = numbers.at({body, data.boundary_id});
+        data.manifold_id = renamed.at(data.manifold_id);
+      };
+      append(part.faces.boundary_lines, first, face,
+             whole.faces.boundary_lines);
+      append(part.faces.boundary_quads, first, face,
+             whole.faces.boundary_quads);
+    }
+    all.create_triangulation(whole.vertices, whole.cells, whole.faces);
+    for (const auto &[id, from] : manifolds)
+      all.set_manifold(id, meshes[from.first].get_manifold(from.second));
+  }
+
+  template <int dim>
+  void Bodies<dim>::refine_bodies(
+      dealii::parallel::distributed::Triangulation<dim> &triangulation) const
+  {
+    unsigned int most = 0;
+    for (const BodyParameters &body : parameters)
+      most = std::max(most, body.refinements);
+    for (unsigned int i = 0; i < most; ++i)
+    {
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned()
+            && parameters[cell->material_id()].refinements > i)
+          cell->set_refine_flag();
+      triangulation.execute_coarsening_and_refinement();
+    }
+  }
+
+  template <int dim>
+  void Bodies<dim>::create(
+      const RunOptions &options, const unsigned int degree,
+      const unsigned int further_levels,
+      dealii::parallel::distributed::Triangulation<dim> &triangulation)
+  {
+    std::vector<Mesh> meshes(size());
+    double n_cells = 0.;
+    for (unsigned int body = 0; body < size(); ++body)
+    {
+      create_mesh(parameters[body].mesh, options, meshes[body]);
+      n_cells +=
+          meshes[body].n_active_cells()
+          * std::pow(
+              2., dim * double(parameters[body].refinements + further_levels));
+    }
+    check_memory(dim, n_cells, degree, options.communicator, "Refinement/Level",
+                 dim);
+    Mesh all;
+    merge(meshes, all);
+    triangulation.copy_triangulation(all);
+    refine_bodies(triangulation);
+  }
+
+  template <int dim>
+  typename Bodies<dim>::BoundaryId
+  Bodies<dim>::number(const unsigned int body, const BoundaryId id) const
+  {
+    return numbers.at({body, id});
+  }
+
+  template <int dim>
+  std::string Bodies<dim>::name(const BoundaryId number) const
+  {
+    return "body " + std::to_string(origin[number].first + 1) + ", boundary "
+           + std::to_string(origin[number].second);
+  }
+
+  template <int dim>
+  unsigned int Bodies<dim>::body_of(const BoundaryId number) const
+  {
+    return origin[number].first;
+  }
+
+  template <int dim>
+  std::pair<unsigned int, std::string>
+  Bodies<dim>::split_body(const std::string &text,
+                          const std::string &parameter) const
+  {
+    const std::size_t colon = text.find(':');
+    std::vector<double> body;
+    if (colon != std::string::npos)
+      body = parse_numbers(text.substr(0, colon), parameter);
+    if (body.size() != 1 || body[0] < 1 || body[0] > size()
+        || body[0] != std::floor(body[0]))
+      throw InputError(parameter,
+                       "'" + text
+                           + "' does not begin with the number of a body, 1 to "
+                           + std::to_string(size()) + ", and a colon.");
+    return {static_cast<unsigned int>(body[0]) - 1, text.substr(colon + 1)};
+  }
+
+  template <int dim>
+  typename Bodies<dim>::BoundaryIds
+  Bodies<dim>::surface(const std::string &text,
+                       const std::string &parameter) const
+  {
+    BoundaryIds result;
+    for (const std::string &part : split_list(text, ';'))
+    {
+      const auto [body, list] = split_body(part, parameter);
+      const BoundaryIds chosen =
+          parse_boundary_ids(list, parameter, user_ids[body]);
+      if (chosen.empty())
+        throw InputError(parameter, "'" + part + "' names no boundary id.");
+      for (const BoundaryId id : chosen)
+        result.insert(number(body, id));
+    }
+    return result;
+  }
+
+  template class Bodies<2>;
+  template class Bodies<3>;
+} // namespace abut::app

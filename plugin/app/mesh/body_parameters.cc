@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "body_parameters.h"
+
+#include "app/input/input_error.h"
+
+namespace abut::app
+{
+  void BodyParameters::declare(dealii::ParameterHandler &prm,
+                               const std::string &section)
+  {
+    namespace Patterns = dealii::Patterns;
+    prm.enter_subsection(section);
+    prm.enter_subsection("Mesh");
+    MeshParameters::declare(prm);
+    prm.leave_subsection();
+    prm.declare_entry("Refinements", "0", Patterns::Integer(0, 30),
+                      "Uniform refinements of this body before those of "
+                      "`Refinement/Level`.");
+    prm.declare_entry("Young modulus", "1", Patterns::Double(),
+                      "E, force per area.");
+    prm.declare_entry("Poisson ratio", "0.3", Patterns::Double(),
+                      "nu, larger than -1 and smaller than 1/2.");
+    prm.declare_entry("Density", "0", Patterns::Double(0.),
+                      "Mass per volume; its weight is density times "
+                      "`Solid/Gravity`.");
+    prm.declare_entry("Support", "", Patterns::Anything(),
+                      "Prescribed displacements by boundary id, `3: 0, 0; 1, "
+                      "2: free, -0.1*t`: a formula in x, y, z, t for each "
+                      "component, or the word free. * means all other ids. "
+                      "Ids that are not named are free.");
+    prm.declare_entry("Traction", "", Patterns::Anything(),
+                      "Forces per area by boundary id, written like "
+                      "`Support`, without the word free.");
+    prm.declare_entry("Pressure", "", Patterns::Anything(),
+                      "Pressure on the boundary by id, `1: 5*t`, positive "
+                      "into the body. Adds to `Traction`.");
+    prm.declare_entry("Body force", "", Patterns::Anything(),
+                      "Force per volume: a formula for each component, "
+                      "separated by commas. Adds to the weight.");
+    prm.leave_subsection();
+  }
+
+  void BodyParameters::parse(dealii::ParameterHandler &prm,
+                             const std::string &section_name)
+  {
+    section = section_name;
+    prm.enter_subsection(section);
+    prm.enter_subsection("Mesh");
+    mesh.parse(prm, section + "/Mesh");
+    prm.leave_subsection();
+    refinements = prm.get_integer("Refinements");
+    young_modulus = prm.get_double("Young modulus");
+    poisson_ratio = prm.get_double("Poisson ratio");
+    density = prm.get_double("Density");
+    support = prm.get("Support");
+    traction = prm.get("Traction");
+    pressure = prm.get("Pressure");
+    body_force = prm.get("Body force");
+    prm.leave_subsection();
+    if (!(young_modulus > 0.))
+      throw InputError(parameter("Young modulus"), "must be positive.");
+    if (!(poisson_ratio > -1. && poisson_ratio < 0.5))
+      throw InputError(parameter("Poisson ratio"),
+                       "must be larger than -1 and smaller than 0.5: at 0.5 "
+                       "the material is incompressible, which displacements "
+                       "alone cannot describe.");
+  }
+} // namespace abut::app

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "make_rigid_obstacle.h"
+
+#include "app/input/dealii_message.h"
+#include "app/input/expression.h"
+#include "app/input/input_error.h"
+#include "app/input/parameters.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace abut::app
+{
+  namespace
+  {
+    using dealii::Point;
+    using dealii::Tensor;
+
+    constexpr double degree = 3.14159265358979323846 / 180;
+
+    /** Numbers of a section, checked. */
+    class Numbers
+    {
+    public:
+      explicit Numbers(const RigidObstacleParameters &parameters)
+          : parameters(parameters)
+      {
+      }
+
+      [[noreturn]] void wrong(const std::string &name,
+                              const std::string &message) const
+      {
+        throw InputError(parameters.parameter(name), message);
+      }
+
+      /** Number in (lower, upper), or equal to `also`. */
+      double
+      number(const std::string &name, const double lower, const double upper,
+             const std::string &legal,
+             const double also = std::numeric_limits<double>::quiet_NaN()) const
+      {
+        const std::vector<double> values = list(name);
+        if (values.size() != 1
+            || !((values[0] > lower && values[0] < upper) || values[0] == also))
+          wrong(name, "'" + parameters.values.at(name) + "' is not " + legal);
+        return values[0];
+      }
+
+      /** Vector of n components, or the given one if there is none. */
+      template <int n>
+      Tensor<1, n> vector(const std::string &name,
+                          const Tensor<1, n> &otherwise) const
+      {
+        const std::vector<double> values = list(name);
+        if (values.empty())
+          return otherwise;
+        if (values.size() != n)
+          wrong(name, "needs " + std::to_string(n) + " numbers, not "
+                          + std::to_string(values.size()) + ".");
+        Tensor<1, n> result;
+        for (unsigned int d = 0; d < n; ++d)
+          result[d] = values[d];
+        return result;
+      }
+
+      /** The same with any length but zero. */
+      template <int n> Tensor<1, n> direction(const std::string &name) const
+      {
+        Tensor<1, n> last;
+        last[n - 1] = 1;
+        const Tensor<1, n> result = vector<n>(name, last);
+        if (!(result.norm() > 0))
+          wrong(name, "a direction must not be zero.");
+        return result;
+      }
+
+      std::vector<double> list(const std::string &name) const
+      {
+        return parse_numbers(parameters.values.at(name),
+                             parameters.parameter(name));
+      }
+
+    private:
+      const RigidObstacleParameters &parameters;
+    };
+
+    template <int dim>
+    abut_obstacle_shape make_shape(const RigidObstacleParameters &parameters)
+    {
+      const Numbers numbers(parameters);
+      const double infinity = std::numeric_limits<double>::infinity();
+      const std::string &kind = parameters.kind;
+      abut_obstacle_shape shape = abut_obstacle_shape_defaults();
+      shape.dimension = dim;
+      shape.hollow = parameters.hollow;
+      shape.kind = kind == "plane"      ? ABUT_OBSTACLE_PLANE
+                   : kind == "sphere"   ? ABUT_OBSTACLE_SPHERE
+                   : kind == "cylinder" ? ABUT_OBSTACLE_CYLINDER
+                   : kind == "box"      ? ABUT_OBSTACLE_BOX
+                                        : ABUT_OBSTACLE_CONE;
+      if (dim == 2 && kind == "cylinder")
+        numbers.wrong("Kind", "a cylinder exists in 3 dimensions only; in 2, "
+                              "its section is a sphere or a box.");
+      const bool tip = kind == "plane" || kind == "cone";
+      const Tensor<1, dim> point =
+          numbers.vector<dim>(tip ? "Point" : "Centre", Tensor<1, dim>());
+      const Tensor<1, dim> axis =
+          numbers.direction<dim>(kind == "plane" ? "Normal" : "Axis");
+      std::vector<double> size = numbers.list("Size");
+      if (size.size() == 1)
+        size.resize(dim, size[0]);
+      if (size.size() != dim)
+        numbers.wrong("Size",
+                      "needs one number or " + std::to_string(dim) + ".");
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        shape.point[d] = point[d];
+        shape.axis[d] = axis[d];
+        shape.size[d] = size[d];
+        if (!(size[d] > 0))
+          numbers.wrong("Size", "lengths must be positive.");
+      }
+      shape.radius =
+          numbers.number("Radius", 0, infinity, "a positive number.");
+      shape.length =
+          numbers.number("Length", 0, infinity, "a positive number or 0.", 0);
+      shape.angle =
+          degree * numbers.number("Angle", 0, 90, "a number between 0 and 90.");
+      return shape;
+    }
+
+    /** Values and gradients of a formula; what is not finite is an error that
+     * names the parameter and the point. */
+    template <int dim> class CheckedFormula : public dealii::Function<dim>
+    {
+    public:
+      explicit CheckedFormula(const RigidObstacleParameters &parameters)
+          : value_formula(parameters.values.at("Expression"),
+                          parameters.parameter("Expression"))
+      {
+        const std::string &text = parameters.values.at("Gradient");
+        if (!text.empty())
+          gradient_formula = std::make_unique<Expression<dim>>(
+              text, parameters.parameter("Gradient"), dim);
+      }
+
+      void set_time(const double time) override
+      {
+        dealii::Function<dim>::set_time(time);
+        value_formula.set_time(time);
+        if (gradient_formula)
+          gradient_formula->set_time(time);
+      }
+
+      void value_list(const std::vector<Point<dim>> &points,
+                      std::vector<double> &values,
+                      const unsigned int = 0) const override
+      {
+        values = value_formula.evaluate(points);
+      }
+
+      void gradient_list(const std::vector<Point<dim>> &points,
+                         std::vector<Tensor<1, dim>> &gradients,
+                         const unsigned int = 0) const override
+      {
+        for (unsigned int d = 0; d < dim && gradient_formula; ++d)
+        {
+          const std::vector<double> values =
+              gradient_formula->evaluate(points, d);
+          for (std::size_t i = 0; i < points.size(); ++i)
+            gradients[i][d] = values[i];
+        }
+        if (!gradient_formula)
+          for (std::size_t i = 0; i < points.size(); ++i)
+            gradients[i] = value_formula.gradient(points[i]);
+      }
+
+    private:
+      Expression<dim> value_formula;
+      std::unique_ptr<Expression<dim>> gradient_formula;
+    };
+
+    template <int dim>
+    std::shared_ptr<RigidObstacle<dim>>
+    make_height(const RigidObstacleParameters &parameters)
+    {
+      const Numbers numbers(parameters);
+      const Tensor<1, dim> axis = numbers.direction<dim>("Axis");
+      HeightObstacle<dim> height;
+      unsigned int n_used = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (axis[d] != 0)
+        {
+          ++n_used;
+          height.axis = d;
+          height.material_above = axis[d] < 0;
+        }
+      if (n_used != 1)
+        numbers.wrong("Axis", "the axis of a height must be a coordinate axis, "
+                              "along it or against it.");
+      if (parameters.hollow)
+        height.material_above = !height.material_above;
+      height.along_axis = parameters.along_axis;
+      height.height = std::make_shared<CheckedFormula<dim>>(parameters);
+      return std::make_shared<RigidObstacle<dim>>(height);
+    }
+
+    template <int dim>
+    std::shared_ptr<RigidObstacle<dim>>
+    make_surface_obstacle(const RigidObstacleParameters &parameters,
+                          const RunOptions &options)
+    {
+      const SurfaceArrays arrays =
+          make_surface<dim>(parameters.surface, options);
+      abut_surface_data data = abut_surface_data_defaults();
+      data.dimension = dim;
+      data.n_nodes = arrays.n_nodes();
+      data.n_facets = arrays.n_facets();
+      data.kind = arrays.kind;
+      data.connectivity = arrays.connectivity.data();
+      data.position = arrays.position.data();
+      abut_obstacle_surface how = abut_obstacle_surface_defaults();
+      how.open = parameters.open;
+      how.hollow = parameters.hollow;
+      how.limit =
+          Numbers(parameters)
+              .number("Limit", 0, std::numeric_limits<double>::infinity(),
+                      "a positive number or 0.", 0);
+      try
+      {
+        return std::make_shared<RigidObstacle<dim>>(data, how);
+      }
+      catch (const dealii::ExceptionBase &error)
+      {
+        throw InputError(arrays.parameter,
+                         arrays.origin + " is no surface of an obstacle: "
+                             + dealii_message(error)
+                             + (parameters.open ? ""
+                                                : " (`Open surface = true` "
+                                                  "allows borders.)"));
+      }
+    }
+
+    /** Where Rotate and Move put the obstacle before any motion; surfaces have
+     * been put there node by node. */
+    template <int dim>
+    RigidPose<dim> first_pose(const RigidObstacleParameters &parameters)
+    {
+      RigidPose<dim> pose = RigidPose<dim>::turned(
+          0, Point<dim>(), Tensor<1, 3>({0, 0, 1}), Tensor<1, dim>());
+      if (parameters.kind == "surface")
+        return pose;
+      const Placement<dim> placement =
+          make_placement<dim>(parameters.surface.mesh);
+      for (unsigned int j = 0; j < dim; ++j)
+      {
+        const Tensor<1, dim> column =
+            placement.place_direction(Point<dim>::unit_vector(j));
+        for (unsigned int i = 0; i < dim; ++i)
+          pose.rotation[i][j] = column[i];
+      }
+      pose.translation = placement.place(Point<dim>()) - Point<dim>();
+      return pose;
+    }
+
+    /** Formulas in t alone. */
+    template <int dim> class TimeFormula
+    {
+    public:
+      TimeFormula(const RigidObstacleParameters &parameters,
+                  const std::string &name, const unsigned int n_components)
+          : n_components(n_components)
+      {
+        const std::string &text = parameters.values.at(name);
+        if (text.empty())
+          return;
+        expression = std::make_unique<Expression<dim>>(
+            text, parameters.parameter(name), n_components);
+        Point<dim> elsewhere;
+        for (unsigned int d = 0; d < dim; ++d)
+          elsewhere[d] = 0.37 + 0.11 * d;
+        expression->set_time(0.59);
+        for (unsigned int c = 0; c < n_components; ++c)
+          if (expression->value(Point<dim>(), c)
+              != expression->value(elsewhere, c))
+            throw InputError(parameters.parameter(name),
+                             "'" + text
+                                 + "' depends on the place; a rigid motion "
+                                   "is a formula in t only.");
+      }
+
+      bool is_present() const
+      {
+        return expression != nullptr;
+      }
+
+      /** Values at a time; throws InputError if they are not finite. */
+      std::vector<double> at(const double time)
+      {
+        std::vector<double> values(n_components, 0.);
+        if (!expression)
+          return values;
+        expression->set_time(time);
+        for (unsigned int c = 0; c < n_components; ++c)
+          values[c] = expression->evaluate({Point<dim>()}, c)[0];
+        return values;
+      }
+
+    private:
+      const unsigned int n_components;
+      std::unique_ptr<Expression<dim>> expression;
+    };
+
+    /** The motion that follows the first pose. */
+    template <int dim> class Motion
+    {
+    public:
+      explicit Motion(const RigidObstacleParameters &parameters)
+          : first(first_pose<dim>(parameters)),
+            translation(parameters, "Motion", dim),
+            angle(parameters, "Rotation angle", 1)
+      {
+        const Numbers numbers(parameters);
+        centre = Point<dim>(
+            numbers.vector<dim>("Rotation centre", Tensor<1, dim>()));
+        axis = numbers.direction<3>("Rotation axis");
+      }
+
+      RigidPose<dim> at(const double time)
+      {
+        const std::vector<double> shift = translation.at(time);
+        Tensor<1, dim> moved;
+        for (unsigned int d = 0; d < dim; ++d)
+          moved[d] = shift[d];
+        const RigidPose<dim> motion = RigidPose<dim>::turned(
+            degree * angle.at(time)[0], centre, axis, moved);
+        return {motion.rotation * first.rotation,
+                motion.rotation * first.translation + motion.translation};
+      }
+
+    private:
+      const RigidPose<dim> first;
+      TimeFormula<dim> translation, angle;
+      Point<dim> centre;
+      Tensor<1, 3> axis;
+    };
+
+    template <int dim>
+    std::shared_ptr<RigidObstacle<dim>>
+    make_unplaced(const RigidObstacleParameters &parameters,
+                  const RunOptions &options)
+    {
+      if (parameters.kind == "surface")
+        return make_surface_obstacle<dim>(parameters, options);
+      if (parameters.kind == "height")
+        return make_height<dim>(parameters);
+      if (parameters.kind == "distance")
+        return std::make_shared<RigidObstacle<dim>>(
+            std::make_shared<CheckedFormula<dim>>(parameters),
+            parameters.hollow);
+      return std::make_shared<RigidObstacle<dim>>(make_shape<dim>(parameters));
+    }
+  } // namespace
+
+  template <int dim>
+  std::shared_ptr<RigidObstacle<dim>>
+  make_rigid_obstacle(const RigidObstacleParameters &parameters,
+                      const RunOptions &options)
+  {
+    const auto motion = std::make_shared<Motion<dim>>(parameters);
+    std::shared_ptr<RigidObstacle<dim>> obstacle =
+        make_unplaced<dim>(parameters, options);
+    obstacle->set_motion([motion](const double time)
+                         { return motion->at(time); });
+    obstacle->set_time(0);
+    return obstacle;
+  }
+
+  template std::shared_ptr<RigidObstacle<2>>
+  make_rigid_obstacle<2>(const RigidObstacleParameters &, const RunOptions &);
+  template std::shared_ptr<RigidObstacle<3>>
+  make_rigid_obstacle<3>(const RigidObstacleParameters &, const RunOptions &);
+} // namespace abut::app

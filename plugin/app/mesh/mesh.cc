@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include "mesh.h"
+
+#include "app/input/collective.h"
+#include "app/input/dealii_message.h"
+#include "app/input/expression.h"
+#include "app/input/input_error.h"
+#include "app/input/parameters.h"
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/patterns.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** The names that deal.II's generate_from_name_and_arguments() knows (it
+     * offers no list of them); only used to answer a wrong one. */
+    const std::vector<std::string> &generators()
+    {
+      static const std::vector<std::string> names = {
+          "hyper_cube",
+          "subdivided_hyper_cube",
+          "hyper_rectangle",
+          "subdivided_hyper_rectangle",
+          "cheese",
+          "general_cell",
+          "hyper_cross",
+          "plate_with_a_hole",
+          "channel_with_cylinder",
+          "enclosed_hyper_cube",
+          "hyper_ball",
+          "hyper_ball_balanced",
+          "quarter_hyper_ball",
+          "half_hyper_ball",
+          "cylinder",
+          "subdivided_cylinder",
+          "truncated_cone",
+          "pipe_junction",
+          "hyper_L",
+          "hyper_cube_slit",
+          "hyper_shell",
+          "half_hyper_shell",
+          "quarter_hyper_shell",
+          "eccentric_hyper_shell",
+          "cylinder_shell",
+          "concentric_hyper_shells",
+          "torus",
+          "simplex",
+          "moebius"};
+      return names;
+    }
+
+    /** While it lives, failed assertions of deal.II's debug library throw
+     * instead of ending the program: what a user wrote may well violate them.
+     */
+    class AssertionsThrow
+    {
+    public:
+      AssertionsThrow()
+      {
+        dealii::deal_II_exceptions::disable_abort_on_exception();
+      }
+      ~AssertionsThrow()
+      {
+        dealii::deal_II_exceptions::enable_abort_on_exception();
+      }
+      AssertionsThrow(const AssertionsThrow &) = delete;
+      AssertionsThrow &operator=(const AssertionsThrow &) = delete;
+    };
+
+    template <int dim>
+    void generate(const MeshParameters &parameters,
+                  dealii::Triangulation<dim> &triangulation)
+    {
+      const std::string in_dimension =
+          " in " + std::to_string(dim) + " dimensions";
+      try
+      {
+        dealii::GridGenerator::generate_from_name_and_arguments(
+            triangulation, parameters.generator, parameters.arguments);
+      }
+      catch (const std::exception &error)
+      {
+        const bool known = std::find(generators().begin(), generators().end(),
+                                     parameters.generator)
+                           != generators().end();
+        const std::string message = dealii_message(error);
+        if (!known)
+          throw InputError(
+              parameters.section + "/Generator",
+              "deal.II has no generator '" + parameters.generator + "'."
+                  + did_you_mean(parameters.generator, generators()));
+        if (message.find("not implemented") != std::string::npos)
+          throw InputError(parameters.section + "/Generator",
+                           "the generator '" + parameters.generator
+                               + "' does not exist" + in_dimension + ".");
+        throw InputError(parameters.section + "/Arguments",
+                         "'" + parameters.arguments
+                             + "' are not arguments of "
+                               "dealii::GridGenerator::"
+                             + parameters.generator + "()" + in_dimension
+                             + " (all of them, separated by ':'): " + message);
+      }
+    }
+
+    template <int dim>
+    void read(const MeshParameters &parameters, const RunOptions &options,
+              dealii::Triangulation<dim> &triangulation)
+    {
+      const std::string parameter = parameters.section + "/File";
+      const std::filesystem::path path = options.input_file(parameters.file);
+      std::ifstream in(path);
+      if (!in || std::filesystem::is_directory(path))
+        throw InputError(parameter, "the mesh file '" + path.string()
+                                        + "' cannot be opened.");
+      std::string extension = path.extension().string();
+      extension = extension.empty() ? "" : extension.substr(1);
+      using GridIn = dealii::GridIn<dim>;
+      typename GridIn::Format format = GridIn::Default;
+      try
+      {
+        format = GridIn::parse_format(extension);
+      }
+      catch (const std::exception &)
+      {
+        throw InputError(parameter, "the mesh file '" + path.string()
+                                        + "' is of no known kind; by its "
+                                          "ending it must be one of msh "
+                                          "(gmsh), inp, ucd, vtk, vtu, unv, "
+                                          "xda.");
+      }
+      GridIn reader(triangulation);
+      try
+      {
+        reader.read(in, format);
+      }
+      catch (const std::exception &error)
+      {
+        throw InputError(parameter, "the mesh file '" + path.string()
+                                        + "' cannot be read as a mesh in "
+                                        + std::to_string(dim) + " dimensions: "
+                                        + dealii_message(error));
+      }
+    }
+
+    /** What a coarse mesh must be, whoever made it. */
+    template <int dim>
+    void check_mesh(const MeshParameters &parameters,
+                    const dealii::Triangulation<dim> &triangulation)
+    {
+      const std::string parameter =
+          parameters.section
+          + (parameters.file.empty() ? "/Arguments" : "/File");
+      if (!triangulation.all_reference_cells_are_hyper_cube())
+        throw InputError(parameter,
+                         dim == 2 ? "the mesh has triangles; it may have "
+                                    "quadrilaterals only (in gmsh: Recombine)."
+                                  : "the mesh has tetrahedra, wedges or "
+                                    "pyramids; it may have hexahedra only.");
+      for (const dealii::Point<dim> &vertex : triangulation.get_vertices())
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!std::isfinite(vertex[d]))
+            throw InputError(parameter,
+                             "a coordinate of the mesh is not finite.");
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (!(cell->measure() > 0))
+          throw InputError(parameter,
+                           "cell " + std::to_string(cell->active_cell_index())
+                               + " of the mesh is folded or has no volume.");
+    }
+
+    /** Generated or read, one level, in its own place. */
+    template <int dim>
+    std::shared_ptr<const dealii::Triangulation<dim>>
+    make_reference(const MeshParameters &parameters, const RunOptions &options)
+    {
+      const AssertionsThrow throwing;
+      auto made = std::make_shared<dealii::Triangulation<dim>>();
+      if (parameters.file.empty())
+        generate(parameters, *made);
+      else
+        read(parameters, options, *made);
+      check_mesh(parameters, *made);
+      if (made->n_levels() == 1)
+        return made;
+      auto flat = std::make_shared<dealii::Triangulation<dim>>();
+      dealii::GridGenerator::flatten_triangulation(*made, *flat);
+      for (const dealii::types::manifold_id id : made->get_manifold_ids())
+        if (id != dealii::numbers::flat_manifold_id)
+          flat->set_manifold(id, made->get_manifold(id));
+      return flat;
+    }
+  } // namespace
+
+  void MeshParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.declare_entry("Generator", "hyper_cube", Anything(),
+                      "Name of a function of deal.II's namespace "
+                      "GridGenerator that makes the coarse mesh.");
+    prm.declare_entry("Arguments", "-1 : 1 : false", Anything(),
+                      "All its arguments (optional ones too), separated by "
+                      "colons; points and lists by commas. For hyper_cube: "
+                      "left : right : colorize.");
+    prm.declare_entry("File", "", Anything(),
+                      "Mesh file (msh of gmsh, inp or ucd, vtk, vtu, unv, "
+                      "xda), read instead of generating a mesh; relative "
+                      "names are relative to the scene file.");
+    prm.declare_entry("Scale", "1", Anything(),
+                      "Factor, or one per direction, applied first.");
+    prm.declare_entry("Rotate", "", Anything(),
+                      "Angle in degrees about the origin (2D), or three "
+                      "angles about x, then y, then z (3D), applied second.");
+    prm.declare_entry("Move", "", Anything(), "Shift, applied last.");
+    prm.declare_entry("Boundary ids", "", Anything(),
+                      "Boundary ids by condition on the centre of a face of "
+                      "the coarse mesh: 'id: condition' separated by ';', "
+                      "for example '1: y > 0.99; 2: abs(x) < 1e-6'. A later "
+                      "entry wins.");
+  }
+
+  void MeshParameters::parse(dealii::ParameterHandler &prm,
+                             const std::string &section_name)
+  {
+    section = section_name;
+    generator = prm.get("Generator");
+    arguments = prm.get("Arguments");
+    file = prm.get("File");
+    boundary_ids = prm.get("Boundary ids");
+    const auto numbers = [&](const std::string &name)
+    { return parse_numbers(prm.get(name), section + "/" + name); };
+    scale = numbers("Scale");
+    rotate = numbers("Rotate");
+    move = numbers("Move");
+    for (const double factor : scale)
+      if (!(factor > 0))
+        throw InputError(section + "/Scale", "factors must be positive.");
+  }
+
+  template <int dim>
+  Placement<dim> make_placement(const MeshParameters &parameters)
+  {
+    const auto wrong =
+        [&parameters](const std::string &name, const std::string &message)
+    { throw InputError(parameters.section + "/" + name, message); };
+    const auto vector =
+        [&wrong](const std::vector<double> &numbers, const std::string &name)
+    {
+      dealii::Tensor<1, dim> result;
+      if (!numbers.empty() && numbers.size() != dim)
+        wrong(name, "needs " + std::to_string(dim) + " numbers, not "
+                        + std::to_string(numbers.size()) + ".");
+      for (unsigned int d = 0; d < numbers.size(); ++d)
+        result[d] = numbers[d];
+      return result;
+    };
+
+    dealii::Tensor<2, dim> matrix;
+    for (unsigned int d = 0; d < dim; ++d)
+      matrix[d][d] = parameters.scale.empty() ? 1 : parameters.scale[0];
+    if (parameters.scale.size() > 1)
+    {
+      const auto factors = vector(parameters.scale, "Scale");
+      for (unsigned int d = 0; d < dim; ++d)
+        matrix[d][d] = factors[d];
+    }
+    const std::size_t n_angles = dim == 2 ? 1 : 3;
+    if (!parameters.rotate.empty() && parameters.rotate.size() != n_angles)
+      wrong("Rotate", dim == 2 ? "needs one angle in degrees."
+                               : "needs three angles in degrees, about "
+                                 "x, then y, then z.");
+    for (std::size_t axis = 0; axis < parameters.rotate.size(); ++axis)
+    {
+      const double angle =
+          parameters.rotate[axis] * 3.14159265358979323846 / 180;
+      const unsigned int i = dim == 2 ? 0 : unsigned(axis + 1) % 3;
+      const unsigned int j = dim == 2 ? 1 : unsigned(axis + 2) % 3;
+      dealii::Tensor<2, dim> rotation;
+      for (unsigned int d = 0; d < dim; ++d)
+        rotation[d][d] = 1;
+      rotation[i][i] = rotation[j][j] = std::cos(angle);
+      rotation[j][i] = std::sin(angle);
+      rotation[i][j] = -std::sin(angle);
+      matrix = rotation * matrix;
+    }
+    return {matrix, vector(parameters.move, "Move")};
+  }
+
+  template <int dim>
+  void create_mesh(const MeshParameters &parameters, const RunOptions &options,
+                   dealii::Triangulation<dim> &triangulation)
+  {
+    std::shared_ptr<const dealii::Triangulation<dim>> reference;
+    dealii::Triangulation<dim> placed;
+    const auto prepare = [&]()
+    {
+      const Placement<dim> placement = make_placement<dim>(parameters);
+      reference = make_reference<dim>(parameters, options);
+      placed.copy_triangulation(*reference);
+      dealii::GridTools::transform([&placement](const dealii::Point<dim> &x)
+                                   { return placement.place(x); },
+                                   placed);
+      set_boundary_ids(parameters.boundary_ids,
+                       parameters.section + "/Boundary ids", placed);
+      for (const dealii::types::manifold_id id : reference->get_manifold_ids())
+        if (id != dealii::numbers::flat_manifold_id)
+          placed.set_manifold(id,
+                              PlacedManifold<dim>(reference, id, placement));
+    };
+    collective(options.communicator, prepare);
+    triangulation.copy_triangulation(placed);
+  }
+
+  template <int dim>
+  void set_boundary_ids(const std::string &text, const std::string &parameter,
+                        dealii::Triangulation<dim> &triangulation)
+  {
+    for (const std::string &entry : split_list(text, ';'))
+    {
+      if (entry.empty())
+        continue;
+      const std::size_t colon = entry.find(':');
+      const std::vector<double> id =
+          colon == std::string::npos
+              ? std::vector<double>()
+              : parse_numbers(entry.substr(0, colon), parameter);
+      if (id.size() != 1 || id[0] < 0 || id[0] != std::floor(id[0])
+          || id[0] >= dealii::numbers::internal_face_boundary_id)
+        throw InputError(parameter,
+                         "'" + entry
+                             + "' is not of the form 'id: condition' with a "
+                               "whole number from 0.");
+      const Expression<dim> condition(entry.substr(colon + 1), parameter);
+      bool found = false;
+      for (const auto &face : triangulation.active_face_iterators())
+        if (face->at_boundary() && condition.value(face->center()) > 0)
+        {
+          face->set_all_boundary_ids(
+              static_cast<dealii::types::boundary_id>(id[0]));
+          found = true;
+        }
+      if (!found)
+        throw InputError(parameter, "no boundary face of the coarse mesh has "
+                                    "its centre where '"
+                                        + entry.substr(colon + 1) + " '.");
+    }
+  }
+
+  template Placement<2> make_placement<2>(const MeshParameters &);
+  template Placement<3> make_placement<3>(const MeshParameters &);
+  template void create_mesh<2>(const MeshParameters &, const RunOptions &,
+                               dealii::Triangulation<2> &);
+  template void create_mesh<3>(const MeshParameters &, const RunOptions &,
+                               dealii::Triangulation<3> &);
+  template void set_boundary_ids<2>(const std::string &, const std::string &,
+                                    dealii::Triangulation<2> &);
+  template void set_boundary_ids<3>(const std::string &, const std::string &,
+                                    dealii::Triangulation<3> &);
+} // namespace abut::app

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_MESH_H
+#define ABUT_APP_MESH_H
+
+/** @file
+ * Coarse meshes from a scene file: a generator of deal.II by name, or a file.
+ */
+
+#include "app/input/run_options.h"
+#include "placed_manifold.h"
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/grid/tria.h>
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace abut::app
+{
+  /** Section `Mesh` of a scene. */
+  struct MeshParameters
+  {
+    std::string generator; /**< function of deal.II's GridGenerator */
+    std::string arguments; /**< its arguments, `a : b : c` */
+    std::string file;      /**< used instead of the generator if not empty */
+    std::vector<double> scale;
+    std::vector<double> rotate;
+    std::vector<double> move;
+    std::string boundary_ids;
+    std::string section; /**< full name of the section, for messages */
+
+    /** Declare the parameters in the present section of @p prm. */
+    static void declare(dealii::ParameterHandler &prm);
+
+    /** Read them; @p section is the present section's full name. Throws
+     * InputError for values that cannot be right in any dimension. */
+    void parse(dealii::ParameterHandler &prm, const std::string &section);
+  };
+
+  /** The placement that Scale, Rotate and Move ask for; throws InputError for
+   * a wrong number of numbers. */
+  template <int dim>
+  Placement<dim> make_placement(const MeshParameters &parameters);
+
+  /** Create the coarse mesh in the empty @p triangulation: generate or read
+   * it, then scale, rotate and move it, then set boundary ids. Manifolds of
+   * generators stay attached (as long as nothing but moving, rotating and equal
+   * scaling is asked for; unequal scaling flattens them).
+   *
+   * Throws InputError, on all ranks alike, that names the parameter: an unknown
+   * generator (with the nearest right names), arguments that do not fit (with
+   * what deal.II expected), a file that is missing, of unknown format, or of
+   * another dimension. Collective. */
+  template <int dim>
+  void create_mesh(const MeshParameters &parameters, const RunOptions &options,
+                   dealii::Triangulation<dim> &triangulation);
+
+  /** Give the boundary faces whose centre satisfies a condition an id:
+   * `1: y > 0.99; 2: abs(x) < 1e-6` (later entries win). An entry that no
+   * face satisfies is an InputError. */
+  template <int dim>
+  void set_boundary_ids(const std::string &text, const std::string &parameter,
+                        dealii::Triangulation<dim> &triangulation);
+} // namespace abut::app
+
+#endif

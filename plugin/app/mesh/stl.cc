@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+/* Reading STL files. A binary file is 80 bytes of anything, the number n of
+ * triangles, and 50 bytes for each: normal and three vertices as 32-bit
+ * numbers, and two bytes of anything. It may begin like a text file, so its
+ * length decides. Text is
+ *
+ *     solid NAME
+ *       facet normal a b c
+ *         outer loop
+ *           vertex x y z     (three times)
+ *         endloop
+ *       endfacet
+ *     endsolid NAME
+ */
+#include "stl.h"
+
+#include "app/input/input_error.h"
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+namespace abut::app
+{
+  namespace
+  {
+    constexpr std::size_t header = 80, prefix = 84, triangle_size = 50;
+
+    class Reader
+    {
+    public:
+      Reader(const std::filesystem::path &file, const std::string &parameter)
+          : file(file), parameter(parameter)
+      {
+        std::ifstream in(file, std::ios::binary);
+        if (!in || std::filesystem::is_directory(file))
+          complain("cannot be opened.");
+        bytes.assign(std::istreambuf_iterator<char>(in), {});
+      }
+
+      Triangles read()
+      {
+        if (is_binary())
+          read_binary();
+        else
+          read_text();
+        if (result.connectivity.empty())
+          complain("has no triangles.");
+        return std::move(result);
+      }
+
+    private:
+      [[noreturn]] void complain(const std::string &what) const
+      {
+        throw InputError(parameter,
+                         "the surface file '" + file.string() + "' " + what);
+      }
+
+      /** 32-bit number at @p place, lowest byte first. */
+      std::uint32_t bits_at(const std::size_t place) const
+      {
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+          value |= static_cast<std::uint32_t>(
+                       static_cast<unsigned char>(bytes[place + i]))
+                   << (8 * i);
+        return value;
+      }
+
+      bool is_binary() const
+      {
+        return bytes.size() >= prefix
+               && bytes.size()
+                      == prefix + triangle_size * std::size_t(bits_at(header));
+      }
+
+      void add(const std::array<double, 3> &x, const std::string &where)
+      {
+        for (const double coordinate : x)
+          if (!std::isfinite(coordinate))
+            complain("has a coordinate that is not finite " + where + ".");
+        // -0 and 0 are one place.
+        const std::array<double, 3> key = {{x[0] + 0., x[1] + 0., x[2] + 0.}};
+        const auto entry =
+            numbers
+                .emplace(key, static_cast<std::int32_t>(result.vertices.size()))
+                .first;
+        if (entry->second == static_cast<std::int32_t>(result.vertices.size()))
+          result.vertices.push_back(key);
+        result.connectivity.push_back(entry->second);
+      }
+
+      void read_binary()
+      {
+        const std::size_t n = bits_at(header);
+        for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t v = 0; v < 3; ++v)
+          {
+            std::array<double, 3> x;
+            for (std::size_t d = 0; d < 3; ++d)
+            {
+              const std::uint32_t bits =
+                  bits_at(prefix + triangle_size * i + 12 * (v + 1) + 4 * d);
+              float value;
+              std::memcpy(&value, &bits, sizeof value);
+              x[d] = static_cast<double>(value);
+            }
+            add(x, "in triangle " + std::to_string(i));
+          }
+      }
+
+      void read_text()
+      {
+        std::istringstream in(bytes);
+        std::string line, word;
+        std::size_t number = 0, n_in_loop = 0;
+        bool begun = false;
+        while (std::getline(in, line))
+        {
+          ++number;
+          const std::string where = "in line " + std::to_string(number);
+          std::istringstream words(line);
+          if (!(words >> word))
+            continue;
+          if (!begun && word != "solid")
+            complain("is neither a text file that begins with 'solid' nor as "
+                     "long as a binary one must be (84 bytes and 50 for each "
+                     "triangle).");
+          begun = true;
+          if (word == "vertex")
+          {
+            std::array<double, 3> x;
+            if (!(words >> x[0] >> x[1] >> x[2]))
+              complain("has no three numbers after 'vertex' " + where + ".");
+            add(x, where);
+            ++n_in_loop;
+          }
+          else if (word == "endloop" || word == "endfacet")
+          {
+            if (word == "endloop" && n_in_loop != 3)
+              complain("has a loop of " + std::to_string(n_in_loop)
+                       + " vertices " + where + ".");
+            n_in_loop = 0;
+          }
+          else if (word != "solid" && word != "facet" && word != "outer"
+                   && word != "endsolid")
+            complain("has the unknown word '" + word + "' " + where + ".");
+        }
+        if (n_in_loop != 0)
+          complain("ends within a triangle.");
+      }
+
+      const std::filesystem::path file;
+      const std::string parameter;
+      std::string bytes;
+      Triangles result;
+      std::map<std::array<double, 3>, std::int32_t> numbers;
+    };
+  } // namespace
+
+  Triangles read_stl(const std::filesystem::path &file,
+                     const std::string &parameter)
+  {
+    return Reader(file, parameter).read();
+  }
+} // namespace abut::app

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include "surface_mesh.h"
+
+#include "app/input/boundary_expressions.h"
+#include "app/input/expression.h"
+#include "app/input/input_error.h"
+#include "memory_check.h"
+#include "stl.h"
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace abut::app
+{
+  namespace
+  {
+    using Ids = std::set<dealii::types::boundary_id>;
+
+    bool is_stl(const std::string &file)
+    {
+      std::string ending = std::filesystem::path(file).extension().string();
+      for (char &c : ending)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      return ending == ".stl";
+    }
+
+    template <int dim, typename Cell>
+    bool at_surface(const Cell &cell, const Ids &ids)
+    {
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary()
+            && ids.count(cell->face(f)->boundary_id()) > 0)
+          return true;
+      return false;
+    }
+
+    /** Refine the cells at the surface only: their number stays in proportion
+     * to that of the facets. */
+    template <int dim>
+    void refine(const SurfaceParameters &parameters, const Ids &ids,
+                dealii::Triangulation<dim> &triangulation)
+    {
+      double n_surface = 0;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        n_surface += at_surface<dim>(cell, ids) ? 1 : 0;
+      const double finest =
+          n_surface * std::pow(2., (dim - 1.) * parameters.refinements);
+      check_memory(dim, triangulation.n_active_cells() + 3 * finest, 1,
+                   MPI_COMM_SELF, parameters.mesh.section + "/Refinements");
+      for (unsigned int i = 0; i < parameters.refinements; ++i)
+      {
+        for (const auto &cell : triangulation.active_cell_iterators())
+          if (at_surface<dim>(cell, ids))
+            cell->set_refine_flag();
+        triangulation.execute_coarsening_and_refinement();
+      }
+    }
+
+    /** Positions of all vertices of cells, mapped. */
+    template <int dim>
+    std::vector<dealii::Point<dim>>
+    mapped_vertices(const SurfaceParameters &parameters,
+                    const dealii::Triangulation<dim> &triangulation)
+    {
+      std::vector<dealii::Point<dim>> points = triangulation.get_vertices();
+      if (parameters.map.empty())
+        return points;
+      const Expression<dim> map(parameters.map,
+                                parameters.mesh.section + "/Map", dim);
+      const std::vector<bool> &used = triangulation.get_used_vertices();
+      std::vector<dealii::Point<dim>> chosen;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if (used[i])
+          chosen.push_back(points[i]);
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const std::vector<double> values = map.evaluate(chosen, d);
+        for (std::size_t i = 0, k = 0; i < points.size(); ++i)
+          if (used[i])
+            points[i][d] = values[k++];
+      }
+      return points;
+    }
+
+    /** A map that mirrors or folds the body would turn its surface inside
+     * out. */
+    template <int dim>
+    void check_cell(
+        const SurfaceParameters &parameters,
+        const std::vector<dealii::Point<dim>> &vertices,
+        const typename dealii::Triangulation<dim>::active_cell_iterator &cell)
+    {
+      std::array<unsigned int, dealii::GeometryInfo<dim>::vertices_per_cell>
+          indices;
+      for (const unsigned int v : cell->vertex_indices())
+        indices[v] = cell->vertex_index(v);
+      if (!(dealii::GridTools::cell_measure<dim>(
+                vertices,
+                dealii::make_array_view(indices.begin(), indices.end()))
+            > 0))
+        throw InputError(
+            parameters.mesh.section + "/Map",
+            "'" + parameters.map
+                + "' mirrors or folds the body (at the cell "
+                  "around "
+                + dealii::Patterns::Tools::to_string(cell->center())
+                + " before the map).");
+    }
+
+    /** Vertices of face @p f of a cell in the order of abut/facet.h, outward.
+     * The order on the reference cell is (y, z), (z, x), (x, y) in 3D: its
+     * normal points along the axis, inward on faces of even number. In 2D it
+     * is along the axis; (ty, -tx) is outward on faces 1 and 2. */
+    template <int dim, typename Cell>
+    std::array<unsigned int, dealii::GeometryInfo<dim>::vertices_per_face>
+    outward_face(const Cell &cell, const unsigned int f)
+    {
+      using Geometry = dealii::GeometryInfo<dim>;
+      std::array<unsigned int, Geometry::vertices_per_face> vertices;
+      for (unsigned int v = 0; v < vertices.size(); ++v)
+        vertices[v] = cell->vertex_index(Geometry::face_to_cell_vertices(f, v));
+      if (dim == 2 && (f == 0 || f == 3))
+        std::swap(vertices[0], vertices[1]);
+      if (dim == 3 && f % 2 == 0)
+        std::swap(vertices[1], vertices[dim - 1]);
+      return vertices;
+    }
+
+    template <int dim>
+    void extract(const SurfaceParameters &parameters, const Ids &ids,
+                 const dealii::Triangulation<dim> &triangulation,
+                 SurfaceArrays &surface)
+    {
+      const std::vector<dealii::Point<dim>> vertices =
+          mapped_vertices(parameters, triangulation);
+      std::vector<std::int32_t> node(vertices.size(), -1);
+      std::int32_t n_nodes = 0;
+      for (const auto &cell : triangulation.active_cell_iterators())
+      {
+        if (!cell->at_boundary() || !at_surface<dim>(cell, ids))
+          continue;
+        if (!parameters.map.empty())
+          check_cell<dim>(parameters, vertices, cell);
+        for (const unsigned int f : cell->face_indices())
+        {
+          const auto face = cell->face(f);
+          if (!face->at_boundary() || ids.count(face->boundary_id()) == 0)
+            continue;
+          surface.group.push_back(
+              static_cast<std::int32_t>(face->boundary_id()));
+          for (const unsigned int v : outward_face<dim>(cell, f))
+          {
+            if (node[v] < 0)
+            {
+              node[v] = n_nodes++;
+              for (unsigned int d = 0; d < dim; ++d)
+                surface.position.push_back(vertices[v][d]);
+            }
+            surface.connectivity.push_back(node[v]);
+          }
+        }
+      }
+    }
+
+    template <int dim>
+    SurfaceArrays boundary_of_mesh(const SurfaceParameters &parameters,
+                                   const RunOptions &options)
+    {
+      const MeshParameters &mesh = parameters.mesh;
+      dealii::Triangulation<dim> triangulation;
+      create_mesh<dim>(mesh, options, triangulation);
+      const Ids ids = parse_boundary_ids(parameters.surface_ids,
+                                         mesh.section + "/Surface ids",
+                                         triangulation.get_boundary_ids());
+      refine<dim>(parameters, ids, triangulation);
+      SurfaceArrays surface;
+      surface.dimension = dim;
+      surface.kind = dim == 2 ? ABUT_FACET_LINE2 : ABUT_FACET_QUAD4;
+      surface.origin = mesh.file.empty()
+                           ? "generator " + mesh.generator
+                           : "file " + options.input_file(mesh.file).string();
+      surface.parameter =
+          mesh.section + (mesh.file.empty() ? "/Arguments" : "/File");
+      extract<dim>(parameters, ids, triangulation, surface);
+      return surface;
+    }
+
+    /** What has no meaning for a file of triangles must not be given. */
+    void refuse_mesh_parameters(const SurfaceParameters &parameters)
+    {
+      const std::string &section = parameters.mesh.section;
+      const auto refuse = [&section](const char *name)
+      {
+        throw InputError(section + "/" + name,
+                         "has no meaning for a file of triangles (STL).");
+      };
+      if (parameters.refinements > 0)
+        refuse("Refinements");
+      if (!parameters.mesh.boundary_ids.empty())
+        refuse("Boundary ids");
+      if (parameters.surface_ids != "*")
+        refuse("Surface ids");
+    }
+
+    SurfaceArrays triangles_of_file(const SurfaceParameters &parameters,
+                                    const RunOptions &options)
+    {
+      const MeshParameters &mesh = parameters.mesh;
+      refuse_mesh_parameters(parameters);
+      const std::filesystem::path file = options.input_file(mesh.file);
+      Triangles triangles = read_stl(file, mesh.section + "/File");
+      SurfaceArrays surface;
+      surface.kind = ABUT_FACET_TRI3;
+      surface.origin = "file " + file.string();
+      surface.parameter = mesh.section + "/File";
+      surface.connectivity = std::move(triangles.connectivity);
+      surface.group.assign(surface.connectivity.size() / 3, 0);
+      const Placement<3> placement = make_placement<3>(mesh);
+      std::vector<dealii::Point<3>> points;
+      for (const std::array<double, 3> &x : triangles.vertices)
+        points.push_back(placement.place(dealii::Point<3>(x[0], x[1], x[2])));
+      std::unique_ptr<Expression<3>> map;
+      if (!parameters.map.empty())
+        map = std::make_unique<Expression<3>>(parameters.map,
+                                              mesh.section + "/Map", 3);
+      surface.position.resize(3 * points.size());
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const std::vector<double> values =
+            map ? map->evaluate(points, d) : std::vector<double>();
+        for (std::size_t i = 0; i < points.size(); ++i)
+          surface.position[3 * i + d] = map ? values[i] : points[i][d];
+      }
+      return surface;
+    }
+  } // namespace
+
+  void SurfaceParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    MeshParameters::declare(prm);
+    prm.declare_entry("File", "", Anything(),
+                      "Mesh file (msh of gmsh, inp or ucd, vtk, vtu, unv, "
+                      "xda) whose boundary is the surface, or triangles in 3D "
+                      "(stl, text or binary), read instead of generating a "
+                      "mesh; relative names are relative to the scene file.");
+    prm.declare_entry("Refinements", "0", Integer(0, 30),
+                      "How often the cells at the surface are refined; those "
+                      "inside the body are not.");
+    prm.declare_entry("Surface ids", "*", Anything(),
+                      "Boundary ids that make up the surface, such as `0, 2`, "
+                      "or * for the whole boundary.");
+    prm.declare_entry("Map", "", Anything(),
+                      "Formulas of the new coordinates in x, y, z, separated "
+                      "by ';', applied last to every node: `x; y; z + 0.1 * "
+                      "sin(x)`. Empty: nothing.");
+  }
+
+  void SurfaceParameters::parse(dealii::ParameterHandler &prm,
+                                const std::string &section)
+  {
+    mesh.parse(prm, section);
+    refinements = static_cast<unsigned int>(prm.get_integer("Refinements"));
+    surface_ids = prm.get("Surface ids");
+    map = prm.get("Map");
+  }
+
+  template <int dim>
+  SurfaceArrays make_surface(const SurfaceParameters &parameters,
+                             const RunOptions &options)
+  {
+    if (!is_stl(parameters.mesh.file))
+      return boundary_of_mesh<dim>(parameters, options);
+    if (dim == 2)
+      throw InputError(parameters.mesh.section + "/File",
+                       "triangles (STL) exist in 3 dimensions only.");
+    return triangles_of_file(parameters, options);
+  }
+
+  template SurfaceArrays make_surface<2>(const SurfaceParameters &,
+                                         const RunOptions &);
+  template SurfaceArrays make_surface<3>(const SurfaceParameters &,
+                                         const RunOptions &);
+} // namespace abut::app

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "elasticity.h"
+
+#include "app/input/collective.h"
+#include "app/input/input_error.h"
+#include "app/input/short_number.h"
+#include "stiffness_cache.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <cmath>
+
+namespace abut::app
+{
+  using dealii::types::boundary_id;
+  using dealii::types::global_dof_index;
+
+  namespace
+  {
+    /** Values of all components of a formula, checked, by component. */
+    template <int dim>
+    std::vector<std::vector<double>>
+    evaluate_all(const Expression<dim> &expression,
+                 const std::vector<dealii::Point<dim>> &points)
+    {
+      std::vector<std::vector<double>> result;
+      for (unsigned int c = 0; c < expression.n_components; ++c)
+        result.push_back(expression.evaluate(points, c));
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  Elasticity<dim>::Elasticity(
+      dealii::parallel::distributed::Triangulation<dim> &triangulation,
+      const unsigned int degree)
+      : DiscreteProblem<dim>(triangulation,
+                             std::make_unique<dealii::FESystem<dim>>(
+                                 dealii::FE_Q<dim>(degree), dim)),
+        materials(std::make_unique<ElasticMaterials>())
+  {
+  }
+
+  template <int dim> Elasticity<dim>::~Elasticity() = default;
+
+  template <int dim>
+  typename Elasticity<dim>::Values
+  Elasticity<dim>::support_values(const ElasticData<dim> &data) const
+  {
+    Values all;
+    std::map<global_dof_index, boundary_id> where;
+    double largest = 0.;
+    for (const auto &[id, condition] : data.supports)
+    {
+      Values values;
+      dealii::VectorTools::interpolate_boundary_values(
+          this->mapping, this->dof_handler,
+          std::map<boundary_id, const dealii::Function<dim> *>{
+              {id, condition.function}},
+          values, condition.components);
+      for (const auto &[dof, value] : values)
+      {
+        if (!std::isfinite(value))
+          throw InputError(condition.function->parameter(),
+                           "'" + condition.function->text()
+                               + "' has a value that is not a number on "
+                               + data.name(id) + ".");
+        largest = std::max(largest, std::abs(value));
+        const auto [entry, is_new] = all.emplace(dof, value);
+        if (!is_new && std::abs(entry->second - value) > 1e-10 * largest)
+          throw InputError(condition.function->parameter(),
+                           data.name(where.at(dof)) + " and " + data.name(id)
+                               + " share a node and prescribe different "
+                                 "displacements there, "
+                               + short_number(entry->second) + " and "
+                               + short_number(value)
+                               + ". Make them agree at the corner, or leave "
+                                 "the component free on one of them.");
+        where[dof] = id;
+      }
+    }
+    return all;
+  }
+
+  template <int dim>
+  void Elasticity<dim>::prescribe(
+      const ElasticData<dim> &data,
+      dealii::AffineConstraints<double> &constraints) const
+  {
+    Values values;
+    collective(this->communicator, [&] { values = support_values(data); });
+    for (const auto &[dof, value] : values)
+      if (this->relevant.is_element(dof) && !constraints.is_constrained(dof))
+      {
+        constraints.add_line(dof);
+        constraints.set_inhomogeneity(dof, value);
+      }
+  }
+
+  template <int dim> void Elasticity<dim>::setup(const ElasticData<dim> &data)
+  {
+    *materials = data.materials;
+    cache = std::make_unique<StiffnessCache<dim>>(this->mapping, this->fe,
+                                                  *materials);
+    this->distribute([&](dealii::AffineConstraints<double> &constraints)
+                     { prescribe(data, constraints); });
+  }
+
+  template <int dim>
+  void Elasticity<dim>::set_supports(const ElasticData<dim> &data)
+  {
+    this->set_constraints([&](dealii::AffineConstraints<double> &constraints)
+                          { prescribe(data, constraints); });
+  }
+
+  template <int dim>
+  void Elasticity<dim>::assemble_stiffness(const ElasticData<dim> &)
+  {
+    this->stiffness = 0.;
+    std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
+    for (const auto &cell : this->dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        cell->get_dof_indices(dofs);
+        this->constraints.distribute_local_to_global(cache->matrix(cell), dofs,
+                                                     this->stiffness);
+      }
+    this->stiffness.compress(dealii::VectorOperation::add);
+  }
+
+  template <int dim>
+  void Elasticity<dim>::add_volume_forces(const ElasticData<dim> &data,
+                                          la::Vector &load,
+                                          la::Vector &all) const
+  {
+    const dealii::FiniteElement<dim> &element = this->fe.base_element(0);
+    dealii::FEValues<dim> values(
+        this->mapping, element, dealii::QGauss<dim>(this->fe.degree + 1),
+        dealii::update_values | dealii::update_quadrature_points
+            | dealii::update_JxW_values);
+    dealii::Vector<double> force(this->fe.n_dofs_per_cell());
+    std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
+    for (const auto &cell : this->dof_handler.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      const auto body = cell->material_id();
+      const auto given = data.body_force.find(body);
+      if (given == data.body_force.end())
+        continue;
+      values.reinit(
+          static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+              cell));
+      const auto &points = values.get_quadrature_points();
+      const ElasticMaterial &material = data.materials.at(body);
+      force = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+      {
+        const std::vector<double> f = given->second->evaluate(points, c);
+        for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          const double dx =
+              values.JxW(q) * material.template measure<dim>(points[q]);
+          for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+            force(this->fe.component_to_system_index(c, i)) +=
+                f[q] * dx * values.shape_value(i, q);
+        }
+      }
+      cell->get_dof_indices(dofs);
+      this->constraints.distribute_local_to_global(force, dofs, load);
+      this->hanging.distribute_local_to_global(force, dofs, all);
+    }
+  }
+
+  template <int dim>
+  void Elasticity<dim>::add_boundary_forces(const ElasticData<dim> &data,
+                                            la::Vector &load,
+                                            la::Vector &all) const
+  {
+    const dealii::FiniteElement<dim> &element = this->fe.base_element(0);
+    dealii::FEFaceValues<dim> values(
+        this->mapping, element, dealii::QGauss<dim - 1>(this->fe.degree + 1),
+        dealii::update_values | dealii::update_JxW_values
+            | dealii::update_normal_vectors | dealii::update_quadrature_points);
+    dealii::Vector<double> force(this->fe.n_dofs_per_cell());
+    std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
+    for (const auto &cell : this->dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int f : cell->face_indices())
+        {
+          const auto face = cell->face(f);
+          if (!face->at_boundary())
+            continue;
+          const auto traction = data.tractions.find(face->boundary_id());
+          const auto pressure = data.pressures.find(face->boundary_id());
+          if (traction == data.tractions.end()
+              && pressure == data.pressures.end())
+            continue;
+          values.reinit(
+              static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+                  cell),
+              f);
+          const auto &points = values.get_quadrature_points();
+          std::vector<std::vector<double>> t;
+          std::vector<double> p;
+          if (traction != data.tractions.end())
+            t = evaluate_all(*traction->second.function, points);
+          if (pressure != data.pressures.end())
+            p = pressure->second.function->evaluate(points);
+          const ElasticMaterial &material =
+              data.materials.at(cell->material_id());
+          force = 0.;
+          for (unsigned int q = 0; q < points.size(); ++q)
+            for (unsigned int c = 0; c < dim; ++c)
+            {
+              const double stress =
+                  (t.empty() ? 0. : t[c][q])
+                  - (p.empty() ? 0. : p[q] * values.normal_vector(q)[c]);
+              const double dx =
+                  values.JxW(q) * material.template measure<dim>(points[q]);
+              for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+                force(this->fe.component_to_system_index(c, i)) +=
+                    stress * dx * values.shape_value(i, q);
+            }
+          cell->get_dof_indices(dofs);
+          this->constraints.distribute_local_to_global(force, dofs, load);
+          this->hanging.distribute_local_to_global(force, dofs, all);
+        }
+  }
+
+  template <int dim>
+  void Elasticity<dim>::add_support_forces(la::Vector &load) const
+  {
+    const dealii::Vector<double> nothing(this->fe.n_dofs_per_cell());
+    std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
+    for (const auto &cell : this->dof_handler.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      cell->get_dof_indices(dofs);
+      bool any = false;
+      for (const global_dof_index dof : dofs)
+        any = any || this->constraints.is_inhomogeneously_constrained(dof);
+      if (any)
+        this->constraints.distribute_local_to_global(nothing, dofs, load,
+                                                     cache->matrix(cell));
+    }
+  }
+
+  template <int dim>
+  void Elasticity<dim>::assemble_load(const ElasticData<dim> &data)
+  {
+    la::Vector open = this->open_load();
+    la::Vector all = this->open_load();
+    collective(this->communicator,
+               [&]
+               {
+                 add_volume_forces(data, open, all);
+                 if (!data.tractions.empty() || !data.pressures.empty())
+                   add_boundary_forces(data, open, all);
+                 if (this->constraints.has_inhomogeneities())
+                   add_support_forces(open);
+               });
+    la::Vector closed = this->close_load(open);
+    this->load.swap(closed);
+    la::Vector closed_all = this->close_load(all);
+    external.swap(closed_all);
+  }
+
+  template <int dim>
+  la::Vector Elasticity<dim>::internal_forces(const la::Vector &u) const
+  {
+    const la::Vector ghosted = this->ghosted(u);
+    la::Vector open = this->open_load();
+    const unsigned int n = this->fe.n_dofs_per_cell();
+    dealii::Vector<double> values(n), force(n);
+    std::vector<global_dof_index> dofs(n);
+    for (const auto &cell : this->dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        cell->get_dof_indices(dofs);
+        for (unsigned int i = 0; i < n; ++i)
+          values(i) = ghosted(dofs[i]);
+        cache->matrix(cell).vmult(force, values);
+        this->hanging.distribute_local_to_global(force, dofs, open);
+      }
+    return this->close_load(open);
+  }
+
+  template <int dim>
+  la::Vector Elasticity<dim>::unbalanced_forces(const la::Vector &u) const
+  {
+    la::Vector result = internal_forces(u);
+    result.add(-1., external);
+    return result;
+  }
+
+  template <int dim> double Elasticity<dim>::energy(const la::Vector &u) const
+  {
+    la::Vector all(u);
+    this->constraints.distribute(all);
+    la::Vector forces = internal_forces(all);
+    forces.sadd(0.5, -1., external);
+    this->hanging.set_zero(all);
+    return forces * all;
+  }
+
+  template class Elasticity<2>;
+  template class Elasticity<3>;
+} // namespace abut::app

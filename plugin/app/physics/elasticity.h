@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_ELASTICITY_H
+#define ABUT_APP_ELASTICITY_H
+
+#include "app/input/boundary_expressions.h"
+#include "discrete_problem.h"
+#include "elastic_material.h"
+#include "volume_force.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace abut::app
+{
+  template <int dim> class StiffnessCache;
+
+  /** Data of elastic bodies; functions must outlive it, and have the time of
+   * the present load step. */
+  template <int dim> struct ElasticData
+  {
+    using Conditions =
+        std::map<dealii::types::boundary_id, BoundaryCondition<dim>>;
+
+    ElasticMaterials materials; ///< by material id
+    Conditions supports;        ///< displacements
+    Conditions tractions;       ///< force per area
+    Conditions pressures;       ///< into the body
+    /** By material id; others have none. */
+    std::map<dealii::types::material_id, const VolumeForce<dim> *> body_force;
+    /** Name of a boundary in messages. */
+    std::function<std::string(dealii::types::boundary_id)> name;
+  };
+
+  /** Linear elastic bodies without contact: unknowns, constraints, stiffness
+   * matrix, load vector. */
+  template <int dim> class Elasticity : public DiscreteProblem<dim>
+  {
+  public:
+    Elasticity(dealii::parallel::distributed::Triangulation<dim> &triangulation,
+               unsigned int degree);
+    ~Elasticity();
+
+    /** Number unknowns, build constraints and the matrix's pattern for the
+     * present mesh. Throws InputError when two supports prescribe different
+     * values at a node. Collective. */
+    void setup(const ElasticData<dim> &data);
+
+    /** Constraints with the supports' values of the present time. Collective.
+     */
+    void set_supports(const ElasticData<dim> &data);
+
+    /** Compute the stiffness matrix of the present mesh. Collective. */
+    void assemble_stiffness(const ElasticData<dim> &data);
+
+    /** Compute the load of the present time, with what prescribed
+     * displacements add. Collective. */
+    void assemble_load(const ElasticData<dim> &data);
+
+    /** Internal minus external forces of a displacement (owned) at all
+     * unknowns but hanging ones, supported ones included: what supports and
+     * contact have to hold. Needs assemble_load(). Collective. */
+    la::Vector unbalanced_forces(const la::Vector &u) const;
+
+    /** Potential energy u (1/2 K u - f), supports included. Collective. */
+    double energy(const la::Vector &u) const;
+
+    /** External forces at all unknowns but hanging ones. */
+    la::Vector external;
+
+  private:
+    using Values = std::map<dealii::types::global_dof_index, double>;
+
+    Values support_values(const ElasticData<dim> &data) const;
+    void prescribe(const ElasticData<dim> &data,
+                   dealii::AffineConstraints<double> &constraints) const;
+    void add_volume_forces(const ElasticData<dim> &data, la::Vector &load,
+                           la::Vector &all) const;
+    void add_boundary_forces(const ElasticData<dim> &data, la::Vector &load,
+                             la::Vector &all) const;
+    void add_support_forces(la::Vector &load) const;
+    la::Vector internal_forces(const la::Vector &u) const;
+
+    std::unique_ptr<ElasticMaterials> materials;
+    std::unique_ptr<StiffnessCache<dim>> cache;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include "body_pictures.h"
+
+#include "app/physics/stress_output.h"
+#include "gnuplot.h"
+#include "picture_parts.h"
+#include "raster.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/mapping_q_eulerian.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace abut::app
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+    /** A line with this in it is an empty one: the curve begins anew. */
+    const std::vector<double> interruption = {none};
+
+    /** Factor 1, 2 or 5 times a power of ten, at least 1, that makes the
+     * largest displacement about a fortieth to a sixteenth of the
+     * bodies' size. */
+    double exaggeration(const dealii::DoFHandler<2> &dof_handler,
+                        const la::Vector &displacement)
+    {
+      double low[2] = {std::numeric_limits<double>::infinity(),
+                       std::numeric_limits<double>::infinity()};
+      double high[2] = {-low[0], -low[1]};
+      for (const auto &cell :
+           dof_handler.get_triangulation().active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int v : cell->vertex_indices())
+            for (unsigned int d = 0; d < 2; ++d)
+            {
+              low[d] = std::min(low[d], cell->vertex(v)[d]);
+              high[d] = std::max(high[d], cell->vertex(v)[d]);
+            }
+      const MPI_Comm communicator = dof_handler.get_communicator();
+      double size = 0;
+      for (unsigned int d = 0; d < 2; ++d)
+        size = std::max(size, MPI::max(high[d], communicator)
+                                  - MPI::min(low[d], communicator));
+      const double largest = displacement.linfty_norm();
+      if (!(largest > 0.) || largest > size / 50)
+        return 1.;
+      return std::max(1., level_step(size / largest / 4));
+    }
+
+    /** Edges of all boundary faces, two lines each and an interruption. */
+    std::vector<std::vector<double>>
+    outline(const dealii::Mapping<2> &mapping,
+            const dealii::Triangulation<2> &mesh, const MPI_Comm communicator)
+    {
+      std::vector<std::vector<double>> mine;
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->at_boundary())
+        {
+          const auto vertices = mapping.get_vertices(cell);
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary())
+            {
+              for (unsigned int v = 0; v < 2; ++v)
+              {
+                const auto &x =
+                    vertices[dealii::GeometryInfo<2>::face_to_cell_vertices(f,
+                                                                            v)];
+                mine.push_back({x[0], x[1]});
+              }
+              mine.push_back(interruption);
+            }
+        }
+      std::vector<std::vector<double>> all;
+      for (const auto &part : MPI::gather(communicator, mine))
+        all.insert(all.end(), part.begin(), part.end());
+      return all;
+    }
+
+    std::vector<std::vector<double>>
+    pressure_rows(const std::vector<ContactLine> &lines)
+    {
+      std::vector<std::vector<double>> rows;
+      for (const ContactLine &line : lines)
+      {
+        for (const ContactLineNode &node : line)
+          rows.push_back({node.arc, node.pressure});
+        rows.push_back(interruption);
+      }
+      return rows;
+    }
+
+    /** The map of the stress, in the upper part of the picture. */
+    std::string map_script(const Raster &raster, const double bottom)
+    {
+      const auto [low, high] = value_range(raster.fields.at(0));
+      std::ostringstream script;
+      script << "set origin 0, " << bottom << "\nset size 1, " << 0.95 - bottom
+             << '\n'
+             << palette() << ranges(raster) << "set cbrange [" << low << ':'
+             << (high > low ? high : low + 1)
+             << "]\nset size ratio -1\nunset key\nunset grid\n"
+             << "set format cb '%g'\nset xlabel 'x'\nset ylabel 'y'\n"
+             << "set cblabel 'von Mises stress' offset 2\n"
+             << "plot $stress using 1:2:3 with image, "
+             << "$outline using 1:2 with lines lc rgb '#303030' lw 0.8\n";
+      return script.str();
+    }
+
+    /** Range of lengths in which there is pressure, with as much again on
+     * both sides; all of the lines if there is none. */
+    std::string pressed_range(const std::vector<PressureCurve> &pressures)
+    {
+      double largest = 0;
+      double end = 0;
+      for (const PressureCurve &curve : pressures)
+        for (const ContactLine &line : curve.lines)
+          for (const ContactLineNode &node : line)
+          {
+            largest = std::max(largest, node.pressure);
+            end = std::max(end, node.arc);
+          }
+      double low = end;
+      double high = 0;
+      for (const PressureCurve &curve : pressures)
+        for (const ContactLine &line : curve.lines)
+          for (const ContactLineNode &node : line)
+            if (node.pressure > 1e-6 * largest)
+            {
+              low = std::min(low, node.arc);
+              high = std::max(high, node.arc);
+            }
+      const double width = high - low;
+      if (!(width > 0.))
+        return "";
+      std::ostringstream out;
+      out << "set xrange [" << std::max(0., low - width) << ':'
+          << std::min(end, high + width) << "]\n";
+      return out.str();
+    }
+
+    std::string pressure_script(const std::vector<PressureCurve> &pressures,
+                                const double top)
+    {
+      std::ostringstream script;
+      script << "set origin 0, 0\nset size noratio 1, " << top
+             << "\nset autoscale\n"
+             << pressed_range(pressures) << "set grid\nset key top right\n"
+             << "set xlabel 'length along the contact line'\n"
+             << "set ylabel 'contact pressure'\n";
+      for (std::size_t i = 0; i < pressures.size(); ++i)
+        script << (i == 0 ? "plot $pressure" : ", $pressure") << i + 1
+               << " using 1:2 with linespoints ls " << i % 8 + 1 << " title "
+               << quoted(pressures[i].label);
+      script << '\n';
+      return script.str();
+    }
+  } // namespace
+
+  bool draw_bodies(Report &report, const std::filesystem::path &folder,
+                   const std::string &name, const dealii::Mapping<2> &mapping,
+                   const dealii::DoFHandler<2> &dof_handler,
+                   const la::Vector &displacement,
+                   const ElasticMaterials &materials,
+                   const std::vector<PressureCurve> &pressures,
+                   const std::string &title)
+  {
+    const double factor = exaggeration(dof_handler, displacement);
+    la::Vector drawn(displacement);
+    drawn *= factor;
+    const dealii::MappingQEulerian<2, la::Vector> deformed(
+        dof_handler.get_fe().degree, dof_handler, drawn);
+    dealii::DoFHandler<2> scalar(dof_handler.get_triangulation());
+    scalar.distribute_dofs(dealii::FE_Q<2>(1));
+    const std::vector<la::Vector> stresses =
+        nodal_stress(mapping, dof_handler, displacement, materials, scalar);
+    const Raster raster =
+        sample_raster(deformed, scalar, {{&stresses.back()}}, 240);
+    const auto edges = outline(deformed, dof_handler.get_triangulation(),
+                               dof_handler.get_communicator());
+    if (MPI::this_mpi_process(report.communicator) != 0)
+      return false;
+
+    const unsigned int below = pressures.empty() ? 0 : 280;
+    const unsigned int height = map_height(raster, 440, 110) + below;
+    std::ostringstream text;
+    text << title;
+    if (factor > 1.)
+      text << ", displacement drawn " << factor << " times";
+    std::ostringstream script;
+    script << gnuplot_header(name, 760, height)
+           << grid_block("stress", raster, raster.fields.at(0), 1)
+           << gnuplot_data("outline", edges);
+    for (std::size_t i = 0; i < pressures.size(); ++i)
+      script << gnuplot_data("pressure" + std::to_string(i + 1),
+                             pressure_rows(pressures[i].lines));
+    const double share = double(below) / height;
+    script << "set multiplot title " << quoted(text.str()) << " font ',15'\n"
+           << map_script(raster, share);
+    if (!pressures.empty())
+      script << pressure_script(pressures, share);
+    script << "unset multiplot\n";
+    return draw_picture(report, folder, name, script.str());
+  }
+} // namespace abut::app

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_BODY_PICTURES_H
+#define ABUT_APP_BODY_PICTURES_H
+
+/** @file
+ * Pictures of plane elastic bodies.
+ */
+
+#include "app/physics/elastic_material.h"
+#include "app/report/report.h"
+#include "contact_line.h"
+
+#include <abut/dealii/linear_algebra.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace abut::app
+{
+  /** A contact boundary in a picture. */
+  struct PressureCurve
+  {
+    std::string label;
+    std::vector<ContactLine> lines; /**< on rank 0 */
+  };
+
+  /** `<name>.svg`: the deformed bodies coloured by von Mises' stress with
+   * their outlines; below, the contact pressure along each contact line.
+   *
+   * @param displacement ghosted. Where it is less than a fiftieth of the
+   * bodies' size it is drawn larger, by a round factor that the title tells.
+   * @return whether the picture was made (rank 0). Collective. */
+  bool draw_bodies(Report &report, const std::filesystem::path &folder,
+                   const std::string &name, const dealii::Mapping<2> &mapping,
+                   const dealii::DoFHandler<2> &dof_handler,
+                   const la::Vector &displacement,
+                   const ElasticMaterials &materials,
+                   const std::vector<PressureCurve> &pressures,
+                   const std::string &title);
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include "field_output.h"
+
+#include "app/input/collective.h"
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/numerics/data_out.h>
+#include <deal.II/numerics/data_out_faces.h>
+
+#include <fstream>
+#include <stdexcept>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** A file that is either the old or the new one, whenever the run ends. */
+    void replace_file(const std::filesystem::path &path,
+                      const std::string &content)
+    {
+      std::filesystem::path next = path;
+      next += ".new";
+      std::ofstream out(next, std::ios::binary);
+      out << content << std::flush;
+      if (!out)
+        throw std::runtime_error("the file '" + next.string()
+                                 + "' cannot be written");
+      out.close();
+      std::filesystem::rename(next, path);
+    }
+
+    /** Faces of this rank's cells at the boundaries of given ids. */
+    template <int dim> class FaceOutput : public dealii::DataOutFaces<dim>
+    {
+    public:
+      using Face = typename dealii::DataOutFaces<dim>::FaceDescriptor;
+
+      explicit FaceOutput(const std::set<dealii::types::boundary_id> &ids)
+          : ids(ids)
+      {
+      }
+
+      Face first_face() override
+      {
+        return find(this->triangulation->begin_active(), 0);
+      }
+
+      Face next_face(const Face &face) override
+      {
+        return find(
+            Cell(this->triangulation, face.first->level(), face.first->index()),
+            face.second + 1);
+      }
+
+    private:
+      using Cell = typename dealii::Triangulation<dim>::active_cell_iterator;
+
+      /** The first chosen face from @p f of @p cell on. (What deal.II's own
+       * functions return for a rank without faces differs from version to
+       * version.) */
+      Face find(Cell cell, unsigned int f) const
+      {
+        for (; cell != this->triangulation->end(); ++cell, f = 0)
+          if (cell->is_locally_owned())
+            for (; f < cell->n_faces(); ++f)
+              if (cell->face(f)->at_boundary()
+                  && ids.count(cell->face(f)->boundary_id()) > 0)
+                return {cell, f};
+        return {this->triangulation->end(), 0};
+      }
+
+      const std::set<dealii::types::boundary_id> &ids;
+    };
+  } // namespace
+
+  FieldSeries::FieldSeries(std::filesystem::path folder, std::string name,
+                           MPI_Comm communicator)
+      : folder(std::move(folder)),
+        name(std::move(name)),
+        communicator(communicator)
+  {
+  }
+
+  template <int dim, typename Output>
+  void FieldSeries::add_fields(const double time, const Fields<dim> &fields,
+                               Output &output) const
+  {
+    dealii::DataOutBase::VtkFlags flags;
+    flags.time = time;
+    flags.cycle = static_cast<unsigned int>(records.size());
+    // Lines are drawn straight, in pieces: deal.II 9.6 knows no curved ones.
+    const int cell_dim = fields.faces.empty() ? dim : dim - 1;
+    flags.write_higher_order_cells =
+        cell_dim > 1 && fields.dof_handler.get_fe().degree > 1;
+    // The smallest files would take longer to pack than the fields to solve
+    // for; these are about a quarter larger. (The enumeration has another name
+    // in later versions of deal.II.)
+    flags.compression_level = decltype(flags.compression_level)::best_speed;
+    output.set_flags(flags);
+    output.attach_dof_handler(fields.dof_handler);
+
+    using Interpretation =
+        dealii::DataComponentInterpretation::DataComponentInterpretation;
+    const unsigned int n_components =
+        fields.dof_handler.get_fe().n_components();
+    const std::vector<Interpretation> interpretation(
+        n_components,
+        n_components == dim
+            ? dealii::DataComponentInterpretation::component_is_part_of_vector
+            : dealii::DataComponentInterpretation::component_is_scalar);
+    for (const auto &[label, values] : fields.nodal)
+      output.add_data_vector(fields.dof_handler, *values,
+                             std::vector<std::string>(n_components, label),
+                             interpretation);
+    for (const auto &[label, values] : fields.cells)
+      output.add_data_vector(*values, label, Output::type_cell_data);
+    for (const auto &[values, postprocessor] : fields.derived)
+      output.add_data_vector(fields.dof_handler, *values, *postprocessor);
+  }
+
+  template <typename Output>
+  void FieldSeries::append(const double time, const Output &output)
+  {
+    const unsigned int step = static_cast<unsigned int>(records.size());
+    const std::string file = output.write_vtu_with_pvtu_record(
+        folder.string() + "/", name, step, communicator, 4, 1);
+    records.emplace_back(time, file);
+
+    collective(communicator,
+               [this]()
+               {
+                 if (dealii::Utilities::MPI::this_mpi_process(communicator) > 0)
+                   return;
+                 std::ostringstream pvd;
+                 dealii::DataOutBase::write_pvd_record(pvd, records);
+                 replace_file(folder / (name + ".pvd"), pvd.str());
+               });
+  }
+
+  template <int dim>
+  void FieldSeries::write(const double time, const Fields<dim> &fields)
+  {
+    const unsigned int degree = fields.dof_handler.get_fe().degree;
+    if (!fields.faces.empty())
+    {
+      FaceOutput<dim> output(fields.faces);
+      add_fields(time, fields, output);
+      output.build_patches(fields.mapping, degree);
+      append(time, output);
+      return;
+    }
+    dealii::DataOut<dim> output;
+    add_fields(time, fields, output);
+    output.build_patches(fields.mapping, degree,
+                         degree > 1 ? dealii::DataOut<dim>::curved_inner_cells
+                                    : dealii::DataOut<dim>::no_curved_cells);
+    append(time, output);
+  }
+
+  template void FieldSeries::write<2>(double, const Fields<2> &);
+  template void FieldSeries::write<3>(double, const Fields<3> &);
+} // namespace abut::app

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "report.h"
+
+#include "app/input/short_number.h"
+#include "json.h"
+#include "peak_memory.h"
+#include "processor_time.h"
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <sstream>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Keys of every summary, in the order in which they are written. */
+    const char *const common_keys[] = {"scene",
+                                       "title",
+                                       "method",
+                                       "discretisation",
+                                       "dimension",
+                                       "converged",
+                                       "dofs",
+                                       "constraints",
+                                       "active",
+                                       "contact_force",
+                                       "max_penetration",
+                                       "max_complementarity",
+                                       "energy",
+                                       "nonlinear_iterations",
+                                       "linear_iterations",
+                                       "matvecs",
+                                       "search_rebuilds",
+                                       "pairs",
+                                       "l2_error",
+                                       "h1_error",
+                                       "ranks",
+                                       "wall_seconds",
+                                       "processor_seconds",
+                                       "peak_memory_mb"};
+
+    std::string text_of(const Report::Value &value)
+    {
+      struct Visitor
+      {
+        std::string operator()(std::monostate) const
+        {
+          return "";
+        }
+        std::string operator()(const bool value) const
+        {
+          return value ? "yes" : "no";
+        }
+        std::string operator()(const std::int64_t value) const
+        {
+          return std::to_string(value);
+        }
+        std::string operator()(const double value) const
+        {
+          return std::isfinite(value) ? short_number(value) : "";
+        }
+        std::string operator()(const std::string &value) const
+        {
+          return value;
+        }
+        std::string operator()(const std::vector<double> &value) const
+        {
+          std::string text;
+          for (const double x : value)
+            text += (text.empty() ? "" : "  ") + short_number(x);
+          return text;
+        }
+      };
+      return std::visit(Visitor(), value);
+    }
+
+    std::string padded(const std::string &text, const std::size_t width)
+    {
+      return text + std::string(width - std::min(width, text.size()), ' ');
+    }
+  } // namespace
+
+  Report::Report(MPI_Comm communicator, const bool quiet)
+      : communicator(communicator),
+        quiet(quiet),
+        root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
+        start(std::chrono::steady_clock::now()),
+        processor_start(processor_seconds())
+  {
+    for (const char *key : common_keys)
+      values.emplace_back(key, std::monostate());
+  }
+
+  void Report::set_value(const std::string &key, Value value)
+  {
+    for (auto &[name, present] : values)
+      if (name == key)
+      {
+        present = std::move(value);
+        return;
+      }
+    values.emplace_back(key, std::move(value));
+  }
+
+  void Report::add(const std::string &key, const std::int64_t count)
+  {
+    const Value present = get(key);
+    const auto *number = std::get_if<std::int64_t>(&present);
+    set(key, number ? *number + count : count);
+  }
+
+  Report::Value Report::get(const std::string &key) const
+  {
+    for (const auto &[name, value] : values)
+      if (name == key)
+        return value;
+    return std::monostate();
+  }
+
+  void Report::declare_columns(const std::vector<std::string> &names)
+  {
+    AssertThrow(rows.empty(), dealii::ExcMessage("the table has rows already"));
+    columns = names;
+  }
+
+  void Report::add_row(const std::map<std::string, double> &row)
+  {
+    std::vector<double> cells(columns.size(),
+                              std::numeric_limits<double>::quiet_NaN());
+    for (const auto &[name, value] : row)
+    {
+      const auto column = std::find(columns.begin(), columns.end(), name);
+      AssertThrow(column != columns.end(),
+                  dealii::ExcMessage("no column '" + name + "' was declared"));
+      cells[column - columns.begin()] = value;
+    }
+    rows.push_back(cells);
+  }
+
+  bool Report::prints() const
+  {
+    return root && !quiet;
+  }
+
+  void Report::progress(const std::string &line)
+  {
+    if (!prints())
+      return;
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(2) << std::setw(8) << elapsed()
+        << " s  " << line << "\n";
+    std::cout << out.str() << std::flush;
+  }
+
+  void Report::warn(const std::string &line)
+  {
+    warnings.push_back(line);
+    if (root)
+      std::cerr << "abut: warning: " << line << std::endl;
+  }
+
+  void Report::model(const std::string &what, const bool on,
+                     const std::string &why,
+                     const std::vector<std::string> &cost)
+  {
+    model_lines.push_back({what, on, why, cost});
+  }
+
+  void Report::leave_out(const std::string &line)
+  {
+    left_out.push_back(line);
+  }
+
+  double Report::elapsed() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now()
+                                         - start)
+        .count();
+  }
+
+  void Report::finish()
+  {
+    namespace MPI = dealii::Utilities::MPI;
+    set("ranks", MPI::n_mpi_processes(communicator));
+    set("wall_seconds", MPI::max(elapsed(), communicator));
+    set("processor_seconds",
+        MPI::sum(processor_seconds() - processor_start, communicator));
+    const double memory = peak_memory();
+    set("peak_memory_mb", MPI::max(memory, communicator));
+    set("peak_memory_mb_on_rank",
+        std::vector<double>{MPI::min(memory, communicator),
+                            MPI::max(memory, communicator)});
+    // Ranks may have entered different sections: those of rank 0 count.
+    sections = times.sections();
+    std::vector<std::string> names;
+    for (const SectionTimes::Section &section : sections)
+      names.push_back(section.name);
+    names = MPI::broadcast(communicator, names);
+    sections.resize(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      const SectionTimes::Section section = times.section(names[i]);
+      sections[i].seconds = MPI::max(section.seconds, communicator);
+      sections[i].processor_seconds =
+          MPI::sum(section.processor_seconds, communicator);
+      sections[i].memory_mb = MPI::max(section.memory_mb, communicator);
+    }
+  }
+
+  void Report::write_json(std::ostream &out) const
+  {
+    JsonWriter json(out);
+    json.begin();
+    for (const auto &[name, value] : values)
+      std::visit([&json, &name = name](const auto &v) { json.value(name, v); },
+                 value);
+    json.value("warnings", warnings);
+    json.value("could_be_left_out", left_out);
+    json.begin("modelled");
+    for (const ModelLine &line : model_lines)
+    {
+      const auto [seconds, memory] = cost_of(line);
+      json.begin(line.what);
+      json.value("on", line.on);
+      json.value("why", line.why);
+      json.value("time_share", seconds / wall_seconds());
+      json.value("memory_mb", memory);
+      json.end();
+    }
+    json.end();
+    json.begin("sections");
+    for (const SectionTimes::Section &section : sections)
+    {
+      json.begin(section.name);
+      json.value("seconds", section.seconds);
+      json.value("processor_seconds", section.processor_seconds);
+      json.value("memory_mb", section.memory_mb);
+      json.value("calls", static_cast<std::int64_t>(section.calls));
+      json.end();
+    }
+    json.end();
+    json.end();
+  }
+
+  void Report::write_csv(std::ostream &out) const
+  {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      out << (i == 0 ? "" : ",") << columns[i];
+    out << "\n";
+    for (const std::vector<double> &row : rows)
+    {
+      for (std::size_t i = 0; i < row.size(); ++i)
+      {
+        out << (i == 0 ? "" : ",");
+        if (std::isfinite(row[i]))
+          out << json_number(row[i]);
+      }
+      out << "\n";
+    }
+  }
+
+  void Report::write(const std::filesystem::path &folder) const
+  {
+    if (!root)
+      return;
+    std::ofstream summary(folder / "summary.json");
+    write_json(summary);
+    AssertThrow(summary.flush(),
+                dealii::ExcMessage("cannot write "
+                                   + (folder / "summary.json").string()));
+    if (columns.empty())
+      return;
+    std::ofstream table(folder / "levels.csv");
+    write_csv(table);
+    AssertThrow(
+        table.flush(),
+        dealii::ExcMessage("cannot write " + (folder / "levels.csv").string()));
+  }
+
+  double Report::wall_seconds() const
+  {
+    const Value value = get("wall_seconds");
+    return std::holds_alternative<double>(value) ? std::get<double>(value)
+                                                 : elapsed();
+  }
+
+  std::pair<double, double> Report::cost_of(const ModelLine &line) const
+  {
+    std::pair<double, double> sum(0., 0.);
+    for (const SectionTimes::Section &section : sections)
+      if (std::find(line.cost.begin(), line.cost.end(), section.name)
+          != line.cost.end())
+      {
+        sum.first += section.seconds;
+        sum.second += section.memory_mb;
+      }
+    return sum;
+  }
+
+  void Report::print_model(std::ostream &out) const
+  {
+    if (!model_lines.empty())
+      out << "\n  What was modelled\n";
+    std::size_t width = 0;
+    for (const ModelLine &line : model_lines)
+      width = std::max(width, line.what.size());
+    for (const ModelLine &line : model_lines)
+    {
+      out << "  " << padded(line.what, width)
+          << (line.on ? "  on   " : "  off  ") << line.why;
+      const auto [seconds, memory] = cost_of(line);
+      if (!line.cost.empty() && !sections.empty())
+        out << " (" << short_number(100 * seconds / wall_seconds(), 2)
+            << " % of the time, " << short_number(memory, 3) << " MiB)";
+      out << "\n";
+    }
+  }
+
+  void Report::print_cost(std::ostream &out) const
+  {
+    const double wall = wall_seconds();
+    if (!sections.empty())
+      out << "\n  What it cost" << std::string(22, ' ')
+          << "seconds   share       MiB     calls\n";
+    for (const SectionTimes::Section &section : sections)
+    {
+      const std::string name = section.name.substr(section.name.rfind('/') + 1);
+      out << "  " << padded(std::string(2 * section.depth, ' ') + name, 28)
+          << std::fixed << std::setprecision(4) << std::setw(13)
+          << section.seconds << std::setprecision(0) << std::setw(6)
+          << 100 * section.seconds / wall << " %" << std::setprecision(1)
+          << std::setw(10) << section.memory_mb << std::setw(10)
+          << section.calls << "\n";
+    }
+  }
+
+  void Report::explain() const
+  {
+    if (!root)
+      return;
+    std::ostringstream out;
+    out << "\n  What could be left out\n";
+    for (const std::string &line : left_out)
+      out << "  - " << line << "\n";
+    if (left_out.empty())
+      out << "  nothing that this run can tell\n";
+    std::cout << out.str() << std::flush;
+  }
+
+  void Report::print_summary() const
+  {
+    if (!prints())
+      return;
+    std::ostringstream out;
+    out << "\n";
+    std::size_t width = 0;
+    for (const auto &[name, value] : values)
+      if (!text_of(value).empty())
+        width = std::max(width, name.size());
+    for (const auto &[name, value] : values)
+      if (!text_of(value).empty())
+        out << "  " << padded(name, width) << "  " << text_of(value) << "\n";
+
+    print_model(out);
+    print_cost(out);
+    for (const std::string &line : warnings)
+      out << "\n  warning: " << line << "\n";
+    std::cout << out.str() << std::flush;
+  }
+} // namespace abut::app

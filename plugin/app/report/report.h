@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_REPORT_H
+#define ABUT_APP_REPORT_H
+
+/** @file
+ * What a run has to say: `summary.json`, `levels.csv`, progress lines and the
+ * closing table.
+ */
+
+#include "section_times.h"
+
+#include <abut/dealii/coded.h>
+
+#include <mpi.h>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace abut::app
+{
+  /** Collects the results of one run. All ranks hold the same values and call
+   * the same functions; only rank 0 prints and writes.
+   *
+   * The keys that every summary has (scene, method, dofs, active, energy, ...)
+   * exist from the start in fixed order with the value null; set() fills them.
+   * A key of a scene's own is appended. wall_seconds, processor_seconds (sum
+   * over ranks), peak_memory_mb, ranks and the table `sections` are filled by
+   * finish(). */
+  class Report
+  {
+  public:
+    /** A value of the summary; monostate and NaN are written as null. */
+    using Value = std::variant<std::monostate, bool, std::int64_t, double,
+                               std::string, std::vector<double>>;
+
+    /** @param quiet print warnings only */
+    Report(MPI_Comm communicator, bool quiet);
+
+    /** @name Summary @{ */
+    /** Any number, truth value, text or vector of numbers. */
+    template <typename T> void set(const std::string &key, const T &value)
+    {
+      if constexpr (std::is_same_v<T, Value>)
+        set_value(key, value);
+      else if constexpr (std::is_convertible_v<const T &, std::string>)
+        set_value(key, std::string(value));
+      else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+        set_value(key, static_cast<std::int64_t>(value));
+      else
+        set_value(key, value);
+    }
+
+    /** Add to a count (nonlinear_iterations, matvecs, ...); null counts as 0.
+     */
+    void add(const std::string &key, std::int64_t count);
+
+    /** Present value of a key; monostate when there is none. */
+    Value get(const std::string &key) const;
+    /** @} */
+
+    /** @name Table `levels.csv` @{ */
+    /** Columns, once, before the first row. */
+    void declare_columns(const std::vector<std::string> &names);
+
+    /** Append a row; columns that are missing stay empty. */
+    void add_row(const std::map<std::string, double> &values);
+    /** @} */
+
+    /** @name Console @{ */
+    /** One line of progress, preceded by the elapsed time. */
+    void progress(const std::string &line);
+
+    /** A line for the user that is printed even when quiet, and again at the
+     * end. Collected under the key `warnings`. Those about known failures begin
+     * with a code, see coded(). */
+    void warn(const std::string &line);
+
+    /** A line of the closing table of what was modelled: @p what ("adaptive
+     * refinement"), on or off, and the reason. @p cost names the sections of
+     * times whose share of time and memory is its cost. */
+    void model(const std::string &what, bool on, const std::string &why,
+               const std::vector<std::string> &cost = {});
+
+    /** Something that the answer does not need, with the evidence; printed by
+     * explain(). Collected under the key `could_be_left_out`. */
+    void leave_out(const std::string &line);
+    /** @} */
+
+    /** Wall times; use `SectionTimes::Scope scope(report.times, "assembly");`.
+     */
+    SectionTimes times;
+
+    /** Wall seconds since construction. */
+    double elapsed() const;
+
+    /** Take wall times and peak memory as maxima over ranks, processor times as
+     * sums. Collective. */
+    void finish();
+
+    /** Write summary.json and levels.csv into @p folder (rank 0). */
+    void write(const std::filesystem::path &folder) const;
+
+    /** Print the closing tables (rank 0, unless quiet). */
+    void print_summary() const;
+
+    /** Print what could have been left out (rank 0). */
+    void explain() const;
+
+    /** The summary as JSON. */
+    void write_json(std::ostream &out) const;
+
+    /** The table as CSV. */
+    void write_csv(std::ostream &out) const;
+
+    const MPI_Comm communicator;
+
+  private:
+    struct ModelLine
+    {
+      std::string what;
+      bool on;
+      std::string why;
+      std::vector<std::string> cost;
+    };
+
+    /** Seconds and MiB of an ingredient's sections. */
+    std::pair<double, double> cost_of(const ModelLine &line) const;
+    double wall_seconds() const;
+    void print_model(std::ostream &out) const;
+    void print_cost(std::ostream &out) const;
+
+    void set_value(const std::string &key, Value value);
+
+    bool prints() const;
+
+    bool quiet;
+    bool root;
+    std::chrono::steady_clock::time_point start;
+    double processor_start;
+    std::vector<std::pair<std::string, Value>> values;
+    std::vector<SectionTimes::Section> sections;
+    std::vector<std::string> columns;
+    std::vector<std::vector<double>> rows;
+    std::vector<std::string> warnings;
+    std::vector<ModelLine> model_lines;
+    std::vector<std::string> left_out;
+  };
+} // namespace abut::app
+
+#endif

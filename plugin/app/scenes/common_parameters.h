@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_COMMON_PARAMETERS_H
+#define ABUT_APP_COMMON_PARAMETERS_H
+
+#include "app/input/parameters.h"
+#include "scene.h"
+
+#include <abut/dealii/method_parameters.h>
+
+#include <iosfwd>
+
+namespace abut::app
+{
+  /** The kind of scene that a file asks for by `set Scene`. */
+  const SceneKind &scene_kind(const ParameterFile &file);
+
+  /** The dimension that a file asks for by `set Dimension`. */
+  unsigned int scene_dimension(const ParameterFile &file,
+                               const SceneKind &kind);
+
+  /** Declare what all scenes have in common, then the parameters of
+   * @p scene. */
+  void declare_all(dealii::ParameterHandler &prm, const SceneKind &kind,
+                   const Scene &scene);
+
+  /** Throw InputError for laws that need the stress of elastic bodies: for
+   * scenes without any. */
+  void require_law_without_stress(const MethodParameters &method);
+
+  /** The parameters declared in @p prm as Markdown, those of @p what. */
+  void write_parameters(std::ostream &out, const dealii::ParameterHandler &prm,
+                        const std::string &what);
+
+  /** The reference of all scenes' parameters as Markdown. */
+  void write_reference(std::ostream &out);
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "diagnosis.h"
+
+#include "app/input/short_number.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Steps from a cold start that a start from a coarser mesh would save. */
+    constexpr int many_steps = 12;
+
+    /** Forces out of balance that are worth a word, and those that make an
+     * answer useless. */
+    constexpr double visible_imbalance = 1e-6, useless_imbalance = 1e-2;
+
+    /** Order below which an energy converges slowly: smooth data gives 2, the
+     * corners of bodies some 1.4. */
+    constexpr double slow_order = 1.25;
+
+    /** Part of the energy that the last mesh may still miss unsaid. */
+    constexpr double visible_energy = 1e-3;
+
+    /** Penalties, as multiples of the local stiffness, that are of use. Below,
+     * the contact is not felt; above, round-off of the springs disturbs the
+     * rest of the matrix. */
+    constexpr double softest = 1e-3, stiffest = 1e10;
+
+    /** Condition number that costs hundreds of iterations. */
+    constexpr double large_condition = 1e4;
+  } // namespace
+
+  void diagnose_penalty(Report &report, const MethodParameters &method)
+  {
+    const double penalty = abut_strategy_first_penalty(&method.options);
+    if (penalty == 0. || (penalty >= softest && penalty <= stiffest))
+      return;
+    const bool nitsche = (method.options.law->flags & ABUT_LAW_STRESS) != 0;
+    report.warn(coded(
+        nitsche ? ABUT_FAILURE_NITSCHE : ABUT_FAILURE_PENALTY,
+        "Method/Penalty is " + short_number(penalty, 3)
+            + " times the local stiffness, outside of any sensible "
+              "range, "
+            + short_number(softest, 2) + " to " + short_number(stiffest, 2)
+            + ". It has no unit: leave it 0 for the method's own."));
+  }
+
+  std::string diagnose_solver_failure(const std::string &message,
+                                      const double penalty)
+  {
+    if (penalty <= stiffest)
+      return message;
+    return coded(ABUT_FAILURE_PENALTY,
+                 "The penalty of " + short_number(penalty, 2)
+                     + " times the local stiffness leaves too few digits for "
+                       "the rest of the matrix: use a smaller Method/Penalty. "
+                       "What the linear solver said: "
+                     + uncoded(message));
+  }
+
+  void diagnose_iteration(Report &report, const abut_progress &progress,
+                          const bool is_cold)
+  {
+    report.set("cycle_length", progress.cycle_length);
+    report.add("fallback_steps", progress.fallback_steps);
+    if (progress.fallback_steps > 0)
+      report.warn(coded(
+          ABUT_FAILURE_CYCLE,
+          "The set of active rows came back"
+              + (progress.cycle_length > 0
+                     ? " after " + std::to_string(progress.cycle_length)
+                           + " steps"
+                     : std::string())
+              + ", so that " + std::to_string(progress.fallback_steps)
+              + " steps changed one row each. The answer is not worse for it; "
+                "the method interior point has no sets."));
+    if (is_cold && progress.step > many_steps)
+      report.warn(coded(
+          ABUT_FAILURE_COLD_START,
+          std::to_string(progress.step)
+              + " steps from displacement 0: the set changes by a layer of "
+                "nodes in each, and twice as fine a mesh needs twice as many. "
+                "Set Refinement/Nested iteration = true, which starts from "
+                "coarser meshes."));
+  }
+
+  bool diagnose_balance(Report &report, const double imbalance,
+                        const double penalty, std::string &failure)
+  {
+    report.set("imbalance", imbalance);
+    if (imbalance <= visible_imbalance)
+      return true;
+    const std::string text = coded(
+        penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER,
+        "Forces are out of balance by " + short_number(imbalance, 2)
+            + " of the contact forces: the linear system was not solved to its "
+              "tolerance. "
+            + (penalty > 0. ? "The penalty of " + short_number(penalty, 2)
+                                  + " times the local stiffness leaves too few "
+                                    "digits: use a smaller Method/Penalty, or "
+                                    "augmented lagrangian or lagrange."
+                            : std::string("Try Solver/Linear solver = direct "
+                                          "or a smaller Method/Final linear "
+                                          "tolerance.")));
+    if (!(imbalance <= useless_imbalance))
+    {
+      failure = text;
+      return false;
+    }
+    report.warn(text);
+    return true;
+  }
+
+  void diagnose_order(Report &report, const std::vector<double> &energies)
+  {
+    const std::size_t n = energies.size();
+    if (n < 3)
+      return;
+    const double last = energies[n - 1] - energies[n - 2];
+    const double before = energies[n - 2] - energies[n - 3];
+    const double order = std::log2(before / last);
+    const double noise = 1e-9 * std::abs(energies[n - 1]);
+    if (!std::isfinite(order) || std::abs(last) <= noise)
+      return;
+    report.set("energy_order", order);
+    const double missing = std::abs(last / energies[n - 1])
+                           / (std::exp2(std::max(order, 0.1)) - 1);
+    if (order < slow_order && missing > visible_energy)
+      report.warn(coded(
+          ABUT_FAILURE_SINGULAR,
+          "The energy converges with order " + short_number(order, 2)
+              + " in the size of the cells, where smooth data gives 2; the "
+                "last "
+                "mesh misses some "
+              + short_number(100. * missing, 2)
+              + " % of it. Look for data that jumps, such as the steps of an "
+                "obstacle or the edge of a punch; Refinement/Adaptive cycles "
+                "refines there alone."));
+  }
+
+  void diagnose_condition(Report &report, const double condition,
+                          const double penalty)
+  {
+    if (condition == 0.)
+      return;
+    report.set("condition", condition);
+    if (condition <= large_condition)
+      return;
+    const std::string seen = "Conjugate gradients met a condition number of "
+                             + short_number(condition, 2)
+                             + " although the matrix was " + "preconditioned. ";
+    report.warn(
+        penalty > 0.
+            ? coded(ABUT_FAILURE_PENALTY,
+                    seen + "The penalty of " + short_number(penalty, 2)
+                        + " times the local stiffness is beyond multigrid: "
+                          "leave Solver/Contact filter on, or use a smaller "
+                          "Method/Penalty.")
+            : coded(ABUT_FAILURE_LINEAR_SOLVER,
+                    seen + "Try Solver/Linear solver = direct."));
+  }
+} // namespace abut::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_DIAGNOSIS_H
+#define ABUT_APP_DIAGNOSIS_H
+
+/** @file
+ * What a run looks for in its own results. Each function puts what it has
+ * measured into the summary, and warns where it names a known failure.
+ */
+
+#include "app/report/report.h"
+
+#include <abut/dealii/method_parameters.h>
+#include <abut/strategy.h>
+
+#include <string>
+#include <vector>
+
+namespace abut::app
+{
+  /** Of the penalty that a method starts from: whether it is out of any
+   * sensible range. */
+  void diagnose_penalty(Report &report, const MethodParameters &method);
+
+  /** What a linear solver has said when it failed; blames the penalty (0: none)
+   * where that leaves too few digits for the rest of the matrix. */
+  std::string diagnose_solver_failure(const std::string &message,
+                                      double penalty);
+
+  /** Of a converged contact iteration: whether sets of active rows came back,
+   * and how many steps it needed on one mesh.
+   * @param is_cold it started from nothing, and need not have */
+  void diagnose_iteration(Report &report, const abut_progress &progress,
+                          bool is_cold);
+  /** Of the balance of forces, see ContactAssembler::imbalance(): whether the
+   * answer may be used; @p failure is then what to say.
+   * @param penalty of the law, 0 if none */
+  bool diagnose_balance(Report &report, double imbalance, double penalty,
+                        std::string &failure);
+
+  /** Of the energies on meshes each twice as fine as the one before: at which
+   * order of the mesh size they converge, and whether that is so slow that
+   * the data or the edge of a punch must be singular. */
+  void diagnose_order(Report &report, const std::vector<double> &energies);
+
+  /** Of the condition number that linear solvers have met.
+   * @param penalty of the law, 0 if none */
+  void diagnose_condition(Report &report, double condition, double penalty);
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "load_step_parameters.h"
+
+#include "app/input/input_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::app
+{
+  void LoadStepParameters::declare(dealii::ParameterHandler &prm)
+  {
+    namespace Patterns = dealii::Patterns;
+    prm.enter_subsection("Load steps");
+    prm.declare_entry("Steps", "1", Patterns::Integer(1),
+                      "Number of equal steps from time 0 to the end. The time "
+                      "is the t of all formulas; in one step all loads are "
+                      "applied at once.");
+    prm.declare_entry("End time", "1", Patterns::Double(),
+                      "Time of the last step, positive.");
+    prm.declare_entry("Cut back", "true", Patterns::Bool(),
+                      "Halve a step that finds no answer, and try again; "
+                      "later steps grow to their length again.");
+    prm.declare_entry("Smallest step", "1e-3", Patterns::Double(0., 1.),
+                      "Length of a step, as part of the whole time, below "
+                      "which a failure ends the run.");
+    prm.leave_subsection();
+  }
+
+  void LoadStepParameters::parse(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Load steps");
+    steps = prm.get_integer("Steps");
+    end_time = prm.get_double("End time");
+    cut_back = prm.get_bool("Cut back");
+    smallest_step = prm.get_double("Smallest step");
+    prm.leave_subsection();
+    if (!(end_time > 0.))
+      throw InputError("Load steps/End time", "must be positive.");
+  }
+
+  LoadSteps::LoadSteps(const LoadStepParameters &parameters)
+      : parameters(parameters), length(parameters.end_time / parameters.steps)
+  {
+  }
+
+  bool LoadSteps::is_finished() const
+  {
+    return reached >= parameters.end_time;
+  }
+
+  double LoadSteps::target() const
+  {
+    // A last step that would be left over as a sliver is taken along.
+    const double next = reached + length;
+    return next > parameters.end_time - 1e-6 * length ? parameters.end_time
+                                                      : next;
+  }
+
+  void LoadSteps::accept()
+  {
+    reached = target();
+    ++n_accepted;
+    ++n_good;
+    const double full = parameters.end_time / parameters.steps;
+    if (n_good == 2 && length < full)
+    {
+      length = std::min(2. * length, full);
+      n_good = 0;
+    }
+    else if (n_good == 2)
+      n_good = 1;
+  }
+
+  bool LoadSteps::reject()
+  {
+    ++n_rejected;
+    n_good = 0;
+    length *= 0.5;
+    return parameters.cut_back
+           && length >= parameters.smallest_step * parameters.end_time;
+  }
+} // namespace abut::app

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "loaded_scene.h"
+
+#include "app/input/input_error.h"
+#include "common_parameters.h"
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/utilities.h>
+
+#include <sstream>
+#include <utility>
+
+namespace abut::app
+{
+  LoadedScene::LoadedScene(ParameterFile values)
+      : file(std::move(values)),
+        scene_kind(app::scene_kind(file)),
+        dimension(scene_dimension(file, scene_kind))
+  {
+    scene = scene_kind.create(dimension);
+    scene->count(file);
+    declare_all(prm, scene_kind, *scene);
+    file.apply(prm);
+  }
+
+  void LoadedScene::find_law()
+  {
+    const std::string law = file.get("Method/Law file", "");
+    if (law.empty())
+      return;
+    RunOptions options;
+    options.scene_file = file.path();
+    prm.enter_subsection("Method");
+    prm.set("Law file", options.input_file(law).string());
+    prm.leave_subsection();
+  }
+
+  void LoadedScene::parse()
+  {
+    find_law();
+    // Errors of deal.II's own carry much text that no user needs.
+    try
+    {
+      scene->parse(prm);
+    }
+    catch (const dealii::ExceptionBase &error)
+    {
+      std::ostringstream text;
+      error.print_info(text);
+      throw InputError("", dealii::Utilities::trim(text.str()));
+    }
+  }
+
+  void LoadedScene::describe(Report &report) const
+  {
+    report.set("scene", file.name());
+    const std::string title = prm.get("Title");
+    if (!title.empty())
+      report.set("title", title);
+    if (dimension > 0)
+      report.set("dimension", dimension);
+  }
+
+  const char *LoadedScene::kind() const
+  {
+    return scene_kind.name;
+  }
+
+  bool LoadedScene::declares(const std::string &path) const
+  {
+    for (const DeclaredParameter &parameter : declared_parameters(prm))
+      if (parameter.path == path)
+        return true;
+    return false;
+  }
+
+  std::string LoadedScene::get(const std::string &section,
+                               const std::string &name)
+  {
+    prm.enter_subsection(section);
+    const std::string value = prm.get(name);
+    prm.leave_subsection();
+    return value;
+  }
+} // namespace abut::app

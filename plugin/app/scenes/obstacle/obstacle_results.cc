@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a run of the scene `obstacle` leaves behind.
+#include "app/input/collective.h"
+#include "app/pictures/pictures.h"
+#include "app/scenes/diagnosis.h"
+#include "app/scenes/left_out.h"
+#include "app/scenes/modelled.h"
+#include "obstacle_run.h"
+#include "solve/masked_solver.h"
+
+#include <deal.II/base/timer.h>
+#include <deal.II/dofs/dof_tools.h>
+
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+namespace abut::app
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    // In the order of draw_status()'s colours: two quiet ones first.
+    const std::vector<StatusWord> status_words = {{-1, "no constraint"},
+                                                  {0, "open"},
+                                                  {1, "contact"},
+                                                  {2, "contact above"}};
+
+    double median(std::vector<double> values)
+    {
+      std::sort(values.begin(), values.end());
+      const std::size_t n = values.size();
+      return 0.5 * (values[n / 2] + values[(n - 1) / 2]);
+    }
+  } // namespace
+
+  template <int dim> void ObstacleRun<dim>::declare_tables()
+  {
+    report.declare_columns(
+        {"level", "cells", "dofs", "constraints", "active", "steps",
+         "linear_iterations", "matvecs", "setups", "energy", "contact_force",
+         "penetration", "l2_error", "h1_error", "estimate", "estimated_error",
+         "setup_seconds", "krylov_seconds", "seconds"});
+  }
+
+  template <int dim> void ObstacleRun<dim>::write_fields()
+  {
+    if (!parameters.fields)
+      return;
+    SectionTimes::Scope scope(report.times, "output");
+    const la::Vector displacement = membrane.ghosted(u);
+    const la::Vector p = membrane.ghosted_field(contact.pressure());
+    const la::Vector g = membrane.ghosted_field(contact.gap());
+    const la::Vector status = membrane.ghosted_field(contact.status());
+    Fields<dim> fields{membrane.mapping,
+                       membrane.dof_handler,
+                       {{"displacement", &displacement},
+                        {"pressure", &p},
+                        {"gap", &g},
+                        {"status", &status}},
+                       {}};
+    if (present.estimate)
+      fields.cells = {{"squared_error_estimate", &squared_estimate}};
+    series.write(present.level, fields);
+  }
+
+  template <int dim> void ObstacleRun<dim>::write_nodal_values()
+  {
+    SectionTimes::Scope scope(report.times, "output");
+    std::map<dealii::types::global_dof_index, dealii::Point<dim>> points;
+    dealii::DoFTools::map_dofs_to_support_points(membrane.mapping,
+                                                 membrane.dof_handler, points);
+    const la::Vector p = membrane.ghosted_field(contact.pressure());
+    const la::Vector g = membrane.ghosted_field(contact.gap());
+    const la::Vector s = membrane.ghosted_field(contact.status());
+    std::ostringstream mine;
+    mine << std::setprecision(17);
+    for (const auto dof : membrane.dof_handler.locally_owned_dofs())
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        mine << points.at(dof)[d] << ',';
+      mine << u(dof) << ',' << p(dof) << ',' << g(dof) << ',' << s(dof) << '\n';
+    }
+    const auto all = MPI::gather(communicator, mine.str());
+    collective(communicator,
+               [&]
+               {
+                 if (MPI::this_mpi_process(communicator) != 0)
+                   return;
+                 std::ofstream out(options.output_folder / "nodal.csv");
+                 out << (dim == 2 ? "x,y," : "x,y,z,")
+                     << "displacement,pressure,gap,status\n";
+                 for (const std::string &part : all)
+                   out << part;
+                 if (!out)
+                   throw std::runtime_error("Cannot write nodal.csv.");
+               });
+  }
+
+  template <int dim> void ObstacleRun<dim>::compare_with_linear_solves()
+  {
+    std::vector<double> seconds;
+    unsigned int iterations = 0;
+    for (unsigned int i = 0; i < parameters.linear_solves; ++i)
+    {
+      dealii::Timer timer(communicator, true);
+      membrane.assemble(data);
+      SolverParameters settings;
+      settings.linear = SolverParameters::Linear::iterative;
+      solve::MaskedSolver solver(settings);
+      solver.reinit(membrane.stiffness);
+      solve::Mask nothing;
+      nothing.held.assign(la::n_owned(u), 0);
+      la::Vector x = membrane.vector();
+      la::Vector force(membrane.load);
+      membrane.constraints.set_zero(force);
+      iterations =
+          solver.solve(nothing, force, 1e-10 * force.l2_norm(), x, true)
+              .n_iterations;
+      timer.stop();
+      seconds.push_back(timer.wall_time());
+    }
+    const double reference = median(seconds);
+    const double mine = MPI::max(counted_seconds(), communicator);
+    report.set("linear_solve_seconds", reference);
+    report.set("linear_solve_iterations", iterations);
+    report.set("contact_solve_seconds", mine);
+    report.set("contact_to_linear_ratio", mine / reference);
+    report.progress("contact solve " + std::to_string(mine)
+                    + " s on all levels, one linear solve "
+                    + std::to_string(reference) + " s, ratio "
+                    + std::to_string(mine / reference));
+  }
+
+  template <int dim> void ObstacleRun<dim>::draw()
+  {
+    SectionTimes::Scope scope(report.times, "output");
+    const la::Vector displacement = membrane.ghosted(u);
+    const la::Vector status = membrane.ghosted_field(contact.status());
+    const Raster raster =
+        sample_raster(membrane.mapping, membrane.dof_handler,
+                      {{&displacement, false}, {&status, true}}, 160);
+    draw_solution(report, options.output_folder, "displacement", raster, 0,
+                  "Displacement");
+    draw_status(report, options.output_folder, "active-set", raster, 1,
+                status_words, "Contact");
+
+    std::vector<Curve> errors;
+    Curve l2{"L2 error", {}}, h1{"H1 error", {}}, energy{"energy error", {}},
+        count{"active-set steps", {}};
+    for (const ObstacleLevel &level : levels)
+    {
+      const double n = level.dofs;
+      if (level.errors)
+      {
+        l2.points.push_back({n, level.errors->l2});
+        h1.points.push_back({n, level.errors->h1_seminorm});
+      }
+      if (!std::isnan(parameters.exact_energy))
+        energy.points.push_back(
+            {n, std::abs(level.energy - parameters.exact_energy)});
+      count.points.push_back({n, double(level.steps)});
+    }
+    for (Curve *curve : {&l2, &h1, &energy})
+      if (!curve->points.empty())
+        errors.push_back(*curve);
+    draw_convergence(report, options.output_folder, "convergence", errors,
+                     {count}, "Convergence");
+  }
+
+  template <int dim>
+  std::optional<double>
+  ObstacleRun<dim>::relative_error(const ObstacleLevel &last) const
+  {
+    if (parameters.refinement.target_quantity == TargetQuantity::contact_force)
+    {
+      if (std::isnan(parameters.exact_force))
+        return {};
+      return std::abs(last.force / parameters.exact_force - 1.);
+    }
+    if (!last.errors || !conductivity->is_constant())
+      return {};
+    return std::sqrt(conductivity->value(dealii::Point<dim>()))
+           * last.errors->h1_seminorm / solution_norm();
+  }
+
+  template <int dim>
+  void ObstacleRun<dim>::report_result(const ObstacleLevel &last,
+                                       const bool converged)
+  {
+    report.set("method", method.options.law->name);
+    report.set("discretisation", "nodal");
+    report.set("dofs", last.dofs);
+    report.set("constraints", last.rows);
+    report.set("active", last.active);
+    report.set("contact_force", last.force);
+    report.set("max_penetration", contact.penetration());
+    report.set("max_complementarity", last.progress.complementarity);
+    report.set("energy", last.energy);
+    report.set("search_rebuilds", 0);
+    report.set("pairs", 0);
+    if (last.errors)
+    {
+      report.set("l2_error", last.errors->l2);
+      report.set("h1_error", last.errors->h1_seminorm);
+      report.set("nodal_error", last.errors->largest_node);
+    }
+    if (!std::isnan(parameters.exact_energy))
+      report.set("energy_error",
+                 std::abs(last.energy - parameters.exact_energy));
+    if (!std::isnan(parameters.exact_force))
+      report.set("contact_force_error",
+                 std::abs(last.force - parameters.exact_force));
+    if (last.estimate)
+      report.set("estimate", *last.estimate);
+    report.set("cells", last.cells);
+    report.set("steps_on_last_level", last.steps);
+    report.set("linear_iterations_on_last_level", last.linear.n_iterations);
+    const double here[2] = {
+        double(triangulation.n_locally_owned_active_cells()),
+        double(membrane.stiffness.trilinos_matrix().NumMyNonzeros())};
+    const auto cells = MPI::min_max_avg(here[0], communicator);
+    const auto entries = MPI::min_max_avg(here[1], communicator);
+    report.set("largest_share_of_cells", cells.max / cells.sum);
+    report.set("largest_share_of_matrix", entries.max / entries.sum);
+    std::vector<double> energies;
+    double condition = 0.;
+    for (const ObstacleLevel &level : levels)
+    {
+      condition = std::max(condition, level.linear.condition);
+      if (level.level <= parameters.refinement.level)
+        energies.push_back(level.energy);
+    }
+    if (converged && !parameters.refinement.has_target())
+      diagnose_order(report, energies);
+    diagnose_condition(report, condition, last.progress.penalty);
+    report.set("converged", converged);
+    if (control.is_on())
+      control.report(report, relative_error(last));
+  }
+
+  template <int dim> void ObstacleRun<dim>::report_model()
+  {
+    report.model("contact rows", true,
+                 contact_ids.empty() ? "one for each free node of the domain"
+                                     : "one for each free node of the contact "
+                                       "boundary",
+                 {"contact rows and start"});
+    report.model("meshes", true,
+                 std::to_string(levels.size())
+                     + ", with unknowns and pattern of each",
+                 {"mesh", "unknowns and pattern", "transfer"});
+    report.model("stiffness", true, "assembled once on each mesh",
+                 {"assembly"});
+    report.model("search", false,
+                 "the obstacle is a function: its gap needs no search");
+    report.model("friction", false, "a scalar field has no tangent to slide");
+    const RefinementParameters &refinement = parameters.refinement;
+    model_meshes(report, refinement);
+    const LinearReport &linear = levels.back().linear;
+    report.model("preconditioner set-ups on the last level",
+                 linear.n_setups > 0,
+                 std::to_string(linear.n_setups) + " for "
+                     + std::to_string(levels.back().steps) + " steps");
+    unsigned int n_steps = 0;
+    for (const ObstacleLevel &level : levels)
+      n_steps += level.steps;
+    report.model("linear systems", true,
+                 std::to_string(n_steps) + " on all meshes", {"solve"});
+    model_files(report, parameters.fields || options.pictures);
+    explain_accuracy(report, refinement, control);
+    explain_steps(report, refinement, method, n_steps,
+                  static_cast<unsigned int>(levels.size()));
+    explain_output(report);
+  }
+
+  template void ObstacleRun<2>::declare_tables();
+  template void ObstacleRun<2>::write_fields();
+  template void ObstacleRun<2>::write_nodal_values();
+  template void ObstacleRun<2>::compare_with_linear_solves();
+  template void ObstacleRun<2>::draw();
+  template std::optional<double>
+  ObstacleRun<2>::relative_error(const ObstacleLevel &) const;
+  template std::optional<double>
+  ObstacleRun<3>::relative_error(const ObstacleLevel &) const;
+  template void ObstacleRun<2>::report_result(const ObstacleLevel &, bool);
+  template void ObstacleRun<2>::report_model();
+  template void ObstacleRun<3>::declare_tables();
+  template void ObstacleRun<3>::write_fields();
+  template void ObstacleRun<3>::write_nodal_values();
+  template void ObstacleRun<3>::compare_with_linear_solves();
+  template void ObstacleRun<3>::draw();
+  template void ObstacleRun<3>::report_result(const ObstacleLevel &, bool);
+  template void ObstacleRun<3>::report_model();
+} // namespace abut::app

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "pair_parameters.h"
+
+#include "app/input/input_error.h"
+
+namespace abut::app
+{
+  void PairParameters::declare(dealii::ParameterHandler &prm,
+                               const std::string &section)
+  {
+    namespace Patterns = dealii::Patterns;
+    prm.enter_subsection(section);
+    prm.declare_entry("Secondary", "", Patterns::Anything(),
+                      "The surface that carries the constraints, usually the "
+                      "finer and softer one: a body and its boundary ids, `1: "
+                      "3, 4`; several bodies are separated by ';'.");
+    prm.declare_entry("Primary", "", Patterns::Anything(),
+                      "The surface that it may touch, written like "
+                      "`Secondary`; empty with an obstacle. The same as "
+                      "`Secondary`: a surface that may touch itself.");
+    prm.declare_entry("Obstacle", "0", Patterns::Integer(0),
+                      "Number of the rigid obstacle (section `Obstacle N`) "
+                      "that takes the place of a primary surface; 0: none.");
+    prm.declare_entry("Initial gap", "0", Patterns::Anything(),
+                      "Added to the gap of the meshes: a length or a formula "
+                      "in t. Positive: clearance, negative: interference.");
+    prm.declare_entry("Mesh gap", "true", Patterns::Bool(),
+                      "Whether the gap between the meshes counts. If not, "
+                      "`Initial gap` is all of it: for curved surfaces that "
+                      "fit, whose facets do not.");
+    prm.declare_entry("Tied", "false", Patterns::Bool(),
+                      "Glue the surfaces together where they are opposite to "
+                      "each other.");
+    prm.declare_entry("Reach", "0", Patterns::Double(0.),
+                      "Distance within which the surfaces look for each other; "
+                      "0: half a facet, or more when they move more.");
+    prm.leave_subsection();
+  }
+
+  void PairParameters::parse(dealii::ParameterHandler &prm,
+                             const std::string &section_name,
+                             const unsigned int n_obstacles)
+  {
+    section = section_name;
+    prm.enter_subsection(section);
+    secondary = prm.get("Secondary");
+    primary = prm.get("Primary");
+    obstacle = prm.get_integer("Obstacle");
+    gap = prm.get("Initial gap");
+    mesh_gap = prm.get_bool("Mesh gap");
+    tied = prm.get_bool("Tied");
+    reach = prm.get_double("Reach");
+    prm.leave_subsection();
+    if (secondary.empty())
+      throw InputError(parameter("Secondary"),
+                       "the pair has no secondary surface: name a body and its "
+                       "boundary ids, such as '1: 3'.");
+    if (primary.empty() && obstacle == 0)
+      throw InputError(parameter("Primary"),
+                       "the pair has neither a primary surface nor an "
+                       "obstacle: give one of the two.");
+    if (!primary.empty() && obstacle > 0)
+      throw InputError(parameter("Obstacle"),
+                       "the pair has a primary surface too: give one of the "
+                       "two, or make two pairs.");
+    if (obstacle > n_obstacles)
+      throw InputError(parameter("Obstacle"),
+                       "there is no obstacle " + std::to_string(obstacle)
+                           + ": 'Solid/Obstacles' says "
+                           + std::to_string(n_obstacles) + ".");
+  }
+} // namespace abut::app

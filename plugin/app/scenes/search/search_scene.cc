@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "search_scene.h"
+
+#include "app/input/input_error.h"
+#include "search_run.h"
+
+namespace abut::app
+{
+  namespace
+  {
+    template <int dim> class SearchScene : public Scene
+    {
+    public:
+      void declare(dealii::ParameterHandler &prm) const override
+      {
+        SearchSceneParameters::declare(prm);
+      }
+
+      void parse(dealii::ParameterHandler &prm) override
+      {
+        parameters.parse(prm);
+      }
+
+      void check(const RunOptions &options, Report &report) override
+      {
+        SearchRun(parameters, options, report).check<dim>();
+      }
+
+      Outcome run(const RunOptions &options, Report &report) override
+      {
+        SearchRun(parameters, options, report).run<dim>();
+        return Outcome::converged;
+      }
+
+    private:
+      SearchSceneParameters parameters;
+    };
+  } // namespace
+
+  void SearchSceneParameters::declare(dealii::ParameterHandler &prm)
+  {
+    for (const char *section : {"Secondary", "Primary"})
+    {
+      prm.enter_subsection(section);
+      SurfaceParameters::declare(prm);
+      prm.leave_subsection();
+    }
+    SearchParameters::declare_parameters(prm);
+    SweepParameters::declare(prm);
+    prm.enter_subsection("Output");
+    prm.declare_entry("Fields", "true", dealii::Patterns::Bool(),
+                      "Write both surfaces as VTU files for ParaView, the "
+                      "secondary one with gap, distance, status (0 not "
+                      "paired, 1 paired, 2 overlapping) and number of the "
+                      "facet.");
+    prm.leave_subsection();
+  }
+
+  void SearchSceneParameters::parse(dealii::ParameterHandler &prm)
+  {
+    const auto surface = [&prm](const char *section, SurfaceParameters &side)
+    {
+      prm.enter_subsection(section);
+      side.parse(prm, section);
+      prm.leave_subsection();
+    };
+    surface("Secondary", secondary);
+    surface("Primary", primary);
+    search.parse_parameters(prm);
+    sweep.parse(prm);
+    prm.enter_subsection("Output");
+    fields = prm.get_bool("Fields");
+    prm.leave_subsection();
+  }
+
+  std::unique_ptr<Scene> create_search_scene(const unsigned int dimension)
+  {
+    if (dimension == 2)
+      return std::make_unique<SearchScene<2>>();
+    return std::make_unique<SearchScene<3>>();
+  }
+} // namespace abut::app

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_pairs.h"
+
+#include "app/input/input_error.h"
+#include "app/mesh/make_rigid_obstacle.h"
+
+#include <abut/dealii/coded.h>
+
+#include <cmath>
+
+namespace abut::app
+{
+  using dealii::types::boundary_id;
+
+  template <int dim>
+  SolidPairs<dim>::SolidPairs(const SolidParameters &parameters,
+                              const RunOptions &options)
+      : parameters(parameters)
+  {
+    for (const RigidObstacleParameters &obstacle : parameters.obstacles)
+      obstacles.push_back(make_rigid_obstacle<dim>(obstacle, options));
+    for (const PairParameters &pair : parameters.pairs)
+    {
+      gaps.push_back(std::make_unique<Expression<dim>>(
+          pair.gap, pair.parameter("Initial gap")));
+      ContactPair<dim> made;
+      made.name = pair.section;
+      made.geometric_gap = pair.mesh_gap;
+      made.tied = pair.tied;
+      made.reach = pair.reach;
+      if (pair.obstacle > 0)
+        made.obstacle = obstacles[pair.obstacle - 1];
+      all.push_back(made);
+    }
+  }
+
+  template <int dim>
+  void SolidPairs<dim>::find_surfaces(const Bodies<dim> &bodies)
+  {
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      const PairParameters &given = parameters.pairs[i];
+      all[i].secondary =
+          bodies.surface(given.secondary, given.parameter("Secondary"));
+      all[i].primary =
+          bodies.surface(given.primary, given.parameter("Primary"));
+      if (all[i].secondary == all[i].primary)
+        continue; // a surface that touches itself
+      for (const boundary_id id : all[i].secondary)
+        if (all[i].primary.count(id) > 0)
+          throw InputError(given.parameter("Primary"),
+                           coded(ABUT_FAILURE_BOTH_SIDES,
+                                 bodies.name(id)
+                                     + " is on both sides of the pair. Where a "
+                                       "surface touches itself both sides are "
+                                       "the same altogether."));
+    }
+  }
+
+  template <int dim>
+  void SolidPairs<dim>::hold(const Bodies<dim> &bodies,
+                             const std::set<unsigned int> &floating)
+  {
+    for (ContactPair<dim> &pair : all)
+      for (const auto *side : {&pair.secondary, &pair.primary})
+        for (const boundary_id id : *side)
+          // nobody holds itself
+          if (floating.count(bodies.body_of(id)) > 0
+              && pair.secondary != pair.primary)
+            pair.holds_body = true;
+  }
+
+  template <int dim> void SolidPairs<dim>::set_time(const double time)
+  {
+    for (const auto &obstacle : obstacles)
+      obstacle->set_time(time);
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      gaps[i]->set_time(time);
+      dealii::Point<dim> elsewhere;
+      for (unsigned int d = 0; d < dim; ++d)
+        elsewhere[d] = 0.7310585 + d;
+      const auto values = gaps[i]->evaluate({dealii::Point<dim>(), elsewhere});
+      if (values[0] != values[1])
+        throw InputError(parameters.pairs[i].parameter("Initial gap"),
+                         "'" + gaps[i]->text()
+                             + "' depends on the place; it may depend on t "
+                               "alone.");
+      all[i].gap = values[0];
+    }
+  }
+
+  template <int dim> std::set<boundary_id> SolidPairs<dim>::secondary() const
+  {
+    std::set<boundary_id> result;
+    for (const ContactPair<dim> &pair : all)
+      result.insert(pair.secondary.begin(), pair.secondary.end());
+    return result;
+  }
+
+  template <int dim> std::set<boundary_id> SolidPairs<dim>::surfaces() const
+  {
+    std::set<boundary_id> result = secondary();
+    for (const ContactPair<dim> &pair : all)
+      result.insert(pair.primary.begin(), pair.primary.end());
+    return result;
+  }
+
+  template <int dim> std::vector<ContactSides> SolidPairs<dim>::sides() const
+  {
+    std::vector<ContactSides> result;
+    for (const ContactPair<dim> &pair : all)
+      if (!pair.primary.empty())
+        result.push_back({pair.secondary, pair.primary});
+    return result;
+  }
+
+  template <int dim>
+  std::string SolidPairs<dim>::parameter_of(const std::string &message) const
+  {
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (message.find(all[i].name) != std::string::npos)
+        found = i;
+    const PairParameters &pair = parameters.pairs[found];
+    // only formulas are found wrong after an obstacle has been made
+    if (pair.obstacle > 0 && message.find("its obstacle") != std::string::npos)
+      return parameters.obstacles[pair.obstacle - 1].parameter("Expression");
+    return pair.parameter("Secondary");
+  }
+
+  template class SolidPairs<2>;
+  template class SolidPairs<3>;
+} // namespace abut::app

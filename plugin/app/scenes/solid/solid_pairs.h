@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_SOLID_PAIRS_H
+#define ABUT_APP_SOLID_PAIRS_H
+
+#include "app/adapt/contact_refinement.h"
+#include "app/input/expression.h"
+#include "app/mesh/bodies.h"
+#include "solid_parameters.h"
+
+#include <abut/dealii/contact_pair.h>
+#include <abut/dealii/rigid_obstacle.h>
+
+#include <memory>
+#include <set>
+#include <vector>
+
+namespace abut::app
+{
+  /** The contact pairs of a scene `solid` with their obstacles. */
+  template <int dim> class SolidPairs
+  {
+  public:
+    /** Make the obstacles and read the formulas; throws InputError. */
+    SolidPairs(const SolidParameters &parameters, const RunOptions &options);
+
+    /** Find the boundary ids of the surfaces. Throws InputError for bodies and
+     * ids that do not exist, and for a surface on both sides of a pair. */
+    void find_surfaces(const Bodies<dim> &bodies);
+
+    /** Say that pairs with a surface of these bodies hold them. */
+    void hold(const Bodies<dim> &bodies,
+              const std::set<unsigned int> &floating);
+
+    /** Time of gaps and obstacles. */
+    void set_time(double time);
+
+    /** The pairs at the present time. */
+    const std::vector<ContactPair<dim>> &pairs() const
+    {
+      return all;
+    }
+
+    bool empty() const
+    {
+      return all.empty();
+    }
+
+    /** Boundary ids of all secondary, or of all surfaces. */
+    std::set<dealii::types::boundary_id> secondary() const;
+    std::set<dealii::types::boundary_id> surfaces() const;
+
+    /** Both sides of the pairs between bodies. */
+    std::vector<ContactSides> sides() const;
+
+    /** The parameter that a message about a pair belongs to: the pair's that
+     * the message names, or the first's. */
+    std::string parameter_of(const std::string &message) const;
+
+  private:
+    const SolidParameters &parameters;
+    std::vector<std::shared_ptr<RigidObstacle<dim>>> obstacles;
+    std::vector<std::unique_ptr<Expression<dim>>> gaps;
+    std::vector<ContactPair<dim>> all;
+  };
+} // namespace abut::app
+
+#endif

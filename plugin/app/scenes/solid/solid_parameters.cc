@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_parameters.h"
+
+#include "app/input/input_error.h"
+
+namespace abut::app
+{
+  namespace
+  {
+    using dealii::ParameterHandler;
+    namespace Patterns = dealii::Patterns;
+
+    /** Numbered sections that a file may have of one kind. */
+    constexpr unsigned int most = 100;
+
+    unsigned int count(const ParameterFile &file, const std::string &parameter,
+                       const unsigned int smallest,
+                       const unsigned int otherwise)
+    {
+      const std::string text = file.get(parameter, std::to_string(otherwise));
+      const std::vector<double> value = parse_numbers(text, parameter);
+      if (value.size() != 1 || value[0] < smallest || value[0] > most
+          || value[0] != static_cast<unsigned int>(value[0]))
+        throw InputError(parameter, "'" + text + "' is not a whole number from "
+                                        + std::to_string(smallest) + " to "
+                                        + std::to_string(most) + ".");
+      return static_cast<unsigned int>(value[0]);
+    }
+
+    std::string numbered(const std::string &word, const unsigned int index)
+    {
+      return word + " " + std::to_string(index + 1);
+    }
+
+    void declare_solid(ParameterHandler &prm)
+    {
+      prm.enter_subsection("Solid");
+      prm.declare_entry("Bodies", "1", Patterns::Integer(1, most),
+                        "Number of bodies: there are as many sections `Body "
+                        "1`, `Body 2`, ...");
+      prm.declare_entry("Pairs", "0", Patterns::Integer(0, most),
+                        "Number of contact pairs, sections `Pair 1`, ...");
+      prm.declare_entry("Obstacles", "0", Patterns::Integer(0, most),
+                        "Number of rigid obstacles, sections `Obstacle 1`, "
+                        "...");
+      prm.declare_entry("Degree", "1", Patterns::Integer(1, 2),
+                        "Polynomial degree of the displacement: 1 or 2.");
+      // Known in both dimensions, so that one reference tells of it.
+      prm.declare_entry("Plane", "strain",
+                        Patterns::Selection("strain|stress|axisymmetric"),
+                        "What 2D stands for: plane strain, plane stress (per "
+                        "unit of thickness), or a body of revolution about x "
+                        "= 0, whose forces are those of the full circle. "
+                        "Without meaning in 3D.");
+      prm.declare_entry("Gravity", "", Patterns::Anything(),
+                        "Acceleration: a formula for each component, separated "
+                        "by commas. Empty: none.");
+      prm.leave_subsection();
+    }
+
+    void declare_solid_results(ParameterHandler &prm)
+    {
+      prm.enter_subsection("Exact solution");
+      prm.declare_entry("Displacement", "", Patterns::Anything(),
+                        "A formula for each component, separated by commas; if "
+                        "given, errors are computed.");
+      prm.declare_entry("Gradient", "", Patterns::Anything(),
+                        "Its gradient, `du_x/dx, du_x/dy, du_y/dx, du_y/dy`. "
+                        "Empty: by differences.");
+      prm.declare_entry("Energy", "nan", Patterns::Anything(),
+                        "Energy of the exact solution; nan: not known.");
+      prm.leave_subsection();
+
+      prm.enter_subsection("Output");
+      prm.declare_entry("Fields", "true", Patterns::Bool(),
+                        "Write displacement and stress as VTU and PVD files "
+                        "for ParaView.");
+      prm.declare_entry("All levels", "false", Patterns::Bool(),
+                        "Write fields on every level, not only on the last.");
+      prm.declare_entry("Inf-sup constant", "false", Patterns::Bool(),
+                        "Compute on each mesh how well the displacements "
+                        "determine the contact pressures: column `inf_sup`. It "
+                        "stays where it is under refinement, or falls to 0 if "
+                        "there are too many pressures. Costs a few dozen "
+                        "linear solves.");
+      prm.declare_entry("Points", "", Patterns::Anything(),
+                        "Where displacements are wanted: the summary gets "
+                        "those of the nodes nearest to the points `1: 0, 0; 2: "
+                        "1, 0.5` (body: coordinates without load) as point_1, "
+                        "point_2, ...");
+      prm.leave_subsection();
+    }
+  } // namespace
+
+  SolidCounts SolidCounts::read(const ParameterFile &file)
+  {
+    SolidCounts counts;
+    counts.bodies = count(file, "Solid/Bodies", 1, 1);
+    counts.pairs = count(file, "Solid/Pairs", 0, 0);
+    counts.obstacles = count(file, "Solid/Obstacles", 0, 0);
+    return counts;
+  }
+
+  void SolidParameters::declare(ParameterHandler &prm,
+                                const SolidCounts &counts)
+  {
+    declare_solid(prm);
+    for (unsigned int body = 0; body < counts.bodies; ++body)
+      BodyParameters::declare(prm, numbered("Body", body));
+    for (unsigned int pair = 0; pair < counts.pairs; ++pair)
+      PairParameters::declare(prm, numbered("Pair", pair));
+    for (unsigned int obstacle = 0; obstacle < counts.obstacles; ++obstacle)
+    {
+      prm.enter_subsection(numbered("Obstacle", obstacle));
+      RigidObstacleParameters::declare(prm);
+      prm.leave_subsection();
+    }
+    LoadStepParameters::declare(prm);
+    RefinementParameters::declare(prm, "2", "0");
+    declare_solid_results(prm);
+  }
+
+  void SolidParameters::parse(ParameterHandler &prm, const SolidCounts &counts)
+  {
+    prm.enter_subsection("Solid");
+    degree = prm.get_integer("Degree");
+    const std::string word = prm.get("Plane");
+    plane = word == "strain"   ? PlaneModel::strain
+            : word == "stress" ? PlaneModel::stress
+                               : PlaneModel::axisymmetric;
+    gravity = prm.get("Gravity");
+    prm.leave_subsection();
+    bodies.resize(counts.bodies);
+    for (unsigned int body = 0; body < counts.bodies; ++body)
+      bodies[body].parse(prm, numbered("Body", body));
+    pairs.resize(counts.pairs);
+    for (unsigned int pair = 0; pair < counts.pairs; ++pair)
+      pairs[pair].parse(prm, numbered("Pair", pair), counts.obstacles);
+    obstacles.resize(counts.obstacles);
+    for (unsigned int obstacle = 0; obstacle < counts.obstacles; ++obstacle)
+    {
+      const std::string section = numbered("Obstacle", obstacle);
+      prm.enter_subsection(section);
+      obstacles[obstacle].parse(prm, section);
+      prm.leave_subsection();
+    }
+    load_steps.parse(prm);
+    refinement.parse(prm);
+
+    prm.enter_subsection("Exact solution");
+    exact_displacement = prm.get("Displacement");
+    exact_gradient = prm.get("Gradient");
+    exact_energy =
+        parse_number_or_nan(prm.get("Energy"), "Exact solution/Energy");
+    prm.leave_subsection();
+
+    prm.enter_subsection("Output");
+    fields = prm.get_bool("Fields");
+    all_levels = prm.get_bool("All levels");
+    inf_sup = prm.get_bool("Inf-sup constant");
+    points = prm.get("Points");
+    prm.leave_subsection();
+  }
+} // namespace abut::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_SOLID_PARAMETERS_H
+#define ABUT_APP_SOLID_PARAMETERS_H
+
+#include "app/adapt/refinement_parameters.h"
+#include "app/input/parameters.h"
+#include "app/mesh/body_parameters.h"
+#include "app/mesh/rigid_obstacle_parameters.h"
+#include "app/physics/elastic_material.h"
+#include "app/scenes/load_step_parameters.h"
+#include "app/scenes/pair_parameters.h"
+
+#include <string>
+#include <vector>
+
+namespace abut::app
+{
+  /** How many numbered sections a scene `solid` has. */
+  struct SolidCounts
+  {
+    unsigned int bodies = 1;
+    unsigned int pairs = 1;
+    unsigned int obstacles = 1;
+
+    /** Take them from `Solid/Bodies` and so on. Throws InputError. */
+    static SolidCounts read(const ParameterFile &file);
+  };
+
+  /** All parameters of the scene `solid` but those of the methods. */
+  struct SolidParameters
+  {
+    unsigned int degree = 1;
+    PlaneModel plane = PlaneModel::strain;
+    std::string gravity;
+    std::vector<BodyParameters> bodies;
+    std::vector<PairParameters> pairs;
+    std::vector<RigidObstacleParameters> obstacles;
+    LoadStepParameters load_steps;
+    RefinementParameters refinement;
+
+    // Exact solution
+    std::string exact_displacement, exact_gradient;
+    double exact_energy = 0.;
+
+    // Output
+    bool fields = true;
+    bool all_levels = false;
+    bool inf_sup = false;
+    std::string points;
+
+    static void declare(dealii::ParameterHandler &prm,
+                        const SolidCounts &counts);
+    void parse(dealii::ParameterHandler &prm, const SolidCounts &counts);
+  };
+} // namespace abut::app
+
+#endif

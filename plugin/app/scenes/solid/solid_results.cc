@@ -1,0 +1,478 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a run of the scene `solid` leaves behind.
+#include "app/input/input_error.h"
+#include "app/input/short_number.h"
+#include "app/mesh/nearest_node.h"
+#include "app/physics/volumetric_locking.h"
+#include "app/report/result_row.h"
+#include "app/scenes/diagnosis.h"
+#include "app/scenes/left_out.h"
+#include "app/scenes/modelled.h"
+#include "solid_run.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace abut::app
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Part of the largest displacement. */
+    constexpr double suspicious_penetration = 0.1;
+
+    /** Part of a pressure that goes astray. */
+    constexpr double visible_transfer_error = 1e-3;
+
+    /** Poisson ratio from which on locking is looked for, and the part of the
+     * strain energy that is worth a word. */
+    constexpr double least_locking_ratio = 0.45, visible_locking = 0.1;
+    /** Least and largest value on any rank. Collective. */
+    std::vector<double> range_over_ranks(const double value,
+                                         const MPI_Comm communicator)
+    {
+      return {MPI::min(value, communicator), MPI::max(value, communicator)};
+    }
+  } // namespace
+
+  template <int dim> void SolidRun<dim>::declare_tables()
+  {
+    report.declare_columns({"load_step",
+                            "time",
+                            "level",
+                            "cells",
+                            "dofs",
+                            "constraints",
+                            "active",
+                            "steps",
+                            "linear_iterations",
+                            "matvecs",
+                            "setups",
+                            "energy",
+                            "contact_force",
+                            "penetration",
+                            "l2_error",
+                            "h1_error",
+                            "energy_norm_error",
+                            "estimate",
+                            "estimated_error",
+                            "inf_sup",
+                            "setup_seconds",
+                            "krylov_seconds",
+                            "seconds"});
+  }
+
+  template <int dim> void SolidRun<dim>::finish_state()
+  {
+    if (parameters.refinement.is_adaptive(mesh_number))
+      estimate();
+    if (control.is_on() && load_steps.n_accepted == 0)
+      judge();
+    const double counted = counted_seconds();
+    present.seconds = counted - counted_before;
+    counted_before = counted;
+    SectionTimes::Scope scope(report.times, "results");
+    present.cells = triangulation.n_global_active_cells();
+    present.dofs = elasticity.dof_handler.n_dofs();
+    present.energy = elasticity.energy(u);
+    if (!pairs->empty())
+    {
+      present.rows = contact.n_rows();
+      present.active = contact.n_active();
+      present.force = contact.contact_force();
+      present.penetration = contact.penetration();
+      if (parameters.inf_sup)
+        present.inf_sup = contact.inf_sup_constant(elasticity.stiffness);
+    }
+    if (exact)
+      present.errors =
+          error_norms(elasticity.mapping, elasticity.dof_handler,
+                      elasticity.ghosted(u), *exact, &data.materials);
+    std::map<std::string, double> row = result_row(present);
+    row["load_step"] = present.load_step;
+    row["time"] = present.time;
+    row["level"] = present.level;
+    row["penetration"] = present.penetration;
+    if (present.errors)
+      row["energy_norm_error"] = *present.errors->energy;
+    if (present.inf_sup)
+      row["inf_sup"] = *present.inf_sup;
+    report.add_row(row);
+    states.push_back(present);
+    report.add("nonlinear_iterations", present.steps);
+    report.add("linear_iterations", present.linear.n_iterations);
+    report.add("matvecs", present.linear.n_matvecs);
+    report.progress("time " + short_number(present.time, 6) + ", level "
+                    + std::to_string(present.level) + ": "
+                    + std::to_string(present.dofs) + " unknowns, "
+                    + std::to_string(present.linear.n_iterations)
+                    + " linear iterations, energy "
+                    + short_number(present.energy, 8) + control.progress());
+  }
+
+  template <int dim> void SolidRun<dim>::report_points()
+  {
+    const la::Vector displacement = elasticity.ghosted(u);
+    unsigned int number = 0;
+    for (const std::string &part : split_list(parameters.points, ';'))
+    {
+      const auto [body, text] = bodies.split_body(part, "Output/Points");
+      const std::vector<double> x = parse_numbers(text, "Output/Points");
+      if (x.size() != dim)
+        throw InputError("Output/Points", "'" + part + "' does not have "
+                                              + std::to_string(dim)
+                                              + " coordinates.");
+      dealii::Point<dim> point;
+      for (unsigned int d = 0; d < dim; ++d)
+        point[d] = x[d];
+      const NodalValue<dim> node =
+          nearest_node(elasticity.mapping, elasticity.dof_handler, displacement,
+                       body, point);
+      const std::string key = "point_" + std::to_string(++number);
+      report.set(key, std::vector<double>(node.value.begin_raw(),
+                                          node.value.end_raw()));
+      report.set(key + "_node", std::vector<double>(node.position.begin_raw(),
+                                                    node.position.end_raw()));
+    }
+  }
+
+  template <int dim> void SolidRun<dim>::report_reactions()
+  {
+    const la::Vector forces = elasticity.unbalanced_forces(u);
+    const dealii::IndexSet &owned = elasticity.dof_handler.locally_owned_dofs();
+    std::vector<bool> seen(owned.n_elements(), false);
+    std::vector<double> sums(dim * bodies.size(), 0.);
+    const auto &fe = elasticity.fe;
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    for (const auto &cell : elasticity.dof_handler.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        if (!owned.is_element(dofs[i])
+            || !elasticity.constraints.is_constrained(dofs[i]))
+          continue;
+        const auto local = owned.index_within_set(dofs[i]);
+        if (seen[local])
+          continue;
+        seen[local] = true;
+        sums[cell->material_id() * dim
+             + fe.system_to_component_index(i).first] += forces(dofs[i]);
+      }
+    }
+    MPI::sum(sums, communicator, sums);
+    for (unsigned int body = 0; body < bodies.size(); ++body)
+      report.set("reaction_" + std::to_string(body + 1),
+                 std::vector<double>(sums.begin() + body * dim,
+                                     sums.begin() + (body + 1) * dim));
+  }
+
+  template <int dim> void SolidRun<dim>::report_checks()
+  {
+    unsigned int number = 0;
+    for (const PairCheck &check : contact.pair_checks())
+    {
+      const std::string key = "pair_" + std::to_string(++number);
+      report.set(key + "_facets",
+                 std::vector<double>{double(check.secondary_facets),
+                                     double(check.primary_facets)});
+      report.set(key + "_rows", check.n_rows);
+      report.set(key + "_area", check.area);
+      report.set(key + "_covered_area", check.covered_area);
+      report.set(key + "_overlap", check.overlap);
+      report.set(key + "_dropped", check.n_dropped);
+      report.set(key + "_reversed", check.n_reversed);
+      for (const std::string &warning : check.warnings)
+        report.warn(about(check.name, warning));
+    }
+    report.set("constraints", contact.n_rows());
+  }
+
+  template <int dim> void SolidRun<dim>::report_transfer()
+  {
+    unsigned int number = 0;
+    for (const double error : contact.transfer_errors(u))
+    {
+      const std::string key = "pair_" + std::to_string(++number);
+      report.set(key + "_transfer_error", error);
+      if (error > visible_transfer_error)
+        report.warn(coded(
+            ABUT_FAILURE_TRANSFER,
+            "Pair " + std::to_string(number) + " hands "
+                + short_number(100. * error, 2)
+                + " % of a uniform pressure to wrong nodes of its primary "
+                  "surface, because the meshes do not match: the contact "
+                  "pressure has an error of this size, which refinement does "
+                  "not lower. Use Method/Discretisation = mortar or dual "
+                  "mortar."));
+    }
+  }
+
+  template <int dim> void SolidRun<dim>::report_contact()
+  {
+    const auto vector = [](const auto &tensor)
+    { return std::vector<double>(tensor.begin_raw(), tensor.end_raw()); };
+    unsigned int number = 0;
+    double force_imbalance = 0., moment_imbalance = 0.;
+    const std::vector<PairCheck> checks = contact.pair_checks();
+    const double way = u.linfty_norm();
+    for (const PairResult<dim> &pair : contact.pair_results())
+    {
+      const std::string key = "pair_" + std::to_string(++number);
+      report.set(key + "_rows", pair.n_rows);
+      report.set(key + "_active", pair.n_active);
+      report.set(key + "_covered_area", pair.covered_area);
+      report.set(key + "_contact_area", pair.contact_area);
+      report.set(key + "_force", vector(pair.secondary_force));
+      report.set(key + "_moment", vector(pair.secondary_moment));
+      report.set(key + "_pressure", pair.pressure);
+      report.set(key + "_penetration", pair.penetration);
+      const double facet = checks.at(number - 1).facet_size;
+      if (facet > 0.)
+        report.set(key + "_penetration_by_facet", pair.penetration / facet);
+      report.set(key + "_between_rows", pair.between_rows);
+      const auto warn_of = [&](const double depth, const abut_failure failure,
+                               const std::string &where,
+                               const std::string &remedy)
+      {
+        if (way > 0. && depth > suspicious_penetration * way)
+          report.warn(coded(failure, pair.name + ": " + where + " by up to "
+                                         + short_number(depth, 3)
+                                         + ", where nothing moves by more than "
+                                         + short_number(way, 3) + ": "
+                                         + remedy));
+      };
+      warn_of(pair.between_rows, ABUT_FAILURE_COARSE_SECONDARY,
+              "nodes of the primary surface are inside the secondary, between "
+              "its constraints,",
+              "exchange the two sides, or refine the secondary.");
+      report.set(key + "_held_inside", pair.held_inside);
+      warn_of(pair.held_inside, ABUT_FAILURE_HELD_NODES,
+              "supports hold nodes of the secondary surface inside the other "
+              "side",
+              "contact cannot move them. Leave these nodes free along the "
+              "normal, or move what supports them.");
+      force_imbalance = std::max(force_imbalance, pair.force_imbalance);
+      moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
+    }
+    if (method.discretisation == Discretisation::node_to_segment
+        || method.discretisation == Discretisation::quadrature_point
+        || (method.options.law->flags & ABUT_LAW_STRESS) != 0)
+      report_transfer();
+    report.set("search_rebuilds", n_rebuilds);
+    report.set("force_imbalance", force_imbalance);
+    report.set("moment_imbalance", moment_imbalance);
+    report.set("method", method.options.law->name);
+    report.set("discretisation", discretisation_name(method.discretisation));
+    report.set("contact_force", contact.contact_force());
+    report.set("max_penetration", contact.penetration());
+    report.set("max_complementarity", contact.complementarity());
+    if (way > 0. && contact.penetration() > suspicious_penetration * way)
+      report.warn(coded(
+          ABUT_FAILURE_PENALTY,
+          "The bodies penetrate each other by "
+              + short_number(contact.penetration(), 3)
+              + ", where nothing moves by more than " + short_number(way, 3)
+              + ": the contact is far too soft. Use a larger "
+                "Method/Penalty, or the method augmented lagrangian or "
+                "lagrange."));
+  }
+
+  template <int dim> std::optional<double> SolidRun<dim>::relative_error() const
+  {
+    const SolidState &last = states.back();
+    if (!last.errors
+        || parameters.refinement.target_quantity != TargetQuantity::energy_norm)
+      return {};
+    return *last.errors->energy / solution_norm();
+  }
+
+  template <int dim> void SolidRun<dim>::report_shares()
+  {
+    const auto share = [&](const std::string &key, const double value)
+    { report.set(key + "_on_rank", range_over_ranks(value, communicator)); };
+    share("cells", triangulation.n_locally_owned_active_cells());
+    share("dofs", elasticity.dof_handler.n_locally_owned_dofs());
+    if (pairs->empty())
+      return;
+    const CommunicationReport sent = contact.communication();
+    share("constraints", contact.n_own_rows());
+    share("facets", sent.own_facets);
+    share("ghost_facets", sent.ghost_facets);
+    report.set("communicated_bytes", MPI::max(sent.bytes, communicator));
+    report.set("communicated_messages", MPI::max(sent.messages, communicator));
+    report.set("gathered_bytes", MPI::max(sent.gathered_bytes, communicator));
+  }
+
+  template <int dim> void SolidRun<dim>::report_result(const bool converged)
+  {
+    SectionTimes::Scope scope(report.times, "results");
+    report.set("converged", converged);
+    report.set("bodies", bodies.size());
+    report.set("load_steps", load_steps.n_accepted);
+    report.set("load_steps_cut_back", load_steps.n_rejected);
+    if (states.empty())
+      return;
+    const SolidState &last = states.back();
+    report.set("time", last.time);
+    report.set("cells", last.cells);
+    report.set("dofs", last.dofs);
+    report.set("constraints", last.rows);
+    report.set("active", last.active);
+    report.set("energy", last.energy);
+    report.set("steps_on_last_level", last.steps);
+    report.set("linear_iterations_on_last_level", last.linear.n_iterations);
+    if (last.errors)
+    {
+      report.set("l2_error", last.errors->l2);
+      report.set("h1_error", last.errors->h1_seminorm);
+      report.set("energy_norm_error", *last.errors->energy);
+      report.set("nodal_error", last.errors->largest_node);
+    }
+    if (last.estimate)
+      report.set("estimate", *last.estimate);
+    if (last.inf_sup)
+      report.set("inf_sup", *last.inf_sup);
+    if (last.estimate && last.errors)
+      report.set("effectivity", *last.estimate / *last.errors->energy);
+    if (!std::isnan(parameters.exact_energy))
+      report.set("energy_error",
+                 std::abs(last.energy - parameters.exact_energy));
+    if (control.is_on())
+      control.report(report, relative_error());
+    report_points();
+    report_reactions();
+    report_shares();
+    if (!pairs->empty())
+      report_contact();
+    if (converged)
+      report_numerics();
+  }
+
+  template <int dim> void SolidRun<dim>::report_numerics()
+  {
+    std::vector<double> energies;
+    double condition = 0., penalty = 0.;
+    for (const SolidState &state : states)
+    {
+      condition = std::max(condition, state.linear.condition);
+      penalty = state.progress.penalty;
+      if (state.load_step == 1 && state.level <= parameters.refinement.level)
+        energies.push_back(state.energy);
+    }
+    if (!parameters.refinement.has_target())
+      diagnose_order(report, energies);
+    diagnose_condition(report, condition, penalty);
+    double poisson_ratio = 0.;
+    for (const auto &material : data.materials)
+      poisson_ratio = std::max(poisson_ratio, material.second.poisson_ratio);
+    if (parameters.degree > 1 || parameters.plane == PlaneModel::stress
+        || poisson_ratio < least_locking_ratio)
+      return;
+    const double locked =
+        volumetric_locking(elasticity.mapping, elasticity.dof_handler,
+                           elasticity.ghosted(u), data.materials);
+    report.set("locked_energy", locked);
+    if (locked > visible_locking)
+      report.warn(coded(
+          ABUT_FAILURE_LOCKING,
+          short_number(100. * locked, 2)
+              + " % of the strain energy is volume change within cells, which "
+                "linear elements cannot avoid: with Poisson ratio "
+              + short_number(poisson_ratio, 6)
+              + " they lock, displacements are too small and contact forces "
+                "too large. Set Solid/Degree = 2."));
+  }
+
+  template <int dim> void SolidRun<dim>::report_model()
+  {
+    report.model("contact", !pairs->empty(),
+                 pairs->empty()
+                     ? "no pairs were given"
+                     : "between " + std::to_string(pairs->pairs().size())
+                           + " pairs of surfaces",
+                 {"contact rows"});
+    report.model("meshes", true, "with unknowns and pattern of each",
+                 {"mesh", "unknowns and pattern", "transfer"});
+    report.model("stiffness", true, "assembled once on each mesh",
+                 {"assembly"});
+    const bool searches = std::any_of(
+        pairs->pairs().begin(), pairs->pairs().end(),
+        [](const ContactPair<dim> &pair) { return pair.obstacle == nullptr; });
+    report.model("search", searches,
+                 searches ? "facets of bodies for each other: "
+                                + std::to_string(n_detections)
+                                + " times, and a check after each solve"
+                          : "gaps to obstacles are formulas: no facet is "
+                            "looked for");
+    if (method.law_is_automatic && !pairs->empty())
+      report.model("automatic law", true, method.options.law->name);
+    report.model("friction", false, "surfaces slide freely on each other");
+    const RefinementParameters &refinement = parameters.refinement;
+    model_meshes(report, refinement);
+    report.model("load steps", parameters.load_steps.steps > 1,
+                 std::to_string(load_steps.n_accepted) + " of "
+                     + std::to_string(parameters.load_steps.steps)
+                     + " asked for");
+    report.model("inertia", false, "each load step is in equilibrium");
+    report.model("large strain", false,
+                 "strains are linear in the displacement");
+    unsigned int n_steps = 0;
+    for (const SolidState &state : states)
+      n_steps += state.steps;
+    report.model("linear systems", true,
+                 std::to_string(n_steps) + " in all states", {"solve"});
+    model_files(report, parameters.fields || options.pictures);
+    explain_accuracy(report, refinement, control);
+    explain_steps(report, refinement, method, n_steps,
+                  static_cast<unsigned int>(states.size()));
+    explain_pairs();
+    explain_output(report);
+  }
+
+  template <int dim> void SolidRun<dim>::explain_pairs()
+  {
+    if (load_steps.n_accepted > 1)
+      report.leave_out(
+          "load steps: without friction the last answer does not depend on "
+          "those before it; if only it is wanted, Load steps/Steps = 1.");
+    if (pairs->empty() || states.empty())
+      return;
+    for (const PairResult<dim> &pair : contact.pair_results())
+      if (pair.n_active == 0)
+        report.leave_out(pair.name + ": none of its "
+                         + std::to_string(pair.n_rows)
+                         + " constraints is in contact.");
+  }
+
+  template void SolidRun<2>::declare_tables();
+  template void SolidRun<2>::finish_state();
+  template void SolidRun<2>::report_points();
+  template void SolidRun<2>::report_reactions();
+  template void SolidRun<2>::report_checks();
+  template void SolidRun<2>::report_shares();
+  template void SolidRun<2>::report_numerics();
+  template void SolidRun<2>::report_transfer();
+  template void SolidRun<2>::report_contact();
+  template std::optional<double> SolidRun<2>::relative_error() const;
+  template std::optional<double> SolidRun<3>::relative_error() const;
+  template void SolidRun<2>::report_result(bool);
+  template void SolidRun<2>::report_model();
+  template void SolidRun<2>::explain_pairs();
+  template void SolidRun<3>::declare_tables();
+  template void SolidRun<3>::finish_state();
+  template void SolidRun<3>::report_points();
+  template void SolidRun<3>::report_reactions();
+  template void SolidRun<3>::report_checks();
+  template void SolidRun<3>::report_shares();
+  template void SolidRun<3>::report_numerics();
+  template void SolidRun<3>::report_transfer();
+  template void SolidRun<3>::report_contact();
+  template void SolidRun<3>::report_result(bool);
+  template void SolidRun<3>::report_model();
+  template void SolidRun<3>::explain_pairs();
+} // namespace abut::app

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_scene.h"
+
+#include "app/scenes/automatic_law.h"
+#include "solid_run.h"
+
+#include <algorithm>
+
+namespace abut::app
+{
+  namespace
+  {
+    template <int dim> class SolidScene : public Scene
+    {
+    public:
+      void count(const ParameterFile &file) override
+      {
+        counts = SolidCounts::read(file);
+      }
+
+      void declare(dealii::ParameterHandler &prm) const override
+      {
+        SolidParameters::declare(prm, counts);
+        ContactAssembler<dim>::declare_parameters(prm);
+      }
+
+      void parse(dealii::ParameterHandler &prm) override
+      {
+        parameters.parse(prm, counts);
+        method.parse_parameters(prm);
+        solver.parse_parameters(prm);
+        search.parse_parameters(prm);
+        choose_law_of_bodies(method, std::any_of(parameters.pairs.begin(),
+                                                 parameters.pairs.end(),
+                                                 [](const auto &pair)
+                                                 { return pair.tied; }));
+      }
+
+      void check(const RunOptions &options, Report &report) override
+      {
+        SolidRun<dim>(parameters, method, solver, search, options, report)
+            .check();
+      }
+
+      Outcome run(const RunOptions &options, Report &report) override
+      {
+        return SolidRun<dim>(parameters, method, solver, search, options,
+                             report)
+            .run();
+      }
+
+    private:
+      SolidCounts counts;
+      SolidParameters parameters;
+      MethodParameters method;
+      SolverParameters solver;
+      SearchParameters search;
+    };
+  } // namespace
+
+  std::unique_ptr<Scene> create_solid_scene(const unsigned int dimension)
+  {
+    if (dimension == 3)
+      return std::make_unique<SolidScene<3>>();
+    return std::make_unique<SolidScene<2>>();
+  }
+} // namespace abut::app
