@@ -25,5 +25,6 @@
 #include <abut/status.h>
 #include <abut/strategy.h>
 #include <abut/surface.h>
+#include <abut/version.h>
 
 #endif

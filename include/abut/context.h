@@ -47,6 +47,7 @@ extern "C"
   /** What a context has allocated. */
   typedef struct abut_memory_usage
   {
+    size_t struct_size;     /**< sizeof(abut_memory_usage) */
     uint64_t live_bytes;    /**< now held */
     uint64_t peak_bytes;    /**< largest value of live_bytes so far */
     uint64_t n_allocations; /**< number of allocations so far */
@@ -64,7 +65,17 @@ extern "C"
   ABUT_API const char *abut_context_message(const abut_context *context);
 
   /** Memory held by the objects of this context. */
-  ABUT_API abut_memory_usage abut_context_memory(const abut_context *context);
+  ABUT_API abut_status abut_context_memory_sized(const abut_context *context,
+                                                 abut_memory_usage *usage);
+
+  /** The same; zeros if @p context is NULL. */
+  static inline abut_memory_usage
+  abut_context_memory(const abut_context *context)
+  {
+    abut_memory_usage usage = {sizeof(abut_memory_usage), 0, 0, 0};
+    (void)abut_context_memory_sized(context, &usage);
+    return usage;
+  }
 
 #ifdef __cplusplus
 }

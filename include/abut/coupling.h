@@ -243,6 +243,7 @@ extern "C"
    * facet, then of the point), entries in that of the numbers of nodes. */
   typedef struct abut_coupling_view
   {
+    size_t struct_size;   /**< sizeof(abut_coupling_view) */
     int32_t dimension;    /**< 2 or 3 */
     int32_t n_rows;       /**< number of rows */
     const int32_t *node;  /**< [n_rows] secondary node; -1: quadrature point */
@@ -269,14 +270,24 @@ extern "C"
   } abut_coupling_view;
 
   /** View of the rows. O(1). */
-  ABUT_API abut_status abut_coupling_get(const abut_coupling *coupling,
-                                         abut_coupling_view *view);
+  ABUT_API abut_status abut_coupling_get_sized(const abut_coupling *coupling,
+                                               abut_coupling_view *view);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status abut_coupling_get(const abut_coupling *coupling,
+                                              abut_coupling_view *view)
+  {
+    if (view != NULL)
+      view->struct_size = sizeof(*view);
+    return abut_coupling_get_sized(coupling, view);
+  }
 
   /** What a build met. Areas and numbers of rows add up over processes, if
    * each row is wanted on one; the others count facets that a process had to
    * look at. */
   typedef struct abut_coupling_statistics
   {
+    size_t struct_size;  /**< sizeof(abut_coupling_statistics) */
     double covered_area; /**< sum of the weights of all rows */
     double full_area;    /**< sum of the full weights of all wanted nodes */
     int64_t n_facets;    /**< secondary facets looked at */
@@ -304,8 +315,18 @@ extern "C"
   } abut_coupling_statistics;
 
   /** Statistics of the last build. */
-  ABUT_API abut_status abut_coupling_get_statistics(
+  ABUT_API abut_status abut_coupling_get_statistics_sized(
       const abut_coupling *coupling, abut_coupling_statistics *statistics);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status
+  abut_coupling_get_statistics(const abut_coupling *coupling,
+                               abut_coupling_statistics *statistics)
+  {
+    if (statistics != NULL)
+      statistics->struct_size = sizeof(*statistics);
+    return abut_coupling_get_statistics_sized(coupling, statistics);
+  }
 
 #ifdef __cplusplus
 }

@@ -138,6 +138,7 @@ extern "C"
   /** Read-only result of the last run; lives until the next run. */
   typedef struct abut_detection_view
   {
+    size_t struct_size;          /**< sizeof(abut_detection_view) */
     int32_t n_nodes;             /**< nodes of the secondary surface */
     const abut_contact *contact; /**< [n_nodes] */
     int32_t changed;     /**< nonzero: some node's facet is another than in the
@@ -148,14 +149,23 @@ extern "C"
     int32_t n_exchanged; /**< nodes with another one than before */
     int32_t searched;    /**< nonzero: lists were made anew, not reused */
     double reach;        /**< absolute part of the reach in use, length */
-    /** Candidates not taken, by reason. */
-    int64_t rejected[ABUT_REJECTION_N];
-    int64_t n_candidates; /**< candidates in all */
+    const int64_t *rejected; /**< [ABUT_REJECTION_N] candidates not taken, by
+                                  reason */
+    int64_t n_candidates;    /**< candidates in all */
   } abut_detection_view;
 
   /** View of the result. */
-  ABUT_API abut_status abut_detection_get(const abut_detection *detection,
-                                          abut_detection_view *view);
+  ABUT_API abut_status abut_detection_get_sized(const abut_detection *detection,
+                                                abut_detection_view *view);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status abut_detection_get(const abut_detection *detection,
+                                               abut_detection_view *view)
+  {
+    if (view != NULL)
+      view->struct_size = sizeof(*view);
+    return abut_detection_get_sized(detection, view);
+  }
 
   /** The search inside, for its statistics. */
   ABUT_API const abut_search *
@@ -164,6 +174,7 @@ extern "C"
   /** What to know before solving. */
   typedef struct abut_detection_report
   {
+    size_t struct_size;    /**< sizeof(abut_detection_report) */
     int32_t n_nodes;       /**< secondary nodes in paired groups */
     int32_t n_paired;      /**< of these, with a facet */
     double area;           /**< secondary area that belongs to these nodes (each
@@ -182,8 +193,18 @@ extern "C"
   } abut_detection_report;
 
   /** Report on the last run. O(n). */
-  ABUT_API abut_status abut_detection_make_report(
+  ABUT_API abut_status abut_detection_make_report_sized(
       abut_detection *detection, abut_detection_report *report);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status
+  abut_detection_make_report(abut_detection *detection,
+                             abut_detection_report *report)
+  {
+    if (report != NULL)
+      report->struct_size = sizeof(*report);
+    return abut_detection_make_report_sized(detection, report);
+  }
 
 #ifdef __cplusplus
 }

@@ -201,6 +201,7 @@ extern "C"
   /** What an obstacle is, and what it has found. */
   typedef struct abut_obstacle_view
   {
+    size_t struct_size;      /**< sizeof(abut_obstacle_view) */
     int32_t dimension;       /**< 2 or 3 */
     abut_obstacle_kind kind; /**< as created */
     bool hollow;             /**< as created */
@@ -213,8 +214,17 @@ extern "C"
   } abut_obstacle_view;
 
   /** View of an obstacle. O(1). */
-  ABUT_API abut_status abut_obstacle_get(const abut_obstacle *obstacle,
-                                         abut_obstacle_view *view);
+  ABUT_API abut_status abut_obstacle_get_sized(const abut_obstacle *obstacle,
+                                               abut_obstacle_view *view);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status abut_obstacle_get(const abut_obstacle *obstacle,
+                                              abut_obstacle_view *view)
+  {
+    if (view != NULL)
+      view->struct_size = sizeof(*view);
+    return abut_obstacle_get_sized(obstacle, view);
+  }
 
 #ifdef __cplusplus
 }

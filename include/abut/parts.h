@@ -31,11 +31,6 @@ extern "C"
 {
 #endif
 
-/** In the context's message of a process where nothing failed, after a call
- * that returns the failure of another one (abut_strategy_next() and others that
- * reduce over all of them). */
-#define ABUT_FAILED_ON_ANOTHER_RANK "another rank reported a failure"
-
   /** Box parallel to the axes; in 2D the third components are 0. */
   typedef struct abut_box
   {

@@ -26,6 +26,7 @@ extern "C"
    * change. Row i has the entries row_start[i] .. row_start[i+1]-1. */
   typedef struct abut_rows_view
   {
+    size_t struct_size;        /**< sizeof(abut_rows_view) */
     int32_t n_rows;            /**< number of rows */
     const int64_t *id;         /**< [n_rows] global number, unique and sorted */
     const double *weight;      /**< [n_rows] w > 0 */
@@ -59,8 +60,17 @@ extern "C"
                                         const double *coefficient);
 
   /** View of the arrays. */
-  ABUT_API abut_status abut_rows_get(const abut_rows *rows,
-                                     abut_rows_view *view);
+  ABUT_API abut_status abut_rows_get_sized(const abut_rows *rows,
+                                           abut_rows_view *view);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status abut_rows_get(const abut_rows *rows,
+                                          abut_rows_view *view)
+  {
+    if (view != NULL)
+      view->struct_size = sizeof(*view);
+    return abut_rows_get_sized(rows, view);
+  }
 
   /** gap_i = g0_i + sum_k B_ik u[column_k - offset]; all columns must lie in
    * [offset, offset + n_unknowns). */

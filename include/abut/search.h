@@ -81,6 +81,8 @@ extern "C"
      * again after small motion; default 0: lists are made anew whenever
      * something moved. */
     double skin;
+    double reserved[4]; /**< 0: room for later options, since this struct stands
+                             in others */
   } abut_search_options;
 
   /** Default options. */
@@ -92,7 +94,8 @@ extern "C"
                                          0,
                                          0.,
                                          0.5,
-                                         0.};
+                                         0.,
+                                         {0., 0., 0., 0.}};
     return options;
   }
 
@@ -135,14 +138,24 @@ extern "C"
    * facet[start[i + 1] - 1], ascending. Valid until the list changes. */
   typedef struct abut_pairs_view
   {
+    size_t struct_size;   /**< sizeof(abut_pairs_view) */
     int32_t n_queries;    /**< number of queries */
     const int64_t *start; /**< [n_queries + 1] */
     const int32_t *facet; /**< [start[n_queries]] */
   } abut_pairs_view;
 
   /** View of the arrays. */
-  ABUT_API abut_status abut_pairs_get(const abut_pairs *pairs,
-                                      abut_pairs_view *view);
+  ABUT_API abut_status abut_pairs_get_sized(const abut_pairs *pairs,
+                                            abut_pairs_view *view);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status abut_pairs_get(const abut_pairs *pairs,
+                                           abut_pairs_view *view)
+  {
+    if (view != NULL)
+      view->struct_size = sizeof(*view);
+    return abut_pairs_get_sized(pairs, view);
+  }
 
   /** Pairs of the nodes of @p secondary (which may be the searched surface)
    * with the facets of the search. With a skin, a list made by an earlier call
@@ -169,6 +182,7 @@ extern "C"
   /** What a search consists of and has done so far. */
   typedef struct abut_search_statistics
   {
+    size_t struct_size;      /**< sizeof(abut_search_statistics) */
     int64_t n_facets;        /**< of the surface */
     int64_t n_buckets;       /**< uniform: occupied cells; adaptive: buckets of
                                   facets */
@@ -192,8 +206,18 @@ extern "C"
   } abut_search_statistics;
 
   /** Statistics of a search. */
-  ABUT_API abut_status abut_search_get_statistics(
+  ABUT_API abut_status abut_search_get_statistics_sized(
       const abut_search *search, abut_search_statistics *statistics);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status
+  abut_search_get_statistics(const abut_search *search,
+                             abut_search_statistics *statistics)
+  {
+    if (statistics != NULL)
+      statistics->struct_size = sizeof(*statistics);
+    return abut_search_get_statistics_sized(search, statistics);
+  }
 
 #ifdef __cplusplus
 }

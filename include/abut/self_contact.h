@@ -47,6 +47,7 @@ extern "C"
   /** What a split met. */
   typedef struct abut_split_report
   {
+    size_t struct_size;  /**< sizeof(abut_split_report) */
     int64_t n_pairs;     /**< pairs of facets that face each other in reach */
     int64_t n_skins;     /**< pairs left out: two skins of a thin part */
     int64_t n_conflicts; /**< of n_pairs, on one side all the same: three flanks
@@ -68,11 +69,21 @@ extern "C"
    * @param report may be NULL
    *
    * O(n log n); not collective. */
-  ABUT_API abut_status abut_surface_split(abut_context *context,
-                                          abut_surface *surface,
-                                          const abut_split_options *options,
-                                          uint8_t *side,
-                                          abut_split_report *report);
+  ABUT_API abut_status
+  abut_surface_split_sized(abut_context *context, abut_surface *surface,
+                           const abut_split_options *options, uint8_t *side,
+                           abut_split_report *report);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status
+  abut_surface_split(abut_context *context, abut_surface *surface,
+                     const abut_split_options *options, uint8_t *side,
+                     abut_split_report *report)
+  {
+    if (report != NULL)
+      report->struct_size = sizeof(*report);
+    return abut_surface_split_sized(context, surface, options, side, report);
+  }
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,10 @@
  * lack of resources or a fault of the library: the objects involved may only
  * be destroyed. Text and place of the last failure are in the context
  * (abut_context_message()).
+ *
+ * Calls that reduce over ranks (abut_strategy_start() and its like) fail on all
+ * of them. FAILED_ELSEWHERE is the status of those where nothing was wrong:
+ * status and text of another one tell more.
  */
 
 #include <abut/export.h>
@@ -28,6 +32,7 @@ extern "C"
   X(UNSUPPORTED, 4, "this combination is not defined")                         \
   X(CALLBACK_FAILED, 5, "a function supplied by the caller reported failure")  \
   X(INVALID_MESH, 6, "a facet or node of the surface is not usable")           \
+  X(FAILED_ELSEWHERE, 7, "the call failed on another rank")                    \
   X(OUT_OF_MEMORY, -1, "out of memory")                                        \
   X(INTERNAL, -2, "internal error")
 

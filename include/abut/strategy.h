@@ -27,6 +27,7 @@
 #include <abut/failure.h>
 #include <abut/law.h>
 #include <stdbool.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C"
@@ -72,7 +73,7 @@ extern "C"
   typedef struct abut_strategy_options
   {
     size_t struct_size;    /**< sizeof(abut_strategy_options) */
-    const abut_law *law;   /**< default: lagrange */
+    const abut_law *law;   /**< NULL (default): lagrange */
     double length_scale;   /**< > 0, length; default 1 */
     double pressure_scale; /**< > 0, force per area; default 1 */
     /** eps = penalty * stiffness. Default 0 = the law's own: 50 for penalty
@@ -124,17 +125,39 @@ extern "C"
   } abut_strategy_options;
 
   /** Default options. */
-  ABUT_API abut_strategy_options abut_strategy_defaults(void);
+  static inline abut_strategy_options abut_strategy_defaults(void)
+  {
+    abut_strategy_options options;
+    memset(&options, 0, sizeof(options));
+    options.struct_size = sizeof(abut_strategy_options);
+    options.length_scale = 1.;
+    options.pressure_scale = 1.;
+    options.penalty_growth = 10.;
+    options.penalty_cap = 1e6;
+    options.adaptive_penalty = true;
+    options.complementarity = 1.;
+    options.barrier_start = 0.1;
+    options.barrier_factor = 0.1;
+    options.barrier_end = 1e-8;
+    options.gap_tolerance = 1e-6;
+    options.pressure_tolerance = 1e-3;
+    options.linear_tolerance = 1e-2;
+    options.final_linear_tolerance = 1e-10;
+    options.max_steps = 200;
+    options.max_outer = 60;
+    return options;
+  }
 
   /** eps / stiffness that a run with these options starts from:
    * options->penalty or, where that is 0, the law's own. 0 for laws without
-   * eps, and if @p options or its law is NULL. */
+   * eps, as lagrange, and if @p options is NULL. */
   ABUT_API double
   abut_strategy_first_penalty(const abut_strategy_options *options);
 
   /** What the host is to do, and with which numbers. */
   typedef struct abut_request
   {
+    size_t struct_size; /**< sizeof(abut_request) */
     abut_action action; /**< what to do */
     abut_reason reason; /**< at STOP */
     /** SOLVE, and the SOLVE_AGAIN after it: relative tolerance for the linear
@@ -158,6 +181,7 @@ extern "C"
   /** Progress, for logs and tables; global over ranks. */
   typedef struct abut_progress
   {
+    size_t struct_size;     /**< sizeof(abut_progress) */
     int32_t step;           /**< linear systems (SOLVE) asked for so far */
     int32_t outer;          /**< outer steps so far: times that the set
                                  settled, values of mu done, or interior point
@@ -203,8 +227,8 @@ extern "C"
    *   options.project says; interior point makes a
    *   warm start of it if some pressure is positive
    * @param state [n] starting set, or NULL for the one that p and g call for
-   * Arrays are copied. O(n). A rank whose arguments are wrong makes all ranks
-   * return a failure. UNSUPPORTED for bilateral rows under an interior law. */
+   * Arrays are copied. O(n). A rank whose arguments are wrong makes all
+   * others return FAILED_ELSEWHERE. UNSUPPORTED for bilateral rows under an interior law. */
   ABUT_API abut_status abut_strategy_start(
       abut_strategy *strategy, int32_t n, const int64_t *id,
       const double *weight, const double *stiffness, const uint8_t *bilateral,
@@ -217,13 +241,32 @@ extern "C"
    * reductions of a few numbers per linear system. After a failure only a new
    * start is legal. Where the reason is not CONVERGED, abut_context_message()
    * says what was seen. */
-  ABUT_API abut_status abut_strategy_next(abut_strategy *strategy,
-                                          const double *gap,
-                                          abut_request *request);
+  ABUT_API abut_status abut_strategy_next_sized(abut_strategy *strategy,
+                                                const double *gap,
+                                                abut_request *request);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status abut_strategy_next(abut_strategy *strategy,
+                                               const double *gap,
+                                               abut_request *request)
+  {
+    if (request != NULL)
+      request->struct_size = sizeof(*request);
+    return abut_strategy_next_sized(strategy, gap, request);
+  }
 
   /** Progress so far. */
-  ABUT_API abut_status abut_strategy_progress(const abut_strategy *strategy,
-                                              abut_progress *progress);
+  ABUT_API abut_status abut_strategy_progress_sized(
+      const abut_strategy *strategy, abut_progress *progress);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status
+  abut_strategy_progress(const abut_strategy *strategy, abut_progress *progress)
+  {
+    if (progress != NULL)
+      progress->struct_size = sizeof(*progress);
+    return abut_strategy_progress_sized(strategy, progress);
+  }
 
   /** Functions of a host for abut_strategy_run(). */
   typedef struct abut_host

@@ -103,9 +103,10 @@ extern "C"
    * follow its updates. */
   typedef struct abut_surface_view
   {
-    int32_t dimension; /**< 2 or 3 */
-    int32_t n_nodes;   /**< number of nodes */
-    int32_t n_facets;  /**< number of facets */
+    size_t struct_size; /**< sizeof(abut_surface_view) */
+    int32_t dimension;  /**< 2 or 3 */
+    int32_t n_nodes;    /**< number of nodes */
+    int32_t n_facets;   /**< number of facets */
     /** Facet f has the nodes from connectivity[facet_start[f]] to
      * connectivity[facet_start[f + 1] - 1]. [n_facets + 1] */
     const int32_t *facet_start;
@@ -134,8 +135,17 @@ extern "C"
   } abut_neighbour;
 
   /** View of the arrays. O(1). */
-  ABUT_API abut_status abut_surface_get(const abut_surface *surface,
-                                        abut_surface_view *view);
+  ABUT_API abut_status abut_surface_get_sized(const abut_surface *surface,
+                                              abut_surface_view *view);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status abut_surface_get(const abut_surface *surface,
+                                             abut_surface_view *view)
+  {
+    if (view != NULL)
+      view->struct_size = sizeof(*view);
+    return abut_surface_get_sized(surface, view);
+  }
 
   /** Averaged unit normals of the nodes at the present positions, [n_nodes *
    * dimension] (step 1 of the detection).
@@ -152,6 +162,7 @@ extern "C"
    * length of its longest side. */
   typedef struct abut_surface_sizes
   {
+    size_t struct_size;      /**< sizeof(abut_surface_sizes) */
     double area;             /**< area of all facets (2D: length) */
     double smallest;         /**< smallest size of a facet; 0 without facets */
     double median;           /**< median size: the one at n_facets / 2 */
@@ -164,8 +175,17 @@ extern "C"
   } abut_surface_sizes;
 
   /** Sizes of a surface. O(n). */
-  ABUT_API abut_status abut_surface_measure(abut_surface *surface,
-                                            abut_surface_sizes *sizes);
+  ABUT_API abut_status abut_surface_measure_sized(abut_surface *surface,
+                                                  abut_surface_sizes *sizes);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status abut_surface_measure(abut_surface *surface,
+                                                 abut_surface_sizes *sizes)
+  {
+    if (sizes != NULL)
+      sizes->struct_size = sizeof(*sizes);
+    return abut_surface_measure_sized(surface, sizes);
+  }
 
   /** Mark the sides at which the surface ends or bends.
    * @param angle radian in (0, pi]; sides whose two normals differ by more

@@ -3,7 +3,6 @@
 #define ABUT_SHIM_AGREE_H
 
 #include <abut/context.h>
-#include <abut/parts.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -14,23 +13,17 @@
 namespace abut::shim
 {
   /** Throw @p message on all ranks if it is not empty on one: that of the
-   * lowest such rank, of those where the failure happened if there are any.
-   * Collective. */
+   * lowest such rank. Collective. */
   template <typename Error>
   void throw_everywhere(const MPI_Comm communicator, const std::string &message)
   {
     namespace MPI = dealii::Utilities::MPI;
-    const unsigned int me = MPI::this_mpi_process(communicator);
-    const unsigned int n_ranks = MPI::n_mpi_processes(communicator);
     const unsigned int none = std::numeric_limits<unsigned int>::max();
-    const bool happened_here =
-        message.find(ABUT_FAILED_ON_ANOTHER_RANK) == std::string::npos;
-    const unsigned int first = MPI::min(message.empty() ? none
-                                        : happened_here ? me
-                                                        : n_ranks + me,
-                                        communicator);
+    const unsigned int first =
+        MPI::min(message.empty() ? none : MPI::this_mpi_process(communicator),
+                 communicator);
     if (first != none)
-      throw Error(MPI::broadcast(communicator, message, first % n_ranks));
+      throw Error(MPI::broadcast(communicator, message, first));
   }
 
   /** Run @p function. What it throws on any rank is thrown on all: as an Error
@@ -78,9 +71,9 @@ namespace abut::shim
   void check_everywhere(const MPI_Comm communicator,
                         const abut_context *context, const abut_status status)
   {
-    const std::string message = message_of(context, status);
-    const bool is_hearsay = message.find("another rank") != std::string::npos;
-    throw_everywhere<Error>(communicator, is_hearsay ? "" : message);
+    throw_everywhere<Error>(communicator, status == ABUT_FAILED_ELSEWHERE
+                                              ? ""
+                                              : message_of(context, status));
   }
 } // namespace abut::shim
 

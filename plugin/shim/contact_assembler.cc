@@ -47,6 +47,8 @@ namespace abut
                                              const SolverParameters &solver)
   {
     implementation->method = method;
+    if (method.options.law == nullptr)
+      implementation->method.options.law = abut_law_find("lagrange");
     implementation->solver_parameters = solver;
     implementation->solver.reset();
     // How rows of pairs are made is a matter of the method, too.

@@ -50,9 +50,9 @@ namespace abut
           "multipliers that can be eliminated node by node. `auto`: dual "
           "mortar between two bodies, node to segment against rigid "
           "obstacles. A membrane's obstacle always acts at nodes.");
-      prm.declare_entry("Multiplier degree", "0", Patterns::Integer(0, 2),
+      prm.declare_entry("Multiplier degree", "0", Patterns::Integer(0, 1),
                         "Degree of the multipliers of `mortar` on quadratic "
-                        "elements: 1, 2, or 0 for that of the elements.");
+                        "elements: 1, or 0 for that of the elements.");
       prm.declare_entry("Quadrature degree", "0", Patterns::Integer(0, 8),
                         "Degree up to which polynomials are integrated exactly "
                         "on each common part of two facets, or on each facet "

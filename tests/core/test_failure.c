@@ -32,7 +32,7 @@ codes_are_numbers_in_order(void **state)
 static abut_failure
 failure_of(abut_reason reason, const char *law, int32_t fallback_steps)
 {
-  abut_progress progress = {0};
+  abut_progress progress = {.struct_size = sizeof(progress)};
   progress.fallback_steps = fallback_steps;
   return abut_reason_failure(reason, abut_law_find(law), &progress);
 }

@@ -77,7 +77,7 @@ namespace abut
     /** Of `nitsche`: 1 (symmetric), 0 or -1. */
     double nitsche_theta = 0.;
 
-    /** Degree of mortar multipliers on quadratic facets: 1 or 2; 0 takes the
+    /** Degree of mortar multipliers on quadratic facets: 1, or 0 for the
      * degree of the facets. */
     unsigned int multiplier_degree = 0;
 

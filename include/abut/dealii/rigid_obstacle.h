@@ -97,7 +97,7 @@ namespace abut
              std::vector<double> &distances,
              std::vector<dealii::Tensor<1, dim>> *gradients = nullptr) const;
 
-    /** The core's obstacle, for abut_coupling_build_obstacle(); owned. */
+    /** The core's obstacle, for abut_coupling_create_obstacle(); owned. */
     virtual abut_obstacle *handle() const;
 
     /** What it is, where, and what it has found. */

@@ -1,25 +1,20 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "base/context.h"
 #include "base/allocator.h"
+#include "base/sized.h"
 
-#include <stdbool.h>
 #include <string.h>
-
-static bool
-options_are_legal(const abut_context_options *options)
-{
-  return options->struct_size == sizeof(abut_context_options)
-         && (options->allocate == NULL) == (options->release == NULL);
-}
 
 abut_status
 abut_context_create(const abut_context_options *options, abut_context **context)
 {
   if (context == NULL)
     return ABUT_INVALID_ARGUMENT;
-  abut_context_options chosen =
-      options != NULL ? *options : abut_context_defaults();
-  if (!options_are_legal(&chosen))
+  abut_context_options chosen = abut_context_defaults();
+  if (options != NULL
+      && abut_sized_read(&chosen, sizeof(chosen), options) != NULL)
+    return ABUT_INVALID_ARGUMENT;
+  if ((chosen.allocate == NULL) != (chosen.release == NULL))
     return ABUT_INVALID_ARGUMENT;
   if (chosen.allocate == NULL)
   {
@@ -62,11 +57,14 @@ abut_context_message(const abut_context *context)
   return context != NULL ? context->message : "";
 }
 
-abut_memory_usage
-abut_context_memory(const abut_context *context)
+abut_status
+abut_context_memory_sized(const abut_context *context, abut_memory_usage *usage)
 {
-  const abut_memory_usage none = {0, 0, 0};
-  return context != NULL ? context->memory : none;
+  if (context == NULL || usage == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  return abut_sized_write(usage, sizeof(*usage), &context->memory) == NULL
+             ? ABUT_SUCCESS
+             : ABUT_INVALID_ARGUMENT;
 }
 
 abut_text
@@ -88,4 +86,23 @@ abut_fail(abut_context *context, abut_status status, const char *call,
     abut_text_add(&text, what);
   }
   return status;
+}
+
+abut_status
+abut_take(abut_context *context, const char *call, void *taken, size_t size,
+          const void *given)
+{
+  const char *fault =
+      given != NULL ? abut_sized_read(taken, size, given) : NULL;
+  return fault == NULL ? ABUT_SUCCESS
+                       : abut_fail(context, ABUT_INVALID_ARGUMENT, call, fault);
+}
+
+abut_status
+abut_give(abut_context *context, const char *call, void *result, size_t size,
+          const void *source)
+{
+  const char *fault = abut_sized_write(result, size, source);
+  return fault == NULL ? ABUT_SUCCESS
+                       : abut_fail(context, ABUT_INVALID_ARGUMENT, call, fault);
 }

@@ -26,6 +26,15 @@ struct abut_context
 abut_status abut_fail(abut_context *context, abut_status status,
                       const char *call, const char *what);
 
+/* Take a struct that begins with its size from the caller, see base/sized.h:
+ * `taken` holds the defaults, `given` may be NULL. */
+abut_status abut_take(abut_context *context, const char *call, void *taken,
+                      size_t size, const void *given);
+
+/* Give one to the caller. */
+abut_status abut_give(abut_context *context, const char *call, void *result,
+                      size_t size, const void *source);
+
 /* Begin a message "call: " of several pieces (see text.h); finish by returning
  * the status. The context must exist. */
 abut_text abut_fail_begin(abut_context *context, const char *call);

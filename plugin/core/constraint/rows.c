@@ -188,22 +188,23 @@ abut_rows_append(abut_rows *rows, int64_t id, double weight, double initial_gap,
 }
 
 abut_status
-abut_rows_get(const abut_rows *rows, abut_rows_view *view)
+abut_rows_get_sized(const abut_rows *rows, abut_rows_view *view)
 {
   if (rows == NULL)
     return ABUT_INVALID_ARGUMENT;
   if (view == NULL)
     return abut_fail(rows->context, ABUT_INVALID_ARGUMENT, "abut_rows_get",
                      "view is NULL");
-  view->n_rows = rows->n_rows;
-  view->id = rows->id.data;
-  view->weight = rows->weight.data;
-  view->initial_gap = rows->initial_gap.data;
-  view->bilateral = rows->bilateral.data;
-  view->row_start = rows->row_start.data;
-  view->column = rows->column.data;
-  view->coefficient = rows->coefficient.data;
-  return ABUT_SUCCESS;
+  const abut_rows_view present = {.n_rows = rows->n_rows,
+                                  .id = rows->id.data,
+                                  .weight = rows->weight.data,
+                                  .initial_gap = rows->initial_gap.data,
+                                  .bilateral = rows->bilateral.data,
+                                  .row_start = rows->row_start.data,
+                                  .column = rows->column.data,
+                                  .coefficient = rows->coefficient.data};
+  return abut_give(rows->context, "abut_rows_get", view, sizeof(present),
+                   &present);
 }
 
 /* Arguments shared by gap and force: arrays, and every column in range. */

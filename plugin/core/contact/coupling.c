@@ -78,8 +78,6 @@ list_arrays(abut_coupling *c, array_size *list)
 static const char *
 fault_of(const abut_coupling_options *o, int32_t dimension)
 {
-  if (o->struct_size != sizeof(*o))
-    return "options of another version";
   if ((int)o->discretisation < 0 || o->discretisation >= ABUT_DISCRETISATION_N)
     return "unknown discretisation";
   if (o->quadrature_degree < 0 || o->quadrature_degree > 8)
@@ -215,13 +213,16 @@ abut_coupling_create_any(abut_context *context, const char *call,
                          const abut_coupling_options *options,
                          abut_coupling **coupling)
 {
-  const abut_coupling_options chosen =
-      options != NULL ? *options : abut_coupling_defaults();
+  abut_coupling_options chosen = abut_coupling_defaults();
+  abut_status status =
+      abut_take(context, call, &chosen, sizeof(chosen), options);
+  if (status != ABUT_SUCCESS)
+    return status;
   const char *fault = fault_of(&chosen, secondary->view.dimension);
   bool quadratic = false;
   if (fault != NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, fault);
-  abut_status status = check_kinds(secondary, &chosen, &quadratic, &fault);
+  status = check_kinds(secondary, &chosen, &quadratic, &fault);
   if (status != ABUT_SUCCESS)
     return abut_fail(context, status, call, fault);
   abut_coupling *c = abut_object_create(context, sizeof(*c));
@@ -290,20 +291,21 @@ abut_coupling_destroy(abut_coupling **coupling)
 }
 
 abut_status
-abut_coupling_get(const abut_coupling *coupling, abut_coupling_view *view)
+abut_coupling_get_sized(const abut_coupling *coupling, abut_coupling_view *view)
 {
   if (coupling == NULL || view == NULL)
     return ABUT_INVALID_ARGUMENT;
-  *view = coupling->view;
-  return ABUT_SUCCESS;
+  return abut_give(coupling->context, "abut_coupling_get", view,
+                   sizeof(coupling->view), &coupling->view);
 }
 
 abut_status
-abut_coupling_get_statistics(const abut_coupling *coupling,
-                             abut_coupling_statistics *statistics)
+abut_coupling_get_statistics_sized(const abut_coupling *coupling,
+                                   abut_coupling_statistics *statistics)
 {
   if (coupling == NULL || statistics == NULL)
     return ABUT_INVALID_ARGUMENT;
-  *statistics = coupling->statistics;
-  return ABUT_SUCCESS;
+  return abut_give(coupling->context, "abut_coupling_get_statistics",
+                   statistics, sizeof(coupling->statistics),
+                   &coupling->statistics);
 }

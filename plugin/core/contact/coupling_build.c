@@ -157,11 +157,11 @@ abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
   if (coupling == NULL)
     return ABUT_INVALID_ARGUMENT;
   abut_coupling *c = coupling;
-  const abut_coupling_nodes chosen =
-      nodes != NULL ? *nodes : abut_coupling_nodes_defaults();
-  if (chosen.struct_size != sizeof(chosen))
-    return abut_fail(c->context, ABUT_INVALID_ARGUMENT, call,
-                     "nodes of another version");
+  abut_coupling_nodes chosen = abut_coupling_nodes_defaults();
+  abut_status status =
+      abut_take(c->context, call, &chosen, sizeof(chosen), nodes);
+  if (status != ABUT_SUCCESS)
+    return status;
   if (!(motion >= 0 && motion <= ABUT_FACET_LIMIT))
     return abut_fail(c->context, ABUT_INVALID_ARGUMENT, call,
                      "motion is negative or not finite");
@@ -174,7 +174,7 @@ abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
   c->statistics = none;
   c->view.n_rows = 0;
   c->n_shares = c->n_entries = 0;
-  const abut_status status = build(c, motion);
+  status = build(c, motion);
   c->nodes = NULL;
   if (status != ABUT_SUCCESS)
     c->view.n_rows = 0;

@@ -58,8 +58,6 @@ prepare(abut_detection *d)
 static const char *
 fault_of(const abut_detection_options *o)
 {
-  if (o->struct_size != sizeof(*o))
-    return "options of another version";
   if (!(o->normal_cosine >= -1 && o->normal_cosine <= 1))
     return "normal_cosine is not in [-1, 1]";
   if (!(o->extension >= 0 && o->extension <= ABUT_FACET_LIMIT))
@@ -138,8 +136,11 @@ abut_detection_create(abut_context *context, abut_surface *secondary,
   if (secondary->view.dimension != primary->view.dimension)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "the surfaces have different dimensions");
-  const abut_detection_options chosen =
-      options != NULL ? *options : abut_detection_defaults();
+  abut_detection_options chosen = abut_detection_defaults();
+  abut_status status =
+      abut_take(context, call, &chosen, sizeof(chosen), options);
+  if (status != ABUT_SUCCESS)
+    return status;
   const char *fault = fault_of(&chosen);
   if (fault != NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, fault);
@@ -156,7 +157,7 @@ abut_detection_create(abut_context *context, abut_surface *secondary,
   d->exclude_ring =
       secondary == primary || (chosen.self_contact && d->compare_nodes);
   prepare(d);
-  abut_status status = reserve(d);
+  status = reserve(d);
   if (status == ABUT_SUCCESS)
     status = abut_search_create(context, primary, &chosen.search, &d->search);
   if (status != ABUT_SUCCESS)
@@ -253,12 +254,12 @@ pair_node(abut_detection *d, const abut_answers *a, int32_t k)
   if (r.groups != 0)
   {
     const int64_t candidates = d->view.n_candidates;
-    const int64_t away = d->view.rejected[ABUT_REJECTION_FACING_AWAY];
+    const int64_t away = d->rejected[ABUT_REJECTION_FACING_AWAY];
     facet = abut_detection_rank(d, &r, &p);
     ((uint8_t *)d->reversed.data)[r.node] =
         d->view.n_candidates > candidates
         && d->view.n_candidates - candidates
-               == d->view.rejected[ABUT_REJECTION_FACING_AWAY] - away;
+               == d->rejected[ABUT_REJECTION_FACING_AWAY] - away;
   }
   ((uint8_t *)d->listed.data)[r.node] = 1;
   connect(d, r.node, facet, &p);
@@ -353,6 +354,8 @@ abut_detection_run(abut_detection *detection, double motion)
   const int32_t n = d->secondary->view.n_nodes;
   const abut_detection_view empty = {0};
   d->view = empty;
+  memset(d->rejected, 0, sizeof(d->rejected));
+  d->view.rejected = d->rejected;
   if (n > 0)
   {
     memset(d->listed.data, 0, (size_t)n);
@@ -372,12 +375,13 @@ abut_detection_run(abut_detection *detection, double motion)
 }
 
 abut_status
-abut_detection_get(const abut_detection *detection, abut_detection_view *view)
+abut_detection_get_sized(const abut_detection *detection,
+                         abut_detection_view *view)
 {
   if (detection == NULL || view == NULL)
     return ABUT_INVALID_ARGUMENT;
-  *view = detection->view;
-  return ABUT_SUCCESS;
+  return abut_give(detection->context, "abut_detection_get", view,
+                   sizeof(detection->view), &detection->view);
 }
 
 const abut_search *

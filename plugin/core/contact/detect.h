@@ -37,6 +37,7 @@ struct abut_detection
   abut_array scratch;    /* abut_candidate, of one node */
   const double *normals; /* of the secondary nodes, while running */
   abut_detection_view view;
+  int64_t rejected[ABUT_REJECTION_N]; /* of the view */
 };
 
 /* A candidate that passed the filters that need no projection. */

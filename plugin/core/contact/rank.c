@@ -236,7 +236,7 @@ cost_of(abut_detection *d, const abut_ranking *k, const abut_record *r,
   }
   if (reason == ABUT_REJECTION_N)
     return p->distance;
-  ++d->view.rejected[reason];
+  ++d->rejected[reason];
   return INFINITY;
 }
 
@@ -258,7 +258,7 @@ select(abut_detection *d, const abut_ranking *k, abut_candidate *c)
     const abut_rejection reason = screen(d, k, r);
     if (reason != ABUT_REJECTION_N)
     {
-      ++d->view.rejected[reason];
+      ++d->rejected[reason];
       continue;
     }
     square = 0;
@@ -342,10 +342,10 @@ abut_detection_rank(abut_detection *d, const abut_ranking *k,
       *projection = p;
     }
   }
-  d->view.rejected[ABUT_REJECTION_COSTLIER] += n - i;
+  d->rejected[ABUT_REJECTION_COSTLIER] += n - i;
   if (held == NULL)
     return -1;
-  d->view.rejected[ABUT_REJECTION_COSTLIER] += n_costs - 1;
+  d->rejected[ABUT_REJECTION_COSTLIER] += n_costs - 1;
   const abut_record *best = n_costs > 1 ? settle(d, k, c, i, least) : held;
   if (best != held)
     (void)cost_of(d, k, best, INFINITY, projection);

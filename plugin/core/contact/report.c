@@ -29,8 +29,8 @@ cover(const abut_detection *d, abut_detection_report *z)
 }
 
 abut_status
-abut_detection_make_report(abut_detection *detection,
-                           abut_detection_report *report)
+abut_detection_make_report_sized(abut_detection *detection,
+                                 abut_detection_report *report)
 {
   if (detection == NULL || report == NULL)
     return ABUT_INVALID_ARGUMENT;
@@ -71,6 +71,6 @@ abut_detection_make_report(abut_detection *detection,
   cover(d, &z);
   if (primary.median > 0)
     z.size_ratio = secondary.median / primary.median;
-  *report = z;
-  return ABUT_SUCCESS;
+  return abut_give(d->context, "abut_detection_make_report", report, sizeof(z),
+                   &z);
 }

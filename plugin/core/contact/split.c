@@ -323,8 +323,6 @@ split(work *w, abut_surface *surface, uint8_t *side)
 static const char *
 fault_of(const abut_split_options *o)
 {
-  if (o->struct_size != sizeof(*o))
-    return "options of another version";
   if (!(o->reach >= 0. && o->reach <= ABUT_FACET_LIMIT)
       || !(o->relative_reach >= 0. && o->relative_reach <= ABUT_FACET_LIMIT))
     return "a reach is negative or not finite";
@@ -336,26 +334,30 @@ fault_of(const abut_split_options *o)
 }
 
 abut_status
-abut_surface_split(abut_context *context, abut_surface *surface,
-                   const abut_split_options *options, uint8_t *side,
-                   abut_split_report *report)
+abut_surface_split_sized(abut_context *context, abut_surface *surface,
+                         const abut_split_options *options, uint8_t *side,
+                         abut_split_report *report)
 {
   static const char call[] = "abut_surface_split";
   work w;
   memset(&w, 0, sizeof(w));
-  w.options = options != NULL ? *options : abut_split_defaults();
+  w.options = abut_split_defaults();
   if (context == NULL || surface == NULL
       || (side == NULL && surface->view.n_facets > 0))
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "context, surface or result is NULL");
+  abut_status status =
+      abut_take(context, call, &w.options, sizeof(w.options), options);
+  if (status != ABUT_SUCCESS)
+    return status;
   const char *fault = fault_of(&w.options);
   if (fault != NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, fault);
   w.context = context;
   w.surface = surface;
-  const abut_status status = split(&w, surface, side);
+  status = split(&w, surface, side);
   release(&w);
-  if (status == ABUT_SUCCESS && report != NULL)
-    *report = w.report;
-  return status;
+  if (status != ABUT_SUCCESS || report == NULL)
+    return status;
+  return abut_give(context, call, report, sizeof(w.report), &w.report);
 }

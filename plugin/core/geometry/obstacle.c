@@ -72,12 +72,12 @@ abut_obstacle_destroy(abut_obstacle **obstacle)
 }
 
 abut_status
-abut_obstacle_get(const abut_obstacle *obstacle, abut_obstacle_view *view)
+abut_obstacle_get_sized(const abut_obstacle *obstacle, abut_obstacle_view *view)
 {
   if (obstacle == NULL || view == NULL)
     return ABUT_INVALID_ARGUMENT;
-  *view = obstacle->view;
-  return ABUT_SUCCESS;
+  return abut_give(obstacle->context, "abut_obstacle_get", view,
+                   sizeof(obstacle->view), &obstacle->view);
 }
 
 abut_status

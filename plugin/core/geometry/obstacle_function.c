@@ -201,23 +201,27 @@ abut_obstacle_create_function(abut_context *context,
   if (context == NULL || obstacle == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "context or result is NULL");
-  if (function == NULL || function->struct_size != sizeof(*function))
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
-                     "function is NULL or of another version");
-  if (function->dimension != 2 && function->dimension != 3)
+  if (function == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "function is NULL");
+  abut_obstacle_function chosen = abut_obstacle_function_defaults();
+  const abut_status status =
+      abut_take(context, call, &chosen, sizeof(chosen), function);
+  if (status != ABUT_SUCCESS)
+    return status;
+  if (chosen.dimension != 2 && chosen.dimension != 3)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "dimension is neither 2 nor 3");
-  if (function->evaluate == NULL)
+  if (chosen.evaluate == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "evaluate is NULL");
-  if (!(function->length >= 0. && function->length <= ABUT_FACET_LIMIT))
+  if (!(chosen.length >= 0. && chosen.length <= ABUT_FACET_LIMIT))
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "length is negative or not finite");
-  function_obstacle *o = abut_obstacle_make(
-      context, call, sizeof(*o), &methods, ABUT_OBSTACLE_FUNCTION,
-      function->dimension, function->hollow);
+  function_obstacle *o = abut_obstacle_make(context, call, sizeof(*o), &methods,
+                                            ABUT_OBSTACLE_FUNCTION,
+                                            chosen.dimension, chosen.hollow);
   if (o == NULL)
     return ABUT_OUT_OF_MEMORY;
-  o->function = *function;
+  o->function = chosen;
   o->points.element = o->values.element = o->gradients.element = sizeof(double);
   *obstacle = &o->base;
   return ABUT_SUCCESS;

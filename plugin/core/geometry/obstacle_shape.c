@@ -82,9 +82,6 @@ fault_of_numbers(const abut_obstacle_shape *s)
 static abut_status
 check(abut_context *context, const char *call, const abut_obstacle_shape *s)
 {
-  if (s == NULL || s->struct_size != sizeof(*s))
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
-                     "shape is NULL or of another version");
   if (s->dimension != 2 && s->dimension != 3)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "dimension is neither 2 nor 3");
@@ -165,14 +162,20 @@ prepare_turned(abut_shape_data *s)
 
 abut_status
 abut_obstacle_create_shape(abut_context *context,
-                           const abut_obstacle_shape *shape,
+                           const abut_obstacle_shape *given,
                            abut_obstacle **obstacle)
 {
   static const char call[] = "abut_obstacle_create_shape";
   if (context == NULL || obstacle == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "context or result is NULL");
-  const abut_status status = check(context, call, shape);
+  if (given == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "shape is NULL");
+  abut_obstacle_shape taken = abut_obstacle_shape_defaults();
+  abut_status status = abut_take(context, call, &taken, sizeof(taken), given);
+  const abut_obstacle_shape *shape = &taken;
+  if (status == ABUT_SUCCESS)
+    status = check(context, call, shape);
   if (status != ABUT_SUCCESS)
     return status;
   abut_shape_data data;

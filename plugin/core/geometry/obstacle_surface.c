@@ -186,14 +186,14 @@ abut_obstacle_create_surface(abut_context *context, abut_surface *surface,
                              abut_obstacle **obstacle)
 {
   static const char call[] = "abut_obstacle_create_surface";
-  const abut_obstacle_surface chosen =
-      options != NULL ? *options : abut_obstacle_surface_defaults();
+  abut_obstacle_surface chosen = abut_obstacle_surface_defaults();
   if (context == NULL || surface == NULL || obstacle == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "context, surface or result is NULL");
-  if (chosen.struct_size != sizeof(chosen))
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
-                     "options of another version");
+  abut_status status =
+      abut_take(context, call, &chosen, sizeof(chosen), options);
+  if (status != ABUT_SUCCESS)
+    return status;
   if (!(chosen.limit >= 0. && chosen.limit <= ABUT_FACET_LIMIT))
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "limit is negative or not finite");
@@ -208,7 +208,7 @@ abut_obstacle_create_surface(abut_context *context, abut_surface *surface,
   s->surface = surface;
   s->limit = chosen.limit > 0. ? chosen.limit : INFINITY;
   s->base.view.limit = chosen.limit;
-  const abut_status status = prepare(s, call, chosen.open);
+  status = prepare(s, call, chosen.open);
   abut_obstacle *made = &s->base;
   if (status != ABUT_SUCCESS)
   {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Public projection calls: argument checks around the kernels. */
+#include "base/sized.h"
 #include "geometry/kernels.h"
 #include <string.h>
 
@@ -30,8 +31,6 @@ within(const int32_t *number, int64_t n, int32_t end)
 static abut_status
 check_batch(const abut_projection_batch *b)
 {
-  if (!b || b->struct_size != sizeof(*b))
-    return ABUT_INVALID_ARGUMENT;
   const int32_t n = abut_facet_n_nodes(b->kind),
                 dimension = abut_facet_dimension(b->kind);
   if (n == 0 || b->n_points < 0 || b->n_nodes < 0 || b->n_facets < 0
@@ -76,8 +75,13 @@ store(const abut_projection_batch *b, int64_t i, int32_t dimension,
 }
 
 abut_status
-abut_facet_project_batch(const abut_projection_batch *b)
+abut_facet_project_batch(const abut_projection_batch *batch)
 {
+  abut_projection_batch taken;
+  memset(&taken, 0, sizeof(taken));
+  if (batch == NULL || abut_sized_read(&taken, sizeof(taken), batch) != NULL)
+    return ABUT_INVALID_ARGUMENT;
+  const abut_projection_batch *b = &taken;
   const abut_status status = check_batch(b);
   if (status != ABUT_SUCCESS)
     return status;

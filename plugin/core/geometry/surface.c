@@ -139,13 +139,21 @@ build(abut_surface *s, const abut_surface_data *data)
 }
 
 abut_status
-abut_surface_create(abut_context *context, const abut_surface_data *data,
+abut_surface_create(abut_context *context, const abut_surface_data *given,
                     abut_surface **surface)
 {
   if (context == NULL || surface == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_surface_create",
                      "context or result is NULL");
-  abut_status status = abut_surface_check_data(context, data);
+  if (given == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_surface_create",
+                     "data is NULL");
+  abut_surface_data taken = abut_surface_data_defaults();
+  const abut_surface_data *data = &taken;
+  abut_status status =
+      abut_take(context, "abut_surface_create", &taken, sizeof(taken), given);
+  if (status == ABUT_SUCCESS)
+    status = abut_surface_check_data(context, data);
   if (status != ABUT_SUCCESS)
     return status;
   abut_surface *s = abut_object_create(context, sizeof(*s));
@@ -209,10 +217,10 @@ abut_surface_update(abut_surface *surface, const double *position)
 }
 
 abut_status
-abut_surface_get(const abut_surface *surface, abut_surface_view *view)
+abut_surface_get_sized(const abut_surface *surface, abut_surface_view *view)
 {
   if (surface == NULL || view == NULL)
     return ABUT_INVALID_ARGUMENT;
-  *view = surface->view;
-  return ABUT_SUCCESS;
+  return abut_give(surface->context, "abut_surface_get", view,
+                   sizeof(surface->view), &surface->view);
 }

@@ -55,8 +55,6 @@ check_kinds(abut_context *context, const abut_surface_data *data)
 abut_status
 abut_surface_check_data(abut_context *context, const abut_surface_data *data)
 {
-  if (data == NULL || data->struct_size != sizeof(*data))
-    return refuse(context, "data is NULL or of another version");
   if (data->dimension != 2 && data->dimension != 3)
     return refuse(context, "dimension is neither 2 nor 3");
   if (data->n_nodes < 0 || data->n_facets < 0)

@@ -142,7 +142,7 @@ count_sides(const abut_surface *s, abut_surface_sizes *z)
 }
 
 abut_status
-abut_surface_measure(abut_surface *surface, abut_surface_sizes *sizes)
+abut_surface_measure_sized(abut_surface *surface, abut_surface_sizes *sizes)
 {
   if (surface == NULL || sizes == NULL)
     return ABUT_INVALID_ARGUMENT;
@@ -177,6 +177,5 @@ abut_surface_measure(abut_surface *surface, abut_surface_sizes *sizes)
     z.largest = kth_smallest(size, n, n - 1);
   }
   count_sides(s, &z);
-  *sizes = z;
-  return ABUT_SUCCESS;
+  return abut_give(s->context, "abut_surface_measure", sizes, sizeof(z), &z);
 }

@@ -57,12 +57,12 @@ abut_pairs_destroy(abut_pairs **pairs)
 }
 
 abut_status
-abut_pairs_get(const abut_pairs *pairs, abut_pairs_view *view)
+abut_pairs_get_sized(const abut_pairs *pairs, abut_pairs_view *view)
 {
   if (pairs == NULL || view == NULL)
     return ABUT_INVALID_ARGUMENT;
-  *view = pairs->view;
-  return ABUT_SUCCESS;
+  return abut_give(pairs->context, "abut_pairs_get", view, sizeof(pairs->view),
+                   &pairs->view);
 }
 
 static void

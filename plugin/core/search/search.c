@@ -38,8 +38,6 @@ is_length(double v)
 static const char *
 fault_of(const abut_search_options *o)
 {
-  if (o->struct_size != sizeof(*o))
-    return "options of another version";
   if ((int)o->algorithm < 0 || o->algorithm >= ABUT_SEARCH_N_ALGORITHMS)
     return "unknown algorithm";
   if (!is_length(o->bucket_size))
@@ -49,6 +47,9 @@ fault_of(const abut_search_options *o)
   if (!is_length(o->reach) || !is_length(o->relative_reach)
       || !is_length(o->skin))
     return "reach, relative_reach or skin is negative or not finite";
+  for (int i = 0; i < 4; ++i)
+    if (o->reserved[i] != 0)
+      return "an option is set that this version of the library does not know";
   return NULL;
 }
 
@@ -82,8 +83,11 @@ abut_search_create(abut_context *context, abut_surface *surface,
   if (context == NULL || surface == NULL || search == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_search_create",
                      "context, surface or result is NULL");
-  const abut_search_options chosen =
-      options != NULL ? *options : abut_search_defaults();
+  abut_search_options chosen = abut_search_defaults();
+  const abut_status status = abut_take(context, "abut_search_create", &chosen,
+                                       sizeof(chosen), options);
+  if (status != ABUT_SUCCESS)
+    return status;
   const char *fault = fault_of(&chosen);
   if (fault != NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_search_create",
@@ -417,23 +421,23 @@ bytes_of(const abut_array *a)
 }
 
 abut_status
-abut_search_get_statistics(const abut_search *search,
-                           abut_search_statistics *statistics)
+abut_search_get_statistics_sized(const abut_search *search,
+                                 abut_search_statistics *statistics)
 {
   if (search == NULL || statistics == NULL)
     return ABUT_INVALID_ARGUMENT;
   const abut_search *s = search;
-  *statistics = s->statistics;
-  statistics->n_facets = s->n;
-  statistics->structure_bytes =
+  abut_search_statistics z = s->statistics;
+  z.n_facets = s->n;
+  z.structure_bytes =
       bytes_of(&s->items) + bytes_of(&s->room) + bytes_of(&s->runs)
       + bytes_of(&s->tree.groups) + bytes_of(&s->grid.cell_key)
       + bytes_of(&s->grid.cell_start) + bytes_of(&s->grid.table);
-  statistics->record_bytes = bytes_of(&s->records) + bytes_of(&s->sites);
-  statistics->query_bytes =
-      bytes_of(&s->list.order) + bytes_of(&s->list.start)
-      + bytes_of(&s->list.slot) + bytes_of(&s->query_box)
-      + bytes_of(&s->block.step) + bytes_of(&s->block.exact)
-      + bytes_of(&s->block.value) + bytes_of(&s->block.keyed);
-  return ABUT_SUCCESS;
+  z.record_bytes = bytes_of(&s->records) + bytes_of(&s->sites);
+  z.query_bytes = bytes_of(&s->list.order) + bytes_of(&s->list.start)
+                  + bytes_of(&s->list.slot) + bytes_of(&s->query_box)
+                  + bytes_of(&s->block.step) + bytes_of(&s->block.exact)
+                  + bytes_of(&s->block.value) + bytes_of(&s->block.keyed);
+  return abut_give(s->context, "abut_search_get_statistics", statistics,
+                   sizeof(z), &z);
 }

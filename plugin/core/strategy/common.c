@@ -3,8 +3,6 @@
  * present point. */
 #include "strategy/strategy.h"
 
-#include <abut/parts.h>
-
 #include <math.h>
 #include <string.h>
 
@@ -23,17 +21,15 @@ abut_strategy_reduce(abut_strategy *s, abut_reduction op, double *values,
 abut_status
 abut_strategy_agree(abut_strategy *s, abut_status status)
 {
-  /* The worst mistake and the worst fault: faults have negative codes. */
-  double worst[2] = {(double)status, -(double)status};
+  double failed = status != ABUT_SUCCESS;
   const abut_status reduced =
-      abut_strategy_reduce(s, ABUT_REDUCTION_MAX, worst, 2);
+      abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &failed, 1);
   if (status != ABUT_SUCCESS)
     return status;
-  if (reduced != ABUT_SUCCESS || (worst[0] <= 0 && worst[1] <= 0))
+  if (reduced != ABUT_SUCCESS || failed == 0)
     return reduced;
-  return abut_fail(s->context,
-                   (abut_status)(worst[1] > 0 ? -worst[1] : worst[0]),
-                   "abut_strategy", ABUT_FAILED_ON_ANOTHER_RANK);
+  return abut_fail(s->context, ABUT_FAILED_ELSEWHERE, "abut_strategy",
+                   abut_status_text(ABUT_FAILED_ELSEWHERE));
 }
 
 abut_law_points

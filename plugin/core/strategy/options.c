@@ -1,35 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* Options of a strategy: defaults and legal ranges. */
+/* Options of a strategy: legal ranges, and the first penalty. */
 #include "strategy/options.h"
 
 #include <math.h>
-
-abut_strategy_options
-abut_strategy_defaults(void)
-{
-  const abut_strategy_options options = {
-      .struct_size = sizeof(abut_strategy_options),
-      .law = abut_law_find("lagrange"),
-      .length_scale = 1,
-      .pressure_scale = 1,
-      .penalty = 0,
-      .penalty_growth = 10,
-      .penalty_cap = 1e6,
-      .adaptive_penalty = true,
-      .allowed_penetration = 0,
-      .complementarity = 1,
-      .barrier_start = 0.1,
-      .barrier_factor = 0.1,
-      .barrier_end = 1e-8,
-      .gap_tolerance = 1e-6,
-      .pressure_tolerance = 1e-3,
-      .linear_tolerance = 1e-2,
-      .final_linear_tolerance = 1e-10,
-      .max_steps = 200,
-      .max_outer = 60,
-  };
-  return options;
-}
 
 /* A number of the options and its legal range, ends included. */
 typedef struct range
@@ -56,9 +29,6 @@ abut_strategy_check_options(abut_context *context,
                             const abut_strategy_options *options,
                             const char *call)
 {
-  if (options->struct_size != sizeof(abut_strategy_options))
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
-                     "struct_size of the options is not that of this library");
   const double tiny = 1e-300, huge = 1e300;
   const range ranges[] = {
       {"length_scale", options->length_scale, tiny, huge},

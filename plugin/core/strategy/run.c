@@ -31,21 +31,26 @@ report(const abut_strategy *s, const abut_host *host,
 }
 
 abut_status
-abut_strategy_run(abut_strategy *strategy, const abut_host *host,
+abut_strategy_run(abut_strategy *strategy, const abut_host *given,
                   abut_reason *reason)
 {
   if (strategy == NULL)
     return ABUT_INVALID_ARGUMENT;
   abut_strategy *s = strategy;
-  if (host == NULL || host->struct_size != sizeof(abut_host)
-      || host->solve == NULL || host->move == NULL)
+  abut_host taken = {0};
+  abut_status status =
+      abut_take(s->context, call, &taken, sizeof(taken), given);
+  if (status != ABUT_SUCCESS)
+    return status;
+  const abut_host *host = &taken;
+  if (host->solve == NULL || host->move == NULL)
     return abut_fail(s->context, ABUT_INVALID_ARGUMENT, call,
                      "the host's functions are incomplete");
   if (s->phase != ABUT_PHASE_STARTED)
     return abut_fail(s->context, ABUT_WRONG_ORDER, call,
                      "the strategy is not freshly started");
   abut_request request;
-  abut_status status = abut_strategy_next(s, NULL, &request);
+  status = abut_strategy_next(s, NULL, &request);
   if (status == ABUT_SUCCESS && request.action == ABUT_ACTION_STOP)
     report(s, host, &request);
   while (status == ABUT_SUCCESS && request.action != ABUT_ACTION_STOP)

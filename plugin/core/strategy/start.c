@@ -153,6 +153,7 @@ static void
 reset(abut_strategy *s)
 {
   memset(&s->progress, 0, sizeof(s->progress));
+  s->progress.struct_size = sizeof(s->progress);
   memset(&s->outer, 0, sizeof(s->outer));
   memset(&s->interior, 0, sizeof(s->interior));
   memset(&s->request, 0, sizeof(s->request));

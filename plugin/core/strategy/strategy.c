@@ -2,6 +2,7 @@
 /* The front of all methods: life cycle, checks at the boundary, and handing
  * the host's reports to the method. */
 #include "strategy/strategy.h"
+#include "base/sized.h"
 #include "strategy/options.h"
 
 #include <math.h>
@@ -64,10 +65,13 @@ failure_to_contract(const abut_law *law, const abut_progress *progress)
 
 abut_failure
 abut_reason_failure(abut_reason reason, const abut_law *law,
-                    const abut_progress *progress)
+                    const abut_progress *given)
 {
-  if (law == NULL || progress == NULL)
+  abut_progress taken = {0};
+  if (law == NULL || given == NULL
+      || abut_sized_read(&taken, sizeof(taken), given) != NULL)
     return ABUT_FAILURE_NONE;
+  const abut_progress *progress = &taken;
   switch (reason)
   {
   case ABUT_REASON_NONE:
@@ -113,8 +117,14 @@ abut_strategy_create(abut_context *context,
   if (options == NULL || strategy == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_strategy_create",
                      "an argument is NULL");
-  const abut_status status =
-      abut_strategy_check_options(context, options, "abut_strategy_create");
+  abut_strategy_options taken = abut_strategy_defaults();
+  abut_status status = abut_take(context, "abut_strategy_create", &taken,
+                                 sizeof(taken), options);
+  if (status == ABUT_SUCCESS && taken.law == NULL)
+    taken.law = abut_law_find("lagrange");
+  if (status == ABUT_SUCCESS)
+    status =
+        abut_strategy_check_options(context, &taken, "abut_strategy_create");
   if (status != ABUT_SUCCESS)
     return status;
   abut_strategy *s = abut_object_create(context, sizeof(abut_strategy));
@@ -122,8 +132,8 @@ abut_strategy_create(abut_context *context,
     return abut_fail(context, ABUT_OUT_OF_MEMORY, "abut_strategy_create",
                      "no memory");
   s->context = context;
-  s->options = *options;
-  s->method = method_of(options->law);
+  s->options = taken;
+  s->method = method_of(taken.law);
   s->numbers.element = sizeof(double);
   s->bytes.element = sizeof(uint8_t);
   s->ids.element = sizeof(int64_t);
@@ -148,7 +158,8 @@ abut_strategy_destroy(abut_strategy **strategy)
 }
 
 abut_status
-abut_strategy_progress(const abut_strategy *strategy, abut_progress *progress)
+abut_strategy_progress_sized(const abut_strategy *strategy,
+                             abut_progress *progress)
 {
   if (strategy == NULL)
     return ABUT_INVALID_ARGUMENT;
@@ -158,8 +169,8 @@ abut_strategy_progress(const abut_strategy *strategy, abut_progress *progress)
   if (strategy->phase == ABUT_PHASE_CREATED)
     return abut_fail(strategy->context, ABUT_WRONG_ORDER,
                      "abut_strategy_progress", "the strategy is not started");
-  *progress = strategy->progress;
-  return ABUT_SUCCESS;
+  return abut_give(strategy->context, "abut_strategy_progress", progress,
+                   sizeof(strategy->progress), &strategy->progress);
 }
 
 /* Whether all ranks' values are finite: one sum instead of a test per value. */
@@ -208,8 +219,8 @@ take_gap(abut_strategy *s, const double *gap)
 }
 
 abut_status
-abut_strategy_next(abut_strategy *strategy, const double *gap,
-                   abut_request *request)
+abut_strategy_next_sized(abut_strategy *strategy, const double *gap,
+                         abut_request *request)
 {
   if (strategy == NULL)
     return ABUT_INVALID_ARGUMENT;
@@ -235,10 +246,11 @@ abut_strategy_next(abut_strategy *strategy, const double *gap,
     status = take_gap(s, gap);
   else if (running)
     status = take_changes(s);
+  if (status == ABUT_SUCCESS)
+    status = abut_give(s->context, "abut_strategy_next", request,
+                       sizeof(s->request), &s->request);
   /* After a failure the arrays may be half way: only a new start helps. */
   if (status != ABUT_SUCCESS)
     s->phase = ABUT_PHASE_CREATED;
-  else
-    *request = s->request;
   return status;
 }

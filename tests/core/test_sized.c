@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Callers of other versions: structs that are shorter or longer than this
+ * library's. They lie in memory of exactly their size, so that the sanitizer
+ * sees what is touched beyond. */
+#include "surface_fixture.h"
+
+#include <abut/abut.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* A struct as a caller of another version has it. */
+static void *
+resized(const void *present, size_t size, size_t stated)
+{
+  unsigned char *copy = malloc(stated);
+  assert_non_null(copy);
+  memset(copy, 0, stated);
+  memcpy(copy, present, size < stated ? size : stated);
+  memcpy(copy, &stated, sizeof(stated));
+  return copy;
+}
+
+static void
+older_options_get_defaults(void **unused)
+{
+  (void)unused;
+  /* A caller from before pressure_scale and all that follows it: its run is
+   * that of the defaults. */
+  abut_strategy_options o = abut_strategy_defaults();
+  o.length_scale = 2;
+  o.max_steps = 0; /* not legal: must not be read */
+  abut_strategy_options *old =
+      resized(&o, sizeof(o), offsetof(abut_strategy_options, pressure_scale));
+  abut_strategy *s = NULL;
+  require(abut_strategy_create(context, old, &s));
+  require(abut_strategy_destroy(&s));
+  free(old);
+}
+
+static void
+older_surfaces_get_defaults(void **unused)
+{
+  (void)unused;
+  scene_mesh m = scene_square(ABUT_FACET_QUAD4, 1, 0., false);
+  abut_surface_data d = scene_data(&m);
+  d.feature_angle = -1; /* not legal: must not be read */
+  abut_surface_data *old =
+      resized(&d, sizeof(d), offsetof(abut_surface_data, feature_angle));
+  abut_surface *s = NULL;
+  require(abut_surface_create(context, old, &s));
+  abut_surface_sizes z;
+  require(abut_surface_measure(s, &z));
+  assert_true(fabs(z.area - 1.) < 1e-14);
+  require(abut_surface_destroy(&s));
+  free(old);
+  scene_free(&m);
+}
+
+static void
+newer_options_may_not_ask_for_the_unknown(void **unused)
+{
+  (void)unused;
+  scene_mesh m = scene_square(ABUT_FACET_QUAD4, 1, 0., false);
+  abut_surface *s = surface_of(&m);
+  const abut_detection_options o = abut_detection_defaults();
+  const size_t stated = sizeof(o) + 16;
+  unsigned char *newer = resized(&o, sizeof(o), stated);
+  abut_detection *d = NULL;
+  require(abut_detection_create(context, s, s, (abut_detection_options *)newer,
+                                &d));
+  require(abut_detection_destroy(&d));
+  newer[stated - 1] = 1;
+  assert_int_equal(
+      abut_detection_create(context, s, s, (abut_detection_options *)newer, &d),
+      ABUT_INVALID_ARGUMENT);
+  assert_non_null(strstr(abut_context_message(context), "does not know"));
+  free(newer);
+  require(abut_surface_destroy(&s));
+  scene_free(&m);
+}
+
+static void
+sizes_of_no_version_are_refused(void **unused)
+{
+  (void)unused;
+  const size_t wrong[] = {0, 1, 8, 20, 5000, (size_t)-8};
+  for (size_t i = 0; i < sizeof(wrong) / sizeof(wrong[0]); ++i)
+  {
+    abut_strategy_options o = abut_strategy_defaults();
+    abut_strategy *s = NULL;
+    o.struct_size = wrong[i];
+    assert_int_equal(abut_strategy_create(context, &o, &s),
+                     ABUT_INVALID_ARGUMENT);
+    abut_memory_usage usage = {.struct_size = wrong[i], .live_bytes = 77};
+    assert_int_equal(abut_context_memory_sized(context, &usage),
+                     ABUT_INVALID_ARGUMENT);
+    assert_int_equal(usage.live_bytes, 77);
+  }
+}
+
+static void
+searches_within_other_options_keep_their_room(void **unused)
+{
+  (void)unused;
+  scene_mesh m = scene_square(ABUT_FACET_QUAD4, 1, 0., false);
+  abut_surface *s = surface_of(&m);
+  abut_coupling_options o = abut_coupling_defaults();
+  abut_coupling *c = NULL;
+  o.search.reserved[3] = 1.;
+  assert_int_equal(abut_coupling_create(context, s, s, &o, &c),
+                   ABUT_INVALID_ARGUMENT);
+  require(abut_surface_destroy(&s));
+  scene_free(&m);
+}
+
+static void
+older_results_are_filled_as_far_as_they_go(void **unused)
+{
+  (void)unused;
+  scene_mesh m = scene_square(ABUT_FACET_QUAD4, 3, 0., false);
+  abut_surface *s = surface_of(&m);
+  const size_t stated = offsetof(abut_surface_view, connectivity);
+  abut_surface_view *old = malloc(stated);
+  old->struct_size = stated;
+  require(abut_surface_get_sized(s, old));
+  assert_int_equal(old->struct_size, stated);
+  assert_int_equal(old->n_nodes, 16);
+  assert_int_equal(old->n_facets, 9);
+  assert_int_equal(old->facet_start[9], 36);
+  free(old);
+  require(abut_surface_destroy(&s));
+  scene_free(&m);
+}
+
+static void
+newer_results_have_zeros_at_their_ends(void **unused)
+{
+  (void)unused;
+  const size_t stated = sizeof(abut_memory_usage) + 16;
+  unsigned char *newer = malloc(stated);
+  memset(newer, 255, stated);
+  memcpy(newer, &stated, sizeof(stated));
+  require(abut_context_memory_sized(context, (abut_memory_usage *)newer));
+  assert_int_equal(((abut_memory_usage *)newer)->live_bytes,
+                   abut_context_memory(context).live_bytes);
+  for (size_t i = sizeof(abut_memory_usage); i < stated; ++i)
+    assert_int_equal(newer[i], 0);
+  free(newer);
+}
+
+/* A strategy without rows stops at its first request. */
+static void
+older_requests_and_progress(void **unused)
+{
+  (void)unused;
+  const abut_strategy_options o = abut_strategy_defaults();
+  abut_strategy *s = NULL;
+  require(abut_strategy_create(context, &o, &s));
+  require(abut_strategy_start(s, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL));
+  const size_t stated = offsetof(abut_request, linear_tolerance);
+  abut_request *request = malloc(stated);
+  request->struct_size = stated;
+  abut_progress *progress =
+      malloc(offsetof(abut_progress, n_active)); /* steps and rows only */
+  progress->struct_size = offsetof(abut_progress, n_active);
+  require(abut_strategy_next_sized(s, NULL, request));
+  assert_int_equal(request->action, ABUT_ACTION_SOLVE);
+  require(abut_strategy_progress_sized(s, progress));
+  assert_int_equal(progress->step, 1);
+  assert_int_equal(progress->n_rows, 0);
+  assert_int_equal(abut_reason_failure(ABUT_REASON_INFEASIBLE,
+                                       abut_law_find("barrier"), progress),
+                   ABUT_FAILURE_INFEASIBLE_START);
+  free(request);
+  free(progress);
+  require(abut_strategy_destroy(&s));
+}
+
+static void
+the_library_tells_its_version(void **unused)
+{
+  (void)unused;
+  char text[32];
+  (void)snprintf(text, sizeof(text), "%d.%d.%d", abut_version() / 10000,
+                 abut_version() / 100 % 100, abut_version() % 100);
+  assert_string_equal(text, ABUT_VERSION);
+}
+
+int
+main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(older_options_get_defaults, set_up,
+                                      tear_down),
+      cmocka_unit_test_setup_teardown(older_surfaces_get_defaults, set_up,
+                                      tear_down),
+      cmocka_unit_test_setup_teardown(newer_options_may_not_ask_for_the_unknown,
+                                      set_up, tear_down),
+      cmocka_unit_test_setup_teardown(sizes_of_no_version_are_refused, set_up,
+                                      tear_down),
+      cmocka_unit_test_setup_teardown(
+          searches_within_other_options_keep_their_room, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(
+          older_results_are_filled_as_far_as_they_go, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(newer_results_have_zeros_at_their_ends,
+                                      set_up, tear_down),
+      cmocka_unit_test_setup_teardown(older_requests_and_progress, set_up,
+                                      tear_down),
+      cmocka_unit_test(the_library_tells_its_version),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
