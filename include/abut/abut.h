@@ -14,6 +14,7 @@
 #include <abut/export.h>
 #include <abut/facet.h>
 #include <abut/failure.h>
+#include <abut/history.h>
 #include <abut/law.h>
 #include <abut/obstacle.h>
 #include <abut/obstacle_surface.h>

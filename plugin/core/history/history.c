@@ -1,0 +1,422 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Entries are kept sorted by number: rows come in that order, so that most
+ * calls append, and what is looked up is found by bisection. */
+#include "history/history.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double nowhere[3] = {0, 0, 0};
+
+static abut_history_problem
+no_problem(void)
+{
+  abut_history_problem problem;
+  memset(&problem, 0, sizeof(problem));
+  problem.struct_size = sizeof(problem);
+  return problem;
+}
+
+static void
+prepare(abut_entry_set *set)
+{
+  set->id.element = sizeof(int64_t);
+  set->pressure.element = sizeof(double);
+  set->state.element = sizeof(uint8_t);
+  set->place.element = 3 * sizeof(double);
+  set->problem = no_problem();
+}
+
+static void
+release(abut_context *context, abut_entry_set *set)
+{
+  abut_array_release(context, &set->id);
+  abut_array_release(context, &set->pressure);
+  abut_array_release(context, &set->state);
+  abut_array_release(context, &set->place);
+}
+
+abut_status
+abut_entry_set_reserve(abut_context *context, abut_entry_set *set, int64_t n)
+{
+  abut_array *arrays[] = {&set->id, &set->pressure, &set->state, &set->place};
+  abut_status status = ABUT_SUCCESS;
+  for (int i = 0; i < 4 && status == ABUT_SUCCESS; ++i)
+    status = abut_array_reserve(context, arrays[i], set->n, n);
+  return status;
+}
+
+static const int64_t *
+ids(const abut_entry_set *set)
+{
+  return set->id.data;
+}
+
+static const double *
+place_of(const abut_entry_set *set, int64_t i)
+{
+  return (const double *)set->place.data + 3 * i;
+}
+
+void
+abut_entry_set_append(abut_entry_set *set, int64_t id, double pressure,
+                      uint8_t state, const double *place)
+{
+  const int64_t i = set->n++;
+  ((int64_t *)set->id.data)[i] = id;
+  ((double *)set->pressure.data)[i] = pressure;
+  ((uint8_t *)set->state.data)[i] = state;
+  memcpy((double *)set->place.data + 3 * i, place, 3 * sizeof(double));
+}
+
+abut_status
+abut_entry_set_copy(abut_context *context, const abut_entry_set *a,
+                    abut_entry_set *b)
+{
+  b->n = 0;
+  const abut_status status = abut_entry_set_reserve(context, b, a->n);
+  if (status != ABUT_SUCCESS)
+    return status;
+  b->n = a->n;
+  b->problem = a->problem;
+  if (a->n == 0)
+    return ABUT_SUCCESS;
+  const size_t n = (size_t)a->n;
+  memcpy(b->id.data, a->id.data, n * sizeof(int64_t));
+  memcpy(b->pressure.data, a->pressure.data, n * sizeof(double));
+  memcpy(b->state.data, a->state.data, n);
+  memcpy(b->place.data, a->place.data, 3 * n * sizeof(double));
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_history_create(abut_context *context, abut_history **history)
+{
+  if (context == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  if (history == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_history_create",
+                     "history is NULL");
+  abut_history *made = abut_object_create(context, sizeof(abut_history));
+  if (made == NULL)
+    return abut_fail(context, ABUT_OUT_OF_MEMORY, "abut_history_create",
+                     "no memory");
+  made->context = context;
+  prepare(&made->committed);
+  prepare(&made->trial);
+  prepare(&made->spare);
+  *history = made;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_history_destroy(abut_history **history)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_history *old = *history;
+  if (old == NULL)
+    return ABUT_SUCCESS;
+  release(old->context, &old->committed);
+  release(old->context, &old->trial);
+  release(old->context, &old->spare);
+  abut_object_destroy(old->context, old, sizeof(*old));
+  *history = NULL;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_history_clear(abut_history *history)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  history->committed.n = history->trial.n = 0;
+  history->committed.problem = history->trial.problem = no_problem();
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_history_begin_step(abut_history *history)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  history->trial.n = 0;
+  return ABUT_SUCCESS;
+}
+
+/* Record what is wrong with a point. */
+static abut_status
+reject(abut_context *context, abut_status status, const char *call, int64_t id,
+       const char *what)
+{
+  abut_text text = abut_fail_begin(context, call);
+  abut_text_add(&text, "point ");
+  abut_text_add_integer(&text, id);
+  abut_text_add(&text, what);
+  return status;
+}
+
+abut_status
+abut_entries_check(abut_context *context, const char *call,
+                   const abut_history_entries *entries)
+{
+  const abut_history_entries *e = entries;
+  for (int64_t i = 0; i < e->n; ++i)
+  {
+    if (e->id[i] < 0)
+      return reject(context, ABUT_INVALID_ARGUMENT, call, e->id[i],
+                    " has a negative number");
+    if (i > 0 && e->id[i] <= e->id[i - 1])
+      return reject(context, ABUT_INVALID_ARGUMENT, call, e->id[i],
+                    " is not larger than the one before");
+    double probe = e->pressure[i];
+    for (int d = 0; d < 3 && e->place != NULL; ++d)
+      probe += 0.0 * e->place[3 * i + d];
+    if (!isfinite(probe))
+      return reject(context, ABUT_NOT_FINITE, call, e->id[i],
+                    ": pressure or place is not finite");
+  }
+  return ABUT_SUCCESS;
+}
+
+static void
+append_given(abut_entry_set *set, const abut_history_entries *e, int64_t i)
+{
+  abut_entry_set_append(set, e->id[i], e->pressure[i],
+                        e->state == NULL ? 0 : e->state[i],
+                        e->place == NULL ? nowhere : e->place + 3 * i);
+}
+
+static void
+append_old(abut_entry_set *set, const abut_entry_set *old, int64_t i)
+{
+  abut_entry_set_append(
+      set, ids(old)[i], ((const double *)old->pressure.data)[i],
+      ((const uint8_t *)old->state.data)[i], place_of(old, i));
+}
+
+/* Old and new entries into the spare set; new ones win. There must be room. */
+static void
+merge(abut_entry_set *to, const abut_entry_set *old,
+      const abut_history_entries *given)
+{
+  to->n = 0;
+  to->problem = old->problem;
+  int64_t i = 0;
+  for (int64_t k = 0; k < given->n; ++k)
+  {
+    while (i < old->n && ids(old)[i] < given->id[k])
+      append_old(to, old, i++);
+    if (i < old->n && ids(old)[i] == given->id[k])
+      ++i;
+    append_given(to, given, k);
+  }
+  while (i < old->n)
+    append_old(to, old, i++);
+}
+
+abut_status
+abut_history_set(abut_history *history, const abut_history_entries *entries)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_context *context = history->context;
+  if (entries == NULL || entries->struct_size != sizeof(*entries)
+      || entries->n < 0
+      || (entries->n > 0 && (entries->id == NULL || entries->pressure == NULL)))
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_history_set",
+                     "entries, or id or pressure, is NULL, or a size is wrong");
+  abut_status status = abut_entries_check(context, "abut_history_set", entries);
+  if (status != ABUT_SUCCESS || entries->n == 0)
+    return status;
+  abut_entry_set *trial = &history->trial;
+  const int64_t n = trial->n + entries->n;
+  if (trial->n == 0 || ids(trial)[trial->n - 1] < entries->id[0])
+  {
+    status = abut_entry_set_reserve(context, trial, n);
+    for (int64_t i = 0; i < entries->n && status == ABUT_SUCCESS; ++i)
+      append_given(trial, entries, i);
+    return status;
+  }
+  history->spare.n = 0;
+  status = abut_entry_set_reserve(context, &history->spare, n);
+  if (status != ABUT_SUCCESS)
+    return status;
+  merge(&history->spare, trial, entries);
+  const abut_entry_set merged = history->spare;
+  history->spare = *trial;
+  *trial = merged;
+  return ABUT_SUCCESS;
+}
+
+/* First entry whose number is not below id. */
+static int64_t
+lower_bound(const abut_entry_set *set, int64_t id)
+{
+  int64_t begin = 0, end = set->n;
+  while (begin < end)
+  {
+    const int64_t middle = begin + (end - begin) / 2;
+    if (ids(set)[middle] < id)
+      begin = middle + 1;
+    else
+      end = middle;
+  }
+  return begin;
+}
+
+static const abut_entry_set *
+version_of(const abut_history *history, abut_history_version version)
+{
+  return version == ABUT_HISTORY_COMMITTED ? &history->committed
+         : version == ABUT_HISTORY_TRIAL   ? &history->trial
+                                           : NULL;
+}
+
+/* Give out entry i of a set as the k-th answer; i < 0: none. */
+static void
+tell(const abut_entry_set *set, int64_t i, int64_t k,
+     const abut_history_past *past)
+{
+  if (past->found != NULL)
+    past->found[k] = i >= 0;
+  if (past->pressure != NULL)
+    past->pressure[k] = i < 0 ? 0 : ((const double *)set->pressure.data)[i];
+  if (past->state != NULL)
+    past->state[k] = i < 0 ? 0 : ((const uint8_t *)set->state.data)[i];
+}
+
+abut_status
+abut_history_get(const abut_history *history, abut_history_version version,
+                 int64_t n, const int64_t *id, const abut_history_past *past)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  const abut_entry_set *set = version_of(history, version);
+  if (set == NULL || n < 0 || (n > 0 && id == NULL) || past == NULL
+      || past->struct_size != sizeof(*past))
+    return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
+                     "abut_history_get",
+                     "an argument is NULL, or a size or the version is wrong");
+  for (int64_t k = 0; k < n; ++k)
+  {
+    const int64_t i = lower_bound(set, id[k]);
+    tell(set, i < set->n && ids(set)[i] == id[k] ? i : -1, k, past);
+  }
+  return ABUT_SUCCESS;
+}
+
+static double
+distance_square(const double *a, const double *b)
+{
+  double sum = 0;
+  for (int d = 0; d < 3; ++d)
+    sum += (a[d] - b[d]) * (a[d] - b[d]);
+  return sum;
+}
+
+abut_status
+abut_history_nearest(const abut_history *history, abut_history_version version,
+                     int64_t n, const int64_t *first_id, const int64_t *end_id,
+                     const double *place, const abut_history_past *past)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  const abut_entry_set *set = version_of(history, version);
+  if (set == NULL || n < 0
+      || (n > 0 && (first_id == NULL || end_id == NULL || place == NULL))
+      || past == NULL || past->struct_size != sizeof(*past))
+    return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
+                     "abut_history_nearest",
+                     "an argument is NULL, or a size or the version is wrong");
+  for (int64_t k = 0; k < n; ++k)
+  {
+    int64_t best = -1;
+    double least = INFINITY;
+    for (int64_t i = lower_bound(set, first_id[k]);
+         i < set->n && ids(set)[i] < end_id[k]; ++i)
+    {
+      const double d = distance_square(place_of(set, i), place + 3 * k);
+      if (d < least)
+      {
+        least = d;
+        best = i;
+      }
+    }
+    tell(set, best, k, past);
+  }
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_history_view(const abut_history *history, abut_history_version version,
+                  abut_history_entries *entries)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  const abut_entry_set *set = version_of(history, version);
+  if (set == NULL || entries == NULL
+      || entries->struct_size != sizeof(*entries))
+    return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
+                     "abut_history_view",
+                     "entries is NULL, or its size or the version is wrong");
+  entries->n = set->n;
+  entries->id = set->id.data;
+  entries->pressure = set->pressure.data;
+  entries->state = set->state.data;
+  entries->place = set->place.data;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_history_set_problem(abut_history *history,
+                         const abut_history_problem *problem)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  if (problem == NULL || problem->struct_size != sizeof(*problem)
+      || memchr(problem->law, 0, sizeof(problem->law)) == NULL
+      || !isfinite(problem->first_penalty) || !isfinite(problem->penalty))
+    return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
+                     "abut_history_set_problem",
+                     "problem is NULL or of another size, its law has no end, "
+                     "or a penalty is not finite");
+  history->trial.problem = *problem;
+  history->trial.problem.resumes = problem->resumes != 0;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_history_get_problem(const abut_history *history,
+                         abut_history_version version,
+                         abut_history_problem *problem)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  const abut_entry_set *set = version_of(history, version);
+  if (set == NULL || problem == NULL
+      || problem->struct_size != sizeof(*problem))
+    return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
+                     "abut_history_get_problem",
+                     "problem is NULL, or its size or the version is wrong");
+  *problem = set->problem;
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_history_commit(abut_history *history)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  return abut_entry_set_copy(history->context, &history->trial,
+                             &history->committed);
+}
+
+abut_status
+abut_history_rollback(abut_history *history)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  return abut_entry_set_copy(history->context, &history->committed,
+                             &history->trial);
+}
