@@ -7,6 +7,7 @@
  * methods that enforce them, over plain arrays.
  */
 
+#include <abut/condense.h>
 #include <abut/context.h>
 #include <abut/coupling.h>
 #include <abut/dense_model.h>
