@@ -20,6 +20,7 @@
 #include <abut/obstacle.h>
 #include <abut/obstacle_surface.h>
 #include <abut/parts.h>
+#include <abut/points.h>
 #include <abut/projection.h>
 #include <abut/rows.h>
 #include <abut/search.h>

@@ -11,7 +11,7 @@
  * for a point mass on a spring, for examples, and for tests.
  */
 
-#include <abut/rows.h>
+#include <abut/points.h>
 #include <abut/strategy.h>
 
 #ifdef __cplusplus
@@ -27,7 +27,8 @@ extern "C"
     const double *stiffness; /**< [n*n] K, symmetric positive definite on
                                   the null space of the constraints */
     const double *force;     /**< [n] f */
-    const abut_rows *rows;   /**< constraints over unknowns 0..n-1 */
+    /** Unknown k of node l is number l * dimension + k, below n. */
+    const abut_points *points;
   } abut_dense_model;
 
   /** One line of the history of a solve. */
@@ -36,14 +37,14 @@ extern "C"
                                      const double *pressure);
 
   /** Solve the model with the method of @p options. Penalties are multiples of
-   * the row's stiffness sum_k B_k^2 K_kk / ((sum_k B_k^2)^2 w), which for one
-   * unknown is K B^-2 / w. Costs O((n + n_rows)^3) per linear system.
-   * CALLBACK_FAILED if K is singular with the rows that are closed in some
-   * step: then begin with a state that holds the body.
+   * the stiffness of a component, sum_k B_k^2 K_kk / ((sum_k B_k^2)^2 w), which
+   * for one unknown is K B^-2 / w. Costs O((n + n_components)^3) per linear
+   * system. CALLBACK_FAILED if K is singular with what is closed in some step:
+   * then begin with a state that holds the body.
    * @param displacement [n] in: start; out: solution
-   * @param pressure [n_rows] in: start (may be all 0); out: pressure
-   * @param state [n_rows] starting set on entry, final set on return; NULL to
-   *   start from the set that p and g call for
+   * @param pressure [n_components] in: start (may be all 0); out: pressure
+   * @param state [n_components] starting set on entry, final set on return;
+   * NULL to start from the set that p and g call for
    * @param monitor called after each step, may be NULL; progress->outer tells
    *   outer steps apart */
   ABUT_API abut_status abut_dense_model_solve(

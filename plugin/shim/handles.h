@@ -6,6 +6,7 @@
 #include <abut/dealii/coded.h>
 #include <abut/detect.h>
 #include <abut/obstacle.h>
+#include <abut/points.h>
 #include <abut/rows.h>
 #include <abut/search.h>
 #include <abut/strategy.h>
@@ -27,6 +28,10 @@ namespace abut::shim
     void operator()(abut_rows *object) const
     {
       abut_rows_destroy(&object);
+    }
+    void operator()(abut_points *object) const
+    {
+      abut_points_destroy(&object);
     }
     void operator()(abut_strategy *object) const
     {
@@ -85,6 +90,15 @@ namespace abut::shim
     abut_rows *rows = nullptr;
     check(context, abut_rows_create(context, &rows));
     return Handle<abut_rows>(rows);
+  }
+
+  /** Points over nodes with @p dimension unknowns each. */
+  inline Handle<abut_points> create_points(abut_context *context,
+                                           const std::int32_t dimension)
+  {
+    abut_points *points = nullptr;
+    check(context, abut_points_create(context, dimension, &points));
+    return Handle<abut_points>(points);
   }
 
   inline Handle<abut_strategy>

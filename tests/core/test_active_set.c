@@ -33,21 +33,22 @@ solve(const problem *q, const abut_strategy_options *options,
       const uint8_t *state)
 {
   abut_context *context = fixture_context();
-  abut_rows *rows = NULL;
-  assert_ok(abut_rows_create(context, &rows));
+  abut_points *points = NULL;
+  assert_ok(abut_points_create(context, 1, &points));
   for (int i = 0; i < q->n; ++i)
   {
-    const int64_t column = i;
-    assert_ok(abut_rows_append(rows, i, 1, q->gap[i], 0, 1, &column, &q->sign));
+    const int32_t node = i;
+    assert_ok(abut_points_append_scalar(
+        points, i, 1, q->gap[i], ABUT_POINT_CONTACT, 1, &node, &q->sign));
   }
-  const abut_dense_model model = {sizeof(model), q->n, q->k, q->f, rows};
+  const abut_dense_model model = {sizeof(model), q->n, q->k, q->f, points};
   answer out = {0};
   if (state != NULL)
     memcpy(out.state, state, (size_t)q->n);
   assert_ok(abut_dense_model_solve(context, &model, options, out.x, out.p,
                                    state != NULL ? out.state : NULL, NULL, NULL,
                                    &out.progress, &out.reason));
-  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_points_destroy(&points));
   assert_ok(abut_context_destroy(&context));
   return out;
 }

@@ -51,19 +51,20 @@ static abut_status
 solve_something(abut_context *context)
 {
   const double k[] = {2, -1, -1, 2}, f[] = {-1, -1}, one = 1;
-  const int64_t columns[] = {0, 1};
-  abut_rows *rows = NULL;
-  abut_status status = abut_rows_create(context, &rows);
+  const int32_t nodes[] = {0, 1};
+  abut_points *points = NULL;
+  abut_status status = abut_points_create(context, 1, &points);
   for (int i = 0; i < 2 && status == ABUT_SUCCESS; ++i)
-    status = abut_rows_append(rows, i, 1, 0.1, 0, 1, &columns[i], &one);
-  const abut_dense_model model = {sizeof(model), 2, k, f, rows};
+    status = abut_points_append_scalar(points, i, 1, 0.1, ABUT_POINT_CONTACT, 1,
+                                       &nodes[i], &one);
+  const abut_dense_model model = {sizeof(model), 2, k, f, points};
   const abut_strategy_options options = exact_options();
   double u[2] = {0, 0}, p[2] = {0, 0};
   if (status == ABUT_SUCCESS)
     status = abut_dense_model_solve(context, &model, &options, u, p, NULL, NULL,
                                     NULL, NULL, NULL);
-  if (rows != NULL)
-    assert_ok(abut_rows_destroy(&rows));
+  if (points != NULL)
+    assert_ok(abut_points_destroy(&points));
   if (status == ABUT_SUCCESS)
   {
     /* Symmetric: u = -0.1 on both, reaction k u - f = -0.1 + 1. */
@@ -133,14 +134,14 @@ a_context_outlives_its_objects(void **unused)
 {
   (void)unused;
   abut_context *context = fixture_context();
-  abut_rows *rows = NULL;
-  assert_ok(abut_rows_create(context, &rows));
+  abut_points *points = NULL;
+  assert_ok(abut_points_create(context, 1, &points));
   assert_int_equal(abut_context_destroy(&context), ABUT_INVALID_ARGUMENT);
   assert_non_null(context);
   assert_string_equal(
       abut_context_message(context),
       "abut_context_destroy: 1 objects of this context are still alive");
-  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_points_destroy(&points));
   assert_ok(abut_context_destroy(&context));
   assert_null(context);
 }

@@ -59,7 +59,7 @@ elimination_finds_singular_matrices(void **unused)
 typedef struct floating
 {
   abut_context *context;
-  abut_rows *rows;
+  abut_points *points;
   abut_dense_model model;
 } floating;
 
@@ -69,11 +69,12 @@ static floating
 open_floating(void)
 {
   floating f = {.context = fixture_context()};
-  const int64_t column = 1;
+  const int32_t node = 1;
   const double minus_one = -1;
-  assert_ok(abut_rows_create(f.context, &f.rows));
-  assert_ok(abut_rows_append(f.rows, 0, 0.5, 0.25, 0, 1, &column, &minus_one));
-  const abut_dense_model model = {sizeof(model), 2, spring, push, f.rows};
+  assert_ok(abut_points_create(f.context, 1, &f.points));
+  assert_ok(abut_points_append_scalar(
+      f.points, 0, 0.5, 0.25, ABUT_POINT_CONTACT, 1, &node, &minus_one));
+  const abut_dense_model model = {sizeof(model), 2, spring, push, f.points};
   f.model = model;
   return f;
 }
@@ -81,7 +82,7 @@ open_floating(void)
 static void
 close_floating(floating *f)
 {
-  assert_ok(abut_rows_destroy(&f->rows));
+  assert_ok(abut_points_destroy(&f->points));
   assert_int_equal(abut_context_memory(f->context).live_bytes, 0);
   assert_ok(abut_context_destroy(&f->context));
 }
@@ -178,7 +179,7 @@ arguments_are_checked(void **unused)
   model.n = 1000000;
   assert_int_equal(SOLVE(f.context, &model, &options, u, &p),
                    ABUT_INVALID_ARGUMENT);
-  /* The row's column is 1. */
+  /* The point's node is 1. */
   model.n = 1;
   assert_int_equal(SOLVE(f.context, &model, &options, u, &p),
                    ABUT_INVALID_ARGUMENT);
@@ -189,7 +190,7 @@ arguments_are_checked(void **unused)
   assert_int_equal(SOLVE(f.context, &model, &options, u, &p),
                    ABUT_INVALID_ARGUMENT);
   model = f.model;
-  model.rows = NULL;
+  model.points = NULL;
   assert_int_equal(SOLVE(f.context, &model, &options, u, &p),
                    ABUT_INVALID_ARGUMENT);
   u[0] = NAN;

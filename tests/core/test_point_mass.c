@@ -39,18 +39,19 @@ static outcome
 point_mass(abut_strategy_options options, const char *law)
 {
   abut_context *context = fixture_context();
-  const int64_t column = 0;
+  const int32_t node = 0;
   const double minus_one = -1;
-  abut_rows *rows = NULL;
-  assert_ok(abut_rows_create(context, &rows));
-  assert_ok(abut_rows_append(rows, 0, 1, h, 0, 1, &column, &minus_one));
-  const abut_dense_model model = {sizeof(model), 1, &k, &weight, rows};
+  abut_points *points = NULL;
+  assert_ok(abut_points_create(context, 1, &points));
+  assert_ok(abut_points_append_scalar(points, 0, 1, h, ABUT_POINT_CONTACT, 1,
+                                      &node, &minus_one));
+  const abut_dense_model model = {sizeof(model), 1, &k, &weight, points};
   outcome out = {0};
   options.law = abut_law_find(law);
   assert_ok(abut_dense_model_solve(context, &model, &options, &out.u, &out.p,
                                    NULL, record, &out.past, &out.progress,
                                    &out.reason));
-  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_points_destroy(&points));
   assert_ok(abut_context_destroy(&context));
   return out;
 }
@@ -170,14 +171,14 @@ multipliers_of_a_space(void **unused)
 {
   (void)unused;
   const double floors[] = {1, 1.2}, minus_one = -1, middle = 1.1;
-  const int64_t column = 0;
+  const int32_t node = 0;
   abut_context *context = fixture_context();
-  abut_rows *rows = NULL;
-  assert_ok(abut_rows_create(context, &rows));
+  abut_points *points = NULL;
+  assert_ok(abut_points_create(context, 1, &points));
   for (int i = 0; i < 2; ++i)
-    assert_ok(
-        abut_rows_append(rows, i, 0.5, floors[i], 0, 1, &column, &minus_one));
-  const abut_dense_model model = {sizeof(model), 1, &k, &weight, rows};
+    assert_ok(abut_points_append_scalar(
+        points, i, 0.5, floors[i], ABUT_POINT_CONTACT, 1, &node, &minus_one));
+  const abut_dense_model model = {sizeof(model), 1, &k, &weight, points};
   abut_status answer = ABUT_SUCCESS;
   abut_strategy_options options = exact_options();
   options.law = abut_law_find("augmented lagrangian");
@@ -209,7 +210,7 @@ multipliers_of_a_space(void **unused)
   assert_int_equal(abut_dense_model_solve(context, &model, &options, &u, p,
                                           NULL, NULL, NULL, NULL, &reason),
                    ABUT_CALLBACK_FAILED);
-  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_points_destroy(&points));
   assert_ok(abut_context_destroy(&context));
 }
 
@@ -252,12 +253,13 @@ two_unknowns(double c)
 {
   abut_context *context = fixture_context();
   const double stiffness[] = {2, 0, 0, 2}, force[] = {0, 0};
-  const int64_t columns[] = {0, 1};
+  const int32_t nodes[] = {0, 1};
   const double ones[] = {1, 1};
-  abut_rows *rows = NULL;
-  assert_ok(abut_rows_create(context, &rows));
-  assert_ok(abut_rows_append(rows, 0, 1, -1, 1, 2, columns, ones));
-  const abut_dense_model model = {sizeof(model), 2, stiffness, force, rows};
+  abut_points *points = NULL;
+  assert_ok(abut_points_create(context, 1, &points));
+  assert_ok(abut_points_append_scalar(points, 0, 1, -1, ABUT_POINT_TIE, 2,
+                                      nodes, ones));
+  const abut_dense_model model = {sizeof(model), 2, stiffness, force, points};
   abut_strategy_options options = exact_options();
   options.law = abut_law_find("augmented lagrangian");
   options.penalty = c;
@@ -272,7 +274,7 @@ two_unknowns(double c)
   assert_close(x[0], 0.5, 1e-9);
   assert_close(x[1], x[0], 1e-12);
   assert_close(p, 1, 1e-9);
-  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_points_destroy(&points));
   assert_ok(abut_context_destroy(&context));
   return past;
 }
@@ -303,14 +305,15 @@ static void
 check_equality(const char *law, double sum)
 {
   const double stiffness[] = {2, 0, 0, 2}, force[] = {0, 0}, eps = 10;
-  const int64_t columns[] = {0, 1};
+  const int32_t nodes[] = {0, 1};
   const double ones[] = {1, 1};
   const bool soft = strcmp(law, "penalty") == 0;
   abut_context *context = fixture_context();
-  abut_rows *rows = NULL;
-  assert_ok(abut_rows_create(context, &rows));
-  assert_ok(abut_rows_append(rows, 0, 1, -sum, 1, 2, columns, ones));
-  const abut_dense_model model = {sizeof(model), 2, stiffness, force, rows};
+  abut_points *points = NULL;
+  assert_ok(abut_points_create(context, 1, &points));
+  assert_ok(abut_points_append_scalar(points, 0, 1, -sum, ABUT_POINT_TIE, 2,
+                                      nodes, ones));
+  const abut_dense_model model = {sizeof(model), 2, stiffness, force, points};
   abut_strategy_options options = exact_options();
   options.law = abut_law_find(law);
   options.penalty = eps;
@@ -327,7 +330,7 @@ check_equality(const char *law, double sum)
   assert_close(x[1], expected, 1e-12);
   assert_close(p, 2 * expected, 1e-12);
   assert_close(progress.penetration, soft ? fabs(sum) / (1 + eps) : 0, 1e-12);
-  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_points_destroy(&points));
   assert_ok(abut_context_destroy(&context));
 }
 
@@ -349,18 +352,20 @@ channel(void **unused)
 {
   (void)unused;
   const double loads[] = {3, -3, 0.5}, eps = 10;
-  const int64_t column = 0;
+  const int32_t node = 0;
   const double up = 1, down = -1;
   for (int i = 0; i < 6; ++i)
   {
     const bool hard = i < 3;
     const double load = loads[i % 3];
     abut_context *context = fixture_context();
-    abut_rows *rows = NULL;
-    assert_ok(abut_rows_create(context, &rows));
-    assert_ok(abut_rows_append(rows, 0, 1, h, 0, 1, &column, &down));
-    assert_ok(abut_rows_append(rows, 1, 1, h, 0, 1, &column, &up));
-    const abut_dense_model model = {sizeof(model), 1, &k, &load, rows};
+    abut_points *points = NULL;
+    assert_ok(abut_points_create(context, 1, &points));
+    assert_ok(abut_points_append_scalar(points, 0, 1, h, ABUT_POINT_CONTACT, 1,
+                                        &node, &down));
+    assert_ok(abut_points_append_scalar(points, 1, 1, h, ABUT_POINT_CONTACT, 1,
+                                        &node, &up));
+    const abut_dense_model model = {sizeof(model), 1, &k, &load, points};
     abut_strategy_options options = exact_options();
     options.law = abut_law_find(hard ? "lagrange" : "penalty");
     options.penalty = eps;
@@ -374,7 +379,7 @@ channel(void **unused)
     assert_close(p[0], load > 0 ? force : 0, 1e-12);
     assert_close(p[1], load < 0 ? force : 0, 1e-12);
     assert_close(k * u, load - p[0] + p[1], 1e-12);
-    assert_ok(abut_rows_destroy(&rows));
+    assert_ok(abut_points_destroy(&points));
     assert_ok(abut_context_destroy(&context));
   }
 }

@@ -431,12 +431,13 @@ a_users_law_is_iterated_to_its_solution(void **unused)
   (void)unused;
   const exponential parameters = {0.5, 0.25};
   const double k = 1, force = 3, minus_one = -1;
-  const int64_t column = 0;
+  const int32_t node = 0;
   abut_context *context = fixture_context();
-  abut_rows *rows = NULL;
-  assert_ok(abut_rows_create(context, &rows));
-  assert_ok(abut_rows_append(rows, 0, 1, 1, 0, 1, &column, &minus_one));
-  const abut_dense_model model = {sizeof(model), 1, &k, &force, rows};
+  abut_points *points = NULL;
+  assert_ok(abut_points_create(context, 1, &points));
+  assert_ok(abut_points_append_scalar(points, 0, 1, 1, ABUT_POINT_CONTACT, 1,
+                                      &node, &minus_one));
+  const abut_dense_model model = {sizeof(model), 1, &k, &force, points};
   abut_strategy_options options = exact_options();
   options.law = &exponential_law;
   options.law_parameters = &parameters;
@@ -455,7 +456,7 @@ a_users_law_is_iterated_to_its_solution(void **unused)
   assert_int_equal(abut_dense_model_solve(context, &model, &options, &u, &p,
                                           NULL, NULL, NULL, NULL, &reason),
                    ABUT_INVALID_ARGUMENT);
-  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_points_destroy(&points));
   assert_ok(abut_context_destroy(&context));
 }
 
@@ -596,9 +597,9 @@ no_rows_need_one_tight_solve(void **unused)
   (void)unused;
   abut_context *context = fixture_context();
   const double k = 2, force = 3;
-  abut_rows *rows = NULL;
-  assert_ok(abut_rows_create(context, &rows));
-  const abut_dense_model model = {sizeof(model), 1, &k, &force, rows};
+  abut_points *points = NULL;
+  assert_ok(abut_points_create(context, 1, &points));
+  const abut_dense_model model = {sizeof(model), 1, &k, &force, points};
   const abut_law *law;
   for (int32_t i = 0; (law = abut_law_get(i)) != NULL; ++i)
   {
@@ -613,7 +614,7 @@ no_rows_need_one_tight_solve(void **unused)
     assert_close(u, force / k, 1e-14);
     assert_int_equal(progress.step, 1);
   }
-  assert_ok(abut_rows_destroy(&rows));
+  assert_ok(abut_points_destroy(&points));
   assert_ok(abut_context_destroy(&context));
 }
 

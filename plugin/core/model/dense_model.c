@@ -17,15 +17,15 @@ static const char call[] = "abut_dense_model_solve";
 
 enum
 {
-  MAX_SIZE = 5000 /* unknowns and rows together: 200 MB */
+  MAX_SIZE = 5000 /* unknowns and components together: 200 MB */
 };
 
 typedef struct dense_host
 {
   abut_context *context;
   const abut_dense_model *model;
-  abut_rows_view rows;
-  int32_t n, m; /* unknowns, rows */
+  abut_points_view points;
+  int32_t n, m; /* unknowns, components of points */
   double *u;    /* [n] displacement, the caller's */
   double *p;    /* [m] pressure, the caller's */
   abut_dense_monitor monitor;
@@ -33,6 +33,7 @@ typedef struct dense_host
   abut_array block, pivots;
   double *matrix, *scale, *x; /* [(n+m)^2], [n+m], [n+m] */
   double *gap, *stiffness;    /* [m] */
+  double *b;                  /* [m * n] B = dg/du */
   int32_t *pivot;             /* [n+m] */
   bool singular;
 } dense_host;
@@ -42,7 +43,7 @@ check_model(abut_context *context, const abut_dense_model *model)
 {
   if (model == NULL || model->struct_size != sizeof(abut_dense_model)
       || model->n < 1 || model->stiffness == NULL || model->force == NULL
-      || model->rows == NULL)
+      || model->points == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "the model is incomplete");
   if (model->n > MAX_SIZE)
@@ -64,9 +65,9 @@ place_arrays(dense_host *host)
   const int64_t size = (int64_t)host->n + host->m;
   host->block.element = sizeof(double);
   host->pivots.element = sizeof(int32_t);
-  abut_status status =
-      abut_array_reserve(host->context, &host->block, 0,
-                         size * size + 2 * size + 2 * (int64_t)host->m);
+  abut_status status = abut_array_reserve(
+      host->context, &host->block, 0,
+      size * size + 2 * size + (int64_t)host->m * (host->n + 2));
   if (status == ABUT_SUCCESS)
     status = abut_array_reserve(host->context, &host->pivots, 0, size);
   if (status != ABUT_SUCCESS)
@@ -76,8 +77,29 @@ place_arrays(dense_host *host)
   host->x = host->scale + size;
   host->gap = host->x + size;
   host->stiffness = host->gap + host->m;
+  host->b = host->stiffness + host->m;
   host->pivot = host->pivots.data;
   return ABUT_SUCCESS;
+}
+
+/* The rows of B, one for each component of a point. */
+static void
+fill_rows(dense_host *host)
+{
+  const abut_points_view *v = &host->points;
+  const int32_t dim = v->dimension;
+  memset(host->b, 0, sizeof(double) * (size_t)host->m * (size_t)host->n);
+  for (int32_t i = 0; i < v->n_points; ++i)
+    for (int32_t c = v->component_start[i]; c < v->component_start[i + 1]; ++c)
+    {
+      const double sign =
+          abut_point_sign(v->kind[i], c - v->component_start[i]);
+      double *row = host->b + (int64_t)c * host->n;
+      for (int64_t e = v->start[i]; e < v->start[i + 1]; ++e)
+        for (int32_t d = 0; d < dim; ++d)
+          row[v->node[e] * dim + d] +=
+              sign * v->frame[c * dim + d] * v->coefficient[e];
+    }
 }
 
 /* Stiffness that row i sees, as pressure per length: sum B^2 K_kk over
@@ -86,23 +108,24 @@ place_arrays(dense_host *host)
 static abut_status
 find_stiffness(dense_host *host)
 {
-  const abut_rows_view *rows = &host->rows;
+  const abut_points_view *points = &host->points;
   const double *k = host->model->stiffness;
   for (int32_t i = 0; i < host->m; ++i)
   {
+    const double *row = host->b + (int64_t)i * host->n;
     double squares = 0, stiffness = 0;
-    for (int64_t e = rows->row_start[i]; e < rows->row_start[i + 1]; ++e)
+    for (int32_t j = 0; j < host->n; ++j)
     {
-      const double b = rows->coefficient[e];
-      squares += b * b;
-      stiffness += b * b * k[rows->column[e] * (host->n + (int64_t)1)];
+      squares += row[j] * row[j];
+      stiffness += row[j] * row[j] * k[j * (host->n + (int64_t)1)];
     }
-    host->stiffness[i] = stiffness / (squares * squares * rows->weight[i]);
+    host->stiffness[i] =
+        stiffness / (squares * squares * points->component_weight[i]);
     if (!isfinite(host->stiffness[i]) || host->stiffness[i] <= 0)
     {
       abut_text text = abut_fail_begin(host->context, call);
-      abut_text_add(&text, "row ");
-      abut_text_add_integer(&text, rows->id[i]);
+      abut_text_add(&text, "point ");
+      abut_text_add_integer(&text, points->component_id[i]);
       abut_text_add(&text, " acts on no unknown with positive stiffness");
       return ABUT_INVALID_ARGUMENT;
     }
@@ -115,7 +138,7 @@ static void
 assemble(dense_host *host, const abut_request *request)
 {
   const int64_t n = host->n, size = n + host->m;
-  const abut_rows_view *rows = &host->rows;
+  const double *weight = host->points.component_weight;
   memset(host->matrix, 0, (size_t)(size * size) * sizeof(double));
   for (int64_t i = 0; i < n; ++i)
     memcpy(host->matrix + i * size, host->model->stiffness + i * n,
@@ -124,14 +147,20 @@ assemble(dense_host *host, const abut_request *request)
   {
     double *row = host->matrix + (n + i) * size;
     row[n + i] = request->d_pressure[i];
-    for (int64_t e = rows->row_start[i]; e < rows->row_start[i + 1]; ++e)
+    for (int64_t k = 0; k < n; ++k)
     {
-      const int64_t k = rows->column[e];
-      const double b = rows->coefficient[e];
+      const double b = host->b[i * n + k];
       row[k] += request->d_gap[i] * b;
-      host->matrix[k * size + n + i] -= b * rows->weight[i];
+      host->matrix[k * size + n + i] -= b * weight[i];
     }
   }
+}
+
+/* Nodes that the unknowns make. */
+static int32_t
+n_nodes(const dense_host *host)
+{
+  return host->n / host->points.dimension;
 }
 
 /* x = (-R, -c) with R = K u - f - B'W p. */
@@ -140,8 +169,8 @@ right_hand_side(dense_host *host, const abut_request *request)
 {
   const int64_t n = host->n;
   memset(host->x, 0, (size_t)n * sizeof(double));
-  const abut_status status =
-      abut_rows_add_force(host->model->rows, request->pressure, 0, n, host->x);
+  const abut_status status = abut_points_add_force(
+      host->model->points, n_nodes(host), request->pressure, host->x);
   for (int64_t i = 0; i < n; ++i)
   {
     host->x[i] += host->model->force[i];
@@ -158,7 +187,6 @@ solve(void *user, const abut_request *request)
 {
   dense_host *host = user;
   const int32_t size = host->n + host->m;
-  const abut_rows_view *rows = &host->rows;
   if (request->action == ABUT_ACTION_SOLVE)
   {
     assemble(host, request);
@@ -175,8 +203,8 @@ solve(void *user, const abut_request *request)
   for (int32_t i = 0; i < host->m; ++i)
   {
     double change = 0;
-    for (int64_t e = rows->row_start[i]; e < rows->row_start[i + 1]; ++e)
-      change += rows->coefficient[e] * host->x[rows->column[e]];
+    for (int32_t j = 0; j < host->n; ++j)
+      change += host->b[(int64_t)i * host->n + j] * host->x[j];
     request->gap_change[i] = change;
     request->pressure_change[i] = host->x[host->n + i];
   }
@@ -189,7 +217,7 @@ move(void *user, const abut_request *request, double *gap)
   dense_host *host = user;
   for (int32_t i = 0; i < host->n; ++i)
     host->u[i] += request->step_length * host->x[i];
-  return abut_rows_gap(host->model->rows, host->u, 0, host->n, gap);
+  return abut_points_gap(host->model->points, n_nodes(host), host->u, gap);
 }
 
 static void
@@ -206,9 +234,10 @@ run(dense_host *host, abut_strategy *strategy, uint8_t *state,
     abut_progress *progress, abut_reason *reason)
 {
   const abut_host functions = {sizeof(abut_host), host, solve, move, watch};
-  abut_status status = abut_strategy_start(
-      strategy, host->m, host->rows.id, host->rows.weight, host->stiffness,
-      host->rows.bilateral, host->gap, host->p, state);
+  abut_status status =
+      abut_strategy_start(strategy, host->m, host->points.component_id,
+                          host->points.component_weight, host->stiffness,
+                          host->points.bilateral, host->gap, host->p, state);
   if (status == ABUT_SUCCESS)
     status = abut_strategy_run(strategy, &functions, reason);
   abut_request last;
@@ -224,7 +253,7 @@ run(dense_host *host, abut_strategy *strategy, uint8_t *state,
                           : ABUT_SUCCESS;
 }
 
-/* Arrays of the caller for host->n unknowns and host->m rows. */
+/* Arrays of the caller for host->n unknowns and host->m components. */
 static abut_status
 check_arrays(const dense_host *host)
 {
@@ -261,26 +290,30 @@ abut_dense_model_solve(abut_context *context, const abut_dense_model *model,
                      .p = pressure,
                      .monitor = monitor,
                      .user = user};
-  status = abut_rows_get(model->rows, &host.rows);
+  status = abut_points_get(model->points, &host.points);
   if (status != ABUT_SUCCESS)
     return status;
-  host.m = host.rows.n_rows;
+  host.m = host.points.n_components;
   status = check_arrays(&host);
   if (status != ABUT_SUCCESS)
     return status;
   abut_strategy *strategy = NULL;
   status = place_arrays(&host);
   if (status == ABUT_SUCCESS)
-    status = abut_rows_gap(model->rows, displacement, 0, host.n, host.gap);
+    status =
+        abut_points_gap(model->points, n_nodes(&host), displacement, host.gap);
   if (status == ABUT_SUCCESS)
+  {
+    fill_rows(&host);
     status = find_stiffness(&host);
+  }
   if (status == ABUT_SUCCESS)
     status = abut_strategy_create(context, options, &strategy);
   if (status == ABUT_SUCCESS)
     status = run(&host, strategy, state, progress, reason);
   if (host.singular)
     abut_fail(context, status, call,
-              "the stiffness is singular with these rows closed: give a start "
+              "the stiffness is singular with what is closed: give a start "
               "state that holds the body");
   abut_strategy_destroy(&strategy);
   abut_array_release(context, &host.block);

@@ -23,21 +23,23 @@ namespace abut::app
       throw std::runtime_error(text);
     }
 
-    shim::Handle<abut_rows> make_rows(const PointMassModel &model,
-                                      abut_context *context)
+    shim::Handle<abut_points> make_points(const PointMassModel &model,
+                                          abut_context *context)
     {
-      shim::Handle<abut_rows> rows = shim::create_rows(context);
-      std::vector<std::int64_t> columns(model.n());
-      for (std::size_t j = 0; j < columns.size(); ++j)
-        columns[j] = static_cast<std::int64_t>(j);
+      shim::Handle<abut_points> points = shim::create_points(context, 1);
+      std::vector<std::int32_t> nodes(model.n());
+      for (std::size_t j = 0; j < nodes.size(); ++j)
+        nodes[j] = static_cast<std::int32_t>(j);
       for (std::size_t i = 0; i < model.rows.size(); ++i)
         throw_if_failed(
-            abut_rows_append(rows.get(), static_cast<std::int64_t>(i), 1.,
-                             model.initial_gap[i], model.equality[i],
-                             static_cast<std::int32_t>(model.n()),
-                             columns.data(), model.rows[i].data()),
+            abut_points_append_scalar(
+                points.get(), static_cast<std::int64_t>(i), 1.,
+                model.initial_gap[i],
+                model.equality[i] ? ABUT_POINT_TIE : ABUT_POINT_CONTACT,
+                static_cast<std::int32_t>(model.n()), nodes.data(),
+                model.rows[i].data()),
             context);
-      return rows;
+      return points;
     }
 
     void record(void *user, const abut_progress *progress,
@@ -123,13 +125,13 @@ namespace abut::app
     options.pressure_scale = model.pressure_scale();
 
     const auto context = shim::create_context();
-    const auto rows = make_rows(model, context.get());
+    const auto points = make_points(model, context.get());
     abut_dense_model dense = {};
     dense.struct_size = sizeof(dense);
     dense.n = static_cast<std::int32_t>(model.n());
     dense.stiffness = model.stiffness.data();
     dense.force = model.force.data();
-    dense.rows = rows.get();
+    dense.points = points.get();
 
     PointMassSolution solution = {};
     solution.displacement = model.start;

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_CONSTRAINT_POINTS_H
+#define ABUT_CONSTRAINT_POINTS_H
+
+/* What the kernels of the core need of a set of points beside its interface. */
+
+#include <abut/points.h>
+
+/* The context that a set was made with, and its size. */
+abut_context *abut_points_context(const abut_points *points);
+int32_t abut_points_n(const abut_points *points);
+int32_t abut_points_dimension(const abut_points *points);
+
+/* Keep the first n points: takes back what was appended after them. */
+void abut_points_truncate(abut_points *points, int32_t n);
+
+#endif
