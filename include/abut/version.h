@@ -16,7 +16,7 @@ extern "C"
 
 /** Major, minor and patch number. */
 #define ABUT_VERSION "0.1.0"
-#define ABUT_VERSION_MAJOR 0 /**< first number, for #if */
+#define ABUT_VERSION_MAJOR 0 /**< first number */
 #define ABUT_VERSION_MINOR 1 /**< second number */
 #define ABUT_VERSION_PATCH 0 /**< third number */
 
