@@ -24,6 +24,7 @@
  */
 
 #include <abut/context.h>
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C"
@@ -100,6 +101,56 @@ extern "C"
                              const uint8_t *state,
                              abut_law_linearisation *result);
   } abut_law;
+
+  /** Whether the law is a true constraint on closed rows: no penetration, and
+   * pressures that are unknowns of their own. */
+  static inline bool abut_law_is_exact(const abut_law *law)
+  {
+    return (law->flags & ABUT_LAW_HARD) != 0;
+  }
+
+  /** Whether pressures and gaps (or slacks) must be positive all the time. */
+  static inline bool abut_law_is_interior(const abut_law *law)
+  {
+    return (law->flags & ABUT_LAW_INTERIOR) != 0;
+  }
+
+  /** Whether each pressure follows from its gap by a stiffness eps: neither
+   * exact nor interior. */
+  static inline bool abut_law_has_penalty(const abut_law *law)
+  {
+    return !abut_law_is_exact(law) && !abut_law_is_interior(law);
+  }
+
+  /** Whether the law needs the body's normal stress (Nitsche). */
+  static inline bool abut_law_needs_stress(const abut_law *law)
+  {
+    return (law->flags & ABUT_LAW_STRESS) != 0;
+  }
+
+  /** Whether the law has no outer iteration around Newton's. */
+  static inline bool abut_law_solves_once(const abut_law *law)
+  {
+    return law->outer == ABUT_OUTER_NONE;
+  }
+
+  /** Whether the outer iteration updates multipliers. */
+  static inline bool abut_law_updates_multipliers(const abut_law *law)
+  {
+    return law->outer == ABUT_OUTER_MULTIPLIER;
+  }
+
+  /** Whether all gaps must be open at the start, and stay so. */
+  static inline bool abut_law_needs_open_start(const abut_law *law)
+  {
+    return law->outer == ABUT_OUTER_BARRIER;
+  }
+
+  /** Whether pressures, slacks and gaps are solved for together. */
+  static inline bool abut_law_is_primal_dual(const abut_law *law)
+  {
+    return law->outer == ABUT_OUTER_PRIMAL_DUAL;
+  }
 
   /** Built-in law by its name ("lagrange", "penalty", "quadratic penalty",
    * "augmented lagrangian", "barrier", "interior point", "nitsche"), or NULL.

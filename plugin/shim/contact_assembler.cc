@@ -198,7 +198,7 @@ namespace abut
     Implementation &i = *implementation;
     AssertThrow(!i.is_started, ExcMessage("Call relax() between detect() and "
                                           "the first solve()."));
-    if (i.method.options.law->outer == ABUT_OUTER_BARRIER)
+    if (abut_law_needs_open_start(i.method.options.law))
       i.push_inside(displacement);
     else
       i.start_state =
@@ -244,9 +244,8 @@ namespace abut
   void ContactAssembler<dim>::add(la::Matrix &matrix, la::Vector &residual)
   {
     Implementation &i = *implementation;
-    const std::uint32_t refused =
-        ABUT_LAW_HARD | ABUT_LAW_INTERIOR | ABUT_LAW_STRESS;
-    AssertThrow((i.method.options.law->flags & refused) == 0,
+    AssertThrow(abut_law_has_penalty(i.method.options.law)
+                    && !abut_law_needs_stress(i.method.options.law),
                 ExcMessage(std::string("The law '") + i.method.options.law->name
                            + "' cannot be added to a matrix row by row: use "
                              "ContactAssembler::solve()."));

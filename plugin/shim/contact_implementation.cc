@@ -45,8 +45,7 @@ namespace abut
     /** Whether the penalty is part of the answer. */
     bool is_penalty(const abut_law &law)
     {
-      return (law.flags & (ABUT_LAW_HARD | ABUT_LAW_INTERIOR)) == 0
-             && law.outer != ABUT_OUTER_MULTIPLIER;
+      return abut_law_has_penalty(&law) && !abut_law_updates_multipliers(&law);
     }
 
     /** Number that tells sets of rows apart: places and values of their arrays,
@@ -291,7 +290,7 @@ namespace abut
   template <int dim>
   bool ContactAssembler<dim>::Implementation::is_nitsche() const
   {
-    return (method.options.law->flags & ABUT_LAW_STRESS) != 0;
+    return abut_law_needs_stress(method.options.law);
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::find_stress()
@@ -426,7 +425,7 @@ namespace abut
         start_pressure[i] = std::max(0., start_pressure[i]);
     starts_from_present = true;
     start_state.clear();
-    if ((method.options.law->flags & ABUT_LAW_INTERIOR) == 0)
+    if (!abut_law_is_interior(method.options.law))
       start_state.assign(request.state, request.state + view.n_rows);
   }
 
@@ -473,7 +472,7 @@ namespace abut
     else if (surfaces != nullptr && is_penalty(*method.options.law))
       surfaces->make_uniform(stiffness);
     if (surfaces != nullptr && !starts_from_present
-        && (method.options.law->flags & ABUT_LAW_INTERIOR) == 0)
+        && !abut_law_is_interior(method.options.law))
     {
       std::vector<double> scale(stiffness);
       for (double &c : scale)

@@ -221,8 +221,8 @@ namespace abut
   std::string refusal(const abut_law &law, const Discretisation discretisation,
                       const System system, const bool tied)
   {
-    const bool hard = (law.flags & ABUT_LAW_HARD) != 0;
-    const bool interior = (law.flags & ABUT_LAW_INTERIOR) != 0;
+    const bool hard = abut_law_is_exact(&law);
+    const bool interior = abut_law_is_interior(&law);
     const std::string with = "Method/Enforcement = " + std::string(law.name);
     if (tied && abut_law_find(law.name) == nullptr)
       return "The law '" + std::string(law.name)
@@ -232,7 +232,7 @@ namespace abut
       return with
              + " cannot glue surfaces: an equality has no interior. Use "
                "lagrange, penalty or augmented lagrangian.";
-    if ((law.flags & ABUT_LAW_STRESS) != 0
+    if (abut_law_needs_stress(&law)
         && (tied || discretisation != Discretisation::quadrature_point))
       return with
              + (tied ? " is for contact, not for tied surfaces. Use lagrange, "
@@ -241,7 +241,7 @@ namespace abut
                        "Method/Discretisation = auto, or say quadrature "
                        "point.");
     if (discretisation == Discretisation::quadrature_point
-        && (tied || hard || law.outer == ABUT_OUTER_PRIMAL_DUAL))
+        && (tied || hard || abut_law_is_primal_dual(&law)))
       return coded(ABUT_FAILURE_RICH_MULTIPLIERS,
                    (tied ? "Tied surfaces" : with)
                        + " with Method/Discretisation = quadrature point has "
@@ -318,7 +318,7 @@ namespace abut
     segments = prm.get_bool("Segments");
     prm.leave_subsection();
     AssertThrow(system != System::saddle_point
-                    || (options.law->flags & ABUT_LAW_HARD) != 0,
+                    || abut_law_is_exact(options.law),
                 dealii::ExcMessage(
                     std::string("Method/System = saddle point goes with "
                                 "Method/Enforcement = lagrange: with '")

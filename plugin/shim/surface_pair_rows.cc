@@ -103,7 +103,7 @@ namespace abut::shim
     pair.discretisation = settings_.method.discretisation;
     const abut_law &law = *settings_.method.options.law;
     if (pair.discretisation == Discretisation::automatic)
-      pair.discretisation = (law.flags & ABUT_LAW_STRESS) != 0
+      pair.discretisation = abut_law_needs_stress(&law)
                                 ? Discretisation::quadrature_point
                             : data.obstacle ? Discretisation::node_to_segment
                                             : Discretisation::dual_mortar;
@@ -111,10 +111,9 @@ namespace abut::shim
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
       throw ContactError("Pair '" + data.name + "': " + reason);
-    const std::uint32_t exact = ABUT_LAW_HARD | ABUT_LAW_INTERIOR;
     for (const Pair &other : pairs_)
       if (are_both_sides(data, other.data)
-          && (data.tied || (law.flags & exact) != 0))
+          && (data.tied || !abut_law_has_penalty(&law)))
         throw ContactError(
             "Pair '" + data.name + "': "
             + coded(ABUT_FAILURE_BOTH_SIDES,

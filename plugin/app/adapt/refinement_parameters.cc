@@ -20,8 +20,8 @@ namespace abut::app
       abut_strategy_options &o = here.options;
       // Outer steps need linear solves that are finer than what they look at,
       // and so do gaps that only the linear solver closes.
-      const bool rough = o.law->outer == ABUT_OUTER_NONE
-                         && here.system != System::saddle_point;
+      const bool rough =
+          abut_law_solves_once(o.law) && here.system != System::saddle_point;
       const double linear = rough ? enough : 1e-2 * enough;
       o.final_linear_tolerance = std::max(o.final_linear_tolerance,
                                           std::min(linear, o.linear_tolerance));

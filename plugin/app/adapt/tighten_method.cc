@@ -19,7 +19,7 @@ namespace abut::app
     o.pressure_tolerance =
         std::max(o.pressure_tolerance / factor, smallest_tolerance);
     o.barrier_end = std::max(o.barrier_end / factor, smallest_tolerance);
-    if (o.law->outer != ABUT_OUTER_NONE || (o.law->flags & ABUT_LAW_HARD) != 0)
+    if (!abut_law_solves_once(o.law) || abut_law_is_exact(o.law))
       return true;
     if (present_penalty >= o.penalty_cap)
       return false;

@@ -112,7 +112,7 @@ namespace abut::app
 
   void require_law_without_stress(const MethodParameters &method)
   {
-    if ((method.options.law->flags & ABUT_LAW_STRESS) != 0)
+    if (abut_law_needs_stress(method.options.law))
       throw InputError("Method/Enforcement",
                        std::string(method.options.law->name)
                            + " works with the stress of elastic bodies, of "

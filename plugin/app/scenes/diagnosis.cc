@@ -38,7 +38,7 @@ namespace abut::app
     const double penalty = abut_strategy_first_penalty(&method.options);
     if (penalty == 0. || (penalty >= softest && penalty <= stiffest))
       return;
-    const bool nitsche = (method.options.law->flags & ABUT_LAW_STRESS) != 0;
+    const bool nitsche = abut_law_needs_stress(method.options.law);
     report.warn(coded(
         nitsche ? ABUT_FAILURE_NITSCHE : ABUT_FAILURE_PENALTY,
         "Method/Penalty is " + short_number(penalty, 3)

@@ -27,13 +27,13 @@ namespace abut::app
                      const double law_error, const MethodParameters &method)
     {
       const abut_strategy_options &o = method.options;
-      const bool exact = (o.law->flags & ABUT_LAW_HARD) != 0;
+      const bool exact = abut_law_is_exact(o.law);
       if (exact || law_error > law_excess * target)
         return;
       const std::string name =
-          o.law->outer == ABUT_OUTER_BARRIER ? "a larger Method/Barrier end"
-          : o.law->outer == ABUT_OUTER_NONE  ? "a smaller Method/Penalty"
-                                             : "a larger Method/Gap tolerance";
+          abut_law_needs_open_start(o.law) ? "a larger Method/Barrier end"
+          : abut_law_solves_once(o.law)    ? "a smaller Method/Penalty"
+                                           : "a larger Method/Gap tolerance";
       report.leave_out("exactness of the contact law: its error is about "
                        + short_number(law_error, 2) + " where "
                        + short_number(target, 2) + " is asked for; " + name
@@ -74,7 +74,7 @@ namespace abut::app
                      const unsigned int n_meshes)
   {
     const double usual = usual_steps * n_meshes;
-    const bool simplest = method.options.law->outer == ABUT_OUTER_NONE;
+    const bool simplest = abut_law_solves_once(method.options.law);
     if (n_steps <= 2. * usual)
       return;
     const std::string count = std::to_string(n_steps) + " linear systems on "

@@ -159,10 +159,7 @@ begin_block(const abut_search *s, const abut_query *q, const abut_keyed *items,
     lower[d] = b->block_lower[d] - slack;
     upper[d] = b->block_upper[d] + slack;
   }
-  if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
-    abut_grid_gather(&s->grid, lower, upper, runs);
-  else
-    abut_tree_gather(&s->tree, lower, upper, runs);
+  s->method->gather(s, lower, upper, runs);
   prefetch_runs(s->records.data, runs);
 }
 
@@ -299,7 +296,7 @@ abut_search_list(abut_search *s, const abut_query *q, double skin,
   ((int64_t *)list->start.data)[0] = 0;
   if (s->n == 0)
     return ABUT_SUCCESS;
-  if (s->options.algorithm == ABUT_SEARCH_ALL_PAIRS)
+  if (s->method->gather == NULL)
     return answer_all_pairs(s, q, skin, list, consume, user);
   abut_keyed *items = s->items.data;
   const int32_t n = key_queries(s, q, skin, items);

@@ -5,14 +5,12 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const names[ABUT_SEARCH_N_ALGORITHMS] = {
-    "all pairs", "uniform buckets", "adaptive buckets"};
-
 const char *
 abut_search_name(abut_search_algorithm algorithm)
 {
   const int i = (int)algorithm;
-  return i >= 0 && i < ABUT_SEARCH_N_ALGORITHMS ? names[i] : "";
+  return i >= 0 && i < ABUT_SEARCH_N_ALGORITHMS ? abut_search_methods[i].name
+                                                : "";
 }
 
 abut_status
@@ -21,7 +19,7 @@ abut_search_find(const char *name, abut_search_algorithm *algorithm)
   if (name == NULL || algorithm == NULL)
     return ABUT_INVALID_ARGUMENT;
   for (int i = 0; i < ABUT_SEARCH_N_ALGORITHMS; ++i)
-    if (strcmp(name, names[i]) == 0)
+    if (strcmp(name, abut_search_methods[i].name) == 0)
     {
       *algorithm = (abut_search_algorithm)i;
       return ABUT_SUCCESS;
@@ -99,6 +97,7 @@ abut_search_create(abut_context *context, abut_surface *surface,
   s->context = context;
   s->surface = surface;
   s->options = chosen;
+  s->method = &abut_search_methods[chosen.algorithm];
   s->reach.absolute = chosen.reach;
   s->reach.relative = chosen.relative_reach;
   s->skin = chosen.skin;
@@ -260,8 +259,8 @@ static double
 compute_records(abut_search *s, const abut_keyed *items)
 {
   abut_record *records = s->records.data;
-  const bool adaptive = s->options.algorithm == ABUT_SEARCH_ADAPTIVE_BUCKETS;
-  const int32_t chunk = adaptive ? s->tree.capacity : 64;
+  const abut_search_method *m = s->method;
+  const int32_t chunk = m->bucket_size != NULL ? m->bucket_size(s) : 64;
   const abut_bounds none = {{INFINITY, INFINITY, INFINITY},
                             {-INFINITY, -INFINITY, -INFINITY},
                             INFINITY};
@@ -279,8 +278,8 @@ compute_records(abut_search *s, const abut_keyed *items)
       facets_at(records, items, i, n, facets);
       abut_records_compute(s->surface, facets, n, &s->reach, records + i, &b);
     }
-    if (adaptive)
-      extent += abut_tree_fit_bucket(&s->tree, first / chunk, b.lower, b.upper);
+    if (m->fit_bucket != NULL)
+      extent += m->fit_bucket(s, first / chunk, b.lower, b.upper);
     for (int d = 0; d < 3; ++d)
     {
       all.lower[d] = b.lower[d] < all.lower[d] ? b.lower[d] : all.lower[d];
@@ -295,41 +294,42 @@ compute_records(abut_search *s, const abut_keyed *items)
 }
 
 static abut_status
-sort_facets(abut_search *s)
+build_all_pairs(abut_search *s)
 {
-  s->n = s->surface->view.n_facets;
-  abut_status status = reserve(s);
-  if (status != ABUT_SUCCESS)
-    return status;
+  abut_keyed *items = s->items.data;
+  for (int32_t f = 0; f < s->n; ++f)
+    items[f].index = f;
+  compute_records(s, items);
+  return ABUT_SUCCESS;
+}
+
+static abut_status
+build_grid(abut_search *s)
+{
   abut_search_statistics *z = &s->statistics;
-  z->n_levels = 1;
-  z->n_buckets = 1;
-  if (s->options.algorithm == ABUT_SEARCH_ALL_PAIRS)
-  {
-    abut_keyed *items = s->items.data;
-    for (int32_t f = 0; f < s->n; ++f)
-      items[f].index = f;
-    compute_records(s, items);
-    return ABUT_SUCCESS;
-  }
   compute_sites(s);
-  if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
-  {
-    /* Four facets along a side of a cell cost least, measured; the radius of
-     * the largest facet is the least that works. */
-    const double asked = s->options.bucket_size;
-    const double edge = (asked > 0 ? asked : 4) * median_size(s);
-    status = abut_grid_build(s->context, &s->grid, s->sites.data, s->n, edge,
-                             s->items.data, s->room.data);
-    compute_records(s, s->items.data);
-    if (status == ABUT_SUCCESS)
-      status = abut_search_fit(s->context, &s->runs, s->grid.n_cells);
-    z->n_buckets = s->grid.n_cells;
-    z->bucket_edge = s->grid.edge;
-    z->bucket_raised = asked > 0 && s->grid.raised;
-    return status;
-  }
-  status = abut_tree_reserve(s->context, &s->tree, s->n, choose_capacity(s));
+  /* Four facets along a side of a cell cost least, measured; the radius of
+   * the largest facet is the least that works. */
+  const double asked = s->options.bucket_size;
+  const double edge = (asked > 0 ? asked : 4) * median_size(s);
+  abut_status status = abut_grid_build(s->context, &s->grid, s->sites.data,
+                                       s->n, edge, s->items.data, s->room.data);
+  compute_records(s, s->items.data);
+  if (status == ABUT_SUCCESS)
+    status = abut_search_fit(s->context, &s->runs, s->grid.n_cells);
+  z->n_buckets = s->grid.n_cells;
+  z->bucket_edge = s->grid.edge;
+  z->bucket_raised = asked > 0 && s->grid.raised;
+  return status;
+}
+
+static abut_status
+build_tree(abut_search *s)
+{
+  abut_search_statistics *z = &s->statistics;
+  compute_sites(s);
+  abut_status status =
+      abut_tree_reserve(s->context, &s->tree, s->n, choose_capacity(s));
   if (status == ABUT_SUCCESS)
     status = abut_search_fit(s->context, &s->runs, s->tree.n_buckets);
   if (status != ABUT_SUCCESS)
@@ -343,26 +343,74 @@ sort_facets(abut_search *s)
   return ABUT_SUCCESS;
 }
 
-/* Fit the buckets to renewed records; false if they do not serve any more. */
 static bool
-refit(abut_search *s)
+refit_nothing(abut_search *s)
 {
-  if (s->options.algorithm == ABUT_SEARCH_UNIFORM_BUCKETS)
-    return abut_grid_refit(&s->grid, s->records.data);
-  if (s->options.algorithm == ABUT_SEARCH_ADAPTIVE_BUCKETS)
-  {
-    if (s->extent > 1.5 * s->tree.extent_built)
-      return false;
-    abut_tree_fit(&s->tree);
-  }
+  (void)s;
   return true;
 }
+
+static bool
+refit_grid(abut_search *s)
+{
+  return abut_grid_refit(&s->grid, s->records.data);
+}
+
+static bool
+refit_tree(abut_search *s)
+{
+  if (s->extent > 1.5 * s->tree.extent_built)
+    return false;
+  abut_tree_fit(&s->tree);
+  return true;
+}
+
+static int32_t
+tree_bucket_size(const abut_search *s)
+{
+  return s->tree.capacity;
+}
+
+static double
+fit_tree_bucket(abut_search *s, int32_t bucket, const double *lower,
+                const double *upper)
+{
+  return abut_tree_fit_bucket(&s->tree, bucket, lower, upper);
+}
+
+static void
+gather_cells(const abut_search *s, const double *lower, const double *upper,
+             abut_runs *runs)
+{
+  abut_grid_gather(&s->grid, lower, upper, runs);
+}
+
+static void
+gather_buckets(const abut_search *s, const double *lower, const double *upper,
+               abut_runs *runs)
+{
+  abut_tree_gather(&s->tree, lower, upper, runs);
+}
+
+/* In the order of abut_search_algorithm. */
+const abut_search_method abut_search_methods[ABUT_SEARCH_N_ALGORITHMS] = {
+    {"all pairs", build_all_pairs, refit_nothing, NULL, NULL, NULL},
+    {"uniform buckets", build_grid, refit_grid, NULL, NULL, gather_cells},
+    {"adaptive buckets", build_tree, refit_tree, tree_bucket_size,
+     fit_tree_bucket, gather_buckets},
+};
 
 static abut_status
 build(abut_search *s)
 {
   s->revision = 0;
-  const abut_status status = sort_facets(s);
+  s->n = s->surface->view.n_facets;
+  abut_status status = reserve(s);
+  if (status != ABUT_SUCCESS)
+    return status;
+  s->statistics.n_levels = 1;
+  s->statistics.n_buckets = 1;
+  status = s->method->build(s);
   if (status != ABUT_SUCCESS)
     return status;
   ++s->statistics.n_builds;
@@ -401,7 +449,7 @@ abut_search_update(abut_search *search)
   abut_status status = abut_search_refresh(s);
   if (status != ABUT_SUCCESS || s->fitted)
     return status;
-  if (refit(s))
+  if (s->method->refit(s))
   {
     ++s->statistics.n_refits;
     s->fitted = true;

@@ -44,9 +44,32 @@ typedef struct abut_block
   uint8_t n_places[256]; /* how many are */
 } abut_block;
 
+/* An algorithm. */
+typedef struct abut_search_method
+{
+  const char *name; /* in the parameter file */
+  /* Sort the facets into buckets and compute their records. */
+  abut_status (*build)(abut_search *search);
+  /* Fit the buckets to renewed records; false if they do not serve any more. */
+  bool (*refit)(abut_search *search);
+  /* Facets at consecutive places of the search order whose boxes have a common
+   * box; and what is done with it: its extent is returned. NULL: nothing. */
+  int32_t (*bucket_size)(const abut_search *search);
+  double (*fit_bucket)(abut_search *search, int32_t bucket, const double *lower,
+                       const double *upper);
+  /* Runs of facets near the box of a block of queries. NULL: no buckets, each
+   * query looks at every facet. */
+  void (*gather)(const abut_search *search, const double *lower,
+                 const double *upper, abut_runs *runs);
+} abut_search_method;
+
+/* All algorithms, in the order of abut_search_algorithm. */
+extern const abut_search_method abut_search_methods[ABUT_SEARCH_N_ALGORITHMS];
+
 struct abut_search
 {
   abut_context *context;
+  const abut_search_method *method;
   abut_surface *surface;
   abut_search_options options;
   abut_reach reach;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* See active_set.h for the method. */
 #include "strategy/active_set.h"
+#include "strategy/outer_table.h"
 #include "strategy/strategy.h"
 
 #include <math.h>
@@ -272,7 +273,7 @@ static bool
 nearly_settled(const abut_strategy *s)
 {
   const double n_changes = (double)s->progress.n_changes;
-  return s->progress.step > 0 && s->options.law->outer == ABUT_OUTER_NONE
+  return s->progress.step > 0 && abut_law_solves_once(s->options.law)
          && 50 * n_changes * n_changes <= (double)s->progress.n_active;
 }
 
@@ -339,10 +340,9 @@ settled(abut_strategy *s, const findings *found)
   s->progress.n_changes = 0;
   s->progress.n_active = (int64_t)found->n_active;
   s->progress.outer += 1;
-  if (s->options.law->outer == ABUT_OUTER_PENALTY)
-    status = abut_penalty_settled(s, &verdict);
-  else if (s->options.law->outer == ABUT_OUTER_MULTIPLIER)
-    status = abut_multiplier_settled(s, &verdict);
+  const abut_outer_entry *outer = abut_outer_get(s->options.law->outer);
+  if (outer->settled != NULL)
+    status = outer->settled(s, &verdict);
   if (status != ABUT_SUCCESS)
     return status;
   if (!verdict.go_on)
@@ -368,7 +368,7 @@ moved(abut_strategy *s)
     return status;
   if (found.n_bad == 0 || only_flickers(s, &found))
     return settled(s, &found);
-  if (s->options.law->outer == ABUT_OUTER_MULTIPLIER
+  if (abut_law_updates_multipliers(s->options.law)
       && s->options.adaptive_penalty)
     status = abut_multiplier_update(s);
   if (status != ABUT_SUCCESS)

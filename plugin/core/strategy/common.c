@@ -76,7 +76,7 @@ fault_of_row(const abut_strategy *s, int32_t i)
   const double a = s->d_pressure[i], b = s->d_gap[i];
   if (!isfinite(s->residual[i]) || !isfinite(a) || !isfinite(b))
     return "a value that is not finite";
-  if (a == 0 && (b == 0 || (s->options.law->flags & ABUT_LAW_HARD) == 0))
+  if (a == 0 && (b == 0 || !abut_law_is_exact(s->options.law)))
     return "a derivative by the pressure that is zero";
   return NULL;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Options of a strategy: legal ranges, and the first penalty. */
 #include "strategy/options.h"
+#include "strategy/outer_table.h"
 
 #include <math.h>
 
@@ -18,7 +19,7 @@ check_law(abut_context *context, const abut_law *law, const char *call)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "law is NULL");
   if (law->struct_size != sizeof(abut_law) || law->name == NULL
       || law->classify == NULL || law->linearise == NULL
-      || law->outer < ABUT_OUTER_NONE || law->outer > ABUT_OUTER_PRIMAL_DUAL)
+      || abut_outer_get(law->outer) == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "the law's table is incomplete or of another version");
   return ABUT_SUCCESS;
@@ -71,17 +72,12 @@ abut_strategy_first_penalty(const abut_strategy_options *options)
 {
   if (options == NULL || options->law == NULL)
     return 0;
-  if ((options->law->flags & (ABUT_LAW_HARD | ABUT_LAW_INTERIOR)) != 0)
+  if (!abut_law_has_penalty(options->law))
     return 0;
   if (options->penalty > 0)
     return options->penalty;
-  switch (options->law->outer)
-  {
-  case ABUT_OUTER_PENALTY:
-    return 1;
-  case ABUT_OUTER_MULTIPLIER:
-    return 20;
-  default:
-    return (options->law->flags & ABUT_LAW_STRESS) != 0 ? 10 : 50;
-  }
+  const abut_outer_entry *outer = abut_outer_get(options->law->outer);
+  if (outer != NULL && outer->first_penalty > 0)
+    return outer->first_penalty;
+  return abut_law_needs_stress(options->law) ? 10 : 50;
 }

@@ -47,7 +47,7 @@ check_row(abut_strategy *s, const inputs *in, int32_t i)
   if (in->state != NULL && in->state[i] > ABUT_STATE_CLOSED)
     return reject(s, ABUT_INVALID_ARGUMENT, i, "its state is not a state");
   if (in->bilateral != NULL && in->bilateral[i] != 0
-      && (s->options.law->flags & ABUT_LAW_INTERIOR) != 0)
+      && abut_law_is_interior(s->options.law))
     return reject(s, ABUT_UNSUPPORTED, i,
                   "an equality has no interior: use another law");
   return ABUT_SUCCESS;
@@ -180,7 +180,7 @@ first_reference(abut_strategy *s)
   for (int32_t i = 0; i < s->n; ++i)
     s->reference[i] =
         s->bilateral[i] != 0 ? s->pressure[i] : fmax(s->pressure[i], 0);
-  return s->options.law->outer == ABUT_OUTER_MULTIPLIER
+  return abut_law_updates_multipliers(s->options.law)
              ? abut_multiplier_project(s, s->reference)
              : ABUT_SUCCESS;
 }
@@ -205,8 +205,7 @@ abut_strategy_start(abut_strategy *strategy, int32_t n, const int64_t *id,
     copy_inputs(s, &in);
     reset(s);
     status = first_reference(s);
-    if (status == ABUT_SUCCESS
-        && (s->options.law->flags & ABUT_LAW_INTERIOR) == 0)
+    if (status == ABUT_SUCCESS && !abut_law_is_interior(s->options.law))
       status = first_state(s, state);
   }
   status = abut_strategy_agree(s, status);

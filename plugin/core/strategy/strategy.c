@@ -4,6 +4,7 @@
 #include "strategy/strategy.h"
 #include "base/sized.h"
 #include "strategy/options.h"
+#include "strategy/outer_table.h"
 
 #include <math.h>
 #include <string.h>
@@ -36,19 +37,10 @@ abut_reason_text(abut_reason reason)
 static abut_failure
 failure_at_limit(const abut_law *law, const abut_progress *progress)
 {
-  switch (law->outer)
-  {
-  case ABUT_OUTER_PENALTY:
-    return ABUT_FAILURE_PENALTY;
-  case ABUT_OUTER_MULTIPLIER:
-    return ABUT_FAILURE_MULTIPLIERS_STALL;
-  case ABUT_OUTER_BARRIER:
-  case ABUT_OUTER_PRIMAL_DUAL:
-    return ABUT_FAILURE_INTERIOR;
-  case ABUT_OUTER_NONE:
-    break;
-  }
-  if ((law->flags & ABUT_LAW_STRESS) != 0)
+  const abut_outer_entry *outer = abut_outer_get(law->outer);
+  if (outer != NULL && outer->at_limit != ABUT_FAILURE_NONE)
+    return outer->at_limit;
+  if (abut_law_needs_stress(law))
     return ABUT_FAILURE_NITSCHE;
   return progress->fallback_steps > 0 ? ABUT_FAILURE_CYCLE
                                       : ABUT_FAILURE_COLD_START;
@@ -57,7 +49,7 @@ failure_at_limit(const abut_law *law, const abut_progress *progress)
 static abut_failure
 failure_to_contract(const abut_law *law, const abut_progress *progress)
 {
-  if (law->outer == ABUT_OUTER_NONE)
+  if (abut_law_solves_once(law))
     return progress->penalty > 0 ? ABUT_FAILURE_PENALTY
                                  : ABUT_FAILURE_LINEAR_SOLVER;
   return failure_at_limit(law, progress);
@@ -90,23 +82,6 @@ abut_reason_failure(abut_reason reason, const abut_law *law,
   return ABUT_FAILURE_NONE;
 }
 
-static const abut_method *
-method_of(const abut_law *law)
-{
-  switch (law->outer)
-  {
-  case ABUT_OUTER_NONE:
-  case ABUT_OUTER_PENALTY:
-  case ABUT_OUTER_MULTIPLIER:
-    return &abut_method_active_set;
-  case ABUT_OUTER_BARRIER:
-    return &abut_method_barrier;
-  case ABUT_OUTER_PRIMAL_DUAL:
-    return &abut_method_interior_point;
-  }
-  return NULL;
-}
-
 abut_status
 abut_strategy_create(abut_context *context,
                      const abut_strategy_options *options,
@@ -133,7 +108,7 @@ abut_strategy_create(abut_context *context,
                      "no memory");
   s->context = context;
   s->options = taken;
-  s->method = method_of(taken.law);
+  s->method = abut_outer_get(taken.law->outer)->method;
   s->numbers.element = sizeof(double);
   s->bytes.element = sizeof(uint8_t);
   s->ids.element = sizeof(int64_t);

@@ -248,7 +248,7 @@ namespace abut::app
     {
       throw InputError("Contact/Obstacle", error.what());
     }
-    const bool feasible = method.options.law->outer == ABUT_OUTER_BARRIER;
+    const bool feasible = abut_law_needs_open_start(method.options.law);
     if (feasible || (warm && parameters.refinement.relaxation_sweeps > 0))
     {
       membrane.residual(u, residual);
@@ -303,7 +303,7 @@ namespace abut::app
     if (present.reason == ABUT_REASON_CONVERGED)
       diagnose_iteration(report, contact.progress(),
                          !parameters.refinement.nested
-                             && method.options.law->outer == ABUT_OUTER_NONE);
+                             && abut_law_solves_once(method.options.law));
     else
       report.warn(coded(contact.failure(),
                         "The contact iteration ended without an answer after "

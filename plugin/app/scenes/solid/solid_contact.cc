@@ -68,7 +68,7 @@ namespace abut::app
     SectionTimes::Scope scope(report.times, "solve");
     la::Vector residual = elasticity.vector();
     la::Vector increment = elasticity.vector();
-    if (method.options.law->outer == ABUT_OUTER_BARRIER)
+    if (abut_law_needs_open_start(method.options.law))
     {
       elasticity.residual(u, residual);
       contact.relax(elasticity.stiffness, residual,
@@ -131,7 +131,7 @@ namespace abut::app
     // Coarser meshes are solved roughly on purpose, and with a target error
     // all are; and not every variant of Nitsche's method balances forces.
     if (!is_last_mesh() || parameters.refinement.has_target()
-        || ((method.options.law->flags & ABUT_LAW_STRESS) != 0
+        || (abut_law_needs_stress(method.options.law)
             && method.nitsche_theta != 0.))
       return true;
     la::Vector residual = elasticity.vector();
@@ -179,7 +179,7 @@ namespace abut::app
       diagnose_iteration(report, contact.progress(),
                          !parameters.refinement.nested && round == 0
                              && load_steps.n_accepted == 0
-                             && method.options.law->outer == ABUT_OUTER_NONE);
+                             && abut_law_solves_once(method.options.law));
       if (is_complete())
         return true;
     }

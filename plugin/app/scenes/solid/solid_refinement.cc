@@ -48,8 +48,8 @@ namespace abut::app
       input.secondary = pairs->secondary();
       input.pressure = &fields.pressure;
       // With a target, what the law leaves open is an error of its own.
-      const bool exact_law =
-          (method.options.law->flags & (ABUT_LAW_HARD | ABUT_LAW_STRESS)) != 0;
+      const bool exact_law = abut_law_is_exact(method.options.law)
+                             || abut_law_needs_stress(method.options.law);
       input.gap = control.is_on() && !exact_law ? nullptr : &fields.gap;
     }
     present.estimate = estimate_elastic_error(input, squared_estimate);
@@ -77,7 +77,7 @@ namespace abut::app
     if (!pairs->empty())
     {
       // Nitsche's method is consistent: its gaps are the mesh's error.
-      if ((method.options.law->flags & ABUT_LAW_STRESS) == 0)
+      if (!abut_law_needs_stress(method.options.law))
         evidence.law = contact.complementarity_error();
       evidence.contact_force = contact.contact_force();
     }

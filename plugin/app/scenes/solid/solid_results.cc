@@ -261,7 +261,7 @@ namespace abut::app
     }
     if (method.discretisation == Discretisation::node_to_segment
         || method.discretisation == Discretisation::quadrature_point
-        || (method.options.law->flags & ABUT_LAW_STRESS) != 0)
+        || abut_law_needs_stress(method.options.law))
       report_transfer();
     report.set("search_rebuilds", n_rebuilds);
     report.set("force_imbalance", force_imbalance);
