@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a thousand load steps cost besides what they solve.
+
+Two blocks whose meshes do not match (prm/patch-2d.prm) are pressed together in
+many load steps, once in ten and once in a thousand. Printed are the parts of
+the processor time, the part of contact outside linear systems (its section
+`contact rows`) in all of it and in what a step solves, and how much larger the peak of memory is after a
+thousand steps than after ten.
+
+    thousand_steps.py ABUT [--steps N] [--set SECTION/NAME=VALUE]
+"""
+import measured
+
+SCENE = "prm/patch-2d.prm"
+# Without the errors against its exact solution, which nobody asks of such a run.
+MESH = {"Refinement/Level": 4, "Exact solution/Displacement": ""}
+
+
+def run(abut, steps, more):
+    return measured.Run(abut, SCENE, {
+        **measured.SILENT, **MESH, "Load steps/Steps": steps}, more)
+
+
+def main():
+    parser = measured.options(__doc__)
+    parser.add_argument("--steps", type=int, default=1000)
+    measured.add_set(parser)
+    options = parser.parse_args()
+    few = run(options.abut, 10, options.set)
+    many = run(options.abut, options.steps, options.set)
+    total = many.summary["processor_seconds"]
+    measured.head(["part", "processor seconds", "share"])
+    for name in many.summary["sections"]:
+        seconds = many.seconds(name, "processor_seconds")
+        measured.row([name, f"{seconds:.3f}", f"{100 * seconds / total:.1f} %"])
+    measured.row(["all", f"{total:.3f}", "100 %"])
+    contact, *rest = (many.seconds(name, "processor_seconds")
+                      for name in ("contact rows", "assembly", "solve"))
+    memory = [r.summary["peak_memory_mb"] for r in (few, many)]
+    print(f"\n{many.summary['dofs']} unknowns, {options.steps} steps: contact "
+          f"outside linear systems {100 * contact / total:.1f} % of the time, "
+          f"{100 * contact / (contact + sum(rest)):.1f} % without mesh and "
+          f"results; peak memory {memory[0]:.1f} MB after 10 steps, {memory[1]:.1f} MB after "
+          f"{options.steps}, "
+          f"{1e6 * (memory[1] - memory[0]) / options.steps:.0f} bytes a step")
+
+
+if __name__ == "__main__":
+    main()
