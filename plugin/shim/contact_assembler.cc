@@ -250,23 +250,30 @@ namespace abut
                            + "' cannot be added to a matrix row by row: use "
                              "ContactAssembler::solve()."));
     if (!i.is_started)
+    {
+      i.take_matrix(matrix);
       i.begin(matrix, residual);
+    }
+    i.local.reinit(i.request, i.view.n_rows, i.view.weight, i.communicator);
+    std::vector<global_dof_index> columns;
+    std::vector<double> values;
     for (int row = 0; row < i.view.n_rows; ++row)
     {
-      const double w = i.view.weight[row];
-      const double a = i.request.d_pressure[row];
-      const double stiffness = w * i.request.d_gap[row] / a;
-      const double force =
-          w * (i.request.pressure[row] - i.request.residual[row] / a);
+      const double stiffness = i.local.spring()[row];
+      const double force = i.local.force()[row];
       const auto begin = i.view.row_start[row], end = i.view.row_start[row + 1];
+      columns.assign(i.view.column + begin, i.view.column + end);
+      values.resize(columns.size());
       for (auto j = begin; j < end; ++j)
       {
-        residual(i.view.column[j]) -= force * i.view.coefficient[j];
-        if (stiffness != 0.)
-          for (auto k = begin; k < end; ++k)
-            matrix.add(i.view.column[j], i.view.column[k],
-                       stiffness * i.view.coefficient[j]
-                           * i.view.coefficient[k]);
+        const double b = i.view.coefficient[j];
+        residual(i.view.column[j]) -= force * b;
+        if (stiffness == 0.)
+          continue;
+        for (auto k = begin; k < end; ++k)
+          values[k - begin] = stiffness * b * i.view.coefficient[k];
+        matrix.add(i.view.column[j], columns.size(), columns.data(),
+                   values.data());
       }
     }
     matrix.compress(dealii::VectorOperation::add);
@@ -282,18 +289,15 @@ namespace abut
                 ExcMessage("Call solve() or add() before update()."));
     if (i.request.action == ABUT_ACTION_STOP)
       return false;
-    const std::vector<double> before = i.gap;
+    std::vector<double> before;
+    if (i.was_added)
+      before.swap(i.gap);
     i.compute_gap(displacement);
     if (i.was_added)
     {
       for (int row = 0; row < i.view.n_rows; ++row)
-      {
         i.request.gap_change[row] = i.gap[row] - before[row];
-        i.request.pressure_change[row] =
-            -(i.request.residual[row]
-              + i.request.d_gap[row] * i.request.gap_change[row])
-            / i.request.d_pressure[row];
-      }
+      i.local.recover(i.request);
       i.was_added = false;
       i.next();
     }
@@ -368,7 +372,7 @@ namespace abut
     const Implementation &i = *implementation;
     AssertThrow(i.view.row_start != nullptr || i.n_rows == 0,
                 ExcMessage("Call detect() before inf_sup_constant()."));
-    return solve::inf_sup_constant(matrix, i.view, i.solver_parameters,
+    return solve::inf_sup_constant(matrix, i.coefficients, i.solver_parameters,
                                    i.near_null_space())
         .constant;
   }

@@ -6,6 +6,8 @@
 #include "bodies.h"
 #include "fnv_hash.h"
 #include "nodal_obstacle_rows.h"
+#include "solve/make_row_solver.h"
+#include "solve/row_stiffness.h"
 
 #include <cmath>
 #include <cstring>
@@ -364,7 +366,7 @@ namespace abut
     // Bodies without load are pressed by their overlap. Surfaces that touch
     // have gaps of round-off, which measure nothing: then it is the
     // indentation by the load.
-    const double soft = softness(matrix);
+    const double soft = softness();
     if (load <= 0.)
       options.pressure_scale = options.length_scale / soft;
     else if (start_displacement.linfty_norm() == 0.)
@@ -373,20 +375,15 @@ namespace abut
   }
 
   template <int dim>
-  std::vector<double> ContactAssembler<dim>::Implementation::row_stiffness(
-      const la::Matrix &matrix) const
+  void
+  ContactAssembler<dim>::Implementation::take_matrix(const la::Matrix &matrix)
   {
-    std::vector<double> stiffness = solve::row_stiffness(matrix, coefficients);
-    if (surfaces != nullptr)
-      surfaces->spread_stiffness(stiffness);
-    return stiffness;
+    row_stiffness = solve::row_stiffness(matrix, coefficients);
   }
 
   template <int dim>
-  double ContactAssembler<dim>::Implementation::softness(
-      const la::Matrix &matrix) const
+  double ContactAssembler<dim>::Implementation::softness() const
   {
-    const std::vector<double> stiffness = row_stiffness(matrix);
     double sums[2] = {0., 0.};
     for (int i = 0; i < view.n_rows; ++i)
     {
@@ -443,6 +440,9 @@ namespace abut
   void ContactAssembler<dim>::Implementation::begin(const la::Matrix &matrix,
                                                     const la::Vector &residual)
   {
+    stiffness = row_stiffness;
+    if (surfaces != nullptr)
+      surfaces->spread_stiffness(stiffness);
     set_scales(matrix, residual);
     method.options.reduce = reduce_over_ranks;
     method.options.user = const_cast<MPI_Comm *>(&communicator);
@@ -462,7 +462,6 @@ namespace abut
           iteration_tolerance;
     strategy = shim::create_strategy(context.get(), options);
 
-    stiffness = row_stiffness(matrix);
     if (is_nitsche())
     {
       method.options.penalty = abut_strategy_first_penalty(&method.options);
@@ -501,14 +500,16 @@ namespace abut
   void ContactAssembler<dim>::Implementation::prepare_solver(
       const la::Matrix &matrix)
   {
-    if (solver != nullptr && constant_matrix)
+    const bool is_renewed = solver != nullptr && constant_matrix;
+    if (is_renewed && !has_new_matrix)
+      return;
+    has_new_matrix = false;
+    take_matrix(matrix);
+    if (is_renewed)
     {
-      if (has_new_matrix)
-        solver->renew(matrix, view);
-      has_new_matrix = false;
+      solver->renew(matrix, coefficients, row_stiffness);
       return;
     }
-    has_new_matrix = false;
     if (solver == nullptr)
     {
       if (is_nitsche())
@@ -516,10 +517,10 @@ namespace abut
             std::make_unique<solve::NitscheSolver>(solver_parameters, nitsche);
       else
         solver = solve::make_row_solver(method.system, solver_parameters,
-                                        matrix, view);
+                                        coefficients);
       solver->set_near_null_space(near_null_space());
     }
-    solver->reinit(matrix, view);
+    solver->reinit(matrix, coefficients, row_stiffness);
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::next()

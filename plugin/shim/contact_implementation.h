@@ -5,8 +5,8 @@
 #include "carried_rows.h"
 #include "handles.h"
 #include "row_source.h"
+#include "solve/local_elimination.h"
 #include "solve/nitsche_solver.h"
-#include "solve/row_operator.h"
 #include "solve/row_solver.h"
 #include "surface_pair_rows.h"
 
@@ -52,10 +52,10 @@ namespace abut
     const double *law_gap();
     void set_scales(const la::Matrix &matrix, const la::Vector &residual);
     double length_scale() const;
-    /** [rows] stiffness of the bodies per area, > 0. Collective. */
-    std::vector<double> row_stiffness(const la::Matrix &matrix) const;
+    /** Find the local stiffness of the rows in a new matrix. Collective. */
+    void take_matrix(const la::Matrix &matrix);
     /** Length by pressure: inverse mean of the rows' stiffness. */
-    double softness(const la::Matrix &matrix) const;
+    double softness() const;
     /** Make what has been reached the start of the next iteration. */
     void start_from_present();
     void begin_at(const la::Vector &displacement);
@@ -121,12 +121,15 @@ namespace abut
     } kept_penalty;
     bool starts_from_kept = false;
     la::Vector start_displacement;
-    std::vector<double> gap;       ///< [rows] at the present displacement
-    std::vector<double> stiffness; ///< [rows] pressure per length
+    std::vector<double> gap; ///< [rows] at the present displacement
+    /** [rows] pressure per length, > 0: of each row in the last matrix taken,
+     * and as the law has it, by patches of surface. */
+    std::vector<double> row_stiffness, stiffness;
     double smallest_residual = 0.;
     double iteration_tolerance = 0.; ///< of linear systems; 0: the method's
     bool has_new_matrix = false;     ///< since the last solve
 
+    solve::LocalElimination local; ///< of rows that are added to a matrix
     /** Null until the first solve with the present rows. */
     std::unique_ptr<solve::RowSolver> solver;
     std::uint64_t rows_signature = 0; ///< of the rows of the last detect()

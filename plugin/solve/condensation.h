@@ -4,6 +4,7 @@
 
 #include "condensed_solver.h"
 #include "floating_bodies.h"
+#include "local_elimination.h"
 #include "row_solver.h"
 #include "saddle_point.h"
 
@@ -28,27 +29,32 @@ namespace abut::solve
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness,
-                const abut_rows_view &rows) override;
+    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+                const std::vector<double> &row_stiffness) override;
+
+    void renew(const la::Matrix &stiffness, const RowOperator &rows,
+               const std::vector<double> &row_stiffness) override;
 
     LinearReport solve(const la::Vector &residual, const abut_request &request,
                        double smallest_residual,
                        la::Vector &increment) override;
 
   private:
-    bool condense(const abut_request &request);
+    void take(const la::Matrix &stiffness, const RowOperator &rows,
+              const std::vector<double> &row_stiffness);
+    bool condense();
     la::Vector right_hand_side(const la::Vector &residual,
-                               const abut_request &request,
                                const la::Vector &lift) const;
-    la::Vector lift(const abut_request &request) const;
+    la::Vector lift() const;
     void recover(const la::Vector &residual, const abut_request &request,
                  const la::Vector &increment) const;
 
     SolverParameters parameters_;
     NearNullSpace space_;
     const la::Matrix *stiffness_ = nullptr;
-    abut_rows_view view_ = {};
-    RowOperator rows_;
+    const RowOperator *rows_ = nullptr;
+    std::vector<double> row_stiffness_;
+    LocalElimination local_;
     CondensedSolver solver_;
     FloatingBodies floating_;
     Condensate condensate_;

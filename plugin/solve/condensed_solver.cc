@@ -3,7 +3,6 @@
 
 #include "failures.h"
 #include "multigrid.h"
-#include "row_solver.h"
 
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
@@ -17,11 +16,6 @@ namespace abut::solve
 
   namespace
   {
-    /** Part of the rows in contact that may change before a preconditioner is
-     * built anew, and the factor of a spring that counts as a change. */
-    constexpr double rebuild_fraction = 0.08;
-    constexpr double rebuild_factor = 3.;
-
     /** Springs that are stiffer than the body by more than this are beyond
      * multigrid alone; those above the second number are then filtered, and
      * soft in the multigrid method. */
@@ -47,27 +41,11 @@ namespace abut::solve
       const double left = y * image;
       return std::abs(left - right) <= 1e-9 * size;
     }
-
-    /** A preconditioner as deal.II's solvers want it. */
-    class Cycle
-    {
-    public:
-      explicit Cycle(const CondensedSolver &solver) : solver_(solver)
-      {
-      }
-
-      void vmult(la::Vector &dst, const la::Vector &src) const
-      {
-        solver_.precondition(dst, src);
-      }
-
-    private:
-      const CondensedSolver &solver_;
-    };
   } // namespace
 
-  CondensedSolver::CondensedSolver(const SolverParameters &parameters)
-      : parameters_(parameters)
+  CondensedSolver::CondensedSolver(const SolverParameters &parameters,
+                                   const PreconditionerKeeper &keeper)
+      : parameters_(parameters), keeper_(keeper)
   {
   }
 
@@ -77,18 +55,39 @@ namespace abut::solve
   }
 
   void CondensedSolver::reinit(const la::Matrix &stiffness,
-                               const RowOperator &rows)
+                               const RowOperator &rows,
+                               const std::vector<double> &row_stiffness)
+  {
+    take(stiffness, rows, row_stiffness);
+    keeper_.forget();
+    filter_.reset();
+    multigrid_.reset();
+    direct_.reset();
+  }
+
+  void CondensedSolver::renew(const la::Matrix &stiffness,
+                              const RowOperator &rows,
+                              const std::vector<double> &row_stiffness)
+  {
+    // Multigrid looks at the matrix that it was built on, which must be an own
+    // copy to last.
+    if (!keeper_.is_built() || is_direct() || assembled_ == nullptr
+        || built_.pivot.size() != static_cast<std::size_t>(rows.n_rows()))
+      reinit(stiffness, rows, row_stiffness);
+    else
+      take(stiffness, rows, row_stiffness);
+  }
+
+  void CondensedSolver::take(const la::Matrix &stiffness,
+                             const RowOperator &rows,
+                             const std::vector<double> &row_stiffness)
   {
     stiffness_ = &stiffness;
     rows_ = &rows;
     diagonal_ = la::diagonal(la::local_rows(stiffness));
-    row_stiffness_ = solve::row_stiffness(stiffness, rows);
+    row_stiffness_ = row_stiffness;
     is_symmetric_ = is_symmetric(stiffness);
     matrix_.reinit(stiffness, rows);
-    is_built_ = is_slow_ = false;
-    filter_.reset();
-    multigrid_.reset();
-    direct_.reset();
   }
 
   bool CondensedSolver::is_direct() const
@@ -98,27 +97,26 @@ namespace abut::solve
 
   bool CondensedSolver::is_outdated() const
   {
-    if (!is_built_ || is_slow_)
+    if (keeper_.must_build())
       return true;
     const Condensate &now = matrix_.condensate();
-    double counts[2] = {0., 0.}; // changed, in contact
+    double n_changed = 0., n_in_contact = 0.;
     for (int i = 0; i < rows_->n_rows(); ++i)
     {
       const double unit = rows_->weight(i) * row_stiffness_[i];
       const double ratio =
           (unit + now.stiffness[i]) / (unit + built_.stiffness[i]);
-      const double factor = is_direct() ? 1. : rebuild_factor;
-      const bool changed = now.pivot[i] != built_.pivot[i] || ratio > factor
-                           || ratio * factor < 1.;
+      const bool changed =
+          now.pivot[i] != built_.pivot[i]
+          || PreconditionerKeeper::is_change(ratio, is_direct());
       const bool any = now.pivot[i] != Condensate::none
                        || built_.pivot[i] != Condensate::none
                        || now.stiffness[i] > 0. || built_.stiffness[i] > 0.;
-      counts[0] += changed;
-      counts[1] += any;
+      n_changed += changed;
+      n_in_contact += any;
     }
-    MPI::sum(counts, rows_->communicator(), counts);
-    return is_direct() ? counts[0] > 0.
-                       : counts[0] > rebuild_fraction * counts[1];
+    return PreconditionerKeeper::are_too_many(
+        n_changed, n_in_contact, is_direct(), rows_->communicator());
   }
 
   void CondensedSolver::build()
@@ -127,13 +125,12 @@ namespace abut::solve
     multigrid_.reset();
     softened_.reset();
     direct_.reset();
+    assembled_.reset();
     if (!matrix_.is_plain())
       assembled_ = std::make_unique<la::Matrix>(matrix_.assemble());
     const la::Matrix &system = matrix_.is_plain() ? *stiffness_ : *assembled_;
     built_ = matrix_.condensate();
-    is_built_ = true;
-    is_slow_ = is_kept_ = false;
-    speed_when_built_ = 0.;
+    keeper_.note_built();
     if (is_direct())
     {
       direct_ = std::make_unique<DirectSolver>(system);
@@ -177,7 +174,7 @@ namespace abut::solve
     LinearReport report;
     const dealii::Timer timer;
     matrix_.set(condensate);
-    is_kept_ = true;
+    keeper_.note_kept();
     if (is_outdated())
     {
       build();
@@ -219,7 +216,7 @@ namespace abut::solve
 
   bool CondensedSolver::refresh()
   {
-    if (!is_kept_)
+    if (!keeper_.is_kept())
       return false;
     build();
     return true;
@@ -250,7 +247,7 @@ namespace abut::solve
     catch (const dealii::SolverControl::NoConvergence &failure)
     {
       converged = false;
-      if (!is_kept_)
+      if (!keeper_.is_kept())
         throw_failure(is_symmetric_ ? "Conjugate gradients" : "FGMRES", failure,
                       tolerance);
     }
@@ -264,15 +261,13 @@ namespace abut::solve
                                           LinearReport &report)
   {
     const double digits = std::log10(rhs.l2_norm() / tolerance);
-    if (is_kept_)
+    if (keeper_.is_kept())
     {
-      // A preconditioner that has become bad is not worth waiting for.
       const unsigned int patience =
-          std::min(parameters_.max_iterations, 20 + 3 * iterations_when_built_);
+          std::min(parameters_.max_iterations, keeper_.patience());
       if (iterate(rhs, patience, tolerance, x, report))
       {
-        is_slow_ = digits / std::max(1u, report.n_iterations)
-                   < 0.5 * speed_when_built_;
+        keeper_.note_speed(digits, report.n_iterations);
         return;
       }
       const dealii::Timer timer;
@@ -283,8 +278,7 @@ namespace abut::solve
     }
     const unsigned int before = report.n_iterations;
     iterate(rhs, parameters_.max_iterations, tolerance, x, report);
-    iterations_when_built_ = report.n_iterations - before;
-    speed_when_built_ = digits / std::max(1u, iterations_when_built_);
+    keeper_.note_speed(digits, report.n_iterations - before);
   }
 
   void CondensedSolver::solve_directly(const la::Vector &rhs,

@@ -6,6 +6,7 @@
 #include "contact_filter.h"
 #include "direct_solver.h"
 #include "near_null_space.h"
+#include "preconditioner_keeper.h"
 
 #include <abut/dealii/solver_parameters.h>
 
@@ -26,14 +27,23 @@ namespace abut::solve
   class CondensedSolver
   {
   public:
-    explicit CondensedSolver(const SolverParameters &parameters);
+    explicit CondensedSolver(
+        const SolverParameters &parameters,
+        const PreconditionerKeeper &keeper = PreconditionerKeeper(1. / 2.));
 
     /** What is known of the unknowns, for the matrices that come. */
     void set_near_null_space(const NearNullSpace &space);
 
     /** Take a new matrix and rows, which must outlive this object or the next
-     * call. Collective. */
-    void reinit(const la::Matrix &stiffness, const RowOperator &rows);
+     * call, with the local stiffness of each row, see row_stiffness().
+     * Collective. */
+    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+                const std::vector<double> &row_stiffness);
+
+    /** The same when only values of the matrix are new, and not very
+     * different: a multigrid is kept until it is slow. Collective. */
+    void renew(const la::Matrix &stiffness, const RowOperator &rows,
+               const std::vector<double> &row_stiffness);
 
     /** Take what is condensed, and make the preconditioner or factorisation
      * fit it. Collective. */
@@ -71,6 +81,8 @@ namespace abut::solve
     }
 
   private:
+    void take(const la::Matrix &stiffness, const RowOperator &rows,
+              const std::vector<double> &row_stiffness);
     bool is_outdated() const;
     void build();
     bool iterate(const la::Vector &rhs, unsigned int max_iterations,
@@ -92,12 +104,27 @@ namespace abut::solve
     std::unique_ptr<la::Matrix> assembled_;
     std::unique_ptr<la::Matrix> softened_; ///< and its multigrid, if filtered
     Condensate built_;
-    bool is_built_ = false, is_kept_ = false, is_slow_ = false;
-    double speed_when_built_ = 0.;
-    unsigned int iterations_when_built_ = 0;
+    PreconditionerKeeper keeper_;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid_;
     std::unique_ptr<ContactFilter> filter_;
     std::unique_ptr<DirectSolver> direct_;
+  };
+
+  /** Its preconditioner as deal.II's solvers want it. */
+  class Cycle
+  {
+  public:
+    explicit Cycle(const CondensedSolver &solver) : solver_(solver)
+    {
+    }
+
+    void vmult(la::Vector &dst, const la::Vector &src) const
+    {
+      solver_.precondition(dst, src);
+    }
+
+  private:
+    const CondensedSolver &solver_;
   };
 } // namespace abut::solve
 

@@ -3,7 +3,7 @@
 
 #include "condensed_solver.h"
 #include "floating_bodies.h"
-#include "row_operator.h"
+#include "row_stiffness.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -26,11 +26,10 @@ namespace abut::solve
     class ScaledSchur
     {
     public:
-      ScaledSchur(const la::Matrix &stiffness, const abut_rows_view &rows,
+      ScaledSchur(const la::Matrix &stiffness, const RowOperator &rows,
                   const SolverParameters &parameters,
                   const NearNullSpace &space)
-          : rows_(stiffness.locally_owned_range_indices(), rows,
-                  stiffness.get_mpi_communicator()),
+          : rows_(rows),
             solver_(parameters),
             force_(stiffness.locally_owned_range_indices(),
                    stiffness.get_mpi_communicator()),
@@ -38,7 +37,7 @@ namespace abut::solve
             factor_(rows_.n_rows(), 0.)
       {
         solver_.set_near_null_space(space);
-        solver_.reinit(stiffness, rows_);
+        solver_.reinit(stiffness, rows, row_stiffness(stiffness, rows));
         Condensate springs;
         springs.pivot.assign(rows_.n_rows(), Condensate::none);
         springs.stiffness.assign(rows_.n_rows(), 0.);
@@ -98,7 +97,7 @@ namespace abut::solve
       }
 
     private:
-      RowOperator rows_;
+      const RowOperator &rows_;
       CondensedSolver solver_;
       la::Vector force_, answer_;
       RowVector factor_; ///< sqrt(w s)
@@ -169,8 +168,7 @@ namespace abut::solve
     }
   } // namespace
 
-  InfSup inf_sup_constant(const la::Matrix &stiffness,
-                          const abut_rows_view &rows,
+  InfSup inf_sup_constant(const la::Matrix &stiffness, const RowOperator &rows,
                           const SolverParameters &parameters,
                           const NearNullSpace &space)
   {
@@ -179,7 +177,7 @@ namespace abut::solve
     if (schur.n_rows() == 0)
       return result;
     const double value =
-        smallest_eigenvalue(schur, schur.start(rows.id), result.n_solves);
+        smallest_eigenvalue(schur, schur.start(rows.ids()), result.n_solves);
     result.constant = std::sqrt(std::max(0., value) / (1. - value));
     return result;
   }

@@ -3,10 +3,9 @@
 #define ABUT_SOLVE_INF_SUP_H
 
 #include "near_null_space.h"
+#include "row_operator.h"
 
-#include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
-#include <abut/rows.h>
 
 namespace abut::solve
 {
@@ -37,8 +36,7 @@ namespace abut::solve
    * equivalent problem T (K + T^T T)^-1 T^T whose eigenvalues lie in (0, 1):
    * beta^2 = mu / (1 - mu), to 1e-3. One factorisation or preconditioner, then
    * a solve for each of some 20 to 100 vectors. Collective. */
-  InfSup inf_sup_constant(const la::Matrix &stiffness,
-                          const abut_rows_view &rows,
+  InfSup inf_sup_constant(const la::Matrix &stiffness, const RowOperator &rows,
                           const SolverParameters &parameters,
                           const NearNullSpace &space);
 } // namespace abut::solve

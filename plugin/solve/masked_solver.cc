@@ -13,10 +13,6 @@ namespace abut::solve
 {
   namespace
   {
-    /** Fraction of entries that may change before a preconditioner is
-     * built anew, and the factor that counts as a change. */
-    constexpr double rebuild_fraction = 0.08;
-    constexpr double rebuild_factor = 3.;
     /** No residual falls below this part of the first one. */
     constexpr double round_off = 1e-15;
 
@@ -48,14 +44,14 @@ namespace abut::solve
   {
     matrix_ = &matrix;
     diagonal_ = la::diagonal(la::local_rows(matrix));
-    is_built_ = false;
+    keeper_.forget();
     amg_.reset();
     direct_.reset();
   }
 
   void MaskedSolver::renew(const la::Matrix &matrix)
   {
-    if (&matrix != matrix_ || !is_built_ || is_direct())
+    if (&matrix != matrix_ || !keeper_.is_built() || is_direct())
     {
       reinit(matrix);
       return;
@@ -80,27 +76,23 @@ namespace abut::solve
 
   bool MaskedSolver::is_outdated(const Mask &mask) const
   {
-    if (!is_built_ || is_slow_)
+    if (keeper_.must_build())
       return true;
-    double counts[2] = {0., static_cast<double>(mask.held.size())};
+    double n_changed = 0.;
     for (std::size_t i = 0; i < mask.held.size(); ++i)
     {
       if (mask.held[i] || built_mask_.held[i])
       {
-        counts[0] += mask.held[i] != built_mask_.held[i];
+        n_changed += mask.held[i] != built_mask_.held[i];
         continue;
       }
       const double ratio = (diagonal_[i] + added(mask, i))
                            / (diagonal_[i] + added(built_mask_, i));
-      // A factorisation is exact or nothing.
-      const double factor = is_direct() ? 1. : rebuild_factor;
-      if (ratio > factor || ratio * factor < 1.)
-        counts[0] += 1.;
+      n_changed += PreconditionerKeeper::is_change(ratio, is_direct());
     }
-    dealii::Utilities::MPI::sum(counts, matrix_->get_mpi_communicator(),
-                                counts);
-    return is_direct() ? counts[0] > 0.
-                       : counts[0] > rebuild_fraction * counts[1];
+    return PreconditionerKeeper::are_too_many(
+        n_changed, static_cast<double>(mask.held.size()), is_direct(),
+        matrix_->get_mpi_communicator());
   }
 
   void MaskedSolver::cut_off(const std::vector<std::uint8_t> &held,
@@ -150,9 +142,7 @@ namespace abut::solve
     else
       amg_ = make_multigrid(system, parameters_, space_);
     built_mask_ = mask;
-    is_built_ = true;
-    is_slow_ = false;
-    speed_when_built_ = 0.;
+    keeper_.note_built();
   }
 
   double MaskedSolver::load(const Mask &mask, const la::Vector &rhs) const
@@ -202,13 +192,6 @@ namespace abut::solve
       throw_failure("Conjugate gradients", failure, tolerance);
     }
     return control.last_step();
-  }
-
-  void MaskedSolver::note_speed(const double digits_per_iteration)
-  {
-    if (speed_when_built_ == 0.)
-      speed_when_built_ = digits_per_iteration;
-    is_slow_ = digits_per_iteration < speed_when_built_ / 3.;
   }
 
   LinearReport MaskedSolver::prepare(const Mask &mask)
@@ -266,7 +249,7 @@ namespace abut::solve
         report.n_iterations =
             solve_iteratively(mask, residual, reachable, correction, report);
         report.n_matvecs += report.n_iterations;
-        note_speed(digits / std::max(1u, report.n_iterations));
+        keeper_.note_speed(digits, report.n_iterations);
       }
       zero_held(mask, correction);
       x.add(1., correction);

@@ -4,6 +4,7 @@
 
 #include "direct_solver.h"
 #include "near_null_space.h"
+#include "preconditioner_keeper.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
@@ -158,7 +159,6 @@ namespace abut::solve
     unsigned int solve_iteratively(const Mask &mask, const la::Vector &residual,
                                    double tolerance, la::Vector &correction,
                                    LinearReport &report);
-    void note_speed(double digits_per_iteration);
 
     SolverParameters parameters_;
     NearNullSpace space_;
@@ -169,10 +169,8 @@ namespace abut::solve
     la::Matrix truncated_;
     Mask built_mask_;
     std::vector<std::uint8_t> cut_; ///< held unknowns of truncated_
-    bool is_built_ = false;
-    bool is_plain_ = false; ///< built on K itself: nothing held, no D
-    double speed_when_built_ = 0.;
-    bool is_slow_ = false;
+    bool is_plain_ = false;         ///< built on K itself: nothing held, no D
+    PreconditionerKeeper keeper_{1. / 3.};
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg_;
     std::unique_ptr<DirectSolver> direct_;
   };

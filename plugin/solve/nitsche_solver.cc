@@ -3,7 +3,6 @@
 
 #include "direct_solver.h"
 #include "failures.h"
-#include "multigrid.h"
 
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_gmres.h>
@@ -32,6 +31,13 @@ namespace abut::solve
       }
     };
 
+    /** Springs of this method are never so stiff that they need a filter. */
+    SolverParameters unfiltered(SolverParameters parameters)
+    {
+      parameters.contact_filter = false;
+      return parameters;
+    }
+
     /** Visit the lines of factor * test trial^T. */
     template <typename Visit>
     void visit_product(const double factor, const Line &test, const Line &trial,
@@ -49,109 +55,97 @@ namespace abut::solve
 
   NitscheSolver::NitscheSolver(const SolverParameters &parameters,
                                const NitscheTerms &terms)
-      : parameters_(parameters), terms_(terms)
+      : parameters_(parameters),
+        terms_(terms),
+        model_(unfiltered(parameters), PreconditionerKeeper::never())
   {
   }
 
   void NitscheSolver::set_near_null_space(const NearNullSpace &space)
   {
-    space_ = space;
+    model_.set_near_null_space(space);
   }
 
   void NitscheSolver::reinit(const la::Matrix &stiffness,
-                             const abut_rows_view &rows)
+                             const RowOperator &rows,
+                             const std::vector<double> &row_stiffness)
   {
     stiffness_ = &stiffness;
-    rows_ = RowOperator(stiffness.locally_owned_range_indices(), rows,
-                        stiffness.get_mpi_communicator());
+    rows_ = &rows;
+    model_.reinit(stiffness, rows, row_stiffness);
   }
 
-  la::Vector NitscheSolver::right_hand_side(const la::Vector &residual,
-                                            const abut_request &request) const
+  void NitscheSolver::renew(const la::Matrix &stiffness,
+                            const RowOperator &rows,
+                            const std::vector<double> &row_stiffness)
+  {
+    stiffness_ = &stiffness;
+    rows_ = &rows;
+    model_.renew(stiffness, rows, row_stiffness);
+  }
+
+  la::Vector NitscheSolver::right_hand_side(const la::Vector &residual) const
   {
     la::Vector result(residual);
     result *= -1.;
-    const int n = rows_.n_rows();
-    std::vector<double> force(n), couple(n);
-    for (int i = 0; i < n; ++i)
-    {
-      force[i] =
-          rows_.weight(i)
-          * (request.pressure[i] - request.residual[i] / request.d_pressure[i]);
-      couple[i] = terms_.theta * terms_.compliance[i]
-                  * (force[i] + rows_.weight(i) * terms_.normal_stress[i]);
-    }
-    rows_.add_transposed(force.data(), result);
+    std::vector<double> couple(rows_->n_rows());
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      couple[i] =
+          terms_.theta * terms_.compliance[i]
+          * (local_.force()[i] + rows_->weight(i) * terms_.normal_stress[i]);
+    rows_->add_transposed(local_.force().data(), result);
     terms_.stress.add_transposed(couple.data(), result);
     return result;
   }
 
-  la::Matrix NitscheSolver::assemble(const std::vector<double> &spring) const
+  la::Matrix NitscheSolver::assemble() const
   {
-    dealii::IndexSet ghosts = rows_.ghosts();
+    const std::vector<double> &spring = local_.spring();
+    dealii::IndexSet ghosts = rows_->ghosts();
     ghosts.add_indices(terms_.stress.ghosts());
     return la::sum(
         *stiffness_,
-        la::assemble(rows_.owned(), ghosts, rows_.communicator(),
+        la::assemble(rows_->owned(), ghosts, rows_->communicator(),
                      [&](const auto &visit)
                      {
-                       for (int i = 0; i < rows_.n_rows(); ++i)
+                       for (int i = 0; i < rows_->n_rows(); ++i)
                        {
                          const double c = terms_.compliance[i];
                          Line test, trial, stress;
-                         test.take(rows_, i, 1.);
+                         test.take(*rows_, i, 1.);
                          test.take(terms_.stress, i, terms_.theta * c);
-                         trial.take(rows_, i, 1.);
+                         trial.take(*rows_, i, 1.);
                          trial.take(terms_.stress, i, c);
                          stress.take(terms_.stress, i, 1.);
                          if (spring[i] != 0.)
                            visit_product(spring[i], test, trial, visit);
                          if (terms_.theta != 0.)
-                           visit_product(-terms_.theta * rows_.weight(i) * c,
+                           visit_product(-terms_.theta * rows_->weight(i) * c,
                                          stress, stress, visit);
-                       }
-                     }));
-  }
-
-  la::Matrix
-  NitscheSolver::assemble_model(const std::vector<double> &spring) const
-  {
-    return la::sum(
-        *stiffness_,
-        la::assemble(rows_.owned(), rows_.ghosts(), rows_.communicator(),
-                     [&](const auto &visit)
-                     {
-                       for (int i = 0; i < rows_.n_rows(); ++i)
-                       {
-                         Line line;
-                         line.take(rows_, i, 1.);
-                         if (spring[i] != 0.)
-                           visit_product(spring[i], line, line, visit);
                        }
                      }));
   }
 
   bool NitscheSolver::is_direct() const
   {
-    return parameters_.is_direct(stiffness_->m(), space_.n_components);
+    return model_.is_direct();
   }
 
-  void NitscheSolver::iterate(const la::Matrix &matrix,
-                              const std::vector<double> &spring,
-                              const la::Vector &rhs, const double tolerance,
-                              la::Vector &x, LinearReport &report) const
+  void NitscheSolver::iterate(const la::Matrix &matrix, const la::Vector &rhs,
+                              const double tolerance, la::Vector &x,
+                              LinearReport &report)
   {
-    // Multigrid needs a symmetric positive definite model of the matrix.
-    const dealii::Timer timer;
-    const la::Matrix model = assemble_model(spring);
-    const auto multigrid = make_multigrid(model, parameters_, space_);
-    report.setup_seconds += timer.wall_time();
+    report.setup_seconds +=
+        model_
+            .prepare({local_.spring(), std::vector<std::int64_t>(
+                                           rows_->n_rows(), Condensate::none)})
+            .setup_seconds;
     dealii::SolverControl control(parameters_.max_iterations, tolerance);
     dealii::SolverFGMRES<la::Vector> solver(
         control, dealii::SolverFGMRES<la::Vector>::AdditionalData(60));
     try
     {
-      solver.solve(matrix, x, rhs, *multigrid);
+      solver.solve(matrix, x, rhs, Cycle(model_));
     }
     catch (const dealii::SolverControl::NoConvergence &failure)
     {
@@ -164,16 +158,12 @@ namespace abut::solve
   void NitscheSolver::recover(const abut_request &request,
                               const la::Vector &increment) const
   {
-    std::vector<double> change(rows_.n_rows());
-    rows_.times(increment, request.gap_change);
+    std::vector<double> change(rows_->n_rows());
+    rows_->times(increment, request.gap_change);
     terms_.stress.times(increment, change.data());
-    for (int i = 0; i < rows_.n_rows(); ++i)
-    {
+    for (int i = 0; i < rows_->n_rows(); ++i)
       request.gap_change[i] += terms_.compliance[i] * change[i];
-      request.pressure_change[i] =
-          -(request.residual[i] + request.d_gap[i] * request.gap_change[i])
-          / request.d_pressure[i];
-    }
+    local_.recover(request);
   }
 
   LinearReport NitscheSolver::solve(const la::Vector &residual,
@@ -183,11 +173,10 @@ namespace abut::solve
   {
     LinearReport report;
     const dealii::Timer timer;
-    const la::Vector rhs = right_hand_side(residual, request);
-    std::vector<double> spring(rows_.n_rows());
-    for (int i = 0; i < rows_.n_rows(); ++i)
-      spring[i] = rows_.weight(i) * request.d_gap[i] / request.d_pressure[i];
-    const la::Matrix matrix = assemble(spring);
+    local_.reinit(request, rows_->n_rows(), rows_->weights(),
+                  rows_->communicator());
+    const la::Vector rhs = right_hand_side(residual);
+    const la::Matrix matrix = assemble();
     const double norm = rhs.l2_norm();
     const double tolerance =
         std::max(request.linear_tolerance * norm, smallest_residual);
@@ -205,7 +194,7 @@ namespace abut::solve
       ++report.n_matvecs;
     }
     else if (norm > tolerance)
-      iterate(matrix, spring, rhs, tolerance, increment, report);
+      iterate(matrix, rhs, tolerance, increment, report);
     recover(request, increment);
     report.solve_seconds = timer.wall_time() - report.setup_seconds;
     return report;

@@ -2,7 +2,8 @@
 #ifndef ABUT_SOLVE_NITSCHE_SOLVER_H
 #define ABUT_SOLVE_NITSCHE_SOLVER_H
 
-#include "row_operator.h"
+#include "condensed_solver.h"
+#include "local_elimination.h"
 #include "row_solver.h"
 
 namespace abut::solve
@@ -35,30 +36,33 @@ namespace abut::solve
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness,
-                const abut_rows_view &rows) override;
+    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+                const std::vector<double> &row_stiffness) override;
+
+    void renew(const la::Matrix &stiffness, const RowOperator &rows,
+               const std::vector<double> &row_stiffness) override;
 
     LinearReport solve(const la::Vector &residual, const abut_request &request,
                        double smallest_residual,
                        la::Vector &increment) override;
 
   private:
-    la::Vector right_hand_side(const la::Vector &residual,
-                               const abut_request &request) const;
-    la::Matrix assemble(const std::vector<double> &spring) const;
-    la::Matrix assemble_model(const std::vector<double> &spring) const;
+    la::Vector right_hand_side(const la::Vector &residual) const;
+    la::Matrix assemble() const;
     bool is_direct() const;
-    void iterate(const la::Matrix &matrix, const std::vector<double> &spring,
-                 const la::Vector &rhs, double tolerance, la::Vector &x,
-                 LinearReport &report) const;
+    void iterate(const la::Matrix &matrix, const la::Vector &rhs,
+                 double tolerance, la::Vector &x, LinearReport &report);
     void recover(const abut_request &request,
                  const la::Vector &increment) const;
 
     SolverParameters parameters_;
-    NearNullSpace space_;
     const NitscheTerms &terms_;
     const la::Matrix *stiffness_ = nullptr;
-    RowOperator rows_;
+    const RowOperator *rows_ = nullptr;
+    LocalElimination local_;
+    /** K and the springs alone, symmetric and positive definite as multigrid
+     * wants it. */
+    CondensedSolver model_;
   };
 } // namespace abut::solve
 

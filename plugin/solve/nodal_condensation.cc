@@ -5,14 +5,6 @@
 
 namespace abut::solve
 {
-  namespace
-  {
-    bool is_constraint(const abut_request &request, const int i)
-    {
-      return request.d_pressure[i] == 0.;
-    }
-  } // namespace
-
   NodalCondensation::NodalCondensation(const SolverParameters &parameters)
       : solver_(parameters)
   {
@@ -25,91 +17,81 @@ namespace abut::solve
   }
 
   void NodalCondensation::reinit(const la::Matrix &stiffness,
-                                 const abut_rows_view &rows)
+                                 const RowOperator &rows,
+                                 const std::vector<double> &)
   {
-    stiffness_ = &stiffness;
-    rows_ = rows;
     solver_.reinit(stiffness);
-    if (space_.n_components > 1)
-    {
-      operator_ = RowOperator(stiffness.locally_owned_range_indices(), rows,
-                              stiffness.get_mpi_communicator());
-      floating_.reinit(stiffness, operator_, space_);
-    }
-    const dealii::IndexSet owned = stiffness.locally_owned_range_indices();
-    unknown_.resize(rows.n_rows);
-    for (int i = 0; i < rows.n_rows; ++i)
-    {
-      AssertThrow(rows.row_start[i + 1] - rows.row_start[i] == 1,
-                  dealii::ExcMessage("Condensation node by node needs rows "
-                                     "with one entry; use System = saddle "
-                                     "point for others."));
-      unknown_[i] = owned.index_within_set(rows.column[rows.row_start[i]]);
-    }
+    take(stiffness, rows);
   }
 
   void NodalCondensation::renew(const la::Matrix &stiffness,
-                                const abut_rows_view &rows)
+                                const RowOperator &rows,
+                                const std::vector<double> &)
   {
-    if (&stiffness != stiffness_)
-      reinit(stiffness, rows);
-    else
-      solver_.renew(stiffness);
+    solver_.renew(stiffness);
+    take(stiffness, rows);
   }
 
-  void NodalCondensation::fill_mask(const abut_request &request)
+  void NodalCondensation::take(const la::Matrix &stiffness,
+                               const RowOperator &rows)
+  {
+    stiffness_ = &stiffness;
+    rows_ = &rows;
+    if (space_.n_components > 1)
+      floating_.reinit(stiffness, rows, space_);
+    for (int i = 0; i < rows.n_rows(); ++i)
+      AssertThrow(rows.end(i) - rows.begin(i) == 1
+                      && rows.column(rows.begin(i)) < rows.n_owned(),
+                  dealii::ExcMessage("Condensation node by node needs rows "
+                                     "with one entry; use System = saddle "
+                                     "point for others."));
+  }
+
+  void NodalCondensation::fill_mask()
   {
     const std::size_t n = solver_.diagonal().size();
     mask_.held.assign(n, 0);
     holder_.assign(n, -1);
     mask_.diagonal.clear();
-    for (int i = 0; i < rows_.n_rows; ++i)
+    for (int i = 0; i < rows_->n_rows(); ++i)
     {
-      const int j = unknown_[i];
-      if (is_constraint(request, i))
+      const int j = unknown(i);
+      if (local_.is_held(i))
       {
         if (!mask_.held[j])
           holder_[j] = i;
         mask_.held[j] = 1;
       }
-      else if (request.d_gap[i] != 0.)
+      else if (local_.spring()[i] != 0.)
       {
         if (mask_.diagonal.empty())
           mask_.diagonal.assign(n, 0.);
-        const double slope = rows_.coefficient[rows_.row_start[i]];
-        mask_.diagonal[j] += rows_.weight[i] * slope * slope * request.d_gap[i]
-                             / request.d_pressure[i];
+        mask_.diagonal[j] += slope(i) * slope(i) * local_.spring()[i];
       }
     }
   }
 
   void NodalCondensation::fill_right_hand_side(const la::Vector &residual,
-                                               const abut_request &request,
                                                la::Vector &rhs) const
   {
     rhs = residual;
     rhs *= -1.;
     double *out = la::data(rhs);
-    for (int i = 0; i < rows_.n_rows; ++i)
-      if (!is_constraint(request, i))
-        out[unknown_[i]] += rows_.weight[i]
-                            * rows_.coefficient[rows_.row_start[i]]
-                            * (request.pressure[i]
-                               - request.residual[i] / request.d_pressure[i]);
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      if (!local_.is_held(i))
+        out[unknown(i)] += slope(i) * local_.force()[i];
   }
 
-  bool NodalCondensation::fill_held_values(const abut_request &request,
-                                           la::Vector &increment) const
+  bool NodalCondensation::fill_held_values(la::Vector &increment) const
   {
     increment = 0.;
     double *out = la::data(increment);
     double largest = 0.;
-    for (int i = 0; i < rows_.n_rows; ++i)
-      if (is_constraint(request, i) && holder_[unknown_[i]] == i)
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      if (local_.is_held(i) && holder_[unknown(i)] == i)
       {
-        const double slope = rows_.coefficient[rows_.row_start[i]];
-        out[unknown_[i]] = -request.residual[i] / (request.d_gap[i] * slope);
-        largest = std::max(largest, std::abs(out[unknown_[i]]));
+        out[unknown(i)] = local_.value()[i] / slope(i);
+        largest = std::max(largest, std::abs(out[unknown(i)]));
       }
     return dealii::Utilities::MPI::max(largest,
                                        stiffness_->get_mpi_communicator())
@@ -129,31 +111,27 @@ namespace abut::solve
   {
     const double *du = la::data(increment);
     bool any_held = false;
-    for (int i = 0; i < rows_.n_rows; ++i)
+    for (int i = 0; i < rows_->n_rows(); ++i)
     {
-      const double slope = rows_.coefficient[rows_.row_start[i]];
-      request.gap_change[i] = slope * du[unknown_[i]];
-      if (is_constraint(request, i))
+      request.gap_change[i] = slope(i) * du[unknown(i)];
+      if (local_.is_held(i))
       {
         any_held = true;
         request.pressure_change[i] = -request.pressure[i];
       }
-      else
-        request.pressure_change[i] =
-            -(request.residual[i] + request.d_gap[i] * request.gap_change[i])
-            / request.d_pressure[i];
     }
+    local_.recover(request);
     if (!dealii::Utilities::MPI::logical_or(any_held,
                                             stiffness_->get_mpi_communicator()))
       return;
 
     // The reaction of a held unknown, K du + R, is the force of its rows.
     const auto force_of = [&](const int i)
-    { return rows_.weight[i] * rows_.coefficient[rows_.row_start[i]]; };
-    for (int i = 0; i < rows_.n_rows; ++i)
-      if (!is_constraint(request, i) && mask_.held[unknown_[i]])
+    { return rows_->weight(i) * slope(i); };
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      if (!local_.is_held(i) && mask_.held[unknown(i)])
       {
-        const int holder = holder_[unknown_[i]];
+        const int holder = holder_[unknown(i)];
         request.pressure_change[holder] -=
             force_of(i) * (request.pressure[i] + request.pressure_change[i])
             / force_of(holder);
@@ -161,10 +139,10 @@ namespace abut::solve
     const la::LocalRows matrix = la::local_rows(*stiffness_);
     const std::vector<double> gathered = la::gather(*stiffness_, increment);
     const double *r = la::data(residual);
-    for (int i = 0; i < rows_.n_rows; ++i)
+    for (int i = 0; i < rows_->n_rows(); ++i)
     {
-      const int j = unknown_[i];
-      if (!is_constraint(request, i) || holder_[j] != i)
+      const int j = unknown(i);
+      if (!local_.is_held(i) || holder_[j] != i)
         continue;
       double reaction = r[j];
       for (int k = matrix.start[j]; k < matrix.start[j + 1]; ++k)
@@ -178,17 +156,14 @@ namespace abut::solve
                                         const double smallest_residual,
                                         la::Vector &increment)
   {
+    local_.reinit(request, rows_->n_rows(), rows_->weights(),
+                  rows_->communicator());
     if (space_.n_components > 1)
-    {
-      std::vector<std::uint8_t> resists(rows_.n_rows);
-      for (int i = 0; i < rows_.n_rows; ++i)
-        resists[i] = is_constraint(request, i) || request.d_gap[i] != 0.;
-      floating_.check(operator_, resists);
-    }
-    fill_mask(request);
+      floating_.check(*rows_, local_.resisting());
+    fill_mask();
     la::Vector rhs(residual);
-    fill_right_hand_side(residual, request, rhs);
-    const bool start_is_zero = fill_held_values(request, increment);
+    fill_right_hand_side(residual, rhs);
+    const bool start_is_zero = fill_held_values(increment);
 
     double load = solver_.load(mask_, rhs);
     if (load == 0. && !start_is_zero)

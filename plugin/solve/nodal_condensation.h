@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_NODAL_CONDENSATION_H
 
 #include "floating_bodies.h"
+#include "local_elimination.h"
 #include "masked_solver.h"
 #include "row_solver.h"
 
@@ -21,23 +22,33 @@ namespace abut::solve
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness,
-                const abut_rows_view &rows) override;
+    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+                const std::vector<double> &row_stiffness) override;
 
-    void renew(const la::Matrix &stiffness,
-               const abut_rows_view &rows) override;
+    void renew(const la::Matrix &stiffness, const RowOperator &rows,
+               const std::vector<double> &row_stiffness) override;
 
     LinearReport solve(const la::Vector &residual, const abut_request &request,
                        double smallest_residual,
                        la::Vector &increment) override;
 
   private:
-    void fill_mask(const abut_request &request);
+    /** The unknown of a row, and what the gap is per unit of it. */
+    int unknown(const int row) const
+    {
+      return rows_->column(rows_->begin(row));
+    }
+    double slope(const int row) const
+    {
+      return rows_->coefficient(rows_->begin(row));
+    }
+
+    void take(const la::Matrix &stiffness, const RowOperator &rows);
+    void fill_mask();
     void fill_right_hand_side(const la::Vector &residual,
-                              const abut_request &request,
                               la::Vector &rhs) const;
-    bool fill_held_values(const abut_request &request,
-                          la::Vector &increment) const;
+    /** Returns whether they are all 0. */
+    bool fill_held_values(la::Vector &increment) const;
     /** The load when there is none but the held values of @p increment. */
     double load_by_held(const la::Vector &increment) const;
     void recover(const la::Vector &residual, const abut_request &request,
@@ -45,11 +56,10 @@ namespace abut::solve
 
     MaskedSolver solver_;
     NearNullSpace space_;
-    RowOperator operator_; ///< for displacements alone
     FloatingBodies floating_;
     const la::Matrix *stiffness_ = nullptr;
-    abut_rows_view rows_ = {};
-    std::vector<int> unknown_; ///< [n_rows] local number of the unknown
+    const RowOperator *rows_ = nullptr;
+    LocalElimination local_;
     Mask mask_;
     std::vector<int> holder_; ///< [owned] row that holds it, or -1
   };

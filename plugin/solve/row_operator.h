@@ -71,6 +71,18 @@ namespace abut::solve
       return rows_.coefficient[entry];
     }
 
+    /** [rows] global numbers. */
+    const std::int64_t *ids() const
+    {
+      return rows_.id;
+    }
+
+    /** [rows] weights. */
+    const double *weights() const
+    {
+      return rows_.weight;
+    }
+
     /** Weight of a row. */
     double weight(const int row) const
     {

@@ -123,14 +123,22 @@ namespace abut::solve
     leading_.set_near_null_space(space);
   }
 
-  void SaddlePoint::reinit(const la::Matrix &stiffness,
-                           const abut_rows_view &rows)
+  void SaddlePoint::reinit(const la::Matrix &stiffness, const RowOperator &rows,
+                           const std::vector<double> &row_stiffness)
   {
     stiffness_ = &stiffness;
-    rows_ = RowOperator(stiffness.locally_owned_range_indices(), rows,
-                        stiffness.get_mpi_communicator());
-    leading_.reinit(stiffness, rows_);
-    floating_.reinit(stiffness, rows_, space_);
+    rows_ = &rows;
+    leading_.reinit(stiffness, rows, row_stiffness);
+    floating_.reinit(stiffness, rows, space_);
+  }
+
+  void SaddlePoint::renew(const la::Matrix &stiffness, const RowOperator &rows,
+                          const std::vector<double> &row_stiffness)
+  {
+    stiffness_ = &stiffness;
+    rows_ = &rows;
+    leading_.renew(stiffness, rows, row_stiffness);
+    floating_.reinit(stiffness, rows, space_);
   }
 
   SaddlePoint::System SaddlePoint::assemble(const la::Vector &residual,
@@ -138,34 +146,23 @@ namespace abut::solve
   {
     System system;
     const double gamma = parameters_.augmentation;
-    std::vector<double> pressure(rows_.n_rows());
-    system.soft.assign(rows_.n_rows(), 0.);
-    system.stiff.assign(rows_.n_rows(), 0.);
-    for (int i = 0; i < rows_.n_rows(); ++i)
-    {
-      const double w = rows_.weight(i);
-      const double a = request.d_pressure[i];
-      const double b = request.d_gap[i];
-      const double c = request.residual[i];
-      if (a == 0.)
+    std::vector<double> force = local_.force();
+    system.soft = system.stiff = local_.spring();
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      if (local_.is_held(i))
       {
+        const double w = rows_->weight(i);
         const double s = leading_.row_stiffness()[i];
         system.stiff[i] = gamma * w * s;
-        pressure[i] = w * (request.pressure[i] - gamma * s * c / b);
+        force[i] = w * (request.pressure[i] + gamma * s * local_.value()[i]);
         system.row.push_back(i);
-        system.right.push_back(w * c / b);
+        system.right.push_back(-w * local_.value()[i]);
         system.scale.push_back(s);
         system.schur.push_back(schur_factor * w / ((1. + gamma) * s));
       }
-      else
-      {
-        system.soft[i] = system.stiff[i] = w * b / a;
-        pressure[i] = w * (request.pressure[i] - c / a);
-      }
-    }
     system.force = residual;
     system.force *= -1.;
-    rows_.add_transposed(pressure.data(), system.force);
+    rows_->add_transposed(force.data(), system.force);
 
     const MPI_Comm communicator = stiffness_->get_mpi_communicator();
     system.n_constraints = system.row.size();
@@ -192,8 +189,8 @@ namespace abut::solve
     BlockVector solution(right);
     solution = 0.;
 
-    const AugmentedOperator<System> matrix(leading_.matrix(), rows_, system);
-    const TriangularPreconditioner<System> preconditioner(leading_, rows_,
+    const AugmentedOperator<System> matrix(leading_.matrix(), *rows_, system);
+    const TriangularPreconditioner<System> preconditioner(leading_, *rows_,
                                                           system, increment);
     unsigned int n_iterations = 0;
     const double attainable = std::max(tolerance, 1e-14 * right.l2_norm());
@@ -230,14 +227,14 @@ namespace abut::solve
   {
     const auto n = stiffness_->m();
     dealii::IndexSet owned(n + system.n_constraints);
-    owned.add_indices(rows_.owned());
+    owned.add_indices(rows_->owned());
     owned.add_range(n + system.first_constraint,
                     n + system.first_constraint + system.row.size());
 
     dealii::IndexSet ghosts(owned.size());
-    ghosts.add_indices(rows_.ghosts());
+    ghosts.add_indices(rows_->ghosts());
     const la::LocalRows stiffness = la::local_rows(*stiffness_);
-    std::vector<int> constraint(rows_.n_rows(), -1);
+    std::vector<int> constraint(rows_->n_rows(), -1);
     for (std::size_t k = 0; k < system.row.size(); ++k)
       constraint[system.row[k]] = static_cast<int>(k);
 
@@ -253,22 +250,22 @@ namespace abut::solve
               la::global_column(*stiffness_, stiffness.column[e]));
         values.assign(stiffness.value + stiffness.start[i],
                       stiffness.value + stiffness.start[i + 1]);
-        visit(rows_.global_column(i), columns, values);
+        visit(rows_->global_column(i), columns, values);
       }
-      for (int i = 0; i < rows_.n_rows(); ++i)
+      for (int i = 0; i < rows_->n_rows(); ++i)
       {
         if (system.soft[i] == 0. && constraint[i] < 0)
           continue;
         columns.clear();
-        for (auto e = rows_.begin(i); e < rows_.end(i); ++e)
-          columns.push_back(rows_.global_column(rows_.column(e)));
+        for (auto e = rows_->begin(i); e < rows_->end(i); ++e)
+          columns.push_back(rows_->global_column(rows_->column(e)));
         const auto unknowns = columns;
         if (constraint[i] >= 0)
         {
           const auto line = n + system.first_constraint + constraint[i];
           values.clear();
-          for (auto e = rows_.begin(i); e < rows_.end(i); ++e)
-            values.push_back(-rows_.weight(i) * rows_.coefficient(e));
+          for (auto e = rows_->begin(i); e < rows_->end(i); ++e)
+            values.push_back(-rows_->weight(i) * rows_->coefficient(e));
           const auto coupling = values;
           columns.push_back(line);
           values.push_back(0.);
@@ -277,17 +274,17 @@ namespace abut::solve
             visit(unknowns[e], {line}, {coupling[e]});
         }
         else
-          for (auto e = rows_.begin(i); e < rows_.end(i); ++e)
+          for (auto e = rows_->begin(i); e < rows_->end(i); ++e)
           {
             values.clear();
-            for (auto f = rows_.begin(i); f < rows_.end(i); ++f)
-              values.push_back(system.soft[i] * rows_.coefficient(e)
-                               * rows_.coefficient(f));
-            visit(unknowns[e - rows_.begin(i)], unknowns, values);
+            for (auto f = rows_->begin(i); f < rows_->end(i); ++f)
+              values.push_back(system.soft[i] * rows_->coefficient(e)
+                               * rows_->coefficient(f));
+            visit(unknowns[e - rows_->begin(i)], unknowns, values);
           }
       }
     };
-    return la::assemble(owned, ghosts, rows_.communicator(), for_each_line);
+    return la::assemble(owned, ghosts, rows_->communicator(), for_each_line);
   }
 
   void SaddlePoint::solve_directly(const System &system, la::Vector &increment,
@@ -301,14 +298,14 @@ namespace abut::solve
 
     // Without augmentation here: a factorisation has no use for it.
     la::Vector force(system.force);
-    std::vector<double> augmentation(rows_.n_rows(), 0.);
+    std::vector<double> augmentation(rows_->n_rows(), 0.);
     for (std::size_t k = 0; k < system.row.size(); ++k)
     {
       const int i = system.row[k];
-      augmentation[i] = system.stiff[i] * system.right[k] / rows_.weight(i);
+      augmentation[i] = system.stiff[i] * system.right[k] / rows_->weight(i);
       la::data(right)[n_unknowns + k] = system.right[k];
     }
-    rows_.add_transposed(augmentation.data(), force);
+    rows_->add_transposed(augmentation.data(), force);
     std::copy_n(la::data(force), n_unknowns, la::data(right));
 
     const DirectSolver solver(matrix);
@@ -334,14 +331,10 @@ namespace abut::solve
                             const std::vector<double> &multiplier,
                             const la::Vector &increment) const
   {
-    rows_.times(increment, request.gap_change);
-    for (int i = 0; i < rows_.n_rows(); ++i)
-      if (request.d_pressure[i] != 0.)
-        request.pressure_change[i] =
-            -(request.residual[i] + request.d_gap[i] * request.gap_change[i])
-            / request.d_pressure[i];
+    rows_->times(increment, request.gap_change);
     for (std::size_t k = 0; k < system.row.size(); ++k)
       request.pressure_change[system.row[k]] = multiplier[k];
+    local_.recover(request);
   }
 
   LinearReport SaddlePoint::solve(const la::Vector &residual,
@@ -349,11 +342,10 @@ namespace abut::solve
                                   const double smallest_residual,
                                   la::Vector &increment)
   {
+    local_.reinit(request, rows_->n_rows(), rows_->weights(),
+                  rows_->communicator());
     System system = assemble(residual, request);
-    std::vector<std::uint8_t> resists(rows_.n_rows());
-    for (int i = 0; i < rows_.n_rows(); ++i)
-      resists[i] = request.d_pressure[i] == 0. || request.d_gap[i] != 0.;
-    floating_.check(rows_, resists);
+    floating_.check(*rows_, local_.resisting());
 
     std::vector<double> multiplier;
     LinearReport report;
@@ -369,7 +361,7 @@ namespace abut::solve
     }
     report = leading_.prepare(
         {system.stiff,
-         std::vector<std::int64_t>(rows_.n_rows(), Condensate::none)});
+         std::vector<std::int64_t>(rows_->n_rows(), Condensate::none)});
     const double tolerance =
         std::max(request.linear_tolerance * leading_.load(system.force),
                  smallest_residual);

@@ -4,7 +4,7 @@
 
 #include "condensed_solver.h"
 #include "floating_bodies.h"
-#include "row_operator.h"
+#include "local_elimination.h"
 #include "row_solver.h"
 
 namespace abut::solve
@@ -27,8 +27,11 @@ namespace abut::solve
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness,
-                const abut_rows_view &rows) override;
+    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+                const std::vector<double> &row_stiffness) override;
+
+    void renew(const la::Matrix &stiffness, const RowOperator &rows,
+               const std::vector<double> &row_stiffness) override;
 
     LinearReport solve(const la::Vector &residual, const abut_request &request,
                        double smallest_residual,
@@ -54,7 +57,8 @@ namespace abut::solve
     CondensedSolver leading_;
     FloatingBodies floating_;
     const la::Matrix *stiffness_ = nullptr;
-    RowOperator rows_;
+    const RowOperator *rows_ = nullptr;
+    LocalElimination local_;
   };
 } // namespace abut::solve
 

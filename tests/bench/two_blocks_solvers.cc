@@ -46,10 +46,10 @@ namespace
         settings.method == "saddle" || settings.method == "mortar";
     const auto solver = solve::make_row_solver(
         saddle ? System::saddle_point : System::automatic, settings.solver,
-        blocks.stiffness, blocks.rows);
+        blocks.operation);
     solver->set_near_null_space(blocks.space);
     dealii::Timer timer;
-    solver->reinit(blocks.stiffness, blocks.rows);
+    solver->reinit(blocks.stiffness, blocks.operation, blocks.row_stiffness);
     const double reinit = timer.wall_time();
     la::Vector increment(blocks.residual);
     for (int k = 0; k < settings.repeat; ++k)

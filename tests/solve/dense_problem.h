@@ -100,6 +100,17 @@ namespace abut::tests
       build_rows(problem, me);
     }
 
+    /** Take the matrix of @p problem, which has entries where that before had
+     * some. */
+    void set_matrix(const Problem &problem)
+    {
+      for (int i = first; i < first + n; ++i)
+        for (int j = 0; j < problem.size(); ++j)
+          if (i == j || problem.stiffness(i, j) != 0.)
+            matrix.set(i, j, problem.stiffness(i, j));
+      matrix.compress(dealii::VectorOperation::insert);
+    }
+
     /** Take the laws of @p problem, whose rows are the same otherwise. */
     void set_laws(const Problem &problem)
     {
@@ -127,18 +138,12 @@ namespace abut::tests
     {
       dealii::DynamicSparsityPattern pattern(problem.size(), problem.size(),
                                              owned);
-      const auto for_each_entry = [&](const auto &visit)
-      {
-        for (int i = first; i < first + n; ++i)
-          for (int j = 0; j < problem.size(); ++j)
-            if (i == j || problem.stiffness(i, j) != 0.)
-              visit(i, j);
-      };
-      for_each_entry([&](const int i, const int j) { pattern.add(i, j); });
+      for (int i = first; i < first + n; ++i)
+        for (int j = 0; j < problem.size(); ++j)
+          if (i == j || problem.stiffness(i, j) != 0.)
+            pattern.add(i, j);
       matrix.reinit(owned, owned, pattern, communicator);
-      for_each_entry([&](const int i, const int j)
-                     { matrix.set(i, j, problem.stiffness(i, j)); });
-      matrix.compress(dealii::VectorOperation::insert);
+      set_matrix(problem);
     }
 
     void build_rows(const Problem &problem, const unsigned int me)

@@ -27,10 +27,10 @@ namespace
   {
     SolverParameters parameters;
     parameters.linear = linear;
-    const auto solver = solve::make_row_solver(system, parameters,
-                                               blocks.stiffness, blocks.rows);
+    const auto solver =
+        solve::make_row_solver(system, parameters, blocks.operation);
     solver->set_near_null_space(blocks.space);
-    solver->reinit(blocks.stiffness, blocks.rows);
+    solver->reinit(blocks.stiffness, blocks.operation, blocks.row_stiffness);
     Result result;
     result.increment.reinit(blocks.residual);
     result.report = solver->solve(blocks.residual, blocks.request(tolerance),

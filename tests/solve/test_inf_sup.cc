@@ -68,7 +68,8 @@ namespace
   double constant_of(const Problem &problem)
   {
     const Share share(problem, communicator);
-    return solve::inf_sup_constant(share.matrix, share.view, SolverParameters(),
+    const solve::RowOperator rows(share.owned, share.view, communicator);
+    return solve::inf_sup_constant(share.matrix, rows, SolverParameters(),
                                    solve::NearNullSpace())
         .constant;
   }
@@ -164,7 +165,7 @@ namespace
   template <int dim> double blocks_constant(const TwoBlocksOptions &options)
   {
     const TwoBlocks<dim> blocks(communicator, options);
-    return solve::inf_sup_constant(blocks.stiffness, blocks.rows,
+    return solve::inf_sup_constant(blocks.stiffness, blocks.operation,
                                    SolverParameters(), blocks.space)
         .constant;
   }

@@ -3,8 +3,9 @@
 // back-end, every kind of law, ranks without rows or without unknowns.
 #include "../app_blocks/run_checks.h"
 #include "dense_problem.h"
-#include "solve/row_operator.h"
-#include "solve/row_solver.h"
+#include "solve/make_row_solver.h"
+#include "solve/preconditioner_keeper.h"
+#include "solve/row_stiffness.h"
 
 using namespace abut;
 using namespace abut::tests;
@@ -172,8 +173,63 @@ namespace
     Expect::that(report.n_iterations < 200, what + ": iterations");
   }
 
-  /** Every back-end solves three systems in a row that differ in their laws,
-   * so that what it keeps from one to the next is checked too. */
+  void policy()
+  {
+    using solve::PreconditionerKeeper;
+    PreconditionerKeeper keeper(0.5);
+    Expect::that(keeper.must_build(), "nothing is built at first");
+    keeper.note_kept();
+    Expect::that(!keeper.is_kept(), "nothing is kept at first");
+    keeper.note_built();
+    keeper.note_speed(4., 8);
+    Expect::that(keeper.patience() == 44, "patience after 8 iterations");
+    Expect::that(!keeper.must_build() && !keeper.is_kept(), "new");
+    keeper.note_kept();
+    keeper.note_speed(4., 16);
+    Expect::that(!keeper.must_build() && keeper.is_kept(), "half as fast");
+    keeper.note_speed(4., 17);
+    Expect::that(keeper.must_build(), "less than half as fast");
+    keeper.note_built();
+    Expect::that(!keeper.must_build() && !keeper.is_kept(), "built anew");
+    keeper.forget();
+    Expect::that(keeper.must_build(), "forgotten");
+
+    PreconditionerKeeper never = PreconditionerKeeper::never();
+    never.note_built();
+    Expect::that(never.must_build(), "some keep nothing");
+
+    for (const double factor : {2.9, 3.1})
+      for (const double ratio : {factor, 1. / factor})
+        Expect::that(PreconditionerKeeper::is_change(ratio, false)
+                         == (factor > 3.),
+                     "a spring changes by a factor of 3");
+    Expect::that(PreconditionerKeeper::is_change(1.001, true)
+                     && !PreconditionerKeeper::is_change(1., true),
+                 "a factorisation is exact");
+    const unsigned int me =
+        dealii::Utilities::MPI::this_mpi_process(communicator);
+    for (const double first : {8., 9.})
+      Expect::that(PreconditionerKeeper::are_too_many(me == 0 ? first : 8.,
+                                                      100., false, communicator)
+                       == (first > 8.),
+                   "8 % may change, over all ranks");
+    Expect::that(PreconditionerKeeper::are_too_many(me == 0 ? 1. : 0., 100.,
+                                                    true, communicator),
+                 "one change spoils a factorisation, on all ranks");
+  }
+
+  /** K with unknowns of other units: another matrix of the same pattern. */
+  void scale_unknowns(Problem &problem)
+  {
+    const auto scale = [](const int i) { return 1. + 0.2 * std::sin(i); };
+    for (int i = 0; i < problem.size(); ++i)
+      for (int j = 0; j < problem.size(); ++j)
+        problem.stiffness(i, j) *= scale(i) * scale(j);
+  }
+
+  /** Every back-end solves four systems in a row that differ in their laws,
+   * the last two also in their matrix, so that what it keeps from one to the
+   * next is checked too. */
   void solvers()
   {
     for (const std::vector<int> &partition : partitions())
@@ -192,10 +248,13 @@ namespace
               Share share(problem, communicator);
               SolverParameters parameters;
               parameters.linear = linear;
-              const auto solver = solve::make_row_solver(
-                  system, parameters, share.matrix, share.view);
-              solver->reinit(share.matrix, share.view);
-              for (int repetition = 0; repetition < 3; ++repetition)
+              const solve::RowOperator rows(share.owned, share.view,
+                                            communicator);
+              const auto solver =
+                  solve::make_row_solver(system, parameters, rows);
+              solver->reinit(share.matrix, rows,
+                             solve::row_stiffness(share.matrix, rows));
+              for (int repetition = 0; repetition < 4; ++repetition)
               {
                 std::ostringstream what;
                 what << shape_name << " rows, " << law_name << " laws, "
@@ -216,6 +275,12 @@ namespace
                 }
                 set_laws(problem, laws, random);
                 share.set_laws(problem);
+                if (repetition == 0)
+                  continue;
+                scale_unknowns(problem);
+                share.set_matrix(problem);
+                solver->renew(share.matrix, rows,
+                              solve::row_stiffness(share.matrix, rows));
               }
             }
   }
@@ -228,6 +293,7 @@ main(int argc, char **argv)
                          [](const std::filesystem::path &)
                          {
                            operators();
+                           policy();
                            solvers();
                          });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "two_blocks.h"
 
-#include "solve/row_operator.h"
+#include "solve/row_stiffness.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -409,7 +409,9 @@ namespace abut::tests
     }
     abut_coupling_destroy(&coupling);
     shim::check(context.get(), abut_rows_get(row_set.get(), &rows));
-    row_stiffness = solve::row_stiffness(stiffness, rows);
+    operation = solve::RowOperator(dof_handler.locally_owned_dofs(), rows,
+                                   communicator);
+    row_stiffness = solve::row_stiffness(stiffness, operation);
     resize_laws(rows.n_rows);
   }
 
@@ -444,8 +446,6 @@ namespace abut::tests
   std::pair<double, double>
   TwoBlocks<dim>::errors(const la::Vector &increment) const
   {
-    const solve::RowOperator operation(dof_handler.locally_owned_dofs(), rows,
-                                       communicator);
     la::Vector force(residual);
     stiffness.vmult(force, increment);
     force.add(1., residual);

@@ -4,7 +4,7 @@
 
 #include "row_laws.h"
 #include "shim/handles.h"
-#include "solve/row_solver.h"
+#include "solve/make_row_solver.h"
 
 #include <abut/coupling.h>
 
@@ -63,6 +63,7 @@ namespace abut::tests
     la::Vector residual;
     solve::NearNullSpace space;
     abut_rows_view rows = {};
+    solve::RowOperator operation; ///< of the rows
     std::vector<double> row_stiffness;
 
   private:

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Rows of one component each, as the core's elimination wants them.
+#include "local_elimination.h"
+
+#include <abut/dealii/solver_parameters.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace abut::solve
+{
+  void LocalElimination::reinit(const abut_request &request, const int n,
+                                const double *const weight,
+                                const MPI_Comm communicator)
+  {
+    held_.resize(n);
+    for (std::vector<double> *values : {&value_, &force_, &spring_})
+      values->resize(n);
+    points_ = {};
+    points_.struct_size = sizeof(points_);
+    points_.n = n;
+    points_.weight = weight;
+    points_.pressure = request.pressure;
+    points_.residual = request.residual;
+    points_.d_pressure = request.d_pressure;
+    points_.d_gap = request.d_gap;
+    abut_condensed result = {};
+    result.struct_size = sizeof(result);
+    result.held = held_.data();
+    result.value = value_.data();
+    result.force = force_.data();
+    result.spring = spring_.data();
+    const int failure = abut_condense(&points_, &result);
+    const int worst = dealii::Utilities::MPI::max(failure, communicator);
+    if (worst != ABUT_SUCCESS)
+      throw SolverFailure(
+          worst == ABUT_UNSUPPORTED
+              ? "A contact law determines neither the pressure nor the gap of "
+                "a constraint: both derivatives are 0."
+              : std::string("Contact laws cannot be eliminated: ")
+                    + abut_status_text(static_cast<abut_status>(worst)) + ".");
+  }
+
+  std::vector<std::uint8_t> LocalElimination::resisting() const
+  {
+    std::vector<std::uint8_t> result(held_);
+    for (std::size_t i = 0; i < result.size(); ++i)
+      if (spring_[i] != 0.)
+        result[i] = 1;
+    return result;
+  }
+
+  void LocalElimination::recover(const abut_request &request) const
+  {
+    const abut_status status = abut_condense_recover(
+        &points_, request.gap_change, request.pressure_change);
+    // Strategies notice numbers that are not finite, on all ranks.
+    AssertThrow(status == ABUT_SUCCESS || status == ABUT_NOT_FINITE,
+                dealii::ExcInternalError());
+  }
+} // namespace abut::solve

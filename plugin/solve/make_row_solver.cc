@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "make_row_solver.h"
+
+#include "condensation.h"
+#include "nodal_condensation.h"
+#include "saddle_point.h"
+
+namespace abut::solve
+{
+  bool are_nodal(const RowOperator &rows)
+  {
+    bool others = false;
+    for (int i = 0; i < rows.n_rows() && !others; ++i)
+      others = rows.end(i) - rows.begin(i) != 1
+               || rows.column(rows.begin(i)) >= rows.n_owned();
+    return !dealii::Utilities::MPI::logical_or(others, rows.communicator());
+  }
+
+  std::unique_ptr<RowSolver> make_row_solver(const System system,
+                                             const SolverParameters &parameters,
+                                             const RowOperator &rows)
+  {
+    if (system == System::saddle_point)
+      return std::make_unique<SaddlePoint>(parameters);
+    if (are_nodal(rows))
+      return std::make_unique<NodalCondensation>(parameters);
+    return std::make_unique<Condensation>(parameters);
+  }
+} // namespace abut::solve

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_MAKE_ROW_SOLVER_H
+#define ABUT_SOLVE_MAKE_ROW_SOLVER_H
+
+#include "row_solver.h"
+
+#include <abut/dealii/method_parameters.h>
+
+#include <memory>
+
+namespace abut::solve
+{
+  /** Whether each row is one owned unknown alone, on all ranks. Collective. */
+  bool are_nodal(const RowOperator &rows);
+
+  /** The solver for a set of rows: by elimination unless the user's word
+   * @p system asks for a saddle point. Collective. */
+  std::unique_ptr<RowSolver> make_row_solver(System system,
+                                             const SolverParameters &parameters,
+                                             const RowOperator &rows);
+} // namespace abut::solve
+
+#endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_ROW_STIFFNESS_H
+#define ABUT_SOLVE_ROW_STIFFNESS_H
+
+#include "row_operator.h"
+
+namespace abut::solve
+{
+  /** The local stiffness 1 / (w_i sum_j B_ij^2 / K_jj) of each row, pressure
+   * per length: what penalties are multiples of. It is the pressure that opens
+   * the gap by one if each unknown were held by its own stiffness alone: the
+   * two sides of a pair act in series. Collective. */
+  std::vector<double> row_stiffness(const la::Matrix &stiffness,
+                                    const RowOperator &rows);
+} // namespace abut::solve
+
+#endif
