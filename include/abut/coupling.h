@@ -86,6 +86,36 @@ extern "C"
   ABUT_API const char *
   abut_discretisation_name(abut_discretisation discretisation);
 
+  /** What there is to know of a discretisation. */
+  typedef struct abut_discretisation_info
+  {
+    size_t struct_size; /**< sizeof(abut_discretisation_info) */
+    const char *help;   /**< what it is, a part of a sentence */
+    /** Rows are at points of a quadrature rule, more of them than the surface
+     * has unknowns: exact laws lock. Else at nodes. */
+    bool row_per_point;
+    bool is_weighted;  /**< gaps in weighted mean: a constant pressure is
+                            transferred exactly */
+    bool couples_rows; /**< a row has several secondary nodes: its multiplier
+                            cannot be eliminated by itself */
+    bool has_degree;   /**< abut_coupling_options.multiplier_degree has a
+                            meaning */
+  } abut_discretisation_info;
+
+  /** Describe a discretisation; INVALID_ARGUMENT if there is no such one. */
+  ABUT_API abut_status abut_discretisation_describe_sized(
+      abut_discretisation discretisation, abut_discretisation_info *info);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status
+  abut_discretisation_describe(abut_discretisation discretisation,
+                               abut_discretisation_info *info)
+  {
+    if (info != NULL)
+      info->struct_size = sizeof(*info);
+    return abut_discretisation_describe_sized(discretisation, info);
+  }
+
   /** Discretisation by its name; INVALID_ARGUMENT if there is none. */
   ABUT_API abut_status abut_discretisation_find(
       const char *name, abut_discretisation *discretisation);

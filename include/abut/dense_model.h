@@ -47,11 +47,26 @@ extern "C"
    * NULL to start from the set that p and g call for
    * @param monitor called after each step, may be NULL; progress->outer tells
    *   outer steps apart */
-  ABUT_API abut_status abut_dense_model_solve(
+  ABUT_API abut_status abut_dense_model_solve_sized(
       abut_context *context, const abut_dense_model *model,
       const abut_strategy_options *options, double *displacement,
       double *pressure, uint8_t *state, abut_dense_monitor monitor, void *user,
       abut_progress *progress, abut_reason *reason);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status
+  abut_dense_model_solve(abut_context *context, const abut_dense_model *model,
+                         const abut_strategy_options *options,
+                         double *displacement, double *pressure, uint8_t *state,
+                         abut_dense_monitor monitor, void *user,
+                         abut_progress *progress, abut_reason *reason)
+  {
+    if (progress != NULL)
+      progress->struct_size = sizeof(*progress);
+    return abut_dense_model_solve_sized(context, model, options, displacement,
+                                        pressure, state, monitor, user,
+                                        progress, reason);
+  }
 
 #ifdef __cplusplus
 }

@@ -5,7 +5,8 @@
 /** @file
  * The known ways in which contact computations fail, each with a code that
  * never changes its meaning. Warnings and errors that name one begin with the
- * code, `ABUT-F06: ...`, followed by what was seen and what to do.
+ * code, `ABUT-F06: ...`, followed by what was seen and what to do. Programs
+ * name their own parameters beside the remedy that stands here.
  */
 
 #include <abut/export.h>
@@ -31,21 +32,20 @@ extern "C"
   X(COVERAGE, 5, "surface partly without a partner",                           \
     "let the primary surface reach as far as the secondary")                   \
   X(PENALTY, 6, "penalty out of range",                                        \
-    "leave Method/Penalty = 0, or use augmented lagrangian or lagrange")       \
+    "leave the penalty to the law, or use augmented lagrangian or lagrange")   \
   X(MULTIPLIERS_STALL, 7, "method of multipliers does not contract",           \
-    "Method/Adaptive penalty = true, or a larger Method/Penalty")              \
+    "let the penalty adapt itself, or begin with a larger one")                \
   X(CYCLE, 8, "active sets come back",                                         \
     "leave the fallback to single changes on; interior point")                 \
   X(COLD_START, 9, "too many steps from a cold start",                         \
-    "Refinement/Nested iteration = true")                                      \
+    "start from the solution on a coarser mesh")                               \
   X(INFEASIBLE_START, 10, "barrier from inside an obstacle",                   \
     "interior point, which needs no open start")                               \
   X(OVERLAP, 11, "bodies overlap from the start",                              \
-    "move the bodies apart, or say that it is interference (Pair/Initial "     \
-    "gap)")                                                                    \
+    "move the bodies apart, or give the interference as an initial gap")       \
   X(FLOATING_BODY, 12, "nothing holds a body",                                 \
     "give the body a support, or press it against something")                  \
-  X(LOCKING, 16, "nearly incompressible material", "Solid/Degree = 2")         \
+  X(LOCKING, 16, "nearly incompressible material", "quadratic elements")       \
   X(COARSE_SECONDARY, 19, "secondary surface much coarser than the primary",   \
     "exchange the two sides of the pair")                                      \
   X(DEGENERATE_FACET, 20, "facets without area, or inside out",                \
@@ -53,23 +53,20 @@ extern "C"
   X(COARSE_CURVE, 21, "surface too coarse for its curvature",                  \
     "refine it, or leave its corners out of the pair")                         \
   X(BUCKETS, 22, "buckets far from the size of facets",                        \
-    "Search/Bucket size = 0, or adaptive buckets")                             \
+    "leave their size to the search, or use adaptive buckets")                 \
   X(WRONG_SIDE, 23, "surfaces that face the same way",                         \
     "take the sides that face each other; turn cells that are inside out")     \
   X(NO_PARTNER, 24, "surfaces do not find each other",                         \
     "a larger Reach of the pair, or smaller load steps")                       \
   X(HELD_NODES, 26, "supports hold nodes that contact must move",              \
     "leave such nodes free along the normal, or move what supports them")      \
-  X(LINEAR_SOLVER, 30, "linear solver does not converge",                      \
-    "Solver/Linear solver = direct or auto")                                   \
+  X(LINEAR_SOLVER, 30, "linear solver does not converge", "a direct solver")   \
   X(NITSCHE, 31, "Nitsche's parameter too small",                              \
-    "leave Method/Penalty = 0, or Method/Nitsche theta = -1")                  \
-  X(NEGATIVE_WEIGHTS, 32, "dual multipliers of negative weight",               \
-    "Method/Discretisation = mortar")                                          \
+    "leave the penalty to the law, or use the variant with theta = -1")        \
+  X(NEGATIVE_WEIGHTS, 32, "dual multipliers of negative weight", "mortar")     \
   X(INTERIOR, 33, "interior method stalls",                                    \
-    "lagrange, or a looser Method/Gap tolerance")                              \
-  X(SINGULAR, 34, "energy converges slowly",                                   \
-    "Refinement/Adaptive cycles; smooth data")
+    "lagrange, or a looser tolerance of the gap")                              \
+  X(SINGULAR, 34, "energy converges slowly", "adaptive meshes; smooth data")
 
   /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
   typedef enum abut_failure

@@ -65,6 +65,24 @@ extern "C"
   /** Name of a kind ("sphere"); never NULL. */
   ABUT_API const char *abut_obstacle_name(abut_obstacle_kind kind);
 
+  /** Kind by its name; INVALID_ARGUMENT if there is none. */
+  ABUT_API abut_status abut_obstacle_find(const char *name,
+                                          abut_obstacle_kind *kind);
+
+  /** Fields of abut_obstacle_shape that belong to some kinds only. */
+  typedef enum abut_shape_field
+  {
+    ABUT_SHAPE_AXIS = 1,   /**< axis */
+    ABUT_SHAPE_RADIUS = 2, /**< radius */
+    ABUT_SHAPE_LENGTH = 4, /**< length */
+    ABUT_SHAPE_SIZE = 8,   /**< size */
+    ABUT_SHAPE_ANGLE = 16  /**< angle */
+  } abut_shape_field;
+
+  /** Sum of the abut_shape_field that a shape has; 0 for kinds that are no
+   * shapes. */
+  ABUT_API uint32_t abut_obstacle_fields(abut_obstacle_kind kind);
+
   /** A shape. Vectors have `dimension` components; the others are not read,
    * nor are fields that do not belong to the kind. Lengths and coordinates must
    * not exceed ABUT_FACET_LIMIT. */

@@ -5,7 +5,7 @@
 /** @file
  * Surfaces in parts: what processes that hold parts of two surfaces need to
  * detect contact as one. The library knows no network; it makes the boxes and
- * the buffers that the caller sends.
+ * finds the facets that the caller sends.
  *
  * For each process, with its part of the secondary and the primary surface
  * (all facets and nodes with numbers that are unique over all parts, nodes over
@@ -15,9 +15,10 @@
  *      facet size) over all parts;
  *   2  gather the bounds of all parts: abut_surface_bounds() of the secondary,
  *      inflated by H;
- *   3  for each peer abut_search_select() the primary facets near its bounds,
- *      and abut_surface_pack() them;
- *   4  exchange the buffers, abut_surface_unpack() them with the own ones;
+ *   3  for each peer abut_search_select() the primary facets near its bounds;
+ *   4  exchange them, with nodes, numbers and positions, and create one surface
+ *      of those received and the own ones, each facet and node once, arranged
+ *      by number;
  *   5  likewise with the secondary surface and the bounds inflated by 0: the
  *      facets around the own nodes complete their normals;
  *   6  detect. For nodes of own facets the result is that of the undivided
@@ -57,30 +58,6 @@ extern "C"
   ABUT_API abut_status abut_search_select(abut_search *search, int32_t n_boxes,
                                           const abut_box *boxes,
                                           int32_t *facets, int32_t *n_facets);
-
-  /** Write facets with their nodes, numbers, groups and present positions into
-   * a buffer, for a process of the same kind of machine.
-   * @param facets [n_facets] facets of the surface, each at most once
-   * @param buffer NULL: only the size is asked for
-   * @param bytes in: room in the buffer; out: bytes needed or written
-   * INVALID_ARGUMENT if the room does not suffice. */
-  ABUT_API abut_status abut_surface_pack(abut_surface *surface,
-                                         int32_t n_facets,
-                                         const int32_t *facets, void *buffer,
-                                         size_t *bytes);
-
-  /** Make one surface of several buffers. Facets and nodes with the same
-   * number are taken once (the first one met); facets and nodes are arranged
-   * by number, so that the surface does not depend on how it was cut.
-   *
-   * INVALID_ARGUMENT for a buffer that abut_surface_pack() did not write, or
-   * was cut off. Neighbours across the rim of a part may be missing, so that
-   * orientation is not checked. */
-  ABUT_API abut_status abut_surface_unpack(abut_context *context,
-                                           int32_t dimension, int32_t n_buffers,
-                                           const void *const *buffers,
-                                           const size_t *bytes,
-                                           abut_surface **surface);
 
 #ifdef __cplusplus
 }

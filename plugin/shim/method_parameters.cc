@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 namespace abut
@@ -20,36 +21,42 @@ namespace abut
     const double tiny = std::numeric_limits<double>::min();
     const double huge = std::numeric_limits<double>::max();
 
-    constexpr std::pair<Discretisation, const char *> discretisations[] = {
-        {Discretisation::automatic, "auto"},
-        {Discretisation::node_to_segment, "node to segment"},
-        {Discretisation::quadrature_point, "quadrature point"},
-        {Discretisation::mortar, "mortar"},
-        {Discretisation::dual_mortar, "dual mortar"}};
+    const char automatic_word[] = "auto";
 
     /** Names of all discretisations, separated by bars. */
     std::string discretisation_names()
     {
-      std::string names;
-      for (const auto &entry : discretisations)
-        names += (names.empty() ? "" : "|") + std::string(entry.second);
+      std::string names = automatic_word;
+      for (int i = 0; i < ABUT_DISCRETISATION_N; ++i)
+        names +=
+            std::string("|")
+            + abut_discretisation_name(static_cast<abut_discretisation>(i));
       return names;
+    }
+
+    /** "`mortar`: gaps in weighted mean. " and so on. */
+    std::string discretisation_texts()
+    {
+      std::string text;
+      for (int i = 0; i < ABUT_DISCRETISATION_N; ++i)
+      {
+        const auto discretisation = static_cast<abut_discretisation>(i);
+        text += std::string("`") + abut_discretisation_name(discretisation)
+                + "`: " + discretisation_info(discretisation).help + ". ";
+      }
+      return text;
     }
 
     void declare_discretisation(ParameterHandler &prm)
     {
       prm.declare_entry(
-          "Discretisation", "auto", Patterns::Selection(discretisation_names()),
-          "How contact between surfaces of bodies is written down. `node to "
-          "segment`: at each node of the secondary surface against the nearest "
-          "point of the primary; simple, but a constant pressure is not "
-          "transferred exactly. `quadrature point`: at points of a quadrature "
-          "rule on each common part of two facets, for `penalty` and "
-          "`augmented lagrangian`. "
-          "`mortar`: gaps in weighted mean. `dual mortar`: the same with "
-          "multipliers that can be eliminated node by node. `auto`: dual "
-          "mortar between two bodies, node to segment against rigid "
-          "obstacles. A membrane's obstacle always acts at nodes.");
+          "Discretisation", automatic_word,
+          Patterns::Selection(discretisation_names()),
+          "How contact between surfaces of bodies is written down. "
+              + discretisation_texts()
+              + "`auto`: dual mortar between two bodies, node to segment "
+                "against rigid obstacles. A membrane's obstacle always acts at "
+                "nodes.");
       prm.declare_entry("Multiplier degree", "0", Patterns::Integer(0, 1),
                         "Degree of the multipliers of `mortar` on quadratic "
                         "elements: 1, or 0 for that of the elements.");
@@ -101,10 +108,13 @@ namespace abut
     /** The law that suits a discretisation, whatever the problem: quadrature
      * points have more rows than the surface has unknowns, which exact
      * contact cannot satisfy. */
-    const char *automatic_law(const Discretisation discretisation)
+    const char *
+    automatic_law(const std::optional<abut_discretisation> discretisation)
     {
-      return discretisation == Discretisation::quadrature_point ? "penalty"
-                                                                : "lagrange";
+      return discretisation
+                     && discretisation_info(*discretisation).row_per_point
+                 ? "penalty"
+                 : "lagrange";
     }
 
     void declare_number(ParameterHandler &prm, const std::string &name,
@@ -213,14 +223,27 @@ namespace abut
     }
   } // namespace
 
-  std::string discretisation_name(const Discretisation discretisation)
+  std::string
+  discretisation_name(const std::optional<abut_discretisation> discretisation)
   {
-    return discretisations[static_cast<int>(discretisation)].second;
+    return discretisation ? abut_discretisation_name(*discretisation)
+                          : automatic_word;
   }
 
-  std::string refusal(const abut_law &law, const Discretisation discretisation,
+  abut_discretisation_info
+  discretisation_info(const abut_discretisation discretisation)
+  {
+    abut_discretisation_info info = {};
+    if (abut_discretisation_describe(discretisation, &info) != ABUT_SUCCESS)
+      throw std::invalid_argument("there is no such discretisation");
+    return info;
+  }
+
+  std::string refusal(const abut_law &law,
+                      const abut_discretisation discretisation,
                       const System system, const bool tied)
   {
+    const abut_discretisation_info info = discretisation_info(discretisation);
     const bool hard = abut_law_is_exact(&law);
     const bool interior = abut_law_is_interior(&law);
     const std::string with = "Method/Enforcement = " + std::string(law.name);
@@ -232,26 +255,26 @@ namespace abut
       return with
              + " cannot glue surfaces: an equality has no interior. Use "
                "lagrange, penalty or augmented lagrangian.";
-    if (abut_law_needs_stress(&law)
-        && (tied || discretisation != Discretisation::quadrature_point))
+    if (abut_law_needs_stress(&law) && (tied || !info.row_per_point))
       return with
              + (tied ? " is for contact, not for tied surfaces. Use lagrange, "
                        "penalty or augmented lagrangian."
                      : " takes the stress at quadrature points: leave "
                        "Method/Discretisation = auto, or say quadrature "
                        "point.");
-    if (discretisation == Discretisation::quadrature_point
-        && (tied || hard || abut_law_is_primal_dual(&law)))
+    if (info.row_per_point && (tied || hard || abut_law_is_primal_dual(&law)))
       return coded(ABUT_FAILURE_RICH_MULTIPLIERS,
                    (tied ? "Tied surfaces" : with)
-                       + " with Method/Discretisation = quadrature point has "
+                       + " with Method/Discretisation = "
+                       + abut_discretisation_name(discretisation)
+                       + " has "
                          "more conditions than the surface has unknowns: it "
                          "locks. Use dual mortar, or penalty or augmented "
                          "lagrangian.");
-    if (discretisation == Discretisation::mortar && hard
-        && system == System::condensed)
-      return with
-             + " with Method/Discretisation = mortar couples all multipliers: "
+    if (info.couples_rows && hard && system == System::condensed)
+      return with + " with Method/Discretisation = "
+             + abut_discretisation_name(discretisation)
+             + " couples all multipliers: "
                "they cannot be eliminated row by row. Use Method/System = "
                "saddle point, or dual mortar.";
     return "";
@@ -299,10 +322,12 @@ namespace abut
     system = word == "condensed"      ? System::condensed
              : word == "saddle point" ? System::saddle_point
                                       : System::automatic;
-    const std::string way = prm.get("Discretisation");
-    for (const auto &entry : discretisations)
-      if (way == entry.second)
-        discretisation = entry.first;
+    abut_discretisation way;
+    if (abut_discretisation_find(prm.get("Discretisation").c_str(), &way)
+        == ABUT_SUCCESS)
+      discretisation = way;
+    else
+      discretisation.reset();
     const std::string law = prm.get("Enforcement");
     law_is_automatic = law == "auto";
     options.law = abut_law_find(law_is_automatic ? automatic_law(discretisation)

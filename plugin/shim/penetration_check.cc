@@ -159,7 +159,8 @@ namespace abut::shim
         continue;
       // Inside the secondary between its rows, or where it has none.
       const auto &facet = surface_.facets[pair.secondary.facet[inside.facet]];
-      bool between = pair.discretisation == Discretisation::node_to_segment;
+      const auto kind = discretisation_info(pair.discretisation);
+      bool between = !kind.is_weighted && !kind.row_per_point;
       for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)
         between = between || held[facet.node[a]] != 0;
       const double found = inside.depth - pair.data.gap;

@@ -96,7 +96,7 @@ namespace abut::shim
     return std::any_of(
         pairs_.begin(), pairs_.end(),
         [](const Pair &pair)
-        { return pair.discretisation == Discretisation::quadrature_point; });
+        { return discretisation_info(pair.discretisation).row_per_point; });
   }
 
   template <int dim>
@@ -105,7 +105,7 @@ namespace abut::shim
   {
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
-      if (pairs_[p].discretisation != Discretisation::quadrature_point)
+      if (!discretisation_info(pairs_[p].discretisation).row_per_point)
         continue;
       Interpolation points{dof_handler_.locally_owned_dofs(),
                            dealii::IndexSet(dof_handler_.n_dofs()),

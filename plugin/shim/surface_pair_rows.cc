@@ -22,19 +22,13 @@ namespace abut::shim
      * is held there. */
     constexpr double least_freedom = 0.5;
 
-    abut_discretisation core_word(const Discretisation discretisation)
+    /** What suits a pair, if the parameters leave it to choose. */
+    abut_discretisation automatic_discretisation(const abut_law &law,
+                                                 const bool is_obstacle)
     {
-      switch (discretisation)
-      {
-      case Discretisation::node_to_segment:
-        return ABUT_DISCRETISATION_NODE_TO_SEGMENT;
-      case Discretisation::quadrature_point:
-        return ABUT_DISCRETISATION_QUADRATURE_POINT;
-      case Discretisation::mortar:
-        return ABUT_DISCRETISATION_MORTAR;
-      default:
-        return ABUT_DISCRETISATION_DUAL_MORTAR;
-      }
+      return abut_law_needs_stress(&law) ? ABUT_DISCRETISATION_QUADRATURE_POINT
+             : is_obstacle               ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
+                                         : ABUT_DISCRETISATION_DUAL_MORTAR;
     }
 
     template <int dim>
@@ -100,13 +94,9 @@ namespace abut::shim
   {
     Pair pair;
     pair.data = data;
-    pair.discretisation = settings_.method.discretisation;
     const abut_law &law = *settings_.method.options.law;
-    if (pair.discretisation == Discretisation::automatic)
-      pair.discretisation = abut_law_needs_stress(&law)
-                                ? Discretisation::quadrature_point
-                            : data.obstacle ? Discretisation::node_to_segment
-                                            : Discretisation::dual_mortar;
+    pair.discretisation = settings_.method.discretisation.value_or(
+        automatic_discretisation(law, data.obstacle != nullptr));
     const std::string reason =
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
@@ -153,14 +143,13 @@ namespace abut::shim
   }
 
   template <int dim>
-  Handle<abut_coupling>
-  SurfacePairRows<dim>::make_coupling(const Pair &pair,
-                                      const Discretisation discretisation) const
+  Handle<abut_coupling> SurfacePairRows<dim>::make_coupling(
+      const Pair &pair, const abut_discretisation discretisation) const
   {
     abut_coupling_options options = abut_coupling_defaults();
-    options.discretisation = core_word(discretisation);
+    options.discretisation = discretisation;
     options.multiplier_degree =
-        discretisation == Discretisation::mortar
+        discretisation_info(discretisation).has_degree
             ? static_cast<std::int32_t>(settings_.method.multiplier_degree)
             : 0;
     options.quadrature_degree =

@@ -137,7 +137,7 @@ namespace abut::shim
     struct Pair
     {
       ContactPair<dim> data;
-      Discretisation discretisation = Discretisation::dual_mortar;
+      abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
       SurfaceSide<dim> secondary, primary;
       Handle<abut_coupling> coupling;
       /** Distances that the facets known here suffice for. */
@@ -187,8 +187,8 @@ namespace abut::shim
     void create_pair(const ContactPair<dim> &data);
     void gather();
     void create_sides(Pair &pair);
-    Handle<abut_coupling> make_coupling(const Pair &pair,
-                                        Discretisation discretisation) const;
+    Handle<abut_coupling>
+    make_coupling(const Pair &pair, abut_discretisation discretisation) const;
     void check_sides(const Pair &pair) const;
     void check_displacements(const std::vector<Direction> &u) const;
     std::vector<Direction> displacements_in_reach(const la::Vector &u);

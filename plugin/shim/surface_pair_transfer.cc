@@ -24,7 +24,7 @@ namespace abut::shim
       { return surface_.nodes[node].dof[0]; };
       la::Vector exact = field();
       const Handle<abut_coupling> mortar =
-          make_coupling(pair, Discretisation::mortar);
+          make_coupling(pair, ABUT_DISCRETISATION_MORTAR);
       build(pair, mortar.get(),
             std::vector<std::uint8_t>(pair.secondary.n_nodes(), 0),
             motion(pair, u));

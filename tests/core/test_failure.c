@@ -22,6 +22,8 @@ codes_are_numbers_in_order(void **state)
     assert_true((int)entry->failure > last);
     assert_true(strlen(entry->name) > 0 && strlen(entry->remedy) > 0);
     assert_ptr_equal(abut_failure_get(entry->failure), entry);
+    /* Parameters are the program's, 'Section/Name'. */
+    assert_null(strchr(entry->remedy, '/'));
     last = (int)entry->failure;
   }
   assert_true(n > 0);

@@ -725,6 +725,14 @@ bad_calls(void **state)
   assert_close(v.rotation[4], 1, 0);
   assert_string_equal(abut_obstacle_name(v.kind), "plane");
   assert_string_equal(abut_obstacle_name(ABUT_OBSTACLE_SURFACE), "surface");
+  abut_obstacle_kind kind = ABUT_OBSTACLE_PLANE;
+  assert_int_equal(abut_obstacle_find("cone", &kind), ABUT_SUCCESS);
+  assert_int_equal(kind, ABUT_OBSTACLE_CONE);
+  assert_int_equal(abut_obstacle_find("cones", &kind), ABUT_INVALID_ARGUMENT);
+  assert_int_equal(abut_obstacle_find(NULL, &kind), ABUT_INVALID_ARGUMENT);
+  assert_int_equal(abut_obstacle_fields(ABUT_OBSTACLE_BOX), ABUT_SHAPE_SIZE);
+  assert_int_equal(abut_obstacle_fields(ABUT_OBSTACLE_FUNCTION), 0);
+  assert_int_equal(abut_obstacle_fields(ABUT_OBSTACLE_N_KINDS), 0);
   assert_string_equal(abut_obstacle_name(ABUT_OBSTACLE_N_KINDS), "");
   assert_ok(abut_obstacle_destroy(&o));
   assert_ok(abut_obstacle_destroy(&o));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Detection over parts of surfaces is detection over the whole. */
+#include "pack.h"
 #include "surface_fixture.h"
 
 #include <abut/detect.h>
@@ -21,13 +22,13 @@ static buffer
 pack(abut_surface *s, int32_t n, const int32_t *facets)
 {
   buffer b = {0, NULL};
-  require(abut_surface_pack(s, n, facets, NULL, &b.bytes));
+  require(pack_surface(s, n, facets, NULL, &b.bytes));
   b.data = malloc(b.bytes);
   size_t bytes = b.bytes - 1;
-  assert_int_equal(abut_surface_pack(s, n, facets, b.data, &bytes),
+  assert_int_equal(pack_surface(s, n, facets, b.data, &bytes),
                    ABUT_INVALID_ARGUMENT);
   bytes = b.bytes;
-  require(abut_surface_pack(s, n, facets, b.data, &bytes));
+  require(pack_surface(s, n, facets, b.data, &bytes));
   assert_int_equal(bytes, b.bytes);
   return b;
 }
@@ -43,7 +44,7 @@ unpack(int32_t dimension, int32_t n, buffer *b)
     data[i] = b[i].data;
     bytes[i] = b[i].bytes;
   }
-  require(abut_surface_unpack(context, dimension, n, data, bytes, &s));
+  require(unpack_surfaces(context, dimension, n, data, bytes, &s));
   for (int32_t i = 0; i < n; ++i)
     free(b[i].data);
   return s;
@@ -316,24 +317,23 @@ damaged_buffers_are_refused(void **state)
   require(abut_surface_create(context, &data, &s));
   const int32_t facets[3] = {0, 4, 8}, beyond[1] = {9};
   size_t bytes = 0;
-  assert_int_equal(abut_surface_pack(s, 1, beyond, NULL, &bytes),
+  assert_int_equal(pack_surface(s, 1, beyond, NULL, &bytes),
                    ABUT_INVALID_ARGUMENT);
   buffer b = pack(s, 3, facets);
   const void *buffers[1] = {b.data};
   for (size_t cut_off = 1; cut_off <= b.bytes; ++cut_off)
   {
     bytes = b.bytes - cut_off;
-    assert_int_equal(abut_surface_unpack(context, 3, 1, buffers, &bytes, &t),
+    assert_int_equal(unpack_surfaces(context, 3, 1, buffers, &bytes, &t),
                      ABUT_INVALID_ARGUMENT);
   }
-  assert_int_equal(abut_surface_unpack(context, 2, 1, buffers, &b.bytes, &t),
+  assert_int_equal(unpack_surfaces(context, 2, 1, buffers, &b.bytes, &t),
                    ABUT_INVALID_ARGUMENT);
   /* Any single byte: refused, or another surface, but no crash. */
   for (size_t i = 0; i < b.bytes; ++i)
   {
     ((uint8_t *)b.data)[i] ^= 0xff;
-    if (abut_surface_unpack(context, 3, 1, buffers, &b.bytes, &t)
-        == ABUT_SUCCESS)
+    if (unpack_surfaces(context, 3, 1, buffers, &b.bytes, &t) == ABUT_SUCCESS)
       require(abut_surface_destroy(&t));
     ((uint8_t *)b.data)[i] ^= 0xff;
   }

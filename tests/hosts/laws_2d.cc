@@ -13,10 +13,11 @@ namespace
    * Weak enforcement at single points moves the interface by some thousandths
    * of the shortening; the default penalty yields by about 1 / 50 of what a
    * facet does. */
-  double allowed(const abut_law &law, const Discretisation discretisation)
+  double allowed(const abut_law &law,
+                 const std::optional<abut_discretisation> discretisation)
   {
-    const bool is_exact = discretisation == Discretisation::mortar
-                          || discretisation == Discretisation::dual_mortar;
+    const bool is_exact = discretisation == ABUT_DISCRETISATION_MORTAR
+                          || discretisation == ABUT_DISCRETISATION_DUAL_MORTAR;
     if (std::string(law.name) == "penalty")
       return 2e-2;
     return is_exact ? 1e-3 : 1e-2;
@@ -33,8 +34,9 @@ main(int argc, char **argv)
   unsigned int n_runs = 0, n_refused = 0;
   for (std::int32_t i = 0; abut_law_get(i) != nullptr; ++i)
     for (const auto discretisation :
-         {Discretisation::node_to_segment, Discretisation::quadrature_point,
-          Discretisation::mortar, Discretisation::dual_mortar})
+         {ABUT_DISCRETISATION_NODE_TO_SEGMENT,
+          ABUT_DISCRETISATION_QUADRATURE_POINT, ABUT_DISCRETISATION_MORTAR,
+          ABUT_DISCRETISATION_DUAL_MORTAR})
     {
       const abut_law &law = *abut_law_get(i);
       // It needs the host's stress, which these blocks do not tell.

@@ -224,8 +224,7 @@ namespace
     Blocks blocks;
     SolverParameters direct;
     direct.linear = SolverParameters::Linear::direct;
-    blocks.contact.set_parameters(hosts::method(law, Discretisation::automatic),
-                                  direct);
+    blocks.contact.set_parameters(hosts::method(law, std::nullopt), direct);
     NewtonParameters parameters;
     parameters.tolerance = 1e-8;
     parameters.relaxation_sweeps = law == "barrier" ? 1 : 0;

@@ -37,7 +37,8 @@ main(int argc, char **argv)
                                + " cells, secondary "
                                + (upper ? "upper" : "lower");
       const double exact = hosts::TwoBlocks<2>(run).solve().normal_stress;
-      run.method = hosts::method("lagrange", Discretisation::node_to_segment);
+      run.method =
+          hosts::method("lagrange", ABUT_DISCRETISATION_NODE_TO_SEGMENT);
       const double stress = hosts::TwoBlocks<2>(run).solve().normal_stress;
       const double value =
           upper ? expected.upper_is_secondary : expected.lower_is_secondary;

@@ -60,9 +60,10 @@ namespace
     pair.reach = 2.;
     refuses(run, &pair, {"wheel on rail", "normals", "same way"});
 
-    run.method = hosts::method("lagrange", Discretisation::quadrature_point);
+    run.method =
+        hosts::method("lagrange", ABUT_DISCRETISATION_QUADRATURE_POINT);
     refuses(run, nullptr, {"interface", "quadrature point", "lagrange"});
-    run.method = hosts::method("barrier", Discretisation::automatic);
+    run.method = hosts::method("barrier", std::nullopt);
     run.tied = true;
     refuses(run, nullptr, {"interface", "barrier", "glue"});
   }
@@ -106,7 +107,7 @@ namespace
   void check_between_rows()
   {
     for (const auto discretisation :
-         {Discretisation::node_to_segment, Discretisation::mortar})
+         {ABUT_DISCRETISATION_NODE_TO_SEGMENT, ABUT_DISCRETISATION_MORTAR})
     {
       hosts::Case run;
       run.cells = {{3, 9}};

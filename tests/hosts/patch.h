@@ -7,8 +7,9 @@
 namespace abut::hosts
 {
   /** Method with the law and the discretisation of these names. */
-  inline MethodParameters method(const std::string &law,
-                                 const Discretisation discretisation)
+  inline MethodParameters
+  method(const std::string &law,
+         const std::optional<abut_discretisation> discretisation)
   {
     MethodParameters result;
     result.options.law = abut_law_find(law.c_str());

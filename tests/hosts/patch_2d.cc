@@ -14,7 +14,7 @@ main(int argc, char **argv)
 
   hosts::Case one;
   run(one, "dual mortar");
-  one.method = hosts::method("lagrange", Discretisation::mortar);
+  one.method = hosts::method("lagrange", ABUT_DISCRETISATION_MORTAR);
   one.method.system = System::saddle_point;
   run(one, "mortar");
   one = hosts::Case();
@@ -27,7 +27,7 @@ main(int argc, char **argv)
   one.yields = true;
   one.materials = {{{7., 0.}, {3., 0.}}};
   for (const auto discretisation :
-       {Discretisation::dual_mortar, Discretisation::mortar})
+       {ABUT_DISCRETISATION_DUAL_MORTAR, ABUT_DISCRETISATION_MORTAR})
   {
     one.method = hosts::method("penalty", discretisation);
     run(one, "penalty, " + discretisation_name(discretisation));

@@ -15,7 +15,7 @@ main(int argc, char **argv)
   hosts::Case one;
   one.cells = {{2, 3}};
   run(one, "dual mortar");
-  one.method = hosts::method("lagrange", Discretisation::mortar);
+  one.method = hosts::method("lagrange", ABUT_DISCRETISATION_MORTAR);
   one.method.system = System::saddle_point;
   run(one, "mortar");
   one = hosts::Case();

@@ -207,7 +207,8 @@ namespace
     for (const bool throws : {true, false})
     {
       hosts::Case run;
-      run.method = hosts::method("nitsche", Discretisation::quadrature_point);
+      run.method =
+          hosts::method("nitsche", ABUT_DISCRETISATION_QUADRATURE_POINT);
       hosts::TwoBlocks<2> blocks(run);
       blocks.prepare({blocks.pair()});
       const bool here = me() == rank_at_interface(blocks);
@@ -234,7 +235,7 @@ namespace
                        : penalty->linearise(points, state, result);
     };
     hosts::Case run;
-    run.method = hosts::method("penalty", Discretisation::automatic);
+    run.method = hosts::method("penalty", std::nullopt);
     run.method.options.law = &law;
     hosts::TwoBlocks<2> blocks(run);
     blocks.prepare({blocks.pair()});

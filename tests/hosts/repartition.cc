@@ -181,7 +181,7 @@ namespace
   {
     // Nodal pressures of points are means, which a finer mesh has others of.
     const bool has_points =
-        run.method.discretisation == Discretisation::quadrature_point;
+        run.method.discretisation == ABUT_DISCRETISATION_QUADRATURE_POINT;
     hosts::TwoBlocks<dim> blocks(run);
     ContactPair<dim> pair = other != nullptr ? *other : blocks.pair();
     // All rows from the start on, or a later search would find more.
@@ -260,7 +260,8 @@ namespace
       std::cout << line.str() << std::endl;
   }
 
-  hosts::Case wedge(const std::string &law, const Discretisation discretisation,
+  hosts::Case wedge(const std::string &law,
+                    const std::optional<abut_discretisation> discretisation,
                     const std::string &name)
   {
     hosts::Case run;
@@ -275,11 +276,10 @@ namespace
 
   template <int dim> void check_all()
   {
-    check<dim>(wedge("lagrange", Discretisation::automatic, "blocks"));
-    check<dim>(
-        wedge("augmented lagrangian", Discretisation::automatic, "blocks"));
-    check<dim>(wedge("augmented lagrangian", Discretisation::quadrature_point,
-                     "blocks at points"));
+    check<dim>(wedge("lagrange", std::nullopt, "blocks"));
+    check<dim>(wedge("augmented lagrangian", std::nullopt, "blocks"));
+    check<dim>(wedge("augmented lagrangian",
+                     ABUT_DISCRETISATION_QUADRATURE_POINT, "blocks at points"));
 
     abut_obstacle_shape shape = abut_obstacle_shape_defaults();
     shape.dimension = dim;
@@ -292,7 +292,7 @@ namespace
     pair.name = "upper block on a plane";
     pair.secondary = {hosts::upper_interface};
     pair.obstacle = std::make_shared<RigidObstacle<dim>>(shape);
-    check<dim>(wedge("lagrange", Discretisation::automatic, "plane"), &pair);
+    check<dim>(wedge("lagrange", std::nullopt, "plane"), &pair);
   }
 } // namespace
 

@@ -147,6 +147,9 @@ def check_all(arguments):
     check.works("same mode", host, check.plugin, largest_error=1e-10)
     check.works("same mode, 2 ranks", host, check.plugin, largest_error=1e-10,
                 ranks=2)
+    # MethodParameters are made by a program without any function of Abut.
+    check.works("parameters from C++", host, check.plugin, "method=by hand",
+                largest_error=1e-10)
     # Springs of 50 times the stiffness of a facet yield by about 1 / 200.
     check.works("penalty", host, check.plugin, "Method/Enforcement=penalty",
                 largest_error=2e-2)

@@ -4,6 +4,7 @@
  *
  *     loading_host PLUGIN... ["Method/Enforcement=penalty"]...
  *
+ * or "method=by hand" for parameters from C++ instead of a ParameterHandler. It
  * takes the first plugin that fits; a line on the standard error output tells
  * why another did not. With "cycles=N" all is done N times, with a refined mesh
  * as well, and the memory that the last nine tenths have left behind is shown.
@@ -29,6 +30,7 @@
 #include <cmath>
 #include <iostream>
 #include <malloc.h>
+#include <optional>
 
 using namespace dealii;
 namespace la = abut::la;
@@ -200,8 +202,15 @@ namespace
   {
     ParameterHandler prm;
     registry.declare_parameters(prm);
+    std::optional<abut::MethodParameters> by_hand;
     for (const std::string &word : parameters)
     {
+      if (word == "method=by hand")
+      {
+        by_hand.emplace();
+        by_hand->options.gap_tolerance = 1e-8;
+        continue;
+      }
       const std::size_t slash = word.find('/'), equals = word.find('=');
       prm.enter_subsection(word.substr(0, slash));
       prm.set(word.substr(slash + 1, equals - slash - 1),
@@ -216,6 +225,8 @@ namespace
     pair.secondary = {bottom};
     pair.obstacle = registry.make_obstacle(plane);
     auto contact = registry.create(prm, MPI_COMM_WORLD);
+    if (by_hand)
+      contact->set_parameters(*by_hand, abut::SolverParameters());
     contact->set_pairs({pair});
     return contact;
   }

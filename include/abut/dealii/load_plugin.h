@@ -120,7 +120,7 @@ namespace abut
       if (query == nullptr)
         return "it does not export the symbol " ABUT_PLUGIN_QUERY;
       plugin = query();
-      if (plugin == nullptr || plugin->struct_size != sizeof(abut_plugin))
+      if (plugin == nullptr || plugin->struct_size < sizeof(abut_plugin))
         return "its " ABUT_PLUGIN_QUERY " gives nothing that can be used";
       return compare_stamps(*plugin->stamp, plugin_stamp());
     }

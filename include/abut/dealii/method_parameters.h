@@ -6,11 +6,13 @@
  * How contact is enforced, as parameters of a deal.II ParameterHandler.
  */
 
+#include <abut/coupling.h>
 #include <abut/strategy.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace abut
@@ -25,24 +27,17 @@ namespace abut
     saddle_point /**< pressures are unknowns of the linear system */
   };
 
-  /** How contact between two surfaces, or of a surface with a rigid obstacle,
-   * is written down as rows. */
-  enum class Discretisation
-  {
-    automatic,        /**< dual mortar for two surfaces, nodes against rigid
-                           obstacles */
-    node_to_segment,  /**< one row per secondary node, nearest point */
-    quadrature_point, /**< one row per quadrature point of a secondary facet */
-    mortar,           /**< weighted gaps, standard multipliers */
-    dual_mortar       /**< weighted gaps, biorthogonal multipliers */
-  };
+  /** The word of a parameter file for a discretisation, `auto` for none. */
+  std::string
+  discretisation_name(std::optional<abut_discretisation> discretisation);
 
-  /** The word of a parameter file for a discretisation. */
-  std::string discretisation_name(Discretisation discretisation);
+  /** What there is to know of a discretisation. */
+  abut_discretisation_info
+  discretisation_info(abut_discretisation discretisation);
 
   /** Why a law (or a tie) is not offered with a discretisation, with what to
-   * take instead; empty if it is. @p discretisation must not be automatic. */
-  std::string refusal(const abut_law &law, Discretisation discretisation,
+   * take instead; empty if it is. */
+  std::string refusal(const abut_law &law, abut_discretisation discretisation,
                       System system, bool tied);
 
   /** The section `Method` of a parameter file.
@@ -71,8 +66,11 @@ namespace abut
     /** Which linear system is solved. */
     System system = System::automatic;
 
-    /** How rows between surfaces are made; membranes have no choice. */
-    Discretisation discretisation = Discretisation::automatic;
+    /** How contact between two surfaces, or of a surface with a rigid obstacle,
+     * is written down as rows; membranes have no choice. None: dual mortar for
+     * two surfaces, nodes against rigid obstacles, quadrature points for laws
+     * that need the stress. */
+    std::optional<abut_discretisation> discretisation;
 
     /** Of `nitsche`: 1 (symmetric), 0 or -1. */
     double nitsche_theta = 0.;

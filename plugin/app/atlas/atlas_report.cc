@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The failure atlas as a page.
 #include "atlas.h"
+#include "remedy.h"
 
 #include "app/input/short_number.h"
 #include "app/report/report.h"
@@ -34,7 +35,7 @@ namespace abut::app
       {
         const abut_failure_entry *failure = abut_failure_at(i);
         out << "| " << failure->code << " | " << failure->name << " | "
-            << failure->remedy << " | ";
+            << remedy(*failure) << " | ";
         std::string names, avoided;
         for (const AtlasResult &result : results)
           if (result.entry.failure == failure)

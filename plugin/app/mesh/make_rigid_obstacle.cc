@@ -94,11 +94,9 @@ namespace abut::app
       abut_obstacle_shape shape = abut_obstacle_shape_defaults();
       shape.dimension = dim;
       shape.hollow = parameters.hollow;
-      shape.kind = kind == "plane"      ? ABUT_OBSTACLE_PLANE
-                   : kind == "sphere"   ? ABUT_OBSTACLE_SPHERE
-                   : kind == "cylinder" ? ABUT_OBSTACLE_CYLINDER
-                   : kind == "box"      ? ABUT_OBSTACLE_BOX
-                                        : ABUT_OBSTACLE_CONE;
+      if (abut_obstacle_find(kind.c_str(), &shape.kind) != ABUT_SUCCESS
+          || abut_obstacle_fields(shape.kind) == 0)
+        numbers.wrong("Kind", "'" + kind + "' is none of the shapes.");
       if (dim == 2 && kind == "cylinder")
         numbers.wrong("Kind", "a cylinder exists in 3 dimensions only; in 2, "
                               "its section is a sphere or a box.");

@@ -4,6 +4,8 @@
 #include "app/input/expression.h"
 #include "app/input/input_error.h"
 
+#include <abut/obstacle.h>
+
 #include <algorithm>
 
 namespace abut::app
@@ -13,8 +15,16 @@ namespace abut::app
     using dealii::ParameterHandler;
     namespace Patterns = dealii::Patterns;
 
-    const char kinds[] =
-        "plane|sphere|cylinder|box|cone|height|distance|surface";
+    /** The core's shapes, and what a scene can make of formulas and meshes. */
+    std::string kind_names()
+    {
+      std::string names;
+      for (int i = 0; i < ABUT_OBSTACLE_N_KINDS; ++i)
+        if (const auto kind = static_cast<abut_obstacle_kind>(i);
+            abut_obstacle_fields(kind) != 0)
+          names += abut_obstacle_name(kind) + std::string("|");
+      return names + "height|distance|surface";
+    }
 
     /** A parameter, and the kinds that it has a meaning for (empty: all). */
     struct Entry
@@ -138,7 +148,7 @@ namespace abut::app
 
   void RigidObstacleParameters::declare(ParameterHandler &prm)
   {
-    prm.declare_entry("Kind", "plane", Patterns::Selection(kinds),
+    prm.declare_entry("Kind", "plane", Patterns::Selection(kind_names()),
                       "plane (2D: half plane), sphere (disc), cylinder (3D), "
                       "box (rectangle), cone (wedge), height over the plane "
                       "orthogonal to an axis, signed distance as a formula, "

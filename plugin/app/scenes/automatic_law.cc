@@ -13,8 +13,8 @@ namespace abut::app
 
   void choose_law_of_bodies(MethodParameters &method, const bool tied)
   {
-    if (method.law_is_automatic && !tied
-        && method.discretisation == Discretisation::quadrature_point)
+    if (method.law_is_automatic && !tied && method.discretisation
+        && discretisation_info(*method.discretisation).row_per_point)
       method.options.law = abut_law_find("nitsche");
   }
 

@@ -2,6 +2,7 @@
 /* Creation of a coupling. */
 #include "contact/coupling.h"
 #include "contact/detect.h"
+#include "contact/discretisation.h"
 #include "search/order.h"
 
 #include <string.h>
@@ -78,7 +79,7 @@ list_arrays(abut_coupling *c, array_size *list)
 static const char *
 fault_of(const abut_coupling_options *o, int32_t dimension)
 {
-  if ((int)o->discretisation < 0 || o->discretisation >= ABUT_DISCRETISATION_N)
+  if (abut_discretisation_methods_get(o->discretisation) == NULL)
     return "unknown discretisation";
   if (o->quadrature_degree < 0 || o->quadrature_degree > 8)
     return "quadrature_degree is not in 0 .. 8";
@@ -193,12 +194,18 @@ create_detection(abut_coupling *c)
                                &c->detection);
 }
 
+bool
+abut_coupling_is_mortar(const abut_coupling *c)
+{
+  return c->method->info.is_weighted;
+}
+
 static abut_status
 create_search(abut_coupling *c)
 {
   if (c->primary == NULL)
     return ABUT_SUCCESS;
-  if (c->options.discretisation == ABUT_DISCRETISATION_NODE_TO_SEGMENT)
+  if (c->method->detects_nodes)
     return create_detection(c);
   const abut_status status = abut_search_create(c->context, c->primary,
                                                 &c->options.search, &c->search);
@@ -238,6 +245,7 @@ abut_coupling_create_any(abut_context *context, const char *call,
   c->primary = primary;
   c->obstacle = obstacle;
   c->options = chosen;
+  c->method = abut_discretisation_methods_get(chosen.discretisation);
   c->quadratic = quadratic;
   c->compare_nodes = primary != NULL
                      && (secondary == primary

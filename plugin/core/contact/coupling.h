@@ -108,6 +108,8 @@ enum
   ABUT_COUPLING_FOR_DROPPING = 2 /* it tells which neighbours to drop */
 };
 
+typedef struct abut_discretisation_methods abut_discretisation_methods;
+
 struct abut_coupling
 {
   abut_context *context;
@@ -115,6 +117,7 @@ struct abut_coupling
   abut_surface *primary;   /* or NULL */
   abut_obstacle *obstacle; /* or NULL */
   abut_coupling_options options;
+  const abut_discretisation_methods *method;
   bool compare_nodes; /* node numbers of both surfaces mean the same nodes */
   bool quadratic;     /* some secondary facet is */
   abut_search *search;
@@ -179,12 +182,8 @@ struct abut_coupling
   abut_coupling_statistics statistics;
 };
 
-static inline bool
-abut_coupling_is_mortar(const abut_coupling *c)
-{
-  return c->options.discretisation == ABUT_DISCRETISATION_MORTAR
-         || c->options.discretisation == ABUT_DISCRETISATION_DUAL_MORTAR;
-}
+/* Whether the rows are weighted means over facets. */
+bool abut_coupling_is_mortar(const abut_coupling *c);
 
 /* Gather facet f at the present positions. */
 void abut_coupling_load(const abut_coupling *c, int32_t f,

@@ -2,7 +2,7 @@
 /* The course of a build: search, a pass that drops weak nodes of quadratic
  * surfaces and corners, the pass that makes the shares of all facets, and the
  * rows. */
-#include "contact/coupling.h"
+#include "contact/discretisation.h"
 #include "geometry/vector.h"
 
 #include <string.h>
@@ -27,9 +27,9 @@ search(abut_coupling *c, double motion)
 
 /* Add the integrals of chi over the points in work to the sums of the nodes;
  * returns the area of the points. */
-static double
-add_integrals(abut_coupling *c, const abut_coupling_facet *facet,
-              const abut_coupling_functions *f, double *sum)
+double
+abut_coupling_add_integrals(abut_coupling *c, const abut_coupling_facet *facet,
+                            const abut_coupling_functions *f, double *sum)
 {
   const abut_coupling_point *p = c->points.data;
   double area = 0.;
@@ -65,7 +65,7 @@ take_facet(abut_coupling *c, int32_t index)
     status = abut_coupling_whole(c, &facet);
   if (status != ABUT_SUCCESS)
     return status;
-  const double whole = add_integrals(c, &facet, &f, c->full.data);
+  const double whole = abut_coupling_add_integrals(c, &facet, &f, c->full.data);
   if (c->detection != NULL)
     return ABUT_SUCCESS;
   if (c->drops)
@@ -75,16 +75,7 @@ take_facet(abut_coupling *c, int32_t index)
   if (status != ABUT_SUCCESS || c->n_points == 0)
     return status;
   ++c->statistics.n_covered;
-  if (c->options.discretisation == ABUT_DISCRETISATION_NODE_TO_SEGMENT)
-  {
-    add_integrals(c, &facet, &f, c->covered.data);
-    return ABUT_SUCCESS;
-  }
-  if (c->options.discretisation == ABUT_DISCRETISATION_QUADRATURE_POINT)
-    return abut_coupling_add_points(c, &facet, &f);
-  abut_coupling_make_psi(c, &facet, whole, &f);
-  c->statistics.n_lumped += f.lumped;
-  return abut_coupling_add_shares(c, &facet, &f);
+  return c->method->take_facet(c, &facet, &f, whole);
 }
 
 static abut_status
@@ -126,9 +117,8 @@ build(abut_coupling *c, double motion)
        ++i)
     if (purpose[order[i]] & ABUT_COUPLING_FOR_ROWS)
       status = take_facet(c, order[i]);
-  if (status == ABUT_SUCCESS
-      && c->options.discretisation == ABUT_DISCRETISATION_NODE_TO_SEGMENT)
-    status = abut_coupling_add_nodal(c);
+  if (status == ABUT_SUCCESS && c->method->finish != NULL)
+    status = c->method->finish(c);
   if (status == ABUT_SUCCESS)
     status = add_full_area(c);
   return status == ABUT_SUCCESS ? abut_coupling_make_rows(c) : status;

@@ -24,7 +24,7 @@
  * is singular for practical purposes, or next to nothing is covered, psi = chi
  * and D is lumped. */
 #include "base/dense_lu.h"
-#include "contact/coupling.h"
+#include "contact/discretisation.h"
 
 #include <math.h>
 #include <string.h>
@@ -103,7 +103,7 @@ abut_coupling_make_functions(abut_coupling *c, const abut_coupling_facet *facet,
                   : facet->n;
   f->n_kept = 0;
   f->lumped = false;
-  f->diagonal = c->options.discretisation == ABUT_DISCRETISATION_DUAL_MORTAR;
+  f->diagonal = c->method->dual;
   double shared[ABUT_FACET_MAX_NODES] = {0.};
   for (int32_t l = 0; l < f->n; ++l)
   {

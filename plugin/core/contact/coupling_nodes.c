@@ -3,7 +3,7 @@
  * a share in the rows of its free nodes. On quadratic facets, and at corners,
  * the share of a node depends on which neighbours are dropped, and that on all
  * their facets. */
-#include "contact/coupling.h"
+#include "contact/discretisation.h"
 
 #include <math.h>
 #include <string.h>
@@ -151,8 +151,7 @@ abut_coupling_set_purpose(abut_coupling *c)
   const int32_t n = c->secondary->view.n_facets;
   const uint8_t *wanted_facet = c->nodes->wanted_facet;
   uint8_t *purpose = c->purpose.data;
-  const bool points =
-      c->options.discretisation == ABUT_DISCRETISATION_QUADRATURE_POINT;
+  const bool points = c->method->info.row_per_point;
   const bool weak = abut_coupling_has_weak(c),
              drop = c->primary != NULL && abut_coupling_is_mortar(c)
                     && (abut_coupling_find_corners(c) || weak);

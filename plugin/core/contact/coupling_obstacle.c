@@ -3,7 +3,7 @@
  * signed distance phi for the gap, minus its gradient for the normal. All
  * points of a build are asked for in one call, because obstacles made of facets
  * search for many points at once; the answers are taken in the same order. */
-#include "contact/coupling.h"
+#include "contact/discretisation.h"
 #include "geometry/vector.h"
 
 #include <string.h>
@@ -47,7 +47,7 @@ abut_coupling_measure_obstacle(abut_coupling *c)
   const abut_surface_view *v = &c->secondary->view;
   abut_status status = ABUT_SUCCESS;
   c->n_asked = c->n_answered = 0;
-  if (c->options.discretisation == ABUT_DISCRETISATION_NODE_TO_SEGMENT)
+  if (c->method->detects_nodes)
     for (int32_t i = 0; i < v->n_nodes && status == ABUT_SUCCESS; ++i)
       status = ask(c, v->position + (int64_t)dim * i);
   c->n_answered = c->n_asked;
@@ -106,7 +106,7 @@ static bool
 is_kept(const abut_coupling *c, const abut_coupling_facet *facet,
         const abut_coupling_point *p)
 {
-  return c->options.discretisation != ABUT_DISCRETISATION_QUADRATURE_POINT
+  return !c->method->info.row_per_point
          || p->distance <= max2(c->reach,
                                 c->options.search.relative_reach * facet->size);
 }

@@ -3,7 +3,7 @@
  * bucketed by node in the order of their making, which is that of the facets;
  * entries are summed in dense arrays and written in the order of the nodes'
  * numbers. */
-#include "contact/coupling.h"
+#include "contact/discretisation.h"
 #include "geometry/vector.h"
 
 #include <string.h>
@@ -313,8 +313,7 @@ abut_status
 abut_coupling_make_rows(abut_coupling *c)
 {
   abut_status status = reserve_sums(c);
-  if (status == ABUT_SUCCESS
-      && c->options.discretisation == ABUT_DISCRETISATION_QUADRATURE_POINT)
+  if (status == ABUT_SUCCESS && c->method->info.row_per_point)
     status = point_rows(c);
   else if (status == ABUT_SUCCESS)
   {

@@ -23,6 +23,20 @@ abut_obstacle_name(abut_obstacle_kind kind)
   return i >= 0 && i < ABUT_OBSTACLE_N_KINDS ? names[i] : "";
 }
 
+abut_status
+abut_obstacle_find(const char *name, abut_obstacle_kind *kind)
+{
+  if (name == NULL || kind == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  for (int i = 0; i < ABUT_OBSTACLE_N_KINDS; ++i)
+    if (strcmp(name, abut_obstacle_name((abut_obstacle_kind)i)) == 0)
+    {
+      *kind = (abut_obstacle_kind)i;
+      return ABUT_SUCCESS;
+    }
+  return ABUT_INVALID_ARGUMENT;
+}
+
 static void
 set_identity(abut_obstacle_view *v)
 {

@@ -50,33 +50,63 @@ is_length(double v)
   return v > 0. && v <= ABUT_FACET_LIMIT;
 }
 
-static bool
-uses_axis(abut_obstacle_kind kind)
+static void prepare_cylinder(abut_shape_data *s);
+static void prepare_cone(abut_shape_data *s);
+
+/* A shape: which fields it has, its kernel, and what the kernel needs. */
+typedef struct shape_entry
 {
-  return kind == ABUT_OBSTACLE_PLANE || kind == ABUT_OBSTACLE_CYLINDER
-         || kind == ABUT_OBSTACLE_CONE;
+  uint32_t fields; /* sum of abut_shape_field; none: no shape */
+  void (*kernel)(const abut_shape_data *s, const double *x,
+                 abut_shape_distance *d);
+  void (*prepare)(abut_shape_data *s); /* or NULL */
+  const char *not_in_2d; /* why it exists in 3D only; NULL: in 2D, too */
+} shape_entry;
+
+static const shape_entry shapes[ABUT_OBSTACLE_N_KINDS] = {
+    [ABUT_OBSTACLE_PLANE] = {ABUT_SHAPE_AXIS, abut_plane_distance, NULL, NULL},
+    [ABUT_OBSTACLE_SPHERE] = {ABUT_SHAPE_RADIUS, abut_sphere_distance, NULL,
+                              NULL},
+    [ABUT_OBSTACLE_CYLINDER] = {ABUT_SHAPE_AXIS | ABUT_SHAPE_RADIUS
+                                    | ABUT_SHAPE_LENGTH,
+                                abut_turned_distance, prepare_cylinder,
+                                "a cylinder exists in 3D only; its section in "
+                                "2D is a sphere or a box"},
+    [ABUT_OBSTACLE_BOX] = {ABUT_SHAPE_SIZE, abut_box_distance, NULL, NULL},
+    [ABUT_OBSTACLE_CONE] = {ABUT_SHAPE_AXIS | ABUT_SHAPE_LENGTH
+                                | ABUT_SHAPE_ANGLE,
+                            abut_turned_distance, prepare_cone, NULL}};
+
+uint32_t
+abut_obstacle_fields(abut_obstacle_kind kind)
+{
+  const int i = (int)kind;
+  return i >= 0 && i < ABUT_OBSTACLE_N_KINDS ? shapes[i].fields : 0;
 }
 
 /* What is wrong with a number that belongs to the kind, or NULL. */
 static const char *
 fault_of_numbers(const abut_obstacle_shape *s)
 {
-  const bool round =
-      s->kind == ABUT_OBSTACLE_SPHERE || s->kind == ABUT_OBSTACLE_CYLINDER;
-  const bool turned =
-      s->kind == ABUT_OBSTACLE_CYLINDER || s->kind == ABUT_OBSTACLE_CONE;
-  if (round && !is_length(s->radius))
+  const uint32_t fields = shapes[s->kind].fields;
+  if ((fields & ABUT_SHAPE_RADIUS) != 0 && !is_length(s->radius))
     return "radius is not positive and finite";
-  if (turned && s->length != 0. && !is_length(s->length))
+  if ((fields & ABUT_SHAPE_LENGTH) != 0 && s->length != 0.
+      && !is_length(s->length))
     return "length is negative or not finite";
-  if (s->kind == ABUT_OBSTACLE_CONE
+  if ((fields & ABUT_SHAPE_ANGLE) != 0
       && !(s->angle >= 1e-8 && s->angle <= 1.5707963))
     return "angle is not between 0 and pi/2";
-  if (s->kind == ABUT_OBSTACLE_BOX)
-    for (int32_t d = 0; d < s->dimension; ++d)
-      if (!is_length(s->size[d]))
-        return "size is not positive and finite";
+  for (int32_t d = 0; (fields & ABUT_SHAPE_SIZE) != 0 && d < s->dimension; ++d)
+    if (!is_length(s->size[d]))
+      return "size is not positive and finite";
   return NULL;
+}
+
+static bool
+uses_axis(const abut_obstacle_shape *s)
+{
+  return (shapes[s->kind].fields & ABUT_SHAPE_AXIS) != 0;
 }
 
 static abut_status
@@ -85,17 +115,16 @@ check(abut_context *context, const char *call, const abut_obstacle_shape *s)
   if (s->dimension != 2 && s->dimension != 3)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "dimension is neither 2 nor 3");
-  if ((int)s->kind < 0 || s->kind > ABUT_OBSTACLE_CONE)
+  if (abut_obstacle_fields(s->kind) == 0)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "kind is none of the shapes");
-  if (s->dimension == 2 && s->kind == ABUT_OBSTACLE_CYLINDER)
+  if (s->dimension == 2 && shapes[s->kind].not_in_2d != NULL)
     return abut_fail(context, ABUT_UNSUPPORTED, call,
-                     "a cylinder exists in 3D only; its section in 2D is a "
-                     "sphere or a box");
+                     shapes[s->kind].not_in_2d);
   if (!abut_facet_finite(s->point, s->dimension))
     return abut_fail(context, ABUT_NOT_FINITE, call,
                      "point is NaN, infinite or out of range");
-  if (uses_axis(s->kind) && !abut_facet_finite(s->axis, s->dimension))
+  if (uses_axis(s) && !abut_facet_finite(s->axis, s->dimension))
     return abut_fail(context, ABUT_NOT_FINITE, call,
                      "axis is NaN, infinite or out of range");
   const char *fault = fault_of_numbers(s);
@@ -139,24 +168,26 @@ find_across(int32_t dimension, const double *axis, double *across)
 
 /* The half plane around the axis of cylinder and cone. */
 static void
-prepare_turned(abut_shape_data *s)
+prepare_cylinder(abut_shape_data *s)
 {
   const abut_obstacle_shape *p = &s->shape;
   find_across(p->dimension, p->axis, s->across);
-  if (p->kind == ABUT_OBSTACLE_CYLINDER)
-  {
-    s->side[0] = 1.;
-    s->offset = p->radius;
-    s->top = p->length > 0. ? 0.5 * p->length : INFINITY;
-    s->corner[0] = p->radius;
-  }
-  else
-  {
-    s->side[0] = cos(p->angle);
-    s->side[1] = -sin(p->angle);
-    s->top = p->length > 0. ? p->length : INFINITY;
-    s->corner[0] = s->top * tan(p->angle);
-  }
+  s->side[0] = 1.;
+  s->offset = p->radius;
+  s->top = p->length > 0. ? 0.5 * p->length : INFINITY;
+  s->corner[0] = p->radius;
+  s->corner[1] = s->top;
+}
+
+static void
+prepare_cone(abut_shape_data *s)
+{
+  const abut_obstacle_shape *p = &s->shape;
+  find_across(p->dimension, p->axis, s->across);
+  s->side[0] = cos(p->angle);
+  s->side[1] = -sin(p->angle);
+  s->top = p->length > 0. ? p->length : INFINITY;
+  s->corner[0] = s->top * tan(p->angle);
   s->corner[1] = s->top;
 }
 
@@ -188,7 +219,7 @@ abut_obstacle_create_shape(abut_context *context,
     data.shape.point[d] = used ? shape->point[d] : 0.;
     data.shape.axis[d] = used ? shape->axis[d] : 0.;
   }
-  if (uses_axis(shape->kind) && !make_unit(data.shape.axis))
+  if (uses_axis(shape) && !make_unit(data.shape.axis))
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "axis is zero");
   shape_obstacle *o =
       abut_obstacle_make(context, call, sizeof(*o), &methods, shape->kind,
@@ -196,12 +227,9 @@ abut_obstacle_create_shape(abut_context *context,
   if (o == NULL)
     return ABUT_OUT_OF_MEMORY;
   o->data = data;
-  o->kernel = shape->kind == ABUT_OBSTACLE_PLANE    ? abut_plane_distance
-              : shape->kind == ABUT_OBSTACLE_SPHERE ? abut_sphere_distance
-              : shape->kind == ABUT_OBSTACLE_BOX    ? abut_box_distance
-                                                    : abut_turned_distance;
-  if (o->kernel == abut_turned_distance)
-    prepare_turned(&o->data);
+  o->kernel = shapes[shape->kind].kernel;
+  if (shapes[shape->kind].prepare != NULL)
+    shapes[shape->kind].prepare(&o->data);
   *obstacle = &o->base;
   return ABUT_SUCCESS;
 }

@@ -41,8 +41,7 @@ typedef struct dense_host
 static abut_status
 check_model(abut_context *context, const abut_dense_model *model)
 {
-  if (model == NULL || model->struct_size != sizeof(abut_dense_model)
-      || model->n < 1 || model->stiffness == NULL || model->force == NULL
+  if (model->n < 1 || model->stiffness == NULL || model->force == NULL
       || model->points == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "the model is incomplete");
@@ -249,7 +248,7 @@ run(dense_host *host, abut_strategy *strategy, uint8_t *state,
     memcpy(host->p, last.pressure, (size_t)host->m * sizeof(double));
   if (host->m > 0 && state != NULL)
     memcpy(state, last.state, (size_t)host->m);
-  return progress != NULL ? abut_strategy_progress(strategy, progress)
+  return progress != NULL ? abut_strategy_progress_sized(strategy, progress)
                           : ABUT_SUCCESS;
 }
 
@@ -272,15 +271,24 @@ check_arrays(const dense_host *host)
 }
 
 abut_status
-abut_dense_model_solve(abut_context *context, const abut_dense_model *model,
-                       const abut_strategy_options *options,
-                       double *displacement, double *pressure, uint8_t *state,
-                       abut_dense_monitor monitor, void *user,
-                       abut_progress *progress, abut_reason *reason)
+abut_dense_model_solve_sized(abut_context *context,
+                             const abut_dense_model *given,
+                             const abut_strategy_options *options,
+                             double *displacement, double *pressure,
+                             uint8_t *state, abut_dense_monitor monitor,
+                             void *user, abut_progress *progress,
+                             abut_reason *reason)
 {
   if (context == NULL)
     return ABUT_INVALID_ARGUMENT;
-  abut_status status = check_model(context, model);
+  if (given == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "model is NULL");
+  abut_dense_model taken;
+  memset(&taken, 0, sizeof(taken));
+  abut_status status = abut_take(context, call, &taken, sizeof(taken), given);
+  const abut_dense_model *model = &taken;
+  if (status == ABUT_SUCCESS)
+    status = check_model(context, model);
   if (status != ABUT_SUCCESS)
     return status;
   dense_host host = {.context = context,

@@ -259,8 +259,8 @@ namespace abut::app
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
     }
-    if (method.discretisation == Discretisation::node_to_segment
-        || method.discretisation == Discretisation::quadrature_point
+    if ((method.discretisation
+         && !discretisation_info(*method.discretisation).is_weighted)
         || abut_law_needs_stress(method.options.law))
       report_transfer();
     report.set("search_rebuilds", n_rebuilds);

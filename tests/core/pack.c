@@ -4,11 +4,11 @@
  * A buffer is a header and, each aligned to eight bytes, the arrays
  * facet_id, node_id (int64), position (double), group, connectivity (int32),
  * kinds (uint8); nodes are counted within the buffer. */
+#include "pack.h"
+
 #include "search/order.h"
 
 #include "geometry/surface.h"
-
-#include <abut/parts.h>
 
 #include <string.h>
 
@@ -61,7 +61,7 @@ count(const abut_surface *s, int32_t n, const int32_t *facets, int32_t *local,
   {
     const int32_t f = facets[k];
     if (f < 0 || f >= s->view.n_facets)
-      return abut_fail(s->context, ABUT_INVALID_ARGUMENT, "abut_surface_pack",
+      return abut_fail(s->context, ABUT_INVALID_ARGUMENT, "pack_surface",
                        "a facet is out of range");
     for (int32_t e = s->view.facet_start[f]; e < s->view.facet_start[f + 1];
          ++e, ++h->n_entries)
@@ -109,14 +109,14 @@ write(const abut_surface *s, const int32_t *facets, const int32_t *local,
 }
 
 abut_status
-abut_surface_pack(abut_surface *surface, int32_t n_facets,
-                  const int32_t *facets, void *buffer, size_t *bytes)
+pack_surface(abut_surface *surface, int32_t n_facets, const int32_t *facets,
+             void *buffer, size_t *bytes)
 {
   if (surface == NULL)
     return ABUT_INVALID_ARGUMENT;
   abut_surface *s = surface;
   if (n_facets < 0 || (n_facets > 0 && facets == NULL) || bytes == NULL)
-    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, "abut_surface_pack",
+    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, "pack_surface",
                      "n_facets is negative, or facets or bytes is NULL");
   abut_array local = {NULL, 0, sizeof(int32_t)};
   abut_status status =
@@ -129,7 +129,7 @@ abut_surface_pack(abut_surface *surface, int32_t n_facets,
   {
     const size_t needed = lay_out(&h).end;
     if (buffer != NULL && *bytes < needed)
-      status = abut_fail(s->context, ABUT_INVALID_ARGUMENT, "abut_surface_pack",
+      status = abut_fail(s->context, ABUT_INVALID_ARGUMENT, "pack_surface",
                          "the buffer is too small");
     else if (buffer != NULL)
       write(s, facets, local.data, &h, buffer);
@@ -174,10 +174,10 @@ get(const void *buffer, size_t at, size_t i, void *value, size_t size)
 static abut_status
 refuse(abut_context *context, int32_t b)
 {
-  abut_text text = abut_fail_begin(context, "abut_surface_unpack");
+  abut_text text = abut_fail_begin(context, "unpack_surfaces");
   abut_text_add(&text, "buffer ");
   abut_text_add_integer(&text, b);
-  abut_text_add(&text, " was not written by abut_surface_pack() for this "
+  abut_text_add(&text, " was not written by pack_surface() for this "
                        "dimension, or is damaged");
   return ABUT_INVALID_ARGUMENT;
 }
@@ -382,14 +382,14 @@ release(merger *m)
 }
 
 abut_status
-abut_surface_unpack(abut_context *context, int32_t dimension, int32_t n_buffers,
-                    const void *const *buffers, const size_t *bytes,
-                    abut_surface **surface)
+unpack_surfaces(abut_context *context, int32_t dimension, int32_t n_buffers,
+                const void *const *buffers, const size_t *bytes,
+                abut_surface **surface)
 {
   if (context == NULL || surface == NULL || n_buffers < 0
       || (dimension != 2 && dimension != 3)
       || (n_buffers > 0 && (buffers == NULL || bytes == NULL)))
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_surface_unpack",
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, "unpack_surfaces",
                      "an argument is NULL or out of range");
   merger m;
   memset(&m, 0, sizeof(m));
@@ -407,7 +407,7 @@ abut_surface_unpack(abut_context *context, int32_t dimension, int32_t n_buffers,
     m.n_entries += h.n_entries;
   }
   if (m.n_entries > INT32_MAX / 4)
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_surface_unpack",
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, "unpack_surfaces",
                      "more facets than 32-bit numbers can count");
   abut_status status = reserve(&m);
   if (status == ABUT_SUCCESS)
