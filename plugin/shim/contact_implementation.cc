@@ -139,7 +139,7 @@ namespace abut
       const int row, const double gap_there) const
   {
     if (view.bilateral[row] == 0 && request.state[row] == ABUT_STATE_OPEN
-        && (method.options.law->flags & ABUT_LAW_INTERIOR) == 0)
+        && !abut_law_is_interior(method.options.law))
       return std::min(0., gap_there);
     const double a = request.d_pressure[row], b = request.d_gap[row];
     const double size = std::max(std::abs(b), std::abs(a) * stiffness[row]);
