@@ -128,10 +128,10 @@ namespace abut::app
     HostProblem problem;
     problem.residual = [this](const la::Vector &u, la::Vector &residual)
     { model.problem().residual(u, residual); };
-    problem.tangent = [this](const la::Vector &) -> const la::Matrix &
-    { return model.problem().stiffness; };
-    problem.linear = true;
-    problem.residual_is_cheap = true;
+    problem.tangent = [this](const la::Vector &u) -> const la::Matrix &
+    { return model.problem().tangent(u); };
+    problem.linear = model.problem().is_linear();
+    problem.residual_is_cheap = problem.linear;
     return problem;
   }
 
