@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The order in which a host calls the assembler, and what each call does.
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/contact_loop.h>
 
 #include "contact_implementation.h"
 
@@ -131,6 +132,7 @@ namespace abut
     i.start_pressure.clear();
     i.starts_from_present = false;
     i.is_started = false;
+    i.reference_matrix = nullptr;
     i.report = LinearReport();
   }
 
@@ -153,14 +155,14 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::restart(const la::Vector &displacement,
-                                      const double linear_tolerance)
+  void ContactAssembler<dim>::linearise(const la::Vector &displacement,
+                                        const double linear_tolerance)
   {
     Implementation &i = *implementation;
-    i.check_rows("restart()");
+    i.check_rows("linearise()");
     AssertThrow(!i.is_nitsche(), ExcMessage("Nitsche's method is for linear "
                                             "elastic bodies: do not call "
-                                            "restart() with it."));
+                                            "linearise() with it."));
     if (i.is_started)
       i.start_from_present();
     i.iteration_tolerance = linear_tolerance;
@@ -314,6 +316,87 @@ namespace abut
                                             "are not those of its pressures "
                                             "alone."));
     i.add_forces(forces);
+  }
+
+  template <int dim>
+  LinearReport ContactAssembler<dim>::solve_linearised(
+      const la::Matrix &matrix, const la::Vector &residual, la::Vector &step)
+  {
+    Implementation &i = *implementation;
+    i.check_rows("solve_linearised()");
+    const la::Vector start(i.start_displacement);
+    la::Vector end(start);
+    const LinearReport cost =
+        iterate_contact(*this, matrix, end,
+                        [&](const la::Vector &present, la::Vector &forces)
+                        {
+                          la::Vector way(present);
+                          way -= start;
+                          matrix.vmult(forces, way);
+                          forces += residual;
+                          i.constraints->set_zero(forces);
+                        });
+    i.constraints->distribute(end);
+    step = end;
+    step -= start;
+    return cost;
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::evaluate(const la::Vector &displacement,
+                                         la::Vector &forces) const
+  {
+    const Implementation &i = *implementation;
+    AssertThrow(i.is_started, ExcMessage("Call solve() before evaluate()."));
+    forces = 0.;
+    add_contact_forces(forces);
+    std::vector<double> gap(i.view.n_rows);
+    i.coefficients.gap(displacement, gap.data());
+    double sum = 0.;
+    for (int row = 0; row < i.view.n_rows; ++row)
+    {
+      const double defect = i.law_defect(row, gap[row]);
+      sum += i.view.weight[row] * i.stiffness[row] * defect * defect;
+    }
+    return std::sqrt(dealii::Utilities::MPI::sum(sum, i.communicator));
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::set_reference_stiffness(const la::Matrix &matrix)
+  {
+    implementation->reference_matrix = &matrix;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::set_length_scale(const double length)
+  {
+    AssertThrow(length >= 0. && std::isfinite(length),
+                ExcMessage("A length scale must be positive, or 0."));
+    implementation->given_length = length;
+  }
+
+  template <int dim> double ContactAssembler<dim>::length_scale() const
+  {
+    return implementation->given_length;
+  }
+
+  template <int dim>
+  dealii::IndexSet ContactAssembler<dim>::candidate_nodes() const
+  {
+    const Implementation &i = *implementation;
+    i.check_rows("candidate_nodes()");
+    const dealii::IndexSet &owned = i.dof_handler->locally_owned_dofs();
+    la::Vector count(owned, i.communicator);
+    for (int row = 0; row < i.view.n_rows; ++row)
+      for (auto j = i.view.row_start[row]; j < i.view.row_start[row + 1]; ++j)
+        count(i.view.column[j]) += 1.;
+    count.compress(dealii::VectorOperation::add);
+    dealii::IndexSet result(owned.size());
+    for (int k = 0; k < la::n_owned(count); ++k)
+      if (la::data(count)[k] > 0.)
+        result.add_index(owned.nth_index_in_set(k));
+    result.compress();
+    return result;
   }
 
   template <int dim> abut_reason ContactAssembler<dim>::reason() const

@@ -137,6 +137,20 @@ namespace abut
   }
 
   template <int dim>
+  double ContactAssembler<dim>::Implementation::law_defect(
+      const int row, const double gap_there) const
+  {
+    if (view.bilateral[row] == 0 && request.state[row] == ABUT_STATE_OPEN
+        && !abut_law_is_interior(method.options.law))
+      return std::min(0., gap_there);
+    const double a = request.d_pressure[row], b = request.d_gap[row];
+    const double size = std::max(std::abs(b), std::abs(a) * stiffness[row]);
+    return size > 0.
+               ? (request.residual[row] + b * (gap_there - gap[row])) / size
+               : 0.;
+  }
+
+  template <int dim>
   const shim::RowSource &
   ContactAssembler<dim>::Implementation::present_source() const
   {
@@ -344,7 +358,7 @@ namespace abut
     // Internal forces at the start measure the load when the residual is
     // small because the start is good.
     la::Vector internal(residual);
-    matrix.vmult(internal, start_displacement);
+    stiffness_matrix(matrix).vmult(internal, start_displacement);
     double *force = la::data(internal);
     const dealii::IndexSet &owned = dof_handler->locally_owned_dofs();
     for (int i = 0; i < la::n_owned(internal); ++i)
@@ -369,7 +383,7 @@ namespace abut
     const double soft = softness();
     if (load <= 0.)
       options.pressure_scale = options.length_scale / soft;
-    else if (start_displacement.linfty_norm() == 0.)
+    else if (given_length == 0. && start_displacement.linfty_norm() == 0.)
       options.length_scale =
           std::max(options.length_scale, options.pressure_scale * soft);
   }
@@ -378,7 +392,8 @@ namespace abut
   void
   ContactAssembler<dim>::Implementation::take_matrix(const la::Matrix &matrix)
   {
-    row_stiffness = solve::row_stiffness(matrix, coefficients);
+    row_stiffness =
+        solve::row_stiffness(stiffness_matrix(matrix), coefficients);
   }
 
   template <int dim>
@@ -397,6 +412,8 @@ namespace abut
   template <int dim>
   double ContactAssembler<dim>::Implementation::length_scale() const
   {
+    if (given_length > 0.)
+      return given_length;
     const double displacement = start_displacement.linfty_norm();
     if (displacement > 0.)
       return displacement;

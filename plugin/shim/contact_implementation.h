@@ -70,6 +70,13 @@ namespace abut
     /** Add the forces of the rows' pressures. */
     void add_forces(la::Vector &forces) const;
     std::vector<std::uint8_t> row_states() const;
+    /** How far a row's pressure and a gap are from the law, length. */
+    double law_defect(int row, double gap_there) const;
+    /** The matrix that stiffness is taken from. */
+    const la::Matrix &stiffness_matrix(const la::Matrix &present) const
+    {
+      return reference_matrix != nullptr ? *reference_matrix : present;
+    }
 
     const MPI_Comm communicator;
     Obstacle<dim> obstacle;
@@ -79,6 +86,8 @@ namespace abut
     SearchParameters search;
     SolverParameters solver_parameters;
     bool constant_matrix = false;
+    const la::Matrix *reference_matrix = nullptr; ///< null: the present one
+    double given_length = 0.;                     ///< 0: none
 
     /** Before all that is made with it, and so destroyed after it. */
     shim::Handle<abut_context> context = shim::create_context();

@@ -5,6 +5,7 @@
 #include "patch.h"
 
 #include <abut/dealii/contact_solver.h>
+#include <abut/dealii/load_steps.h>
 
 #include <functional>
 
@@ -301,6 +302,172 @@ namespace
         .solve(blocks.u);
   }
 
+  double norm_of_imbalance(Blocks &blocks, la::Vector &residual,
+                           const la::Vector &forces)
+  {
+    residual -= forces;
+    blocks.constraints.set_zero(residual);
+    return residual.l2_norm();
+  }
+
+  /** A host's own loop, of pieces: the same answer as ContactSolver's. */
+  void check_own_loop()
+  {
+    Blocks blocks;
+    const HostProblem problem = blocks.problem();
+    ContactAssembler<2> &contact = blocks.contact;
+    la::Vector &u = blocks.u;
+    la::Vector residual(u), step(u), forces(u);
+    blocks.constraints.distribute(u);
+    contact.assume_constant_matrix(true);
+    contact.detect(u);
+    // The y of 7 nodes below and of 9 above: no force acts along the surfaces.
+    expect(dealii::Utilities::MPI::sum(contact.candidate_nodes().n_elements(),
+                                       MPI_COMM_WORLD)
+               == 16,
+           "candidates for contact");
+    double imbalance = 1., defect = 1.;
+    unsigned int n_steps = 0;
+    for (; n_steps < 10 && imbalance > 1e-9; ++n_steps)
+    {
+      residual = 0.;
+      problem.residual(u, residual);
+      contact.linearise(u, 1e-10);
+      contact.solve_linearised(problem.tangent(u), residual, step);
+      expect(contact.reason() == ABUT_REASON_CONVERGED, "own loop: contact");
+      u += step;
+      residual = 0.;
+      problem.residual(u, residual);
+      defect = contact.evaluate(u, forces);
+      imbalance = norm_of_imbalance(blocks, residual, forces);
+    }
+    const double force = contact.pair_results()[0].secondary_force[1];
+    expect(imbalance <= 1e-9 && n_steps <= 8, "own loop: balance of forces");
+    expect(defect <= 1e-9, "own loop: defect of the law");
+    expect(std::abs(std::abs(force) / exact_pressure() - 1.) <= 1e-7,
+           "own loop: force");
+
+    // The forces are those that add_contact_forces() adds; the defect grows as
+    // the gap that opens in rows that are held closed.
+    la::Vector added(u);
+    added = 0.;
+    contact.add_contact_forces(added);
+    added -= forces;
+    expect(added.linfty_norm() == 0., "forces of evaluate()");
+    const dealii::IndexSet nodes = contact.candidate_nodes();
+    la::Vector opened(u);
+    const auto open_by = [&](const double way)
+    {
+      opened = u;
+      la::Vector push(u);
+      push = 0.;
+      contact.add_contact_forces(push);
+      for (const auto dof : nodes)
+        opened(dof) += way * (push(dof) > 0. ? 1. : 0.);
+      opened.compress(dealii::VectorOperation::add);
+      return contact.evaluate(opened, forces);
+    };
+    const double once = open_by(1e-3), twice = open_by(2e-3);
+    expect(once > 1e-4 && std::abs(twice / once - 2.) <= 1e-5,
+           "defect of gaps that are not closed");
+  }
+
+  /** Depth by pressure of a penalty is the inverse of the stiffness that it is
+   * a multiple of: a matrix twice as stiff halves it. */
+  double softness_of_penalty(const double factor)
+  {
+    Blocks blocks;
+    SolverParameters direct;
+    direct.linear = SolverParameters::Linear::direct;
+    blocks.contact.set_parameters(
+        hosts::method("penalty", Discretisation::automatic), direct);
+    la::Matrix reference;
+    reference.copy_from(blocks.problem().tangent(blocks.u));
+    reference *= factor;
+    blocks.contact.set_reference_stiffness(reference);
+    const NewtonResult result =
+        ContactSolver<2>(blocks.contact, blocks.constraints, blocks.problem())
+            .solve(blocks.u);
+    expect(result.converged(), "penalty: " + result.explanation);
+    const PairResult<2> pair = blocks.contact.pair_results()[0];
+    return pair.penetration / pair.pressure;
+  }
+
+  void check_scales()
+  {
+    expect(std::abs(softness_of_penalty(1.) / softness_of_penalty(2.) - 2.)
+               <= 1e-6,
+           "reference stiffness");
+
+    // Gaps are closed to a part of the length.
+    Blocks blocks;
+    const MethodParameters method =
+        hosts::method("augmented lagrangian", Discretisation::automatic);
+    blocks.contact.set_parameters(method, SolverParameters());
+    blocks.contact.set_length_scale(1e-4);
+    const NewtonResult result =
+        ContactSolver<2>(blocks.contact, blocks.constraints, blocks.problem())
+            .solve(blocks.u);
+    expect(result.converged()
+               && blocks.contact.penetration()
+                      <= 1e-4 * method.options.gap_tolerance,
+           "length scale: " + result.explanation);
+    expect(blocks.contact.length_scale() == 1e-4, "length scale as it was set");
+  }
+
+  /** Phases in their order, and an answer that the host refuses. */
+  void check_events()
+  {
+    Blocks blocks;
+    std::string phases;
+    unsigned int n_stepped = 0;
+    SolverEvents events;
+    events.phase = [&](const SolvePhase phase)
+    { phases += "dsce"[static_cast<int>(phase)]; };
+    events.stepped = [&](const LinearReport &cost, const la::Vector &)
+    { n_stepped += cost.n_systems; };
+    events.refuse = [](const la::Vector &, const unsigned int search)
+    { return "not this one, of search " + std::to_string(search); };
+    const NewtonResult result =
+        ContactSolver<2>(blocks.contact, blocks.constraints, blocks.problem(),
+                         NewtonParameters(), events)
+            .solve(blocks.u);
+    expect(result.reason == NewtonReason::refused
+               && result.explanation == "not this one, of search 1",
+           "an answer that is refused: " + result.explanation);
+    expect(phases == "dsce", "phases: " + phases);
+    expect(n_stepped == result.n_systems && n_stepped > 1, "events of systems");
+  }
+
+  /** Times in eighths: two steps asked for, the first fails twice. */
+  void check_load_steps()
+  {
+    LoadStepOptions options;
+    options.steps = 2;
+    options.smallest_step = 0.125;
+    LoadSteps steps(options);
+    expect(steps.target() == 0.5 && steps.reject() && steps.target() == 0.25
+               && steps.reject() && steps.target() == 0.125,
+           "load steps that are cut back");
+    steps.accept();
+    expect(steps.target() == 0.25, "load steps that stay short");
+    steps.accept();
+    expect(steps.target() == 0.5, "load steps that grow again");
+    steps.accept();
+    steps.accept();
+    expect(steps.time() == 0.75 && steps.target() == 1.,
+           "load steps that end where they should");
+    steps.accept();
+    expect(steps.is_finished() && steps.n_accepted() == 5
+               && steps.n_rejected() == 2,
+           "load steps at the end");
+    LoadSteps shortest(options);
+    expect(shortest.reject() && shortest.reject() && !shortest.reject(),
+           "load steps that are too short");
+    options.cut_back = false;
+    expect(!LoadSteps(options).reject(), "load steps without cut-back");
+  }
+
   void check_failures()
   {
     NewtonParameters few;
@@ -369,6 +536,10 @@ main(int argc, char **argv)
   check_answer("interior point", 1e-4);
   check_answer("barrier", 1e-4);
   check_linear();
+  check_own_loop();
+  check_scales();
+  check_events();
+  check_load_steps();
   check_failures();
   return good ? 0 : 1;
 }

@@ -50,6 +50,7 @@
 #include <abut/strategy.h>
 
 #include <deal.II/base/function.h>
+#include <deal.II/base/index_set.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
@@ -132,8 +133,8 @@ namespace abut
     set_normal_stress(std::shared_ptr<const NormalStress<dim>> normal_stress);
 
     /** Say that the matrix given to solve() is the same until the next
-     * reinit() or restart(): preconditioners are then kept. Default: false. Not
-     * collective. */
+     * reinit() or linearise(): preconditioners are then kept. Default: false.
+     * Not collective. */
     virtual void assume_constant_matrix(bool constant);
 
     /** Take a mesh with its unknowns and constraints (closed; hanging nodes
@@ -162,8 +163,15 @@ namespace abut
      * `nitsche`, whose stress is linear.
      * @param linear_tolerance relative tolerance of the linear systems of this
      *   iteration; 0: as the parameters say */
-    virtual void restart(const la::Vector &displacement,
-                         double linear_tolerance = 0.);
+    virtual void linearise(const la::Vector &displacement,
+                           double linear_tolerance = 0.);
+
+    /** Earlier name of linearise(). */
+    [[deprecated("is called linearise()")]] void
+    restart(const la::Vector &displacement, double linear_tolerance = 0.)
+    {
+      linearise(displacement, linear_tolerance);
+    }
 
     /** Pressure to start from, in the form of pressure(), for example
      * interpolated from a coarser mesh. Call between reinit() and detect(). If
@@ -202,6 +210,17 @@ namespace abut
      * which need solve(). */
     virtual void add(la::Matrix &matrix, la::Vector &residual);
 
+    /** The contact problem of one linearisation, from the displacement of the
+     * last detect() or linearise() to its end, for hosts with a Newton loop of
+     * their own: solve() and update() in turn, by products with the one
+     * @p matrix. @p residual is that of the displacement where it began; @p
+     * step becomes the whole way from there, hanging nodes and all. reason()
+     * tells whether it has an answer. Assemble, call this, shorten the step if
+     * you must, and linearise() where you have gone. */
+    virtual LinearReport solve_linearised(const la::Matrix &matrix,
+                                          const la::Vector &residual,
+                                          la::Vector &step);
+
     /** Tell the displacement after the step; advances active set, multipliers
      * and parameters. Returns whether another step is needed; if not,
      * reason() tells why. */
@@ -211,6 +230,38 @@ namespace abut
      * they are the residual R at unknowns that are free. Throws for nitsche.
      */
     virtual void add_contact_forces(la::Vector &forces) const;
+
+    /** What a line search wants to know of contact at @p displacement, without
+     * a step of the iteration: writes the forces of the present pressures into
+     * @p forces, as add_contact_forces() adds them, and returns how far
+     * pressures and the gaps there are from the law,
+     * \f$ (\sum w s r^2)^{1/2} \f$, root of an energy. In rows that are
+     * closed r is the residual of the present linearisation of the law as a
+     * length, else the penetration. 0 where the problem is solved. After the
+     * first solve(); not for `nitsche`. */
+    virtual double evaluate(const la::Vector &displacement,
+                            la::Vector &forces) const;
+
+    /** Take the stiffness that penalties and scales are multiples of from this
+     * matrix, and not from each one that solve() is given: for tangents with
+     * inertia, or of a material that softens. It must be of the present
+     * unknowns and stay as it is until the next reinit(), which forgets it. Not
+     * collective. */
+    virtual void set_reference_stiffness(const la::Matrix &matrix);
+
+    /** Length > 0 that tolerances of gaps are a part of, such as the size of a
+     * facet. 0, the default: the largest displacement or, where there is none,
+     * a mean of the gaps. Not collective. */
+    virtual void set_length_scale(double length);
+
+    /** The length that was set, or 0. Not collective. */
+    virtual double length_scale() const;
+
+    /** The unknowns of this rank that may take part in contact: those of all
+     * rows of the last detect(), in contact or not, on both sides; hanging
+     * nodes by their parents. Whoever moves mass away from contact nodes must
+     * do it there. */
+    virtual dealii::IndexSet candidate_nodes() const;
 
     /** Why the iteration stopped. Not collective. */
     virtual abut_reason reason() const;

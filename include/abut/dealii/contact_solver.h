@@ -30,6 +30,7 @@
  */
 
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/contact_loop.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +62,42 @@ namespace abut
      * kept. */
     bool linear = false;
 
+    /** Of a linear problem: whether the residual costs no more than a product
+     * with the tangent. It is then asked for before each linear system, which
+     * leaves the least round-off, and not only once. */
+    bool residual_is_cheap = false;
+
     /** Called after each linear system with its cost; may be empty. */
     std::function<void(const LinearReport &cost)> monitor;
+  };
+
+  /** What ContactSolver is about to do. */
+  enum class SolvePhase
+  {
+    detect, /**< find the rows, and a start */
+    solve,  /**< linearisations and their contact problems */
+    check,  /**< look whether the answer may be used */
+    end     /**< return */
+  };
+
+  /** What a program may see of ContactSolver at work, and have a say in. All
+   * may be empty; all are called on all ranks, and may throw there. */
+  struct SolverEvents
+  {
+    /** A phase begins: for clocks. */
+    std::function<void(SolvePhase phase)> phase;
+
+    /** There was a linear system, which moved the displacement; the assembler
+     * has had its update(). */
+    std::function<void(const LinearReport &cost, const la::Vector &increment)>
+        stepped;
+
+    /** Look at a converged answer: a text that is not empty says why it must
+     * not be used. @p search counts calls of detect() so far, from 1. */
+    std::function<std::string(const la::Vector &u, unsigned int search)> refuse;
+
+    /** So many nodes have penetrated without a row. */
+    std::function<void(std::size_t n_nodes)> missed;
   };
 
   /** Settings of ContactSolver; all are free of units. */
@@ -77,12 +112,14 @@ namespace abut
     unsigned int max_steps = 50;
     /** Times that a step may be halved. */
     unsigned int max_halvings = 8;
-    /** Sweeps of ContactAssembler::relax() before the first step; 0: none.
+    /** Sweeps of ContactAssembler::relax() after each detect(); 0: none.
      * `barrier` needs at least 1. */
     unsigned int relaxation_sweeps = 0;
     /** Searches on the deformed bodies for nodes without a row; 0: none. */
     unsigned int max_searches = 5;
-    /** Depth that counts there, relative to the largest displacement. */
+    /** Depth that counts there, relative to
+     * ContactAssembler::length_scale() or, if that is 0, the largest
+     * displacement. */
     double missed_depth = 1e-3;
   };
 
@@ -95,6 +132,7 @@ namespace abut
     line_search,  /**< no step lowers the residual */
     step_limit,   /**< max_steps reached */
     missed_nodes, /**< nodes penetrate without a row after all searches */
+    refused,      /**< by SolverEvents::refuse */
     not_finite    /**< the host's residual is not a number */
   };
 
@@ -130,11 +168,13 @@ namespace abut
     ContactSolver(ContactAssembler<dim> &contact,
                   const dealii::AffineConstraints<double> &constraints,
                   HostProblem problem,
-                  const NewtonParameters &parameters = NewtonParameters())
+                  const NewtonParameters &parameters = NewtonParameters(),
+                  SolverEvents events = SolverEvents())
         : contact_(contact),
           constraints_(constraints),
           problem_(std::move(problem)),
-          parameters_(parameters)
+          parameters_(parameters),
+          events_(std::move(events))
     {
       contact_.assume_constant_matrix(true);
     }
@@ -153,17 +193,22 @@ namespace abut
       {
         do
         {
+          enter(SolvePhase::detect);
           contact_.detect(u);
           ++result_.n_searches;
           relax(u);
-          if (!iterate(u))
-            return result_;
+          enter(SolvePhase::solve);
+          const bool has_answer = iterate(u);
+          enter(SolvePhase::check);
+          if (!has_answer || is_refused(u))
+            break;
         } while (misses_nodes(u));
       }
       catch (const SolverFailure &failure)
       {
         stop(NewtonReason::linear_solve, failure.what());
       }
+      enter(SolvePhase::end);
       return result_;
     }
 
@@ -173,6 +218,12 @@ namespace abut
       for (la::Vector *vector :
            {&residual_, &increment_, &step_, &product_, &forces_, &trial_})
         vector->reinit(u, true);
+    }
+
+    void enter(const SolvePhase phase) const
+    {
+      if (events_.phase)
+        events_.phase(phase);
     }
 
     bool stop(const NewtonReason reason, const std::string &explanation)
@@ -198,7 +249,7 @@ namespace abut
 
     void relax(la::Vector &u)
     {
-      if (parameters_.relaxation_sweeps == 0 || result_.n_searches > 1)
+      if (parameters_.relaxation_sweeps == 0)
         return;
       find_residual(u);
       contact_.relax(problem_.tangent(u), residual_,
@@ -206,8 +257,24 @@ namespace abut
       constraints_.distribute(u);
     }
 
-    /** Newton's method; false: stopped without an answer. */
+    /** false: stopped without an answer. */
     bool iterate(la::Vector &u)
+    {
+      return problem_.linear ? solve_linear(u) : solve_nonlinear(u);
+    }
+
+    /** A linear problem is its own linearisation. */
+    bool solve_linear(la::Vector &u)
+    {
+      const la::Matrix &tangent = problem_.tangent(u);
+      ++result_.n_steps;
+      if (!problem_.residual_is_cheap)
+        find_residual(u);
+      return solve_linearised(tangent, u);
+    }
+
+    /** Newton's method. */
+    bool solve_nonlinear(la::Vector &u)
     {
       find_residual(u);
       set_linear_tolerance(1e-2);
@@ -215,16 +282,9 @@ namespace abut
       {
         const la::Matrix &tangent = problem_.tangent(u);
         ++result_.n_steps;
-        if (!problem_.linear)
-          contact_.restart(u, linear_tolerance_);
-        if (!solve_linearised(tangent, u))
-          return false;
-        if (problem_.linear)
-        {
-          u = trial_;
-          return true;
-        }
-        if (!move(tangent, u))
+        contact_.linearise(u, linear_tolerance_);
+        trial_ = u;
+        if (!solve_linearised(tangent, trial_) || !move(tangent, u))
           return false;
         if (result_.error <= parameters_.tolerance)
           return true;
@@ -238,35 +298,64 @@ namespace abut
                         "is the derivative of the residual.");
     }
 
-    /** The contact problem of the linearisation at @p u: its solution into
-     * trial_. */
-    bool solve_linearised(const la::Matrix &tangent, const la::Vector &u)
+    /** Forces of the linearisation whose residual_ is that at step_. */
+    void linear_residual(const la::Matrix &tangent, const la::Vector &u,
+                         la::Vector &forces)
     {
-      trial_ = u;
-      product_ = residual_;
-      bool goes_on = true;
-      while (goes_on)
-      {
-        const LinearReport cost = contact_.solve(tangent, product_, increment_);
-        trial_ += increment_;
-        goes_on = contact_.update(trial_);
-        step_ = trial_;
-        step_ -= u;
-        tangent.vmult(product_, step_);
-        product_ += residual_;
-        constraints_.set_zero(product_);
-        result_.n_systems += cost.n_systems;
-        result_.linear += cost;
-        if (problem_.monitor)
-          problem_.monitor(cost);
-      }
-      constraints_.distribute(trial_);
+      product_ = u;
+      product_ -= step_;
+      tangent.vmult(forces, product_);
+      forces += residual_;
+      constraints_.set_zero(forces);
+    }
+
+    void note(const LinearReport &cost, const la::Vector &increment)
+    {
+      result_.n_systems += cost.n_systems;
+      result_.linear += cost;
+      if (problem_.monitor)
+        problem_.monitor(cost);
+      if (events_.stepped)
+        events_.stepped(cost, increment);
+    }
+
+    /** The contact problem of the linearisation at @p u, which becomes its
+     * solution. */
+    bool solve_linearised(const la::Matrix &tangent, la::Vector &u)
+    {
+      step_ = u;
+      bool is_first = true;
+      iterate_contact<dim>(
+          contact_, tangent, u,
+          [&](const la::Vector &present, la::Vector &forces)
+          {
+            if (problem_.linear && problem_.residual_is_cheap)
+            {
+              find_residual(present);
+              forces = residual_;
+            }
+            else if (std::exchange(is_first, false))
+              forces = residual_;
+            else
+              linear_residual(tangent, present, forces);
+          },
+          [&](const LinearReport &cost, const la::Vector &increment)
+          { note(cost, increment); });
+      constraints_.distribute(u);
       if (contact_.reason() != ABUT_REASON_CONVERGED)
         return stop(NewtonReason::contact,
                     "The contact iteration ended without an answer after "
                         + std::to_string(contact_.progress().step)
                         + " steps: " + contact_.explanation());
       return true;
+    }
+
+    bool is_refused(const la::Vector &u)
+    {
+      if (!events_.refuse)
+        return false;
+      const std::string why = events_.refuse(u, result_.n_searches);
+      return !why.empty() && !stop(NewtonReason::refused, why);
     }
 
     /** Norm of the forces at the free unknowns that neither the body nor
@@ -346,11 +435,18 @@ namespace abut
     {
       if (parameters_.max_searches == 0)
         return false;
-      const double largest = u.linfty_norm();
-      if (largest == 0.
-          || contact_.check_penetration(u, parameters_.missed_depth * largest)
-                 .empty())
+      const double length = contact_.length_scale() > 0.
+                                ? contact_.length_scale()
+                                : u.linfty_norm();
+      if (length == 0.)
         return false;
+      const std::size_t n_missed =
+          contact_.check_penetration(u, parameters_.missed_depth * length)
+              .size();
+      if (n_missed == 0)
+        return false;
+      if (events_.missed)
+        events_.missed(n_missed);
       if (result_.n_searches < parameters_.max_searches)
         return true;
       return stop(NewtonReason::missed_nodes,
@@ -371,6 +467,7 @@ namespace abut
     const dealii::AffineConstraints<double> &constraints_;
     const HostProblem problem_;
     const NewtonParameters parameters_;
+    const SolverEvents events_;
     NewtonResult result_;
     la::Vector residual_, increment_, step_, product_, forces_, trial_;
     double linear_tolerance_ = 1e-2;

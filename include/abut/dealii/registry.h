@@ -15,6 +15,7 @@
  */
 
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/nearest_word.h>
 #include <abut/dealii/rigid_obstacle.h>
 
 #include <algorithm>
@@ -175,15 +176,18 @@ namespace abut
     {
       first();
       std::string all;
+      std::vector<std::string> names;
       for (const auto &library : libraries_)
         for (const std::string &known : library->methods())
         {
           if (known == name)
             return *library;
           all += (all.empty() ? "" : ", ") + known;
+          names.push_back(known);
         }
       throw RegistryError("There is no contact method '" + name
-                          + "'. There are: " + all + ".");
+                          + "'. There are: " + all + "."
+                          + did_you_mean(name, names));
     }
 
     std::vector<std::shared_ptr<const ContactLibrary<dim>>> libraries_;

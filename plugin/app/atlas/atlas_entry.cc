@@ -2,7 +2,8 @@
 #include "atlas_entry.h"
 
 #include "app/input/input_error.h"
-#include "app/input/nearest_word.h"
+
+#include <abut/dealii/nearest_word.h>
 
 #include <deal.II/base/utilities.h>
 

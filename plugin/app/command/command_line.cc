@@ -2,7 +2,8 @@
 #include "command_line.h"
 
 #include "app/input/input_error.h"
-#include "app/input/nearest_word.h"
+
+#include <abut/dealii/nearest_word.h>
 
 #include <map>
 

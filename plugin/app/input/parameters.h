@@ -9,7 +9,8 @@
  */
 
 #include "input_error.h"
-#include "nearest_word.h"
+
+#include <abut/dealii/nearest_word.h>
 
 #include <deal.II/base/parameter_handler.h>
 

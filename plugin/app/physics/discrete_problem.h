@@ -21,8 +21,8 @@ namespace abut::app
   using BoundaryFunctions =
       std::map<dealii::types::boundary_id, const dealii::Function<dim> *>;
 
-  /** A linear problem K u = f on a mesh: unknowns, constraints, matrix and
-   * load vector. What K and f are is the matter of derived classes. */
+  /** A problem on a mesh: unknowns, constraints, tangent and load vector. What
+   * its forces are is the matter of derived classes. */
   template <int dim> class DiscreteProblem
   {
   public:
@@ -33,11 +33,21 @@ namespace abut::app
         dealii::parallel::distributed::Triangulation<dim> &triangulation,
         std::unique_ptr<dealii::FiniteElement<dim>> element);
 
-    /** Residual K u - f, 0 at constrained unknowns. */
-    void residual(const la::Vector &u, la::Vector &result) const;
+    virtual ~DiscreteProblem() = default;
 
-    /** (d K d)^(1/2) of a difference (owned) of two solutions, which have the
-     * same values where these are prescribed. */
+    /** Internal minus external forces at u, 0 at constrained unknowns.
+     * Collective. */
+    virtual void residual(const la::Vector &u, la::Vector &result) const = 0;
+
+    /** Its derivative by u, as it is until the next call. Collective. */
+    virtual const la::Matrix &tangent(const la::Vector &u) = 0;
+
+    /** Whether the tangent is the same for all u, and the residual costs no
+     * more than a product with it. */
+    virtual bool is_linear() const = 0;
+
+    /** (d K d)^(1/2) with the present tangent of a difference (owned) of two
+     * solutions, which have the same values where these are prescribed. */
     double energy_norm(const la::Vector &difference) const;
 
     /** Copy with the ghosts of this rank's cells, constraints applied. */
@@ -62,8 +72,8 @@ namespace abut::app
     dealii::AffineConstraints<double> constraints;
     dealii::AffineConstraints<double> hanging;
     dealii::IndexSet relevant;
-    la::Matrix stiffness;
-    la::Vector load;
+    la::Matrix stiffness; ///< the present tangent
+    la::Vector load;      ///< external forces, constraints put in
 
     /** Number the unknowns of each rank by Cuthill and McKee's method. Takes
      * effect with the next mesh. */
@@ -85,6 +95,26 @@ namespace abut::app
     la::Vector close_load(la::Vector &open) const;
 
     const MPI_Comm communicator;
+  };
+
+  /** K u = f: forces of small strain, gradients of a membrane. */
+  template <int dim> class LinearProblem : public DiscreteProblem<dim>
+  {
+  public:
+    using DiscreteProblem<dim>::DiscreteProblem;
+
+    /** K u - f. */
+    void residual(const la::Vector &u, la::Vector &result) const override;
+
+    const la::Matrix &tangent(const la::Vector &) override
+    {
+      return this->stiffness;
+    }
+
+    bool is_linear() const override
+    {
+      return true;
+    }
   };
 } // namespace abut::app
 

@@ -38,9 +38,9 @@ namespace abut::app
   Elasticity<dim>::Elasticity(
       dealii::parallel::distributed::Triangulation<dim> &triangulation,
       const unsigned int degree)
-      : DiscreteProblem<dim>(triangulation,
-                             std::make_unique<dealii::FESystem<dim>>(
-                                 dealii::FE_Q<dim>(degree), dim)),
+      : LinearProblem<dim>(triangulation,
+                           std::make_unique<dealii::FESystem<dim>>(
+                               dealii::FE_Q<dim>(degree), dim)),
         materials(std::make_unique<ElasticMaterials>())
   {
   }

@@ -36,12 +36,12 @@ namespace abut::app
 
   /** Linear elastic bodies without contact: unknowns, constraints, stiffness
    * matrix, load vector. */
-  template <int dim> class Elasticity : public DiscreteProblem<dim>
+  template <int dim> class Elasticity : public LinearProblem<dim>
   {
   public:
     Elasticity(dealii::parallel::distributed::Triangulation<dim> &triangulation,
                unsigned int degree);
-    ~Elasticity();
+    ~Elasticity() override;
 
     /** Number unknowns, build constraints and the matrix's pattern for the
      * present mesh. Throws InputError when two supports prescribe different

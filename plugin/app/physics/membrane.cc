@@ -16,7 +16,7 @@ namespace abut::app
   Membrane<dim>::Membrane(
       dealii::parallel::distributed::Triangulation<dim> &triangulation,
       const unsigned int degree)
-      : DiscreteProblem<dim>(triangulation,
+      : LinearProblem<dim>(triangulation,
                              std::make_unique<dealii::FE_Q<dim>>(degree))
   {
   }

@@ -19,7 +19,7 @@ namespace abut::app
 
   /** The discrete membrane -div(k grad u) = f without obstacle: unknowns,
    * constraints, stiffness matrix, load vector. */
-  template <int dim> class Membrane : public DiscreteProblem<dim>
+  template <int dim> class Membrane : public LinearProblem<dim>
   {
   public:
     Membrane(dealii::parallel::distributed::Triangulation<dim> &triangulation,

@@ -3,9 +3,6 @@
 
 #include "app/input/input_error.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace abut::app
 {
   void LoadStepParameters::declare(dealii::ParameterHandler &prm)
@@ -37,47 +34,5 @@ namespace abut::app
     prm.leave_subsection();
     if (!(end_time > 0.))
       throw InputError("Load steps/End time", "must be positive.");
-  }
-
-  LoadSteps::LoadSteps(const LoadStepParameters &parameters)
-      : parameters(parameters), length(parameters.end_time / parameters.steps)
-  {
-  }
-
-  bool LoadSteps::is_finished() const
-  {
-    return reached >= parameters.end_time;
-  }
-
-  double LoadSteps::target() const
-  {
-    // A last step that would be left over as a sliver is taken along.
-    const double next = reached + length;
-    return next > parameters.end_time - 1e-6 * length ? parameters.end_time
-                                                      : next;
-  }
-
-  void LoadSteps::accept()
-  {
-    reached = target();
-    ++n_accepted;
-    ++n_good;
-    const double full = parameters.end_time / parameters.steps;
-    if (n_good == 2 && length < full)
-    {
-      length = std::min(2. * length, full);
-      n_good = 0;
-    }
-    else if (n_good == 2)
-      n_good = 1;
-  }
-
-  bool LoadSteps::reject()
-  {
-    ++n_rejected;
-    n_good = 0;
-    length *= 0.5;
-    return parameters.cut_back
-           && length >= parameters.smallest_step * parameters.end_time;
   }
 } // namespace abut::app

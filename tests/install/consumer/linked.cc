@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
+#include <string>
 
 void load(const std::string &path, abut::Registry<2> &registry);
 
@@ -31,6 +32,16 @@ main(int argc, char **argv)
   catch (const abut::RegistryError &error)
   {
     std::cout << error.what() << std::endl;
+  }
+  try
+  {
+    linked.create("penality", MPI_COMM_WORLD);
+    return 1;
+  }
+  catch (const abut::RegistryError &error)
+  {
+    if (std::string(error.what()).find("mean 'penalty'?") == std::string::npos)
+      return 1;
   }
   std::cout << ABUT_VERSION << " "
             << (linked.methods() == loaded.methods() ? "same" : "other")

@@ -2,7 +2,8 @@
 #include "obstacle_scene.h"
 
 #include "app/scenes/common_parameters.h"
-#include "obstacle_run.h"
+#include "app/scenes/contact_run.h"
+#include "membrane_model.h"
 
 namespace abut::app
 {
@@ -27,16 +28,31 @@ namespace abut::app
 
       void check(const RunOptions &options, Report &report) override
       {
-        ObstacleRun<dim>(parameters, method, solver, options, report).check();
+        with_run(options, report, [](auto &run) { run.check(); });
       }
 
       Outcome run(const RunOptions &options, Report &report) override
       {
-        return ObstacleRun<dim>(parameters, method, solver, options, report)
-            .run();
+        Outcome outcome = Outcome::unusable;
+        with_run(options, report, [&](auto &run) { outcome = run.run(); });
+        return outcome;
       }
 
     private:
+      template <typename Action>
+      void with_run(const RunOptions &options, Report &report,
+                    const Action &action)
+      {
+        LoadStepOptions one_step;
+        one_step.cut_back = false;
+        ContactRunState<dim> state({parameters.refinement, method, solver,
+                                    one_step, parameters.all_levels},
+                                   options, report);
+        MembraneModel<dim> model(parameters, state);
+        ContactRun<dim> run(state, model);
+        action(run);
+      }
+
       ObstacleParameters parameters;
       MethodParameters method;
       SolverParameters solver;

@@ -2,7 +2,8 @@
 #include "solid_scene.h"
 
 #include "app/scenes/automatic_law.h"
-#include "solid_run.h"
+#include "app/scenes/contact_run.h"
+#include "solid_model.h"
 
 #include <algorithm>
 
@@ -38,18 +39,30 @@ namespace abut::app
 
       void check(const RunOptions &options, Report &report) override
       {
-        SolidRun<dim>(parameters, method, solver, search, options, report)
-            .check();
+        with_run(options, report, [](auto &run) { run.check(); });
       }
 
       Outcome run(const RunOptions &options, Report &report) override
       {
-        return SolidRun<dim>(parameters, method, solver, search, options,
-                             report)
-            .run();
+        Outcome outcome = Outcome::unusable;
+        with_run(options, report, [&](auto &run) { outcome = run.run(); });
+        return outcome;
       }
 
     private:
+      template <typename Action>
+      void with_run(const RunOptions &options, Report &report,
+                    const Action &action)
+      {
+        ContactRunState<dim> state({parameters.refinement, method, solver,
+                                    parameters.load_steps,
+                                    parameters.all_levels},
+                                   options, report);
+        SolidModel<dim> model(parameters, state, search);
+        ContactRun<dim> run(state, model);
+        action(run);
+      }
+
       SolidCounts counts;
       SolidParameters parameters;
       MethodParameters method;

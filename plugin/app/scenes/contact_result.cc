@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_APP_RESULT_ROW_H
-#define ABUT_APP_RESULT_ROW_H
-
-#include <map>
-#include <string>
+#include "contact_result.h"
 
 namespace abut::app
 {
-  /** The columns of levels.csv that all scenes with contact have, from the
-   * results @p s of one mesh or load step (ObstacleLevel, SolidState). */
-  template <typename State>
-  std::map<std::string, double> result_row(const State &s)
+  std::map<std::string, double> result_row(const ContactResult &s)
   {
     std::map<std::string, double> row = {
+        {"level", s.level},
         {"cells", double(s.cells)},
         {"dofs", double(s.dofs)},
         {"constraints", double(s.rows)},
@@ -23,6 +17,7 @@ namespace abut::app
         {"setups", s.linear.n_setups},
         {"energy", s.energy},
         {"contact_force", s.force},
+        {"penetration", s.penetration},
         {"setup_seconds", s.linear.setup_seconds},
         {"krylov_seconds", s.linear.solve_seconds},
         {"seconds", s.seconds}};
@@ -38,5 +33,3 @@ namespace abut::app
     return row;
   }
 } // namespace abut::app
-
-#endif

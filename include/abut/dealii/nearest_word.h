@@ -1,29 +1,40 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-/* Nearest word by the edit distance of Damerau and Levenshtein (insertions,
- * deletions, replacements and exchanges of neighbours; optimal string
- * alignment), by dynamic programming over two words, O(length^2) each. */
-#include "nearest_word.h"
+#ifndef ABUT_DEALII_NEAREST_WORD_H
+#define ABUT_DEALII_NEAREST_WORD_H
+
+/** @file
+ * What a user may have meant by a wrong word: the nearest word by the edit
+ * distance of Damerau and Levenshtein (insertions, deletions, replacements and
+ * exchanges of neighbours; optimal string alignment), by dynamic programming
+ * over two words, O(length^2) each.
+ */
 
 #include <algorithm>
 #include <cctype>
+#include <string>
+#include <vector>
 
-namespace abut::app
+namespace abut
 {
-  namespace
+  /** Parts of nearest_word(). */
+  namespace edits
   {
-    std::string in_lower_case(std::string text)
+    /** With small letters alone. */
+    inline std::string in_lower_case(std::string text)
     {
       for (char &c : text)
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
       return text;
     }
 
-    std::string first_word(const std::string &text)
+    /** Up to the first blank. */
+    inline std::string first_word(const std::string &text)
     {
       return text.substr(0, text.find(' '));
     }
 
-    std::size_t edit_distance(const std::string &a, const std::string &b)
+    /** Number of edits that make @p b of @p a. */
+    inline std::size_t edit_distance(const std::string &a, const std::string &b)
     {
       std::vector<std::vector<std::size_t>> d(
           a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -42,22 +53,26 @@ namespace abut::app
         }
       return d[a.size()][b.size()];
     }
-  } // namespace
+  } // namespace edits
 
-  std::string nearest_word(const std::string &word,
-                           const std::vector<std::string> &words)
+  /** The word of @p words nearest to @p word by edit distance (capitals and
+   * small letters alike), or "" when none is near. */
+  inline std::string nearest_word(const std::string &word,
+                                  const std::vector<std::string> &words)
   {
-    const std::string wanted = in_lower_case(word);
+    const std::string wanted = edits::in_lower_case(word);
     std::string nearest;
     std::size_t smallest = 0;
     for (const std::string &candidate : words)
     {
-      const std::string lower = in_lower_case(candidate);
-      std::size_t distance = edit_distance(wanted, lower);
+      const std::string lower = edits::in_lower_case(candidate);
+      std::size_t distance = edits::edit_distance(wanted, lower);
       // "lagrang multiplier" for "lagrange": the first words are near.
       if (wanted.find(' ') != std::string::npos)
         distance = std::min(
-            distance, 1 + edit_distance(first_word(wanted), first_word(lower)));
+            distance, 1
+                          + edits::edit_distance(edits::first_word(wanted),
+                                                 edits::first_word(lower)));
       // "interior" for "interior point": one begins with the other.
       if (wanted.size() > 2
           && (lower.compare(0, wanted.size(), wanted) == 0
@@ -73,10 +88,13 @@ namespace abut::app
     return nearest;
   }
 
-  std::string did_you_mean(const std::string &word,
-                           const std::vector<std::string> &words)
+  /** " Did you mean 'x'?" with the nearest word, or "". */
+  inline std::string did_you_mean(const std::string &word,
+                                  const std::vector<std::string> &words)
   {
     const std::string nearest = nearest_word(word, words);
     return nearest.empty() ? "" : " Did you mean '" + nearest + "'?";
   }
-} // namespace abut::app
+} // namespace abut
+
+#endif

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run of the scene `obstacle` leaves behind.
+#include "membrane_report.h"
 #include "app/input/collective.h"
 #include "app/pictures/pictures.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
-#include "obstacle_run.h"
 #include "solve/masked_solver.h"
 
 #include <deal.II/base/timer.h>
@@ -35,37 +35,21 @@ namespace abut::app
     }
   } // namespace
 
-  template <int dim> void ObstacleRun<dim>::declare_tables()
+  template <int dim>
+  MembraneReport<dim>::MembraneReport(const MembraneModel<dim> &model)
+      : model(model),
+        run(model.run),
+        parameters(model.parameters),
+        membrane(model.membrane),
+        contact(run.contact),
+        levels(run.results),
+        u(run.u),
+        communicator(run.communicator),
+        report(run.report)
   {
-    report.declare_columns(
-        {"level", "cells", "dofs", "constraints", "active", "steps",
-         "linear_iterations", "matvecs", "setups", "energy", "contact_force",
-         "penetration", "l2_error", "h1_error", "estimate", "estimated_error",
-         "setup_seconds", "krylov_seconds", "seconds"});
   }
 
-  template <int dim> void ObstacleRun<dim>::write_fields()
-  {
-    if (!parameters.fields)
-      return;
-    SectionTimes::Scope scope(report.times, "output");
-    const la::Vector displacement = membrane.ghosted(u);
-    const la::Vector p = membrane.ghosted_field(contact.pressure());
-    const la::Vector g = membrane.ghosted_field(contact.gap());
-    const la::Vector status = membrane.ghosted_field(contact.status());
-    Fields<dim> fields{membrane.mapping,
-                       membrane.dof_handler,
-                       {{"displacement", &displacement},
-                        {"pressure", &p},
-                        {"gap", &g},
-                        {"status", &status}},
-                       {}};
-    if (present.estimate)
-      fields.cells = {{"squared_error_estimate", &squared_estimate}};
-    series.write(present.level, fields);
-  }
-
-  template <int dim> void ObstacleRun<dim>::write_nodal_values()
+  template <int dim> void MembraneReport<dim>::write_nodal_values() const
   {
     SectionTimes::Scope scope(report.times, "output");
     std::map<dealii::types::global_dof_index, dealii::Point<dim>> points;
@@ -88,7 +72,7 @@ namespace abut::app
                {
                  if (MPI::this_mpi_process(communicator) != 0)
                    return;
-                 std::ofstream out(options.output_folder / "nodal.csv");
+                 std::ofstream out(run.options.output_folder / "nodal.csv");
                  out << (dim == 2 ? "x,y," : "x,y,z,")
                      << "displacement,pressure,gap,status\n";
                  for (const std::string &part : all)
@@ -98,23 +82,32 @@ namespace abut::app
                });
   }
 
-  template <int dim> void ObstacleRun<dim>::compare_with_linear_solves()
+  template <int dim> double MembraneReport<dim>::counted_seconds() const
+  {
+    return report.times.seconds("assembly") + report.times.seconds("transfer")
+           + report.times.seconds(model.rows_section())
+           + report.times.seconds("solve");
+  }
+
+  template <int dim>
+  void
+  MembraneReport<dim>::compare_with_linear_solves(Membrane<dim> &problem) const
   {
     std::vector<double> seconds;
     unsigned int iterations = 0;
     for (unsigned int i = 0; i < parameters.linear_solves; ++i)
     {
       dealii::Timer timer(communicator, true);
-      membrane.assemble(data);
+      problem.assemble(model.data);
       SolverParameters settings;
       settings.linear = SolverParameters::Linear::iterative;
       solve::MaskedSolver solver(settings);
-      solver.reinit(membrane.stiffness);
+      solver.reinit(problem.stiffness);
       solve::Mask nothing;
       nothing.held.assign(la::n_owned(u), 0);
-      la::Vector x = membrane.vector();
-      la::Vector force(membrane.load);
-      membrane.constraints.set_zero(force);
+      la::Vector x = problem.vector();
+      la::Vector force(problem.load);
+      problem.constraints.set_zero(force);
       iterations =
           solver.solve(nothing, force, 1e-10 * force.l2_norm(), x, true)
               .n_iterations;
@@ -133,7 +126,7 @@ namespace abut::app
                     + std::to_string(mine / reference));
   }
 
-  template <int dim> void ObstacleRun<dim>::draw()
+  template <int dim> void MembraneReport<dim>::draw() const
   {
     SectionTimes::Scope scope(report.times, "output");
     const la::Vector displacement = membrane.ghosted(u);
@@ -141,15 +134,15 @@ namespace abut::app
     const Raster raster =
         sample_raster(membrane.mapping, membrane.dof_handler,
                       {{&displacement, false}, {&status, true}}, 160);
-    draw_solution(report, options.output_folder, "displacement", raster, 0,
+    draw_solution(report, run.options.output_folder, "displacement", raster, 0,
                   "Displacement");
-    draw_status(report, options.output_folder, "active-set", raster, 1,
+    draw_status(report, run.options.output_folder, "active-set", raster, 1,
                 status_words, "Contact");
 
     std::vector<Curve> errors;
     Curve l2{"L2 error", {}}, h1{"H1 error", {}}, energy{"energy error", {}},
         count{"active-set steps", {}};
-    for (const ObstacleLevel &level : levels)
+    for (const ContactResult &level : levels)
     {
       const double n = level.dofs;
       if (level.errors)
@@ -165,41 +158,29 @@ namespace abut::app
     for (Curve *curve : {&l2, &h1, &energy})
       if (!curve->points.empty())
         errors.push_back(*curve);
-    draw_convergence(report, options.output_folder, "convergence", errors,
+    draw_convergence(report, run.options.output_folder, "convergence", errors,
                      {count}, "Convergence");
   }
 
   template <int dim>
-  std::optional<double>
-  ObstacleRun<dim>::relative_error(const ObstacleLevel &last) const
+  std::optional<double> MembraneReport<dim>::relative_error() const
   {
+    const ContactResult &last = levels.back();
     if (parameters.refinement.target_quantity == TargetQuantity::contact_force)
     {
       if (std::isnan(parameters.exact_force))
         return {};
       return std::abs(last.force / parameters.exact_force - 1.);
     }
-    if (!last.errors || !conductivity->is_constant())
+    if (!last.errors || !model.conductivity->is_constant())
       return {};
-    return std::sqrt(conductivity->value(dealii::Point<dim>()))
-           * last.errors->h1_seminorm / solution_norm();
+    return std::sqrt(model.conductivity->value(dealii::Point<dim>()))
+           * last.errors->h1_seminorm / model.solution_norm();
   }
 
   template <int dim>
-  void ObstacleRun<dim>::report_result(const ObstacleLevel &last,
-                                       const bool converged)
+  void MembraneReport<dim>::report_errors(const ContactResult &last) const
   {
-    report.set("method", method.options.law->name);
-    report.set("discretisation", "nodal");
-    report.set("dofs", last.dofs);
-    report.set("constraints", last.rows);
-    report.set("active", last.active);
-    report.set("contact_force", last.force);
-    report.set("max_penetration", contact.penetration());
-    report.set("max_complementarity", last.progress.complementarity);
-    report.set("energy", last.energy);
-    report.set("search_rebuilds", 0);
-    report.set("pairs", 0);
     if (last.errors)
     {
       report.set("l2_error", last.errors->l2);
@@ -214,19 +195,42 @@ namespace abut::app
                  std::abs(last.force - parameters.exact_force));
     if (last.estimate)
       report.set("estimate", *last.estimate);
-    report.set("cells", last.cells);
-    report.set("steps_on_last_level", last.steps);
-    report.set("linear_iterations_on_last_level", last.linear.n_iterations);
+  }
+
+  template <int dim> void MembraneReport<dim>::report_shares() const
+  {
     const double here[2] = {
-        double(triangulation.n_locally_owned_active_cells()),
+        double(model.triangulation.n_locally_owned_active_cells()),
         double(membrane.stiffness.trilinos_matrix().NumMyNonzeros())};
     const auto cells = MPI::min_max_avg(here[0], communicator);
     const auto entries = MPI::min_max_avg(here[1], communicator);
     report.set("largest_share_of_cells", cells.max / cells.sum);
     report.set("largest_share_of_matrix", entries.max / entries.sum);
+  }
+
+  template <int dim>
+  void MembraneReport<dim>::result(const bool converged) const
+  {
+    const ContactResult &last = levels.back();
+    report.set("method", run.method.options.law->name);
+    report.set("discretisation", "nodal");
+    report.set("dofs", last.dofs);
+    report.set("constraints", last.rows);
+    report.set("active", last.active);
+    report.set("contact_force", last.force);
+    report.set("max_penetration", contact.penetration());
+    report.set("max_complementarity", last.progress.complementarity);
+    report.set("energy", last.energy);
+    report.set("search_rebuilds", 0);
+    report.set("pairs", 0);
+    report_errors(last);
+    report.set("cells", last.cells);
+    report.set("steps_on_last_level", last.steps);
+    report.set("linear_iterations_on_last_level", last.linear.n_iterations);
+    report_shares();
     std::vector<double> energies;
     double condition = 0.;
-    for (const ObstacleLevel &level : levels)
+    for (const ContactResult &level : levels)
     {
       condition = std::max(condition, level.linear.condition);
       if (level.level <= parameters.refinement.level)
@@ -236,16 +240,17 @@ namespace abut::app
       diagnose_order(report, energies);
     diagnose_condition(report, condition, last.progress.penalty);
     report.set("converged", converged);
-    if (control.is_on())
-      control.report(report, relative_error(last));
+    if (run.control.is_on())
+      run.control.report(report, relative_error());
   }
 
-  template <int dim> void ObstacleRun<dim>::report_model()
+  template <int dim> void MembraneReport<dim>::model_lines() const
   {
     report.model("contact rows", true,
-                 contact_ids.empty() ? "one for each free node of the domain"
-                                     : "one for each free node of the contact "
-                                       "boundary",
+                 model.contact_ids.empty()
+                     ? "one for each free node of the domain"
+                     : "one for each free node of the contact "
+                       "boundary",
                  {"contact rows and start"});
     report.model("meshes", true,
                  std::to_string(levels.size())
@@ -264,33 +269,17 @@ namespace abut::app
                  std::to_string(linear.n_setups) + " for "
                      + std::to_string(levels.back().steps) + " steps");
     unsigned int n_steps = 0;
-    for (const ObstacleLevel &level : levels)
+    for (const ContactResult &level : levels)
       n_steps += level.steps;
     report.model("linear systems", true,
                  std::to_string(n_steps) + " on all meshes", {"solve"});
-    model_files(report, parameters.fields || options.pictures);
-    explain_accuracy(report, refinement, control);
-    explain_steps(report, refinement, method, n_steps,
+    model_files(report, parameters.fields || run.options.pictures);
+    explain_accuracy(report, refinement, run.control);
+    explain_steps(report, refinement, run.method, n_steps,
                   static_cast<unsigned int>(levels.size()));
     explain_output(report);
   }
 
-  template void ObstacleRun<2>::declare_tables();
-  template void ObstacleRun<2>::write_fields();
-  template void ObstacleRun<2>::write_nodal_values();
-  template void ObstacleRun<2>::compare_with_linear_solves();
-  template void ObstacleRun<2>::draw();
-  template std::optional<double>
-  ObstacleRun<2>::relative_error(const ObstacleLevel &) const;
-  template std::optional<double>
-  ObstacleRun<3>::relative_error(const ObstacleLevel &) const;
-  template void ObstacleRun<2>::report_result(const ObstacleLevel &, bool);
-  template void ObstacleRun<2>::report_model();
-  template void ObstacleRun<3>::declare_tables();
-  template void ObstacleRun<3>::write_fields();
-  template void ObstacleRun<3>::write_nodal_values();
-  template void ObstacleRun<3>::compare_with_linear_solves();
-  template void ObstacleRun<3>::draw();
-  template void ObstacleRun<3>::report_result(const ObstacleLevel &, bool);
-  template void ObstacleRun<3>::report_model();
+  template class MembraneReport<2>;
+  template class MembraneReport<3>;
 } // namespace abut::app

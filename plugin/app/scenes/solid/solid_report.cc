@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run of the scene `solid` leaves behind.
+#include "solid_report.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/mesh/nearest_node.h"
 #include "app/physics/volumetric_locking.h"
-#include "app/report/result_row.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
-#include "solid_run.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -37,82 +36,31 @@ namespace abut::app
     }
   } // namespace
 
-  template <int dim> void SolidRun<dim>::declare_tables()
+  template <int dim>
+  SolidReport<dim>::SolidReport(const SolidModel<dim> &model)
+      : model(model),
+        run(model.run),
+        parameters(model.parameters),
+        elasticity(model.elasticity),
+        bodies(model.bodies),
+        pairs(*model.pairs),
+        contact(run.contact),
+        method(run.method),
+        u(run.u),
+        communicator(run.communicator),
+        report(run.report)
   {
-    report.declare_columns({"load_step",
-                            "time",
-                            "level",
-                            "cells",
-                            "dofs",
-                            "constraints",
-                            "active",
-                            "steps",
-                            "linear_iterations",
-                            "matvecs",
-                            "setups",
-                            "energy",
-                            "contact_force",
-                            "penetration",
-                            "l2_error",
-                            "h1_error",
-                            "energy_norm_error",
-                            "estimate",
-                            "estimated_error",
-                            "inf_sup",
-                            "setup_seconds",
-                            "krylov_seconds",
-                            "seconds"});
   }
 
-  template <int dim> void SolidRun<dim>::finish_state()
+  template <int dim> void SolidReport<dim>::check() const
   {
-    if (parameters.refinement.is_adaptive(mesh_number))
-      estimate();
-    if (control.is_on() && load_steps.n_accepted == 0)
-      judge();
-    const double counted = counted_seconds();
-    present.seconds = counted - counted_before;
-    counted_before = counted;
-    SectionTimes::Scope scope(report.times, "results");
-    present.cells = triangulation.n_global_active_cells();
-    present.dofs = elasticity.dof_handler.n_dofs();
-    present.energy = elasticity.energy(u);
-    if (!pairs->empty())
-    {
-      present.rows = contact.n_rows();
-      present.active = contact.n_active();
-      present.force = contact.contact_force();
-      present.penetration = contact.penetration();
-      if (parameters.inf_sup)
-        present.inf_sup = contact.inf_sup_constant(elasticity.stiffness);
-    }
-    if (exact)
-      present.errors =
-          error_norms(elasticity.mapping, elasticity.dof_handler,
-                      elasticity.ghosted(u), *exact, &data.materials);
-    std::map<std::string, double> row = result_row(present);
-    row["load_step"] = present.load_step;
-    row["time"] = present.time;
-    row["level"] = present.level;
-    row["penetration"] = present.penetration;
-    if (present.errors)
-      row["energy_norm_error"] = *present.errors->energy;
-    if (present.inf_sup)
-      row["inf_sup"] = *present.inf_sup;
-    report.add_row(row);
-    states.push_back(present);
-    report.add("nonlinear_iterations", present.steps);
-    report.add("linear_iterations", present.linear.n_iterations);
-    report.add("matvecs", present.linear.n_matvecs);
-    report.progress("time " + short_number(present.time, 6) + ", level "
-                    + std::to_string(present.level) + ": "
-                    + std::to_string(present.dofs) + " unknowns, "
-                    + std::to_string(present.linear.n_iterations)
-                    + " linear iterations, energy "
-                    + short_number(present.energy, 8) + control.progress());
+    if (!pairs.empty())
+      report_checks();
+    report_shares();
+    report.set("bodies", bodies.size());
   }
 
-  template <int dim> void SolidRun<dim>::report_points()
+  template <int dim> void SolidReport<dim>::report_points() const
   {
     const la::Vector displacement = elasticity.ghosted(u);
     unsigned int number = 0;
@@ -138,7 +86,7 @@ namespace abut::app
     }
   }
 
-  template <int dim> void SolidRun<dim>::report_reactions()
+  template <int dim> void SolidReport<dim>::report_reactions() const
   {
     const la::Vector forces = elasticity.unbalanced_forces(u);
     const dealii::IndexSet &owned = elasticity.dof_handler.locally_owned_dofs();
@@ -171,7 +119,7 @@ namespace abut::app
                                      sums.begin() + (body + 1) * dim));
   }
 
-  template <int dim> void SolidRun<dim>::report_checks()
+  template <int dim> void SolidReport<dim>::report_checks() const
   {
     unsigned int number = 0;
     for (const PairCheck &check : contact.pair_checks())
@@ -192,7 +140,7 @@ namespace abut::app
     report.set("constraints", contact.n_rows());
   }
 
-  template <int dim> void SolidRun<dim>::report_transfer()
+  template <int dim> void SolidReport<dim>::report_transfer() const
   {
     unsigned int number = 0;
     for (const double error : contact.transfer_errors(u))
@@ -212,7 +160,8 @@ namespace abut::app
     }
   }
 
-  template <int dim> void SolidRun<dim>::report_contact()
+  template <int dim>
+  std::pair<double, double> SolidReport<dim>::report_pairs() const
   {
     const auto vector = [](const auto &tensor)
     { return std::vector<double>(tensor.begin_raw(), tensor.end_raw()); };
@@ -259,11 +208,18 @@ namespace abut::app
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
     }
+    return {force_imbalance, moment_imbalance};
+  }
+
+  template <int dim> void SolidReport<dim>::report_contact() const
+  {
+    const double way = u.linfty_norm();
+    const auto [force_imbalance, moment_imbalance] = report_pairs();
     if ((method.discretisation
          && !discretisation_info(*method.discretisation).is_weighted)
         || abut_law_needs_stress(method.options.law))
       report_transfer();
-    report.set("search_rebuilds", n_rebuilds);
+    report.set("search_rebuilds", run.n_repeated_searches);
     report.set("force_imbalance", force_imbalance);
     report.set("moment_imbalance", moment_imbalance);
     report.set("method", method.options.law->name);
@@ -282,22 +238,23 @@ namespace abut::app
                 "lagrange."));
   }
 
-  template <int dim> std::optional<double> SolidRun<dim>::relative_error() const
+  template <int dim>
+  std::optional<double> SolidReport<dim>::relative_error() const
   {
-    const SolidState &last = states.back();
+    const ContactResult &last = run.results.back();
     if (!last.errors
         || parameters.refinement.target_quantity != TargetQuantity::energy_norm)
       return {};
-    return *last.errors->energy / solution_norm();
+    return *last.errors->energy / model.solution_norm();
   }
 
-  template <int dim> void SolidRun<dim>::report_shares()
+  template <int dim> void SolidReport<dim>::report_shares() const
   {
     const auto share = [&](const std::string &key, const double value)
     { report.set(key + "_on_rank", range_over_ranks(value, communicator)); };
-    share("cells", triangulation.n_locally_owned_active_cells());
+    share("cells", model.triangulation.n_locally_owned_active_cells());
     share("dofs", elasticity.dof_handler.n_locally_owned_dofs());
-    if (pairs->empty())
+    if (pairs.empty())
       return;
     const CommunicationReport sent = contact.communication();
     share("constraints", contact.n_own_rows());
@@ -308,16 +265,16 @@ namespace abut::app
     report.set("gathered_bytes", MPI::max(sent.gathered_bytes, communicator));
   }
 
-  template <int dim> void SolidRun<dim>::report_result(const bool converged)
+  template <int dim> void SolidReport<dim>::result(const bool converged) const
   {
     SectionTimes::Scope scope(report.times, "results");
     report.set("converged", converged);
     report.set("bodies", bodies.size());
-    report.set("load_steps", load_steps.n_accepted);
-    report.set("load_steps_cut_back", load_steps.n_rejected);
-    if (states.empty())
+    report.set("load_steps", run.load_steps.n_accepted());
+    report.set("load_steps_cut_back", run.load_steps.n_rejected());
+    if (run.results.empty())
       return;
-    const SolidState &last = states.back();
+    const ContactResult &last = run.results.back();
     report.set("time", last.time);
     report.set("cells", last.cells);
     report.set("dofs", last.dofs);
@@ -342,22 +299,22 @@ namespace abut::app
     if (!std::isnan(parameters.exact_energy))
       report.set("energy_error",
                  std::abs(last.energy - parameters.exact_energy));
-    if (control.is_on())
-      control.report(report, relative_error());
+    if (run.control.is_on())
+      run.control.report(report, relative_error());
     report_points();
     report_reactions();
     report_shares();
-    if (!pairs->empty())
+    if (!pairs.empty())
       report_contact();
     if (converged)
       report_numerics();
   }
 
-  template <int dim> void SolidRun<dim>::report_numerics()
+  template <int dim> void SolidReport<dim>::report_numerics() const
   {
     std::vector<double> energies;
     double condition = 0., penalty = 0.;
-    for (const SolidState &state : states)
+    for (const ContactResult &state : run.results)
     {
       condition = std::max(condition, state.linear.condition);
       penalty = state.progress.penalty;
@@ -368,14 +325,14 @@ namespace abut::app
       diagnose_order(report, energies);
     diagnose_condition(report, condition, penalty);
     double poisson_ratio = 0.;
-    for (const auto &material : data.materials)
+    for (const auto &material : model.data.materials)
       poisson_ratio = std::max(poisson_ratio, material.second.poisson_ratio);
     if (parameters.degree > 1 || parameters.plane == PlaneModel::stress
         || poisson_ratio < least_locking_ratio)
       return;
     const double locked =
         volumetric_locking(elasticity.mapping, elasticity.dof_handler,
-                           elasticity.ghosted(u), data.materials);
+                           elasticity.ghosted(u), model.data.materials);
     report.set("locked_energy", locked);
     if (locked > visible_locking)
       report.warn(coded(
@@ -388,12 +345,12 @@ namespace abut::app
                 "too large. Set Solid/Degree = 2."));
   }
 
-  template <int dim> void SolidRun<dim>::report_model()
+  template <int dim> void SolidReport<dim>::model_lines() const
   {
-    report.model("contact", !pairs->empty(),
-                 pairs->empty()
+    report.model("contact", !pairs.empty(),
+                 pairs.empty()
                      ? "no pairs were given"
-                     : "between " + std::to_string(pairs->pairs().size())
+                     : "between " + std::to_string(pairs.pairs().size())
                            + " pairs of surfaces",
                  {"contact rows"});
     report.model("meshes", true, "with unknowns and pattern of each",
@@ -401,46 +358,46 @@ namespace abut::app
     report.model("stiffness", true, "assembled once on each mesh",
                  {"assembly"});
     const bool searches = std::any_of(
-        pairs->pairs().begin(), pairs->pairs().end(),
+        pairs.pairs().begin(), pairs.pairs().end(),
         [](const ContactPair<dim> &pair) { return pair.obstacle == nullptr; });
     report.model("search", searches,
                  searches ? "facets of bodies for each other: "
-                                + std::to_string(n_detections)
+                                + std::to_string(run.n_searches)
                                 + " times, and a check after each solve"
                           : "gaps to obstacles are formulas: no facet is "
                             "looked for");
-    if (method.law_is_automatic && !pairs->empty())
+    if (method.law_is_automatic && !pairs.empty())
       report.model("automatic law", true, method.options.law->name);
     report.model("friction", false, "surfaces slide freely on each other");
     const RefinementParameters &refinement = parameters.refinement;
     model_meshes(report, refinement);
     report.model("load steps", parameters.load_steps.steps > 1,
-                 std::to_string(load_steps.n_accepted) + " of "
+                 std::to_string(run.load_steps.n_accepted()) + " of "
                      + std::to_string(parameters.load_steps.steps)
                      + " asked for");
     report.model("inertia", false, "each load step is in equilibrium");
     report.model("large strain", false,
                  "strains are linear in the displacement");
     unsigned int n_steps = 0;
-    for (const SolidState &state : states)
+    for (const ContactResult &state : run.results)
       n_steps += state.steps;
     report.model("linear systems", true,
                  std::to_string(n_steps) + " in all states", {"solve"});
-    model_files(report, parameters.fields || options.pictures);
-    explain_accuracy(report, refinement, control);
+    model_files(report, parameters.fields || run.options.pictures);
+    explain_accuracy(report, refinement, run.control);
     explain_steps(report, refinement, method, n_steps,
-                  static_cast<unsigned int>(states.size()));
+                  static_cast<unsigned int>(run.results.size()));
     explain_pairs();
     explain_output(report);
   }
 
-  template <int dim> void SolidRun<dim>::explain_pairs()
+  template <int dim> void SolidReport<dim>::explain_pairs() const
   {
-    if (load_steps.n_accepted > 1)
+    if (run.load_steps.n_accepted() > 1)
       report.leave_out(
           "load steps: without friction the last answer does not depend on "
           "those before it; if only it is wanted, Load steps/Steps = 1.");
-    if (pairs->empty() || states.empty())
+    if (pairs.empty() || run.results.empty())
       return;
     for (const PairResult<dim> &pair : contact.pair_results())
       if (pair.n_active == 0)
@@ -449,30 +406,6 @@ namespace abut::app
                          + " constraints is in contact.");
   }
 
-  template void SolidRun<2>::declare_tables();
-  template void SolidRun<2>::finish_state();
-  template void SolidRun<2>::report_points();
-  template void SolidRun<2>::report_reactions();
-  template void SolidRun<2>::report_checks();
-  template void SolidRun<2>::report_shares();
-  template void SolidRun<2>::report_numerics();
-  template void SolidRun<2>::report_transfer();
-  template void SolidRun<2>::report_contact();
-  template std::optional<double> SolidRun<2>::relative_error() const;
-  template std::optional<double> SolidRun<3>::relative_error() const;
-  template void SolidRun<2>::report_result(bool);
-  template void SolidRun<2>::report_model();
-  template void SolidRun<2>::explain_pairs();
-  template void SolidRun<3>::declare_tables();
-  template void SolidRun<3>::finish_state();
-  template void SolidRun<3>::report_points();
-  template void SolidRun<3>::report_reactions();
-  template void SolidRun<3>::report_checks();
-  template void SolidRun<3>::report_shares();
-  template void SolidRun<3>::report_numerics();
-  template void SolidRun<3>::report_transfer();
-  template void SolidRun<3>::report_contact();
-  template void SolidRun<3>::report_result(bool);
-  template void SolidRun<3>::report_model();
-  template void SolidRun<3>::explain_pairs();
+  template class SolidReport<2>;
+  template class SolidReport<3>;
 } // namespace abut::app

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_DEALII_LOAD_STEPS_H
+#define ABUT_DEALII_LOAD_STEPS_H
+
+/** @file
+ * The way from no load to all of it, in steps that adapt to what can be solved.
+ *
+ *     abut::LoadSteps steps(options);
+ *     while (!steps.is_finished())
+ *     {
+ *       // loads and supports of the time steps.target()
+ *       if (solver.solve(u).converged())
+ *         steps.accept(); // and write results
+ *       else
+ *       {
+ *         // u and the material as they were at steps.time()
+ *         AssertThrow(steps.reject(), ExcMessage("..."));
+ *       }
+ *     }
+ */
+
+#include <algorithm>
+
+namespace abut
+{
+  /** What LoadSteps may do. */
+  struct LoadStepOptions
+  {
+    /** Number of equal steps that are tried first, > 0. */
+    unsigned int steps = 1;
+    /** Time at the end, > 0; it begins at 0. */
+    double end_time = 1.;
+    /** Whether a step that fails is tried again with half its length. */
+    bool cut_back = true;
+    /** Length of a step, as part of the whole time, below which it is given up,
+     * in [0, 1]. */
+    double smallest_step = 1e-3;
+  };
+
+  /** Chooses the length of load steps: those asked for, halved when one fails,
+   * and doubled again up to these after two good ones. All ranks must call the
+   * same functions. */
+  class LoadSteps
+  {
+  public:
+    /** At time 0. */
+    explicit LoadSteps(const LoadStepOptions &options)
+        : options_(options), length_(full_length())
+    {
+    }
+
+    /** Whether the end is reached. */
+    bool is_finished() const
+    {
+      return reached_ >= options_.end_time;
+    }
+
+    /** Time that the next step aims at. */
+    double target() const
+    {
+      // A last step that would be left over as a sliver is taken along.
+      const double next = reached_ + length_;
+      return next > options_.end_time - 1e-6 * length_ ? options_.end_time
+                                                       : next;
+    }
+
+    /** Time that has been reached. */
+    double time() const
+    {
+      return reached_;
+    }
+
+    /** The step to target() succeeded. */
+    void accept()
+    {
+      reached_ = target();
+      ++n_accepted_;
+      ++n_good_;
+      if (n_good_ == 2 && length_ < full_length())
+      {
+        length_ = std::min(2. * length_, full_length());
+        n_good_ = 0;
+      }
+      else if (n_good_ == 2)
+        n_good_ = 1;
+    }
+
+    /** It failed: try half of it. Returns false when that would be shorter
+     * than allowed, or is not allowed at all. */
+    bool reject()
+    {
+      ++n_rejected_;
+      n_good_ = 0;
+      length_ *= 0.5;
+      return options_.cut_back
+             && length_ >= options_.smallest_step * options_.end_time;
+    }
+
+    /** Number of steps that succeeded. */
+    unsigned int n_accepted() const
+    {
+      return n_accepted_;
+    }
+
+    /** Number of steps that failed. */
+    unsigned int n_rejected() const
+    {
+      return n_rejected_;
+    }
+
+  private:
+    double full_length() const
+    {
+      return options_.end_time / options_.steps;
+    }
+
+    LoadStepOptions options_;
+    double reached_ = 0.;
+    double length_;
+    unsigned int n_good_ = 0; ///< since the last failure or doubling
+    unsigned int n_accepted_ = 0, n_rejected_ = 0;
+  };
+} // namespace abut
+
+#endif

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_CONTACT_MODEL_H
+#define ABUT_APP_CONTACT_MODEL_H
+
+#include "app/physics/discrete_problem.h"
+#include "contact_run_state.h"
+
+#include <deal.II/distributed/tria.h>
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace abut::app
+{
+  /** What is in contact, as a ContactRun sees it: a mesh with a discrete
+   * problem on it, how it touches, and what there is to tell about it. The run
+   * has the meshes, load steps, target and iterations; it calls these functions
+   * in the order in which they stand here. All are collective unless they say
+   * otherwise. */
+  template <int dim> class ContactModel
+  {
+  public:
+    explicit ContactModel(const MPI_Comm communicator)
+        : triangulation(communicator)
+    {
+    }
+
+    virtual ~ContactModel() = default;
+
+    /** @name Set-up @{ */
+    /** Read the formulas; throws InputError. Called inside collective(), not
+     * collective itself. */
+    virtual void create_functions() = 0;
+
+    /** Make the coarse mesh; throws InputError, also if the mesh of the level
+     * asked for would not fit into memory. */
+    virtual void create_mesh() = 0;
+
+    /** Find the places of all data on the mesh. Called as create_functions().
+     */
+    virtual void set_data() = 0;
+
+    /** Unknowns, constraints and pattern of the present mesh. */
+    virtual void setup_mesh() = 0;
+
+    /** Look at the first mesh: whether bodies are held. Throws InputError. */
+    virtual void check_setup()
+    {
+    }
+
+    /** Choose the law where the file leaves it open. */
+    virtual void choose_law(MethodParameters &)
+    {
+    }
+
+    /** Declare the columns of `levels.csv`. */
+    virtual void declare_tables() = 0;
+    /** @} */
+
+    /** @name A load step on a mesh @{ */
+    /** Time of all formulas, with what they prescribe. */
+    virtual void set_time(double)
+    {
+    }
+
+    /** Tangent and loads of the present mesh and time. */
+    virtual void assemble() = 0;
+
+    virtual DiscreteProblem<dim> &problem() = 0;
+    virtual const DiscreteProblem<dim> &problem() const = 0;
+
+    /** Whether anything can touch. */
+    virtual bool has_contact() const
+    {
+      return true;
+    }
+
+    /** Section of the times that rows belong to. */
+    virtual std::string rows_section() const = 0;
+
+    /** Tell the assembler what can touch at @p time. */
+    virtual void set_contact(ContactAssembler<dim> &contact, double time) = 0;
+
+    /** The parameter that a message about contact belongs to. */
+    virtual std::string parameter_of(const std::string &message) const = 0;
+
+    /** There are new rows. */
+    virtual void look_at_rows()
+    {
+    }
+
+    /** Whether relax() makes a better start on a finer mesh. */
+    virtual bool relaxes() const
+    {
+      return false;
+    }
+
+    /** Why a converged solution must not be used; empty: it may. */
+    virtual std::string refuse() const
+    {
+      return "";
+    }
+
+    /** Whether what a failed solve has reached is reported, too. */
+    virtual bool reports_failures() const
+    {
+      return false;
+    }
+    /** @} */
+
+    /** @name Its results @{ */
+    /** Estimate the error in the energy norm; @p squared by cell. */
+    virtual double estimate(dealii::Vector<float> &squared) const = 0;
+
+    virtual double energy() const = 0;
+
+    /** Energy norm of the solution. */
+    virtual double solution_norm() const = 0;
+
+    /** Errors against the exact solution, if there is one. */
+    virtual std::optional<ErrorNorms> errors() const = 0;
+    virtual bool has_exact_solution() const = 0;
+
+    /** Add what only this model has to a result and its row of `levels.csv`. */
+    virtual void add_to_row(ContactResult &,
+                            std::map<std::string, double> &) const
+    {
+    }
+
+    /** A line of progress about a result. */
+    virtual std::string line_of(const ContactResult &result) const = 0;
+
+    /** Flag more cells, beside those with large errors. */
+    virtual void flag_more_cells()
+    {
+    }
+    /** @} */
+
+    /** @name What it leaves behind @{ */
+    virtual void write_fields() = 0;
+
+    /** Files and figures of the end that need the time's sections closed. */
+    virtual void finish()
+    {
+    }
+
+    virtual void draw() = 0;
+
+    /** What `abut check` tells; there are rows if there is contact. */
+    virtual void report_check() = 0;
+
+    /** Results into the summary. */
+    virtual void report_result(bool converged) = 0;
+
+    /** What was modelled, and what could have been left out. */
+    virtual void report_model() = 0;
+    /** @} */
+
+    dealii::parallel::distributed::Triangulation<dim> triangulation;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_CONTACT_RESULT_H
+#define ABUT_APP_CONTACT_RESULT_H
+
+#include "app/adapt/error_target.h"
+#include "app/physics/error_norms.h"
+
+#include <abut/dealii/solver_parameters.h>
+#include <abut/strategy.h>
+
+#include <deal.II/base/types.h>
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace abut::app
+{
+  /** Results of one mesh, or of one load step on the last mesh. */
+  struct ContactResult
+  {
+    unsigned int load_step = 0;
+    double time = 0.;
+    unsigned int level = 0; ///< number of the mesh
+    unsigned int steps = 0; ///< linear systems
+    LinearReport linear;
+    abut_progress progress = {};
+    dealii::types::global_dof_index cells = 0, dofs = 0, rows = 0, active = 0;
+    double energy = 0., force = 0., penetration = 0.;
+    std::optional<ErrorNorms> errors;
+    std::optional<double> estimate;
+    std::optional<ErrorParts> error_parts; ///< with a target only
+    std::optional<double> inf_sup;
+    double seconds = 0.; ///< since the end of the one before, counted parts
+  };
+
+  /** The columns of `levels.csv` that all models have. */
+  std::map<std::string, double> result_row(const ContactResult &result);
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,500 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The order of things: meshes, load steps, solves. What is solved is in a
+// model.
+#include "contact_run.h"
+
+#include "app/adapt/contact_refinement.h"
+#include "app/input/collective.h"
+#include "app/input/input_error.h"
+#include "app/input/short_number.h"
+#include "app/mesh/memory_check.h"
+#include "diagnosis.h"
+
+#include <deal.II/distributed/grid_refinement.h>
+
+#include <algorithm>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Do what may find that contact cannot be, and say by which parameter. */
+    template <int dim>
+    void name_parameter(const ContactModel<dim> &model,
+                        const std::function<void()> &action)
+    {
+      try
+      {
+        action();
+      }
+      catch (const ContactError &error)
+      {
+        throw InputError(model.parameter_of(error.what()), error.what());
+      }
+      catch (const ObstacleError &error)
+      {
+        throw InputError(model.parameter_of(error.what()), error.what());
+      }
+    }
+  } // namespace
+
+  template <int dim>
+  ContactRun<dim>::ContactRun(ContactRunState<dim> &state,
+                              ContactModel<dim> &model)
+      : state(state), model(model), report(state.report)
+  {
+  }
+
+  template <int dim> void ContactRun<dim>::prepare()
+  {
+    collective(state.communicator, [&] { model.create_functions(); });
+    {
+      SectionTimes::Scope scope(report.times, "mesh");
+      model.create_mesh();
+      model.triangulation.refine_global(state.mesh_number);
+    }
+    collective(state.communicator, [&] { model.set_data(); });
+    model.set_time(state.load_steps.target());
+    setup_mesh();
+    model.check_setup();
+    model.choose_law(state.method);
+    state.control.set_law(state.method.options.law);
+    state.u = model.problem().vector();
+  }
+
+  template <int dim> void ContactRun<dim>::setup_mesh()
+  {
+    // Solvers refer to the matrix that goes away.
+    linear_solver.reset();
+    state.contact.set_parameters(state.method, state.settings.solver);
+    contact_is_ready = false;
+    model.setup_mesh();
+    if (model.has_contact())
+      return;
+    linear_solver =
+        std::make_unique<solve::MaskedSolver>(state.settings.solver);
+    linear_solver->reinit(model.problem().stiffness);
+  }
+
+  template <int dim> void ContactRun<dim>::check()
+  {
+    prepare();
+    if (model.has_contact())
+    {
+      state.present.time = state.load_steps.target();
+      model.problem().constraints.distribute(state.u);
+      begin_contact();
+      name_parameter(model, [&] { state.contact.detect(state.u); });
+    }
+    model.report_check();
+    report.set("dofs", model.problem().dof_handler.n_dofs());
+  }
+
+  template <int dim> void ContactRun<dim>::begin_contact()
+  {
+    SectionTimes::Scope scope(report.times, model.rows_section());
+    if (!contact_is_ready)
+    {
+      const bool loose = !state.is_last_mesh() && !model.has_exact_solution()
+                         && !state.settings.all_levels
+                         && !state.control.is_on();
+      state.contact.set_parameters(
+          loose ? state.settings.refinement.loosened(state.method)
+                : state.control.method(),
+          state.settings.solver);
+      const DiscreteProblem<dim> &problem = model.problem();
+      state.contact.reinit(problem.mapping, problem.dof_handler,
+                           problem.constraints);
+      if (pressure.size() > 0)
+        state.contact.set_pressure(pressure);
+      contact_is_ready = true;
+    }
+    model.set_contact(state.contact, state.present.time);
+  }
+
+  template <int dim> NewtonParameters ContactRun<dim>::newton_parameters() const
+  {
+    NewtonParameters parameters;
+    const unsigned int sweeps = state.settings.refinement.relaxation_sweeps;
+    if (abut_law_needs_open_start(state.method.options.law))
+      parameters.relaxation_sweeps = std::max(1u, sweeps);
+    else if (model.relaxes() && pressure.size() > 0)
+      parameters.relaxation_sweeps = sweeps;
+    return parameters;
+  }
+
+  template <int dim> HostProblem ContactRun<dim>::host_problem()
+  {
+    HostProblem problem;
+    problem.residual = [this](const la::Vector &u, la::Vector &residual)
+    { model.problem().residual(u, residual); };
+    problem.tangent = [this](const la::Vector &u) -> const la::Matrix &
+    { return model.problem().tangent(u); };
+    problem.linear = model.problem().is_linear();
+    problem.residual_is_cheap = problem.linear;
+    return problem;
+  }
+
+  template <int dim> SolverEvents ContactRun<dim>::solver_events()
+  {
+    SolverEvents events;
+    events.phase = [this](const SolvePhase phase)
+    {
+      section.reset();
+      if (phase == SolvePhase::solve)
+      {
+        ++state.n_searches;
+        model.look_at_rows();
+        section.emplace(report.times, "solve");
+      }
+      else if (phase != SolvePhase::end)
+        section.emplace(report.times, model.rows_section());
+    };
+    events.stepped = [this](const LinearReport &cost, const la::Vector &step)
+    { note_step(cost, step); };
+    events.refuse = [this](const la::Vector &, const unsigned int search)
+    { return refuse(search); };
+    events.missed = [this](const std::size_t n_nodes)
+    {
+      report.progress("  " + std::to_string(n_nodes)
+                      + " nodes have penetrated without a constraint: "
+                      + "searching again");
+    };
+    return events;
+  }
+
+  template <int dim>
+  void ContactRun<dim>::note_step(const LinearReport &cost,
+                                  const la::Vector &increment)
+  {
+    ContactResult &present = state.present;
+    present.linear += cost;
+    present.steps += cost.n_systems;
+    steps.add(report, present.level, present.steps, state.contact.progress(),
+              cost);
+    if (state.control.is_on())
+      state.control.note_step(model.problem().energy_norm(increment),
+                              cost.tolerance);
+  }
+
+  template <int dim> bool ContactRun<dim>::is_balanced(std::string &why)
+  {
+    // Coarser meshes are solved roughly on purpose, and with a target error
+    // all are; and not every variant of Nitsche's method balances forces.
+    const MethodParameters &method = state.method;
+    if (!state.is_last_mesh() || state.settings.refinement.has_target()
+        || (abut_law_needs_stress(method.options.law)
+            && method.nitsche_theta != 0.))
+      return true;
+    const DiscreteProblem<dim> &problem = model.problem();
+    la::Vector residual = problem.vector();
+    problem.residual(state.u, residual);
+    return diagnose_balance(
+        report,
+        state.contact.imbalance(residual, 1e-4 * problem.load.l2_norm()),
+        state.contact.progress().penalty, why);
+  }
+
+  template <int dim>
+  std::string ContactRun<dim>::refuse(const unsigned int search)
+  {
+    std::string why = model.refuse();
+    if (!why.empty())
+      return why;
+    const bool is_cold = !state.settings.refinement.nested && search == 1
+                         && state.load_steps.n_accepted() == 0
+                         && abut_law_solves_once(state.method.options.law);
+    diagnose_iteration(report, state.contact.progress(), is_cold);
+    return is_balanced(why) ? "" : why;
+  }
+
+  template <int dim>
+  std::string ContactRun<dim>::failure_of(const NewtonResult &result) const
+  {
+    switch (result.reason)
+    {
+    case NewtonReason::contact:
+      return coded(state.contact.failure(),
+                   "The contact iteration ended without an answer after "
+                       + std::to_string(state.present.steps)
+                       + " steps: " + state.contact.explanation());
+    case NewtonReason::linear_solve:
+      return diagnose_solver_failure(result.explanation,
+                                     state.contact.progress().penalty);
+    case NewtonReason::missed_nodes:
+      return coded(
+          ABUT_FAILURE_NO_PARTNER,
+          "Nodes keep on penetrating without a constraint after "
+              + std::to_string(result.n_searches)
+              + " searches: use smaller load steps (Load steps/Steps), or a "
+                "larger Reach of the pair.");
+    default:
+      return result.explanation;
+    }
+  }
+
+  template <int dim> bool ContactRun<dim>::solve_with_contact()
+  {
+    begin_contact();
+    ContactSolver<dim> solver(state.contact, model.problem().constraints,
+                              host_problem(), newton_parameters(),
+                              solver_events());
+    NewtonResult result;
+    name_parameter(model, [&] { result = solver.solve(state.u); });
+    state.n_repeated_searches += std::max(1u, result.n_searches) - 1;
+    if (!result.converged())
+      failure = failure_of(result);
+    return result.converged();
+  }
+
+  template <int dim> bool ContactRun<dim>::solve_without_contact()
+  {
+    SectionTimes::Scope scope(report.times, "solve");
+    const DiscreteProblem<dim> &problem = model.problem();
+    la::Vector residual = problem.vector();
+    problem.constraints.distribute(state.u);
+    problem.residual(state.u, residual);
+    residual *= -1.;
+    solve::Mask nothing;
+    nothing.held.assign(la::n_owned(state.u), 0);
+    la::Vector load(problem.load);
+    problem.constraints.set_zero(load);
+    la::Vector increment = problem.vector();
+    const double tolerance =
+        state.control.method().options.final_linear_tolerance;
+    try
+    {
+      state.present.linear += linear_solver->solve(
+          nothing, residual, tolerance * load.l2_norm(), increment, true);
+    }
+    catch (const SolverFailure &error)
+    {
+      failure = diagnose_solver_failure(error.what(), 0.);
+      return false;
+    }
+    state.u += increment;
+    if (state.control.is_on())
+      state.control.note_step(problem.energy_norm(increment), tolerance);
+    problem.constraints.distribute(state.u);
+    ++state.present.steps;
+    return true;
+  }
+
+  template <int dim> bool ContactRun<dim>::solve()
+  {
+    state.present = ContactResult();
+    state.present.load_step = state.load_steps.n_accepted() + 1;
+    state.present.time = state.load_steps.target();
+    state.present.level = state.mesh_number;
+    model.assemble();
+    const bool solved =
+        model.has_contact() ? solve_with_contact() : solve_without_contact();
+    if (solved || model.reports_failures())
+      finish_result();
+    return solved;
+  }
+
+  template <int dim> std::optional<bool> ContactRun<dim>::follow_target()
+  {
+    for (;;)
+    {
+      const ErrorTarget::Step step =
+          state.control.next(state.present.progress.penalty);
+      if (step == ErrorTarget::Step::stop)
+        return true;
+      if (step == ErrorTarget::Step::refine)
+        break;
+      if (model.has_contact())
+        pressure = state.contact.pressure();
+      contact_is_ready = false;
+      if (!solve())
+        return false;
+    }
+    if (!state.is_last_mesh())
+      return {};
+    target_is_missed = true;
+    return true;
+  }
+
+  template <int dim> bool ContactRun<dim>::solve_on_hierarchy()
+  {
+    while (solve())
+    {
+      const std::optional<bool> met =
+          state.control.is_on() ? follow_target() : std::optional<bool>();
+      if (met)
+        return *met;
+      if (state.is_last_mesh())
+        return true;
+      if (state.settings.all_levels)
+        model.write_fields();
+      refine();
+    }
+    return false;
+  }
+
+  template <int dim> void ContactRun<dim>::set_refine_flags()
+  {
+    SectionTimes::Scope scope(report.times, "mesh");
+    const RefinementParameters &levels = state.settings.refinement;
+    if (!levels.is_adaptive(state.mesh_number))
+    {
+      for (const auto &cell : model.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          cell->set_refine_flag();
+      return;
+    }
+    dealii::parallel::distributed::GridRefinement::
+        refine_and_coarsen_fixed_fraction(
+            model.triangulation, state.squared_estimate,
+            state.control.is_on() ? state.control.refine_fraction()
+                                  : levels.refine_fraction,
+            levels.coarsen_fraction);
+    model.flag_more_cells();
+  }
+
+  template <int dim> void ContactRun<dim>::refine()
+  {
+    set_refine_flags();
+    DiscreteProblem<dim> &problem = model.problem();
+    if (state.control.is_on())
+      check_memory_of_flags(model.triangulation, problem.fe.degree,
+                            "Refinement/Target error",
+                            problem.fe.n_components());
+    std::vector<la::Vector> fields = {problem.ghosted(state.u)};
+    if (model.has_contact())
+      fields.push_back(problem.ghosted_field(state.contact.pressure()));
+    fields = refine_mesh<dim>(
+        model.triangulation, problem.dof_handler, fields,
+        [this] { setup_mesh(); }, report.times);
+    state.u = fields[0];
+    if (model.has_contact())
+      pressure = fields[1];
+    ++state.mesh_number;
+    la::Vector start(state.u);
+    problem.constraints.distribute(start);
+    state.control.begin_mesh(start);
+  }
+
+  template <int dim> bool ContactRun<dim>::take_load_step()
+  {
+    LoadSteps &load_steps = state.load_steps;
+    const la::Vector before(state.u);
+    model.set_time(load_steps.target());
+    const bool is_first = load_steps.n_accepted() == 0;
+    if (is_first ? solve_on_hierarchy() : solve())
+    {
+      model.write_fields();
+      if (model.has_contact())
+        pressure = state.contact.pressure();
+      load_steps.accept();
+      return true;
+    }
+    const bool goes_on = load_steps.reject();
+    if (goes_on)
+      report.progress("load step cut back to time "
+                      + short_number(load_steps.target(), 6) + ": " + failure);
+    else
+      report.warn(failure);
+    if (!goes_on && model.reports_failures())
+    {
+      model.write_fields();
+      return false;
+    }
+    state.u = is_first ? model.problem().vector() : before;
+    contact_is_ready = false;
+    if (is_first)
+      pressure.clear();
+    return goes_on;
+  }
+
+  template <int dim> double ContactRun<dim>::counted_seconds() const
+  {
+    return report.times.seconds("assembly") + report.times.seconds("transfer")
+           + report.times.seconds(model.rows_section())
+           + report.times.seconds("solve");
+  }
+
+  template <int dim> void ContactRun<dim>::judge()
+  {
+    SectionTimes::Scope scope(report.times, "error estimate");
+    MeshEvidence evidence;
+    evidence.residual = *state.present.estimate;
+    if (state.control.start().size() > 0)
+    {
+      la::Vector change(state.u);
+      change -= state.control.start();
+      evidence.change = model.problem().energy_norm(change);
+    }
+    evidence.norm = model.solution_norm();
+    if (model.has_contact())
+    {
+      // Nitsche's method is consistent: its gaps are the mesh's error.
+      if (!abut_law_needs_stress(state.method.options.law))
+        evidence.law = state.contact.complementarity_error();
+      evidence.contact_force = state.contact.contact_force();
+    }
+    state.present.error_parts = state.control.judge(evidence);
+  }
+
+  template <int dim> void ContactRun<dim>::finish_result()
+  {
+    ContactResult &present = state.present;
+    const ContactAssembler<dim> &contact = state.contact;
+    if (state.settings.refinement.is_adaptive(state.mesh_number))
+    {
+      SectionTimes::Scope scope(report.times, "error estimate");
+      present.estimate = model.estimate(state.squared_estimate);
+    }
+    if (state.control.is_on() && state.load_steps.n_accepted() == 0)
+      judge();
+    const double counted = counted_seconds();
+    present.seconds = counted - counted_before;
+    counted_before = counted;
+    SectionTimes::Scope scope(report.times, "results");
+    present.cells = model.triangulation.n_global_active_cells();
+    present.dofs = model.problem().dof_handler.n_dofs();
+    present.energy = model.energy();
+    if (model.has_contact())
+    {
+      present.progress = contact.progress();
+      present.rows = contact.n_rows();
+      present.active = contact.n_active();
+      present.force = contact.contact_force();
+      present.penetration = contact.penetration();
+    }
+    present.errors = model.errors();
+    std::map<std::string, double> row = result_row(present);
+    model.add_to_row(present, row);
+    report.add_row(row);
+    state.results.push_back(present);
+    report.add("nonlinear_iterations", present.steps);
+    report.add("linear_iterations", present.linear.n_iterations);
+    report.add("matvecs", present.linear.n_matvecs);
+    report.progress(model.line_of(present) + state.control.progress());
+  }
+
+  template <int dim> Outcome ContactRun<dim>::run()
+  {
+    model.declare_tables();
+    prepare();
+    if (model.has_contact())
+      diagnose_penalty(report, state.settings.method);
+    bool converged = true;
+    while (converged && !target_is_missed && !state.load_steps.is_finished())
+      converged = take_load_step();
+    steps.write(state.communicator, state.options.output_folder);
+    model.finish();
+    if (state.options.pictures && !state.results.empty())
+      model.draw();
+    if (target_is_missed)
+      report.warn(state.control.failure());
+    converged = converged && !target_is_missed;
+    model.report_result(converged);
+    model.report_model();
+    return converged ? Outcome::converged : Outcome::unusable;
+  }
+
+  template class ContactRun<2>;
+  template class ContactRun<3>;
+} // namespace abut::app

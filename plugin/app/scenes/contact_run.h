@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_CONTACT_RUN_H
+#define ABUT_APP_CONTACT_RUN_H
+
+#include "app/report/step_table.h"
+#include "contact_model.h"
+
+#include <abut/dealii/contact_solver.h>
+
+#include "solve/masked_solver.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace abut::app
+{
+  /** One run of a scene with contact: the first load step by nested iteration
+   * over uniform levels and adaptive cycles, or to a target error, the others
+   * on the last mesh. What touches is the business of a model. */
+  template <int dim> class ContactRun
+  {
+  public:
+    /** Both must outlive it; the model reads the state. */
+    ContactRun(ContactRunState<dim> &state, ContactModel<dim> &model);
+
+    /** Everything up to the first solve: mesh, data, rows. */
+    void check();
+
+    /** Solve; results into the report and the output folder. */
+    Outcome run();
+
+  private:
+    void prepare();
+    void setup_mesh();
+
+    // One solve
+    void begin_contact();
+    NewtonParameters newton_parameters() const;
+    HostProblem host_problem();
+    SolverEvents solver_events();
+    void note_step(const LinearReport &cost, const la::Vector &increment);
+    std::string refuse(unsigned int search);
+    bool is_balanced(std::string &why);
+    std::string failure_of(const NewtonResult &result) const;
+    bool solve_with_contact();
+    bool solve_without_contact();
+    bool solve();
+
+    // Meshes and load steps
+    bool solve_on_hierarchy();
+    /** Whether the last solve succeeded, which meets the target or gives it
+     * up; no answer: another mesh is needed. */
+    std::optional<bool> follow_target();
+    void set_refine_flags();
+    void refine();
+    bool take_load_step();
+
+    // Results
+    double counted_seconds() const;
+    void judge();
+    void finish_result();
+
+    ContactRunState<dim> &state;
+    ContactModel<dim> &model;
+    Report &report;
+
+    std::unique_ptr<solve::MaskedSolver> linear_solver; ///< without contact
+    /** Section of the times that the solver is in. */
+    std::optional<SectionTimes::Scope> section;
+    bool contact_is_ready = false; ///< for the present mesh
+    la::Vector pressure;           ///< owned; start of the next solve, or empty
+    std::string failure;           ///< why the last solve has no answer
+    bool target_is_missed = false;
+    StepTable steps;
+    double counted_before = 0.;
+  };
+} // namespace abut::app
+
+#endif

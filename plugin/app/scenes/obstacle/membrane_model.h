@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_MEMBRANE_MODEL_H
+#define ABUT_APP_MEMBRANE_MODEL_H
+
+#include "app/input/boundary_expressions.h"
+#include "app/physics/membrane.h"
+#include "app/pictures/field_output.h"
+#include "app/scenes/contact_model.h"
+#include "obstacle_parameters.h"
+
+#include <memory>
+#include <set>
+
+namespace abut::app
+{
+  /** A membrane over an obstacle, as a ContactRun sees it. What has been made
+   * of it is public for MembraneReport. */
+  template <int dim> class MembraneModel : public ContactModel<dim>
+  {
+  public:
+    /** Both must outlive it. */
+    MembraneModel(const ObstacleParameters &parameters,
+                  ContactRunState<dim> &run);
+
+    void create_functions() override;
+    void create_mesh() override;
+    void set_data() override;
+    void setup_mesh() override;
+    void choose_law(MethodParameters &method) override;
+    void declare_tables() override;
+
+    void assemble() override;
+    DiscreteProblem<dim> &problem() override
+    {
+      return membrane;
+    }
+    const DiscreteProblem<dim> &problem() const override
+    {
+      return membrane;
+    }
+    std::string rows_section() const override
+    {
+      return "contact rows and start";
+    }
+    void set_contact(ContactAssembler<dim> &contact, double time) override;
+    std::string parameter_of(const std::string &) const override
+    {
+      return "Contact/Obstacle";
+    }
+    bool relaxes() const override
+    {
+      return true;
+    }
+    bool reports_failures() const override
+    {
+      return true;
+    }
+
+    double estimate(dealii::Vector<float> &squared) const override;
+    double energy() const override;
+    double solution_norm() const override;
+    std::optional<ErrorNorms> errors() const override;
+    bool has_exact_solution() const override
+    {
+      return exact != nullptr;
+    }
+    std::string line_of(const ContactResult &result) const override;
+
+    void write_fields() override;
+    void finish() override;
+    void draw() override;
+    void report_check() override;
+    void report_result(bool converged) override;
+    void report_model() override;
+
+    const ObstacleParameters &parameters;
+    const ContactRunState<dim> &run;
+    Membrane<dim> membrane;
+    std::unique_ptr<Expression<dim>> conductivity, load;
+    std::unique_ptr<BoundaryExpressions<dim>> dirichlet, neumann;
+    std::unique_ptr<ExactSolution<dim>> exact;
+    std::set<dealii::types::boundary_id> contact_ids;
+    MembraneData<dim> data;
+
+  private:
+    /** 1 at nodes in contact and at hanging nodes between two of them. */
+    la::Vector held_nodes() const;
+
+    Obstacle<dim> obstacle;
+    FieldSeries series;
+  };
+} // namespace abut::app
+
+#endif

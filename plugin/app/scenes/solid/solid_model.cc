@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_model.h"
+
+#include "app/adapt/contact_refinement.h"
+#include "app/adapt/elastic_estimator.h"
+#include "app/input/input_error.h"
+#include "app/input/short_number.h"
+#include "app/physics/contact_traction.h"
+#include "app/physics/elastic_normal_stress.h"
+#include "solid_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::app
+{
+  using dealii::types::boundary_id;
+
+  template <int dim>
+  SolidModel<dim>::SolidModel(const SolidParameters &parameters,
+                              ContactRunState<dim> &run,
+                              const SearchParameters &search)
+      : ContactModel<dim>(run.communicator),
+        parameters(parameters),
+        run(run),
+        bodies(parameters.bodies),
+        elasticity(this->triangulation, parameters.degree),
+        output(*this)
+  {
+    run.contact.set_search_parameters(search);
+    run.contact.set_axisymmetric(
+        dim == 2 && parameters.plane == PlaneModel::axisymmetric);
+  }
+
+  template <int dim> void SolidModel<dim>::create_functions()
+  {
+    functions = std::make_unique<SolidFunctions<dim>>(parameters);
+    pairs = std::make_unique<SolidPairs<dim>>(parameters, run.options);
+    if (!parameters.exact_displacement.empty())
+      exact = std::make_unique<ExactSolution<dim>>(
+          parameters.exact_displacement, "Exact solution/Displacement",
+          parameters.exact_gradient, "Exact solution/Gradient", dim);
+  }
+
+  template <int dim> void SolidModel<dim>::create_mesh()
+  {
+    bodies.create(run.options, parameters.degree, parameters.refinement.level,
+                  this->triangulation);
+  }
+
+  template <int dim> void SolidModel<dim>::set_data()
+  {
+    pairs->find_surfaces(bodies);
+    data = functions->data(bodies, pairs->surfaces());
+  }
+
+  template <int dim> void SolidModel<dim>::check_setup()
+  {
+    std::map<boundary_id, dealii::ComponentMask> held;
+    for (const auto &[id, support] : data.supports)
+      held[id] = support.components;
+    freedom = rigid_freedom(elasticity.mapping, elasticity.dof_handler,
+                            bodies.size(), parameters.plane, held);
+    std::set<unsigned int> touched, floating;
+    for (const boundary_id id : pairs->surfaces())
+      touched.insert(bodies.body_of(id));
+    for (unsigned int body = 0; body < bodies.size(); ++body)
+    {
+      if (freedom[body].n_modes == 0)
+        continue;
+      floating.insert(body);
+      if (touched.count(body) == 0)
+        throw InputError(bodies[body].parameter("Support"),
+                         coded(ABUT_FAILURE_FLOATING_BODY,
+                               "body " + std::to_string(body + 1)
+                                   + " is held too little: its supports allow "
+                                   + freedom[body].description
+                                   + ", and it is in no contact pair."));
+    }
+    pairs->hold(bodies, floating);
+  }
+
+  template <int dim> void SolidModel<dim>::setup_mesh()
+  {
+    {
+      SectionTimes::Scope scope(run.report.times, "unknowns and pattern");
+      elasticity.renumber = parameters.refinement.renumber;
+      elasticity.setup(data);
+    }
+    SectionTimes::Scope scope(run.report.times, "assembly");
+    elasticity.assemble_stiffness(data);
+  }
+
+  template <int dim> void SolidModel<dim>::assemble()
+  {
+    SectionTimes::Scope scope(run.report.times, "assembly");
+    elasticity.assemble_load(data);
+  }
+
+  template <int dim> void SolidModel<dim>::set_time(const double time)
+  {
+    functions->set_time(time);
+    if (exact)
+      exact->set_time(time);
+    // The first mesh gets its supports with its unknowns.
+    if (functions->supports_move() && elasticity.dof_handler.has_active_dofs())
+      elasticity.set_supports(data);
+  }
+
+  template <int dim>
+  void SolidModel<dim>::set_contact(ContactAssembler<dim> &contact,
+                                    const double time)
+  {
+    pairs->set_time(time);
+    contact.set_pairs(pairs->pairs());
+    contact.set_normal_stress(std::make_shared<ElasticNormalStress<dim>>(
+        elasticity.mapping, data.materials));
+  }
+
+  template <int dim> void SolidModel<dim>::look_at_rows()
+  {
+    if (has_warned || !run.is_last_mesh())
+      return;
+    has_warned = true;
+    for (const PairCheck &check : run.contact.pair_checks())
+      for (const std::string &warning : check.warnings)
+        run.report.warn(about(check.name, warning));
+  }
+
+  template <int dim>
+  bool
+  SolidModel<dim>::is_held(const unsigned int body,
+                           const std::vector<PairResult<dim>> &results) const
+  {
+    bool held = false;
+    for (std::size_t i = 0; i < results.size(); ++i)
+    {
+      const ContactPair<dim> &pair = pairs->pairs()[i];
+      if (pair.secondary == pair.primary)
+        continue;
+      for (const auto *side : {&pair.secondary, &pair.primary})
+        for (const dealii::types::boundary_id id : *side)
+          held =
+              held || (bodies.body_of(id) == body && results[i].n_active > 0);
+    }
+    return held;
+  }
+
+  template <int dim> std::string SolidModel<dim>::refuse() const
+  {
+    for (unsigned int body = 0; body < bodies.size(); ++body)
+      if (freedom[body].n_modes > 0
+          && !is_held(body, run.contact.pair_results()))
+        return coded(
+            ABUT_FAILURE_FLOATING_BODY,
+            "Nothing holds body " + std::to_string(body + 1)
+                + ": its supports allow " + freedom[body].description
+                + ", and it touches nothing. Press it against something, or "
+                  "give it a support (Body "
+                + std::to_string(body + 1) + "/Support).");
+    return "";
+  }
+
+  template <int dim> ContactFields SolidModel<dim>::contact_fields() const
+  {
+    if (pairs->empty())
+      return {};
+    return {contact_traction(elasticity.mapping, elasticity.dof_handler,
+                             elasticity.constraints, elasticity.hanging,
+                             data.materials, pairs->surfaces(),
+                             elasticity.unbalanced_forces(run.u)),
+            elasticity.ghosted_field(run.contact.pressure()),
+            elasticity.ghosted_field(run.contact.gap()),
+            elasticity.ghosted_field(run.contact.status())};
+  }
+
+  template <int dim>
+  double SolidModel<dim>::estimate(dealii::Vector<float> &squared) const
+  {
+    const la::Vector displacement = elasticity.ghosted(run.u);
+    const ContactFields fields = contact_fields();
+    ElasticEstimatorInput<dim> input{elasticity.mapping, elasticity.dof_handler,
+                                     displacement, data.materials};
+    for (const auto &[body, force] : data.body_force)
+      input.body_force[body] = force;
+    for (const auto &[id, traction] : data.tractions)
+      input.traction[id] = traction.function;
+    for (const auto &[id, pressure] : data.pressures)
+      input.pressure_load[id] = pressure.function;
+    for (const auto &[id, support] : data.supports)
+      input.supports[id] = support.components;
+    if (!pairs->empty())
+    {
+      input.contact = pairs->surfaces();
+      input.contact_traction = &fields.traction;
+      input.secondary = pairs->secondary();
+      input.pressure = &fields.pressure;
+      // With a target, what the law leaves open is an error of its own.
+      const bool exact_law = abut_law_is_exact(run.method.options.law)
+                             || abut_law_needs_stress(run.method.options.law);
+      input.gap = run.control.is_on() && !exact_law ? nullptr : &fields.gap;
+    }
+    return estimate_elastic_error(input, squared);
+  }
+
+  template <int dim> double SolidModel<dim>::solution_norm() const
+  {
+    // The energy is 1/2 |u|^2 - f u.
+    const double twice =
+        2. * (elasticity.energy(run.u) + elasticity.external * run.u);
+    return std::sqrt(std::max(0., twice));
+  }
+
+  template <int dim> std::optional<ErrorNorms> SolidModel<dim>::errors() const
+  {
+    if (!exact)
+      return {};
+    return error_norms(elasticity.mapping, elasticity.dof_handler,
+                       elasticity.ghosted(run.u), *exact, &data.materials);
+  }
+
+  template <int dim> void SolidModel<dim>::flag_more_cells()
+  {
+    if (pairs->empty())
+      return;
+    flag_contact_border(elasticity.dof_handler,
+                        elasticity.ghosted_field(run.contact.status()),
+                        pairs->secondary());
+    limit_size_ratio(this->triangulation, pairs->sides());
+  }
+
+  template <int dim> void SolidModel<dim>::declare_tables()
+  {
+    run.report.declare_columns({"load_step",
+                                "time",
+                                "level",
+                                "cells",
+                                "dofs",
+                                "constraints",
+                                "active",
+                                "steps",
+                                "linear_iterations",
+                                "matvecs",
+                                "setups",
+                                "energy",
+                                "contact_force",
+                                "penetration",
+                                "l2_error",
+                                "h1_error",
+                                "energy_norm_error",
+                                "estimate",
+                                "estimated_error",
+                                "inf_sup",
+                                "setup_seconds",
+                                "krylov_seconds",
+                                "seconds"});
+  }
+
+  template <int dim>
+  void SolidModel<dim>::add_to_row(ContactResult &result,
+                                   std::map<std::string, double> &row) const
+  {
+    if (!pairs->empty() && parameters.inf_sup)
+      result.inf_sup = run.contact.inf_sup_constant(elasticity.stiffness);
+    row["load_step"] = result.load_step;
+    row["time"] = result.time;
+    if (result.errors)
+      row["energy_norm_error"] = *result.errors->energy;
+    if (result.inf_sup)
+      row["inf_sup"] = *result.inf_sup;
+  }
+
+  template <int dim>
+  std::string SolidModel<dim>::line_of(const ContactResult &result) const
+  {
+    return "time " + short_number(result.time, 6) + ", level "
+           + std::to_string(result.level) + ": " + std::to_string(result.dofs)
+           + " unknowns, " + std::to_string(result.linear.n_iterations)
+           + " linear iterations, energy " + short_number(result.energy, 8);
+  }
+
+  template <int dim> void SolidModel<dim>::report_check()
+  {
+    SolidReport<dim>(*this).check();
+  }
+
+  template <int dim> void SolidModel<dim>::report_result(const bool converged)
+  {
+    SolidReport<dim>(*this).result(converged);
+  }
+
+  template <int dim> void SolidModel<dim>::report_model()
+  {
+    SolidReport<dim>(*this).model_lines();
+  }
+
+  template class SolidModel<2>;
+  template class SolidModel<3>;
+} // namespace abut::app

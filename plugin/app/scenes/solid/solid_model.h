@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_SOLID_MODEL_H
+#define ABUT_APP_SOLID_MODEL_H
+
+#include "app/physics/rigid_modes.h"
+#include "app/scenes/contact_model.h"
+#include "solid_functions.h"
+#include "solid_output.h"
+#include "solid_pairs.h"
+
+#include <memory>
+#include <vector>
+
+namespace abut::app
+{
+  /** Elastic bodies with their contact pairs, as a ContactRun sees them. What
+   * has been made of them is public for SolidOutput and SolidReport. */
+  template <int dim> class SolidModel : public ContactModel<dim>
+  {
+  public:
+    /** Both must outlive it. */
+    SolidModel(const SolidParameters &parameters, ContactRunState<dim> &run,
+               const SearchParameters &search);
+
+    void create_functions() override;
+    void create_mesh() override;
+    void set_data() override;
+    void setup_mesh() override;
+    void check_setup() override;
+    void declare_tables() override;
+
+    void set_time(double time) override;
+    void assemble() override;
+    DiscreteProblem<dim> &problem() override
+    {
+      return elasticity;
+    }
+    const DiscreteProblem<dim> &problem() const override
+    {
+      return elasticity;
+    }
+    bool has_contact() const override
+    {
+      return !pairs->empty();
+    }
+    std::string rows_section() const override
+    {
+      return "contact rows";
+    }
+    void set_contact(ContactAssembler<dim> &contact, double time) override;
+    std::string parameter_of(const std::string &message) const override
+    {
+      return pairs->parameter_of(message);
+    }
+    void look_at_rows() override;
+    /** Names a body that nothing holds. */
+    std::string refuse() const override;
+
+    double estimate(dealii::Vector<float> &squared) const override;
+    double energy() const override
+    {
+      return elasticity.energy(run.u);
+    }
+    double solution_norm() const override;
+    std::optional<ErrorNorms> errors() const override;
+    bool has_exact_solution() const override
+    {
+      return exact != nullptr;
+    }
+    void add_to_row(ContactResult &result,
+                    std::map<std::string, double> &row) const override;
+    std::string line_of(const ContactResult &result) const override;
+    void flag_more_cells() override;
+
+    void write_fields() override
+    {
+      output.write_fields();
+    }
+    void draw() override
+    {
+      output.draw();
+    }
+    void report_check() override;
+    void report_result(bool converged) override;
+    void report_model() override;
+
+    /** Of the present solution. */
+    ContactFields contact_fields() const;
+
+    const SolidParameters &parameters;
+    const ContactRunState<dim> &run;
+    Bodies<dim> bodies;
+    Elasticity<dim> elasticity;
+    std::unique_ptr<SolidFunctions<dim>> functions;
+    std::unique_ptr<SolidPairs<dim>> pairs;
+    std::unique_ptr<ExactSolution<dim>> exact;
+    ElasticData<dim> data;
+
+  private:
+    bool is_held(unsigned int body,
+                 const std::vector<PairResult<dim>> &results) const;
+
+    std::vector<RigidFreedom> freedom; ///< by body
+    SolidOutput<dim> output;
+    bool has_warned = false;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Fields, contact boundaries and pictures of the scene `solid`.
+#include "app/input/collective.h"
+#include "app/physics/stress_output.h"
+#include "app/pictures/body_pictures.h"
+#include "app/pictures/contact_output.h"
+#include "app/pictures/pictures.h"
+#include "solid_model.h"
+
+#include <deal.II/base/mpi.h>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Errors over unknowns of the meshes of the first load step. */
+    std::vector<Curve> error_curves(const std::vector<ContactResult> &states)
+    {
+      Curve l2{"L2 error", {}};
+      Curve energy{"error in energy norm", {}};
+      Curve estimate{"estimate of the latter", {}};
+      for (const ContactResult &state : states)
+        if (state.load_step == states.front().load_step)
+        {
+          const double n = double(state.dofs);
+          if (state.errors)
+          {
+            l2.points.emplace_back(n, state.errors->l2);
+            energy.points.emplace_back(n, *state.errors->energy);
+          }
+          if (state.estimate)
+            estimate.points.emplace_back(n, *state.estimate);
+        }
+      return {l2, energy, estimate};
+    }
+  } // namespace
+
+  template <int dim>
+  SolidOutput<dim>::SolidOutput(const SolidModel<dim> &model)
+      : model(model),
+        series(model.run.options.output_folder, "fields",
+               model.run.communicator),
+        contact_series(model.run.options.output_folder, "contact",
+                       model.run.communicator)
+  {
+  }
+
+  template <int dim> double SolidOutput<dim>::time() const
+  {
+    // Coarser meshes come before the time of the first load step.
+    const double last = model.parameters.refinement.last_mesh();
+    return model.run.is_last_mesh() ? model.run.present.time
+                                    : model.run.present.level - last;
+  }
+
+  template <int dim> void SolidOutput<dim>::write_fields()
+  {
+    if (!model.parameters.fields)
+      return;
+    SectionTimes::Scope scope(model.run.report.times, "output");
+    const la::Vector displacement = model.elasticity.ghosted(model.run.u);
+    dealii::Vector<float> body(model.triangulation.n_active_cells());
+    for (const auto &cell : model.triangulation.active_cell_iterators())
+      body(cell->active_cell_index()) = float(cell->material_id() + 1);
+    Fields<dim> fields{model.elasticity.mapping,
+                       model.elasticity.dof_handler,
+                       {{"displacement", &displacement}},
+                       {{"body", &body}}};
+    const StressPostprocessor<dim> stresses(model.data.materials);
+    fields.derived = {{&displacement, &stresses}};
+    if (model.run.present.estimate)
+      fields.cells.emplace_back("squared_error_estimate",
+                                &model.run.squared_estimate);
+    series.write(time(), fields);
+    if (!model.pairs->empty())
+      write_contact(displacement);
+  }
+
+  template <int dim>
+  void SolidOutput<dim>::write_contact(const la::Vector &displacement)
+  {
+    const ContactFields contact_values = model.contact_fields();
+    const SignedLength<dim> pressures("pressure", -1.);
+    const FirstComponent<dim> gaps("gap");
+    const FirstComponent<dim> states("status");
+    Fields<dim> fields{model.elasticity.mapping,
+                       model.elasticity.dof_handler,
+                       {{"displacement", &displacement},
+                        {"traction", &contact_values.traction}},
+                       {}};
+    fields.derived = {{&contact_values.traction, &pressures},
+                      {&contact_values.gap, &gaps},
+                      {&contact_values.status, &states}};
+    fields.faces = model.pairs->surfaces();
+    contact_series.write(time(), fields);
+    if constexpr (dim == 2)
+    {
+      const std::vector<PressureCurve> curves = pressure_curves(contact_values);
+      collective(
+          model.run.communicator,
+          [&]
+          {
+            if (dealii::Utilities::MPI::this_mpi_process(model.run.communicator)
+                > 0)
+              return;
+            for (std::size_t i = 0; i < curves.size(); ++i)
+              write_contact_lines(
+                  model.run.options.output_folder
+                      / ("pair_" + std::to_string(i + 1) + ".csv"),
+                  curves[i].lines);
+          });
+    }
+  }
+
+  template <int dim>
+  std::vector<PressureCurve>
+  SolidOutput<dim>::pressure_curves(const ContactFields &fields) const
+  {
+    std::vector<PressureCurve> curves;
+    if constexpr (dim == 2)
+    {
+      for (const ContactPair<dim> &pair : model.pairs->pairs())
+        curves.push_back(
+            {pair.name,
+             contact_lines(model.elasticity.mapping,
+                           model.elasticity.dof_handler, pair.secondary,
+                           {fields.traction, &fields.gap, &fields.status})});
+    }
+    return curves;
+  }
+
+  template <int dim> void SolidOutput<dim>::draw() const
+  {
+    SectionTimes::Scope scope(model.run.report.times, "output");
+    if constexpr (dim == 2)
+      draw_bodies(model.run.report, model.run.options.output_folder, "bodies",
+                  model.elasticity.mapping, model.elasticity.dof_handler,
+                  model.elasticity.ghosted(model.run.u), model.data.materials,
+                  pressure_curves(model.contact_fields()), "Deformed bodies");
+    Curve count{"linear systems", {}};
+    for (const ContactResult &state : model.run.results)
+      if (state.load_step == model.run.results.front().load_step)
+        count.points.emplace_back(double(state.dofs), double(state.steps));
+    draw_convergence(model.run.report, model.run.options.output_folder,
+                     "convergence", error_curves(model.run.results), {count},
+                     "Convergence");
+  }
+
+  template class SolidOutput<2>;
+  template class SolidOutput<3>;
+} // namespace abut::app

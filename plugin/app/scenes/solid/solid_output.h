@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_SOLID_OUTPUT_H
+#define ABUT_APP_SOLID_OUTPUT_H
+
+#include "app/pictures/body_pictures.h"
+#include "app/pictures/field_output.h"
+
+#include <abut/dealii/linear_algebra.h>
+
+#include <vector>
+
+namespace abut::app
+{
+  template <int dim> class SolidModel;
+
+  /** Nodal fields of contact boundaries, ghosted; empty without pairs. */
+  struct ContactFields
+  {
+    la::Vector traction; ///< force per area on either side
+    la::Vector pressure; ///< p n on the secondary side
+    la::Vector gap;      ///< in all components
+    la::Vector status;   ///< in all components
+  };
+
+  /** Fields, contact boundaries and pictures of the scene `solid`. */
+  template <int dim> class SolidOutput
+  {
+  public:
+    /** Of this model, which must outlive it and know its run. */
+    explicit SolidOutput(const SolidModel<dim> &model);
+
+    /** The present solution into the next file of the series, if the scene asks
+     * for fields. Collective. */
+    void write_fields();
+
+    /** Pictures of the present solution. Collective. */
+    void draw() const;
+
+  private:
+    double time() const;
+    void write_contact(const la::Vector &displacement);
+    std::vector<PressureCurve>
+    pressure_curves(const ContactFields &fields) const;
+
+    const SolidModel<dim> &model;
+    FieldSeries series, contact_series;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_SOLID_REPORT_H
+#define ABUT_APP_SOLID_REPORT_H
+
+#include "solid_model.h"
+
+#include <optional>
+#include <utility>
+
+namespace abut::app
+{
+  /** What a run of the scene `solid` tells: the summary and what was modelled.
+   * Made when it is needed; all functions are collective. */
+  template <int dim> class SolidReport
+  {
+  public:
+    explicit SolidReport(const SolidModel<dim> &model);
+
+    /** What is known before the first solve. */
+    void check() const;
+
+    void result(bool converged) const;
+
+    /** What was modelled, and what could have been left out. */
+    void model_lines() const;
+
+  private:
+    void report_checks() const;
+    void report_points() const;
+    void report_reactions() const;
+    void report_transfer() const;
+    void report_numerics() const;
+    /** Returns the largest imbalance of forces and of moments of a pair. */
+    std::pair<double, double> report_pairs() const;
+    void report_contact() const;
+    std::optional<double> relative_error() const;
+    /** What single ranks have and had to say. */
+    void report_shares() const;
+    void explain_pairs() const;
+
+    const SolidModel<dim> &model;
+    const ContactRunState<dim> &run;
+    const SolidParameters &parameters;
+    const Elasticity<dim> &elasticity;
+    const Bodies<dim> &bodies;
+    const SolidPairs<dim> &pairs;
+    const ContactAssembler<dim> &contact;
+    const MethodParameters &method;
+    const la::Vector &u;
+    const MPI_Comm communicator;
+    Report &report;
+  };
+} // namespace abut::app
+
+#endif
