@@ -441,9 +441,9 @@ abut_points_get_sized(const abut_points *points, abut_points_view *view)
   if (points == NULL)
     return ABUT_INVALID_ARGUMENT;
   const abut_points *p = points;
-  if (view == NULL || view->struct_size != sizeof(*view))
+  if (view == NULL)
     return abut_fail(p->context, ABUT_INVALID_ARGUMENT, "abut_points_get",
-                     "view is NULL or its size is not set");
+                     "view is NULL");
   const abut_points_view made = {
       sizeof(abut_points_view),
       p->dimension,
@@ -462,8 +462,7 @@ abut_points_get_sized(const abut_points *points, abut_points_view *view)
       p->start.data,
       p->node.data,
       p->coefficient.data};
-  *view = made;
-  return ABUT_SUCCESS;
+  return abut_give(p->context, "abut_points_get", view, sizeof(made), &made);
 }
 
 /* Arguments shared by gap and force. */
