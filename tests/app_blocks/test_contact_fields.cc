@@ -3,6 +3,7 @@
 // Stresses and contact fields in files, and meshes that follow contact.
 
 #include "app/adapt/contact_refinement.h"
+#include "app/physics/hooke.h"
 #include "app/physics/stress_output.h"
 #include "app/pictures/body_pictures.h"
 #include "app/pictures/contact_line.h"
@@ -30,13 +31,21 @@ namespace
     scalar.distribute_dofs(dealii::FE_Q<dim>(1));
   }
 
+  /** One material for all. */
+  template <int dim>
+  Materials<dim> hooke(const double e, const double nu,
+                       const PlaneModel plane = PlaneModel::strain)
+  {
+    return {{0, std::make_shared<Hooke<dim>>(e, nu, plane)}};
+  }
+
   /** A quadratic displacement has linear stresses, which nodal means of a
    * uniform mesh reproduce inside, and a linear one constant stresses. */
   void nodal_stresses()
   {
     const double e = 7;
     const double nu = 0.3;
-    const ElasticMaterials materials = {{0, {e, nu, PlaneModel::stress}}};
+    const Materials<2> materials = hooke<2>(e, nu, PlaneModel::stress);
     Problem<2> problem(2, 2);
     unit_cube(problem, 2);
     refine_corner(problem);
@@ -69,9 +78,9 @@ namespace
     unit_cube(cube, 1);
     dealii::DoFHandler<3> nodes(cube.mesh);
     scalar_dofs(nodes);
-    const auto space = nodal_stress(cube.mapping, cube.dof_handler,
-                                    cube.interpolate("0; 0; y"),
-                                    {{0, {e, nu, PlaneModel::strain}}}, nodes);
+    const auto space =
+        nodal_stress(cube.mapping, cube.dof_handler,
+                     cube.interpolate("0; 0; y"), hooke<3>(e, nu), nodes);
     Expect::that(space.size() == 7, "xx, yy, zz, xy, xz, yz, von Mises");
     for (const auto dof : nodes.locally_owned_dofs())
     {
@@ -113,7 +122,8 @@ namespace
 
   template <int dim> void files()
   {
-    const ElasticMaterials materials = {{0, {7., 0.3}}};
+    const Materials<dim> materials = {
+        {0, std::make_shared<Hooke<dim>>(7., 0.3)}};
     const StressPostprocessor<dim> stresses(materials);
     const SignedLength<dim> pressure("pressure", -1.);
     const FirstComponent<dim> status("status");
@@ -369,12 +379,12 @@ namespace
     const bool root =
         dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     Expect::that(draw_bodies(report, folder, "bodies", problem.mapping,
-                             problem.dof_handler, u, {{0, {7., 0.3}}}, curves,
+                             problem.dof_handler, u, hooke<2>(7., 0.3), curves,
                              "Two bodies")
                      == root,
                  "bodies are drawn");
     Expect::that(draw_bodies(report, folder, "bodies-alone", problem.mapping,
-                             problem.dof_handler, u, {{0, {7., 0.3}}}, {},
+                             problem.dof_handler, u, hooke<2>(7., 0.3), {},
                              "Two bodies")
                      == root,
                  "bodies are drawn without contact");

@@ -4,8 +4,9 @@
 
 #include "app/adapt/elastic_estimator.h"
 #include "app/physics/contact_traction.h"
-#include "app/physics/elastic_material.h"
+#include "app/physics/elasticity.h"
 #include "app/physics/error_norms.h"
+#include "app/physics/hooke.h"
 
 #include "expect.h"
 #include "problem.h"
@@ -13,7 +14,9 @@
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/grid_generator.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/numerics/vector_tools.h>
 
 #include <sstream>
 
@@ -27,9 +30,17 @@ namespace
   constexpr PlaneModel plane_models[] = {PlaneModel::strain, PlaneModel::stress,
                                          PlaneModel::axisymmetric};
 
-  ElasticMaterial material(const PlaneModel plane = PlaneModel::strain)
+  template <int dim>
+  Hooke<dim> material(const PlaneModel plane = PlaneModel::strain)
   {
     return {7., 0.3, plane};
+  }
+
+  /** The same for all cells. */
+  template <int dim>
+  Materials<dim> everywhere(const PlaneModel plane = PlaneModel::strain)
+  {
+    return {{0, std::make_shared<Hooke<dim>>(material<dim>(plane))}};
   }
 
   std::string text(const double value)
@@ -50,14 +61,14 @@ namespace
     // stress 1 along y, none along x; plane stress: strains 1/E and -nu/E
     du[1][1] = 1. / e;
     du[0][0] = -nu / e;
-    Stress<2> s = stress(material(PlaneModel::stress), du, {}, at);
+    Stress<2> s = material<2>(PlaneModel::stress).stress(du, {}, at);
     Expect::near(s.tensor[1][1], 1, 1e-15, "plane stress");
     Expect::near(s.tensor[0][0], 0, 1e-15, "plane stress, across");
     Expect::near(s.von_mises(), 1, 1e-15, "von Mises of uniaxial stress");
     // plane strain: E/(1-nu^2), nu/(1-nu)
     du[1][1] = (1 - nu * nu) / e;
     du[0][0] = -nu * (1 + nu) / e;
-    s = stress(material(), du, {}, at);
+    s = material<2>().stress(du, {}, at);
     Expect::near(s.tensor[1][1], 1, 1e-15, "plane strain");
     Expect::near(s.tensor[0][0], 0, 1e-15, "plane strain, across");
     Expect::near(s.out_of_plane, nu, 1e-15, "plane strain, out of plane");
@@ -65,8 +76,8 @@ namespace
                  "von Mises of plane strain");
     Tensor<2, 3> shear;
     shear[0][1] = 0.02;
-    const Stress<3> t = stress(material(), shear, {}, Point<3>());
-    Expect::near(t.tensor[1][0], 0.02 * material().mu(), 1e-15, "shear");
+    const Stress<3> t = material<3>().stress(shear, {}, Point<3>());
+    Expect::near(t.tensor[1][0], 0.02 * material<3>().mu(), 1e-15, "shear");
     Expect::near(t.von_mises(), std::sqrt(3.) * t.tensor[1][0], 1e-15,
                  "von Mises of shear");
     // tube: u = a r + b/r has sigma_rr = 2 (lambda + mu) a - 2 mu b/r^2
@@ -78,21 +89,179 @@ namespace
     ring[0][0] = a - b / (r * r);
     Tensor<3, 2> second;
     second[0][0][0] = 2 * b / (r * r * r);
-    const ElasticMaterial tube = material(PlaneModel::axisymmetric);
-    const double lambda = tube.lambda<2>();
-    s = stress(tube, ring, u, at);
+    const Hooke<2> tube = material<2>(PlaneModel::axisymmetric);
+    const double lambda = tube.lambda();
+    s = tube.stress(ring, u, at);
     Expect::near(s.tensor[0][0],
                  2 * (lambda + tube.mu()) * a - 2 * tube.mu() * b / (r * r),
                  1e-15, "radial stress");
     Expect::near(s.out_of_plane,
                  2 * (lambda + tube.mu()) * a + 2 * tube.mu() * b / (r * r),
                  1e-15, "hoop stress");
-    Expect::near(stress_divergence(tube, second, ring, u, at).norm(), 0, 1e-15,
+    Expect::near(tube.stress_divergence(second, ring, u, at).norm(), 0, 1e-15,
                  "equilibrium of the tube");
-    Expect::near(strain_product(tube, ring, u, at),
+    Expect::near(2 * tube.energy(ring, u, at),
                  s.tensor[0][0] * ring[0][0] + s.out_of_plane * u[0] / r, 1e-15,
                  "energy of the tube");
     Expect::near(tube.measure(at), 4 * dealii::numbers::PI, 1e-14, "ring");
+  }
+
+  /** stress = (lambda + c tr^2) tr I + 2 mu strain, as Hooke's law with a
+   * volume that stiffens. */
+  template <int dim> class Stiffening : public Hooke<dim>
+  {
+  public:
+    explicit Stiffening(const double c) : Hooke<dim>(7., 0.3), c(c)
+    {
+    }
+
+    bool is_linear() const override
+    {
+      return false;
+    }
+
+    Stress<dim> stress(const Tensor<2, dim> &gradient,
+                       const Tensor<1, dim> &displacement,
+                       const Point<dim> &point) const override
+    {
+      Stress<dim> result = Hooke<dim>::stress(gradient, displacement, point);
+      for (unsigned int d = 0; d < dim; ++d)
+        result.tensor[d][d] += c * std::pow(trace(gradient), 3);
+      return result;
+    }
+
+    double energy(const Tensor<2, dim> &gradient,
+                  const Tensor<1, dim> &displacement,
+                  const Point<dim> &point) const override
+    {
+      return Hooke<dim>::energy(gradient, displacement, point)
+             + 0.25 * c * std::pow(trace(gradient), 4);
+    }
+
+    void cell_tangent(const dealii::FEValues<dim> &values,
+                      const dealii::FiniteElement<dim> &fe,
+                      const CellState<dim> &state,
+                      dealii::FullMatrix<double> &tangent) const override
+    {
+      Hooke<dim>::cell_tangent(values, fe, state, tangent);
+      for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+        for (unsigned int j = 0; j < fe.n_dofs_per_cell(); ++j)
+          for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+          {
+            const auto [a, k] = fe.system_to_component_index(i);
+            const auto [b, l] = fe.system_to_component_index(j);
+            tangent(i, j) += 3. * c * std::pow(trace(state.gradient[q]), 2)
+                             * values.shape_grad(k, q)[a]
+                             * values.shape_grad(l, q)[b] * values.JxW(q);
+          }
+    }
+
+  private:
+    const double c;
+  };
+
+  /** The unit square without supports, of one material. */
+  class FreeSquare
+  {
+  public:
+    explicit FreeSquare(const std::shared_ptr<const Material<2>> &material)
+        : mesh(MPI_COMM_WORLD), elasticity(mesh, 2)
+    {
+      dealii::GridGenerator::hyper_cube(mesh);
+      mesh.refine_global(2);
+      data.materials = {{0, material}};
+      elasticity.setup(data);
+      elasticity.assemble_stiffness();
+      elasticity.assemble_load(data);
+    }
+
+    la::Vector interpolate(const std::string &text) const
+    {
+      la::Vector result = elasticity.vector();
+      dealii::VectorTools::interpolate(elasticity.mapping,
+                                       elasticity.dof_handler,
+                                       Expression<2>(text, "u", 2), result);
+      return result;
+    }
+
+    dealii::parallel::distributed::Triangulation<2> mesh;
+    ElasticData<2> data;
+    Elasticity<2> elasticity;
+  };
+
+  /** Forces by the stress, of which the matrix knows nothing. */
+  void forces_of_stress()
+  {
+    class Hidden : public Hooke<2>
+    {
+    public:
+      explicit Hidden(const PlaneModel plane) : Hooke<2>(material<2>(plane))
+      {
+      }
+
+      bool is_linear() const override
+      {
+        return false;
+      }
+    };
+    for (const PlaneModel plane : plane_models)
+    {
+      FreeSquare known(std::make_shared<Hooke<2>>(material<2>(plane)));
+      FreeSquare hidden(std::make_shared<Hidden>(plane));
+      Expect::that(known.elasticity.is_linear()
+                       && !hidden.elasticity.is_linear(),
+                   "what is linear");
+      const la::Vector u = known.interpolate("x^2*y; x - y^2");
+      la::Vector by_matrix(u), by_stress(u);
+      known.elasticity.residual(u, by_matrix);
+      hidden.elasticity.residual(u, by_stress);
+      Expect::near(hidden.elasticity.energy(u), known.elasticity.energy(u),
+                   1e-12, "energy by points and by the matrix");
+      const double size = by_matrix.linfty_norm();
+      by_stress -= by_matrix;
+      Expect::near(by_stress.linfty_norm(), 0, 1e-12 * size,
+                   "forces by points and by the matrix");
+    }
+  }
+
+  /** A nonlinear material: uniform strain has the stress of the formula, the
+   * tangent is the derivative of the forces, and those of the energy. */
+  void nonlinear_material()
+  {
+    const double c = 40., e = 0.1;
+    FreeSquare square(std::make_shared<Stiffening<2>>(c));
+    Elasticity<2> &elasticity = square.elasticity;
+    const la::Vector u = square.interpolate("0.1*x; 0");
+    la::Vector forces(u);
+    elasticity.residual(u, forces);
+    // Forces on x = 1 by virtual work: with v = (x, 0) it is the stress.
+    const Hooke<2> hooke = material<2>();
+    const double stress = (hooke.lambda() + 2 * hooke.mu()) * e + c * e * e * e;
+    Expect::near(forces * square.interpolate("x; 0"), stress, 1e-12,
+                 "stress of uniaxial strain");
+    Expect::near(elasticity.energy(u),
+                 0.5 * (hooke.lambda() + 2 * hooke.mu()) * e * e
+                     + 0.25 * c * e * e * e * e,
+                 1e-12, "energy of uniaxial strain");
+    const la::Vector at = square.interpolate("0.1*x + 0.2*x*y; 0.1*y*y");
+    const la::Vector way = square.interpolate("x*y - y^2; x^2 + 0.5*y");
+    constexpr double h = 1e-5;
+    la::Vector ahead(at), behind(at), there(at), back(at), change(at);
+    ahead.add(h, way);
+    behind.add(-h, way);
+    elasticity.residual(ahead, there);
+    elasticity.residual(behind, back);
+    elasticity.residual(at, forces);
+    Expect::near((elasticity.energy(ahead) - elasticity.energy(behind))
+                     / (2 * h),
+                 forces * way, 1e-8, "forces from the energy");
+    there -= back;
+    there *= 1. / (2 * h);
+    elasticity.tangent(at).vmult(change, way);
+    const double size = change.linfty_norm();
+    change -= there;
+    Expect::near(change.linfty_norm(), 0, 1e-8 * size,
+                 "tangent from the forces");
   }
 
   /** Errors of the interpolant of (x^2, 0): see the scalar test. On rings each
@@ -107,7 +276,7 @@ namespace
     const double pi = dealii::numbers::PI;
     for (const PlaneModel plane : plane_models)
     {
-      const ElasticMaterials materials = {{0, material(plane)}};
+      const Materials<2> materials = everywhere<2>(plane);
       const bool rings = plane == PlaneModel::axisymmetric;
       const double factor = std::sqrt(rings ? pi : 1.);
       const ErrorNorms errors = error_norms(
@@ -116,7 +285,7 @@ namespace
       Expect::near(errors.h1_seminorm, factor * h / std::sqrt(3.), 1e-14, "H1");
       Expect::near(errors.largest_node, 0, 1e-15, "nodes");
       const double modulus =
-          materials.at(0).lambda<2>() + 2 * materials.at(0).mu();
+          material<2>(plane).lambda() + 2 * material<2>(plane).mu();
       if (!rings)
         Expect::near(*errors.energy, std::sqrt(modulus / 3) * h, 1e-14,
                      "energy");
@@ -156,9 +325,9 @@ namespace
     Problem<2> problem(degree, 2);
     unit_cube(problem, 2);
     refine_corner(problem);
-    const ElasticMaterials materials = {{0, material(plane)}};
-    const double l = materials.at(0).lambda<2>();
-    const double m = materials.at(0).mu();
+    const Materials<2> materials = everywhere<2>(plane);
+    const double l = material<2>(plane).lambda();
+    const double m = material<2>(plane).mu();
     const la::Vector u =
         problem.interpolate(quadratic ? "x^2; x*y" : "x; 2*x + y");
     // div sigma by hand; rings add the hoop strain x (or 1) to the trace and
@@ -202,9 +371,9 @@ namespace
     Problem<3> problem(2, 3);
     unit_cube(problem, 1);
     refine_corner(problem);
-    const ElasticMaterials materials = {{0, material()}};
-    const double l = materials.at(0).lambda<3>();
-    const double m = materials.at(0).mu();
+    const Materials<3> materials = everywhere<3>();
+    const double l = material<3>().lambda();
+    const double m = material<3>().mu();
     const la::Vector u = problem.interpolate("x^2; y*z; z");
     // trace 2x + z + 1; Laplacian (2, 0, 0)
     const Expression<3> force(
@@ -229,8 +398,8 @@ namespace
     Problem<2> problem(1, 2);
     unit_cube(problem, 3);
     const double h = 1. / 8;
-    const ElasticMaterials materials = {{0, material()}};
-    const double m = materials.at(0).mu();
+    const Materials<2> materials = everywhere<2>();
+    const double m = material<2>().mu();
     const la::Vector nothing = problem.interpolate("0; 0");
     ElasticEstimatorInput<2> input{problem.mapping, problem.dof_handler,
                                    nothing, materials};
@@ -278,7 +447,7 @@ namespace
     Problem<dim> problem(degree, dim);
     unit_cube(problem, 2);
     refine_corner(problem);
-    const ElasticMaterials materials = {{0, material(plane)}};
+    const Materials<dim> materials = everywhere<dim>(plane);
     const dealii::types::boundary_id id = 2 * (dim - 1);
     la::Vector open;
     open.reinit(problem.owned, problem.relevant, MPI_COMM_WORLD, true);
@@ -300,9 +469,9 @@ namespace
           for (unsigned int i = 0; i < dofs.size(); ++i)
             for (const unsigned int q : points.quadrature_point_indices())
               if (problem.fe.system_to_component_index(i).first == dim - 1)
-                local[i] += 2. * points.shape_value(i, q) * points.JxW(q)
-                            * materials.at(0).template measure<dim>(
-                                points.quadrature_point(q));
+                local[i] +=
+                    2. * points.shape_value(i, q) * points.JxW(q)
+                    * materials.at(0)->measure(points.quadrature_point(q));
           problem.constraints.distribute_local_to_global(local, dofs, open);
         }
     open.compress(dealii::VectorOperation::add);
@@ -334,7 +503,7 @@ namespace
   template <int dim> class Sines : public dealii::Function<dim>
   {
   public:
-    explicit Sines(const ElasticMaterial &material)
+    explicit Sines(const Material<dim> &material)
         : dealii::Function<dim>(dim), material(material)
     {
     }
@@ -366,7 +535,7 @@ namespace
           for (unsigned int k = 0; k < dim; ++k)
             d2u[c][j][k] = amplitude(c) * product(x, j, k);
       }
-      return -stress_divergence(material, d2u, du, u, x);
+      return -material.stress_divergence(d2u, du, u, x);
     }
 
   private:
@@ -392,7 +561,7 @@ namespace
       return result;
     }
 
-    const ElasticMaterial &material;
+    const Material<dim> &material;
   };
 
   /** The force of Sines as a function. */
@@ -413,11 +582,11 @@ namespace
     const Sines<dim> &sines;
   };
 
-  /** Stiffness of a cell by the bilinear form that strain_product() is the
+  /** Stiffness of a cell by the bilinear form that the energy is half the
    * square of. */
   template <int dim>
   void cell_system(const dealii::FEValues<dim> &points,
-                   const ElasticMaterial &law, const Sines<dim> &exact,
+                   const Material<dim> &law, const Sines<dim> &exact,
                    dealii::FullMatrix<double> &a, dealii::Vector<double> &b)
   {
     const dealii::FEValuesExtractors::Vector displacement(0);
@@ -429,11 +598,11 @@ namespace
       const Tensor<1, dim> force = exact.force(x);
       for (unsigned int i = 0; i < b.size(); ++i)
       {
-        const auto s = stress(law, u.gradient(i, q), u.value(i, q), x);
+        const auto s = law.stress(u.gradient(i, q), u.value(i, q), x);
         b[i] += force * u.value(i, q) * weight;
         for (unsigned int j = 0; j < b.size(); ++j)
           a(i, j) += (s.tensor * u.symmetric_gradient(j, q)
-                      + (law.is_axisymmetric<dim>()
+                      + (law.is_axisymmetric()
                              ? s.out_of_plane * u.value(j, q)[0] / x[0]
                              : 0.))
                      * weight;
@@ -447,8 +616,8 @@ namespace
   void effectivity(const PlaneModel plane, const unsigned int degree,
                    const unsigned int level)
   {
-    const ElasticMaterials materials = {{0, material(plane)}};
-    const Sines<dim> exact(materials.at(0));
+    const Materials<dim> materials = everywhere<dim>(plane);
+    const Sines<dim> exact(*materials.at(0));
     const SinesForce<dim> force(exact);
     check_effectivity<dim>(
         degree, dim, level, 0.1, ", model " + std::to_string(int(plane)),
@@ -458,7 +627,7 @@ namespace
               problem,
               [&](const dealii::FEValues<dim> &points,
                   dealii::FullMatrix<double> &a, dealii::Vector<double> &b)
-              { cell_system(points, materials.at(0), exact, a, b); });
+              { cell_system(points, *materials.at(0), exact, a, b); });
           ElasticEstimatorInput<dim> input{problem.mapping, problem.dof_handler,
                                            u, materials};
           input.body_force = {{0, &force}};
@@ -477,6 +646,8 @@ main(int argc, char **argv)
                     [](const std::filesystem::path &)
                     {
                       hooke();
+                      forces_of_stress();
+                      nonlinear_material();
                       norms();
                       for (const PlaneModel plane : plane_models)
                         for (const unsigned int degree : {1U, 2U})

@@ -32,7 +32,7 @@ namespace abut::app
       double interior(const dealii::FEValues<dim> &points) const override
       {
         const auto &places = points.get_quadrature_points();
-        const ElasticMaterial &material = material_at(points);
+        const Material<dim> &material = material_at(points);
         Vectors values(places.size());
         std::vector<dealii::Tensor<2, dim>> gradients(places.size());
         std::vector<dealii::Tensor<3, dim>> hessians(places.size());
@@ -45,32 +45,33 @@ namespace abut::app
         double sum = 0;
         for (unsigned int q = 0; q < places.size(); ++q)
         {
-          auto residual = stress_divergence(material, hessians[q], gradients[q],
-                                            values[q], places[q]);
+          auto residual = material.stress_divergence(hessians[q], gradients[q],
+                                                     values[q], places[q]);
           if (force != input.body_force.end())
             for (unsigned int d = 0; d < dim; ++d)
               residual[d] += force->second->value(places[q], d);
           sum += residual.norm_square() * points.JxW(q)
-                 * material.template measure<dim>(places[q]);
+                 * material.measure(places[q]);
         }
-        return sum / stiffness_of(material);
+        return sum / material.stiffness();
       }
 
       void fluxes(const dealii::FEFaceValuesBase<dim> &points,
                   std::vector<Flux> &flux,
                   std::vector<double> &stiffness) const override
       {
-        const ElasticMaterial &material = material_at(points);
+        const Material<dim> &material = material_at(points);
         Vectors values(flux.size());
         std::vector<dealii::Tensor<2, dim>> gradients(flux.size());
         points[displacement].get_function_values(input.solution, values);
         points[displacement].get_function_gradients(input.solution, gradients);
         for (unsigned int q = 0; q < flux.size(); ++q)
-          flux[q] = stress(material, gradients[q], values[q],
-                           points.quadrature_point(q))
-                        .tensor
-                    * points.normal_vector(q);
-        std::fill(stiffness.begin(), stiffness.end(), stiffness_of(material));
+          flux[q] =
+              material
+                  .stress(gradients[q], values[q], points.quadrature_point(q))
+                  .tensor
+              * points.normal_vector(q);
+        std::fill(stiffness.begin(), stiffness.end(), material.stiffness());
       }
 
       void boundary_residual(const dealii::FEFaceValues<dim> &points,
@@ -103,14 +104,14 @@ namespace abut::app
         Vectors gaps(n);
         points[displacement].get_function_values(*input.pressure, pressures);
         points[displacement].get_function_values(*input.gap, gaps);
-        const ElasticMaterial &material = material_at(points);
+        const Material<dim> &material = material_at(points);
         double sum = 0;
         for (unsigned int q = 0; q < n; ++q)
         {
           const double p = pressures[q] * points.normal_vector(q);
           const double g = gaps[q][0];
           const double term =
-              g < 0. ? material.young_modulus / h * g * g : std::max(p, 0.) * g;
+              g < 0. ? material.stiffness() / h * g * g : std::max(p, 0.) * g;
           sum += term * points.JxW(q) * measure(points, q);
         }
         return sum;
@@ -119,22 +120,14 @@ namespace abut::app
       double measure(const dealii::FEFaceValuesBase<dim> &points,
                      const unsigned int q) const override
       {
-        return material_at(points).template measure<dim>(
-            points.quadrature_point(q));
+        return material_at(points).measure(points.quadrature_point(q));
       }
 
     private:
-      const ElasticMaterial &
+      const Material<dim> &
       material_at(const dealii::FEValuesBase<dim> &points) const
       {
-        return input.materials.at(points.get_cell()->material_id());
-      }
-
-      /** Of the size of |sigma| / |eps| for every Poisson's ratio: at most
-       * 3/2 times 2 mu, which bounds it below, however large lambda is. */
-      static double stiffness_of(const ElasticMaterial &material)
-      {
-        return material.young_modulus;
+        return *input.materials.at(points.get_cell()->material_id());
       }
 
       void add_loads(const dealii::FEFaceValues<dim> &points,

@@ -6,7 +6,7 @@
  * Residual error estimator of linear elastic bodies in contact.
  */
 
-#include "app/physics/elastic_material.h"
+#include "app/physics/material.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <deal.II/base/function.h>
@@ -28,7 +28,7 @@ namespace abut::app
     const dealii::Mapping<dim> &mapping;
     const dealii::DoFHandler<dim> &dof_handler; /**< FE_Q<dim>(1 or 2)^dim */
     const la::Vector &solution;
-    const ElasticMaterials &materials;
+    const Materials<dim> &materials;
     /** Force per volume by material id, dim components; others have none. */
     std::map<dealii::types::material_id, const dealii::Function<dim> *>
         body_force = {};

@@ -35,7 +35,7 @@ namespace abut::app
 
       /** Integrals of the shape functions over the contact boundary. */
       la::Vector weights(const dealii::AffineConstraints<double> &hanging,
-                         const ElasticMaterials &materials) const
+                         const Materials<dim> &materials) const
       {
         const auto &fe = dof_handler.get_fe();
         dealii::FEFaceValues<dim> points(
@@ -48,14 +48,13 @@ namespace abut::app
             [&](const auto &cell, const unsigned int f, const Dofs &dofs)
             {
               points.reinit(cell, f);
-              const ElasticMaterial &material =
-                  materials.at(cell->material_id());
+              const Material<dim> &material =
+                  *materials.at(cell->material_id());
               local = 0.;
               for (unsigned int i = 0; i < dofs.size(); ++i)
                 for (unsigned int q = 0; q < points.n_quadrature_points; ++q)
                   local[i] += points.shape_value(i, q) * points.JxW(q)
-                              * material.template measure<dim>(
-                                  points.quadrature_point(q));
+                              * material.measure(points.quadrature_point(q));
               hanging.distribute_local_to_global(local, dofs, open);
             });
         return close(open);
@@ -166,7 +165,7 @@ namespace abut::app
                    const dealii::DoFHandler<dim> &dof_handler,
                    const dealii::AffineConstraints<double> &constraints,
                    const dealii::AffineConstraints<double> &hanging,
-                   const ElasticMaterials &materials,
+                   const Materials<dim> &materials,
                    const std::set<dealii::types::boundary_id> &contact,
                    const la::Vector &force)
   {
@@ -195,7 +194,7 @@ namespace abut::app
   template la::Vector contact_traction<dim>(                                   \
       const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &,           \
       const dealii::AffineConstraints<double> &,                               \
-      const dealii::AffineConstraints<double> &, const ElasticMaterials &,     \
+      const dealii::AffineConstraints<double> &, const Materials<dim> &,       \
       const std::set<dealii::types::boundary_id> &, const la::Vector &);
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

@@ -6,7 +6,7 @@
  * From contact forces at nodes to forces per area.
  */
 
-#include "elastic_material.h"
+#include "material.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <deal.II/base/types.h>
@@ -42,7 +42,7 @@ namespace abut::app
                    const dealii::DoFHandler<dim> &dof_handler,
                    const dealii::AffineConstraints<double> &constraints,
                    const dealii::AffineConstraints<double> &hanging,
-                   const ElasticMaterials &materials,
+                   const Materials<dim> &materials,
                    const std::set<dealii::types::boundary_id> &contact,
                    const la::Vector &force);
 } // namespace abut::app

@@ -18,13 +18,13 @@ namespace abut::app
         dealii::update_values | dealii::update_gradients
             | dealii::update_quadrature_points);
     values.reinit(cell);
-    const ElasticMaterial &material = materials_.at(cell->material_id());
+    const Material<dim> &material = *materials_.at(cell->material_id());
     const dealii::FEValuesExtractors::Vector displacement(0);
     for (unsigned int q = 0; q < unit_point.size(); ++q)
       for (unsigned int k = 0; k < values.dofs_per_cell; ++k)
       {
-        const Stress<dim> part = stress(
-            material, values[displacement].gradient(k, q),
+        const Stress<dim> part = material.stress(
+            values[displacement].gradient(k, q),
             values[displacement].value(k, q), values.quadrature_point(q));
         derivative(q, k) = normal[q] * (part.tensor * normal[q]);
       }

@@ -2,7 +2,7 @@
 #ifndef ABUT_APP_ELASTIC_NORMAL_STRESS_H
 #define ABUT_APP_ELASTIC_NORMAL_STRESS_H
 
-#include "elastic_material.h"
+#include "material.h"
 
 #include <abut/dealii/normal_stress.h>
 
@@ -16,7 +16,7 @@ namespace abut::app
   {
   public:
     ElasticNormalStress(const dealii::Mapping<dim> &mapping,
-                        const ElasticMaterials &materials)
+                        const Materials<dim> &materials)
         : mapping_(mapping), materials_(materials)
     {
     }
@@ -29,7 +29,7 @@ namespace abut::app
 
   private:
     const dealii::Mapping<dim> &mapping_;
-    const ElasticMaterials &materials_;
+    const Materials<dim> &materials_;
   };
 } // namespace abut::app
 

@@ -12,6 +12,7 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/numerics/vector_tools.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut::app
@@ -32,16 +33,51 @@ namespace abut::app
         result.push_back(expression.evaluate(points, c));
       return result;
     }
+
+    /** Call @p action(cell, points, state, dofs) for the cells of this rank,
+     * with the state of a displacement (ghosted) at the points and one
+     * component's shape functions there. */
+    template <int dim, typename Action>
+    void for_each_state(const DiscreteProblem<dim> &problem,
+                        const la::Vector &displacement, const Action &action)
+    {
+      const dealii::QGauss<dim> quadrature(problem.fe.degree + 1);
+      const auto flags = dealii::update_values | dealii::update_gradients
+                         | dealii::update_JxW_values
+                         | dealii::update_quadrature_points;
+      dealii::FEValues<dim> points(problem.mapping, problem.fe.base_element(0),
+                                   quadrature, flags);
+      dealii::FEValues<dim> field(problem.mapping, problem.fe, quadrature,
+                                  dealii::update_values
+                                      | dealii::update_gradients);
+      const dealii::FEValuesExtractors::Vector all(0);
+      CellState<dim> state;
+      state.value.resize(quadrature.size());
+      state.gradient.resize(quadrature.size());
+      std::vector<global_dof_index> dofs(problem.fe.n_dofs_per_cell());
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+        {
+          points.reinit(
+              static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+                  cell));
+          field.reinit(cell);
+          field[all].get_function_values(displacement, state.value);
+          field[all].get_function_gradients(displacement, state.gradient);
+          cell->get_dof_indices(dofs);
+          action(cell, points, state, dofs);
+        }
+    }
   } // namespace
 
   template <int dim>
   Elasticity<dim>::Elasticity(
       dealii::parallel::distributed::Triangulation<dim> &triangulation,
       const unsigned int degree)
-      : LinearProblem<dim>(triangulation,
-                           std::make_unique<dealii::FESystem<dim>>(
-                               dealii::FE_Q<dim>(degree), dim)),
-        materials(std::make_unique<ElasticMaterials>())
+      : DiscreteProblem<dim>(triangulation,
+                             std::make_unique<dealii::FESystem<dim>>(
+                                 dealii::FE_Q<dim>(degree), dim)),
+        materials(std::make_unique<Materials<dim>>())
   {
   }
 
@@ -117,9 +153,20 @@ namespace abut::app
                           { prescribe(data, constraints); });
   }
 
-  template <int dim>
-  void Elasticity<dim>::assemble_stiffness(const ElasticData<dim> &)
+  template <int dim> bool Elasticity<dim>::is_linear() const
   {
+    return std::all_of(materials->begin(), materials->end(),
+                       [](const auto &entry)
+                       { return entry.second->is_linear(); });
+  }
+
+  template <int dim> void Elasticity<dim>::assemble_stiffness()
+  {
+    if (!is_linear())
+    {
+      assemble_tangent(this->vector());
+      return;
+    }
     this->stiffness = 0.;
     std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
     for (const auto &cell : this->dof_handler.active_cell_iterators())
@@ -130,6 +177,41 @@ namespace abut::app
                                                      this->stiffness);
       }
     this->stiffness.compress(dealii::VectorOperation::add);
+  }
+
+  template <int dim> void Elasticity<dim>::assemble_tangent(const la::Vector &u)
+  {
+    this->stiffness = 0.;
+    dealii::FullMatrix<double> tangent(this->fe.n_dofs_per_cell());
+    for_each_state(*this, this->ghosted(u),
+                   [&](const auto &cell, const auto &points, const auto &state,
+                       const auto &dofs)
+                   {
+                     materials->at(cell->material_id())
+                         ->cell_tangent(points, this->fe, state, tangent);
+                     this->constraints.distribute_local_to_global(
+                         tangent, dofs, this->stiffness);
+                   });
+    this->stiffness.compress(dealii::VectorOperation::add);
+  }
+
+  template <int dim>
+  const la::Matrix &Elasticity<dim>::tangent(const la::Vector &u)
+  {
+    if (!is_linear())
+      assemble_tangent(u);
+    return this->stiffness;
+  }
+
+  template <int dim>
+  void Elasticity<dim>::residual(const la::Vector &u, la::Vector &result) const
+  {
+    if (is_linear())
+      this->stiffness.vmult(result, u);
+    else
+      result = internal_forces(u, this->constraints);
+    result.add(-1., this->load);
+    this->constraints.set_zero(result);
   }
 
   template <int dim>
@@ -156,15 +238,14 @@ namespace abut::app
           static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
               cell));
       const auto &points = values.get_quadrature_points();
-      const ElasticMaterial &material = data.materials.at(body);
+      const Material<dim> &material = *data.materials.at(body);
       force = 0.;
       for (unsigned int c = 0; c < dim; ++c)
       {
         const std::vector<double> f = given->second->evaluate(points, c);
         for (unsigned int q = 0; q < points.size(); ++q)
         {
-          const double dx =
-              values.JxW(q) * material.template measure<dim>(points[q]);
+          const double dx = values.JxW(q) * material.measure(points[q]);
           for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
             force(this->fe.component_to_system_index(c, i)) +=
                 f[q] * dx * values.shape_value(i, q);
@@ -211,8 +292,8 @@ namespace abut::app
             t = evaluate_all(*traction->second.function, points);
           if (pressure != data.pressures.end())
             p = pressure->second.function->evaluate(points);
-          const ElasticMaterial &material =
-              data.materials.at(cell->material_id());
+          const Material<dim> &material =
+              *data.materials.at(cell->material_id());
           force = 0.;
           for (unsigned int q = 0; q < points.size(); ++q)
             for (unsigned int c = 0; c < dim; ++c)
@@ -220,8 +301,7 @@ namespace abut::app
               const double stress =
                   (t.empty() ? 0. : t[c][q])
                   - (p.empty() ? 0. : p[q] * values.normal_vector(q)[c]);
-              const double dx =
-                  values.JxW(q) * material.template measure<dim>(points[q]);
+              const double dx = values.JxW(q) * material.measure(points[q]);
               for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
                 force(this->fe.component_to_system_index(c, i)) +=
                     stress * dx * values.shape_value(i, q);
@@ -262,7 +342,7 @@ namespace abut::app
                  add_volume_forces(data, open, all);
                  if (!data.tractions.empty() || !data.pressures.empty())
                    add_boundary_forces(data, open, all);
-                 if (this->constraints.has_inhomogeneities())
+                 if (this->constraints.has_inhomogeneities() && is_linear())
                    add_support_forces(open);
                });
     la::Vector closed = this->close_load(open);
@@ -272,12 +352,25 @@ namespace abut::app
   }
 
   template <int dim>
-  la::Vector Elasticity<dim>::internal_forces(const la::Vector &u) const
+  la::Vector Elasticity<dim>::internal_forces(
+      const la::Vector &u, const dealii::AffineConstraints<double> &rules) const
   {
     const la::Vector ghosted = this->ghosted(u);
     la::Vector open = this->open_load();
     const unsigned int n = this->fe.n_dofs_per_cell();
     dealii::Vector<double> values(n), force(n);
+    if (!is_linear())
+    {
+      for_each_state(*this, ghosted,
+                     [&](const auto &cell, const auto &points,
+                         const auto &state, const auto &dofs)
+                     {
+                       materials->at(cell->material_id())
+                           ->cell_forces(points, this->fe, state, force);
+                       rules.distribute_local_to_global(force, dofs, open);
+                     });
+      return this->close_load(open);
+    }
     std::vector<global_dof_index> dofs(n);
     for (const auto &cell : this->dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -286,7 +379,7 @@ namespace abut::app
         for (unsigned int i = 0; i < n; ++i)
           values(i) = ghosted(dofs[i]);
         cache->matrix(cell).vmult(force, values);
-        this->hanging.distribute_local_to_global(force, dofs, open);
+        rules.distribute_local_to_global(force, dofs, open);
       }
     return this->close_load(open);
   }
@@ -294,16 +387,43 @@ namespace abut::app
   template <int dim>
   la::Vector Elasticity<dim>::unbalanced_forces(const la::Vector &u) const
   {
-    la::Vector result = internal_forces(u);
+    la::Vector result = internal_forces(u, this->hanging);
     result.add(-1., external);
     return result;
+  }
+
+  template <int dim>
+  double Elasticity<dim>::stored_energy(const la::Vector &u) const
+  {
+    double energy = 0.;
+    for_each_state(*this, this->ghosted(u),
+                   [&](const auto &cell, const auto &points, const auto &state,
+                       const auto &)
+                   {
+                     const Material<dim> &material =
+                         *materials->at(cell->material_id());
+                     for (unsigned int q = 0; q < state.value.size(); ++q)
+                     {
+                       const dealii::Point<dim> &x = points.quadrature_point(q);
+                       energy +=
+                           material.energy(state.gradient[q], state.value[q], x)
+                           * points.JxW(q) * material.measure(x);
+                     }
+                   });
+    return dealii::Utilities::MPI::sum(energy, this->communicator);
   }
 
   template <int dim> double Elasticity<dim>::energy(const la::Vector &u) const
   {
     la::Vector all(u);
     this->constraints.distribute(all);
-    la::Vector forces = internal_forces(all);
+    if (!is_linear())
+    {
+      const double stored = stored_energy(all);
+      this->hanging.set_zero(all);
+      return stored - external * all;
+    }
+    la::Vector forces = internal_forces(all, this->hanging);
     forces.sadd(0.5, -1., external);
     this->hanging.set_zero(all);
     return forces * all;

@@ -4,7 +4,7 @@
 
 #include "app/input/boundary_expressions.h"
 #include "discrete_problem.h"
-#include "elastic_material.h"
+#include "material.h"
 #include "volume_force.h"
 
 #include <functional>
@@ -24,19 +24,19 @@ namespace abut::app
     using Conditions =
         std::map<dealii::types::boundary_id, BoundaryCondition<dim>>;
 
-    ElasticMaterials materials; ///< by material id
-    Conditions supports;        ///< displacements
-    Conditions tractions;       ///< force per area
-    Conditions pressures;       ///< into the body
+    Materials<dim> materials; ///< by material id
+    Conditions supports;      ///< displacements
+    Conditions tractions;     ///< force per area
+    Conditions pressures;     ///< into the body
     /** By material id; others have none. */
     std::map<dealii::types::material_id, const VolumeForce<dim> *> body_force;
     /** Name of a boundary in messages. */
     std::function<std::string(dealii::types::boundary_id)> name;
   };
 
-  /** Linear elastic bodies without contact: unknowns, constraints, stiffness
-   * matrix, load vector. */
-  template <int dim> class Elasticity : public LinearProblem<dim>
+  /** Elastic bodies without contact: unknowns, constraints, tangent, loads. Of
+   * linear materials the tangent is made once for each mesh. */
+  template <int dim> class Elasticity : public DiscreteProblem<dim>
   {
   public:
     Elasticity(dealii::parallel::distributed::Triangulation<dim> &triangulation,
@@ -52,8 +52,15 @@ namespace abut::app
      */
     void set_supports(const ElasticData<dim> &data);
 
-    /** Compute the stiffness matrix of the present mesh. Collective. */
-    void assemble_stiffness(const ElasticData<dim> &data);
+    /** Compute the tangent of the undeformed bodies on the present mesh.
+     * Collective. */
+    void assemble_stiffness();
+
+    void residual(const la::Vector &u, la::Vector &result) const override;
+    const la::Matrix &tangent(const la::Vector &u) override;
+
+    /** Whether all materials are. */
+    bool is_linear() const override;
 
     /** Compute the load of the present time, with what prescribed
      * displacements add. Collective. */
@@ -64,7 +71,8 @@ namespace abut::app
      * contact have to hold. Needs assemble_load(). Collective. */
     la::Vector unbalanced_forces(const la::Vector &u) const;
 
-    /** Potential energy u (1/2 K u - f), supports included. Collective. */
+    /** Stored energy minus the work of external forces, supports included.
+     * Collective. */
     double energy(const la::Vector &u) const;
 
     /** External forces at all unknowns but hanging ones. */
@@ -81,9 +89,14 @@ namespace abut::app
     void add_boundary_forces(const ElasticData<dim> &data, la::Vector &load,
                              la::Vector &all) const;
     void add_support_forces(la::Vector &load) const;
-    la::Vector internal_forces(const la::Vector &u) const;
+    /** Internal forces by rules of hanging nodes alone, or of supports, too. */
+    la::Vector
+    internal_forces(const la::Vector &u,
+                    const dealii::AffineConstraints<double> &rules) const;
+    double stored_energy(const la::Vector &u) const;
+    void assemble_tangent(const la::Vector &u);
 
-    std::unique_ptr<ElasticMaterials> materials;
+    std::unique_ptr<Materials<dim>> materials;
     std::unique_ptr<StiffnessCache<dim>> cache;
   };
 } // namespace abut::app

@@ -142,7 +142,7 @@ namespace abut::app
         return sum;
       }
 
-      double energy(const ElasticMaterial &material, const unsigned int q,
+      double energy(const Material<dim> &material, const unsigned int q,
                     const dealii::Point<dim> &point) const
       {
         dealii::Tensor<1, dim> u;
@@ -152,7 +152,7 @@ namespace abut::app
           u[c] = value[c][q];
           du[c] = gradient[c][q];
         }
-        return strain_product(material, du, u, point);
+        return 2. * material.energy(du, u, point);
       }
 
     private:
@@ -166,7 +166,7 @@ namespace abut::app
                          const dealii::DoFHandler<dim> &dof_handler,
                          const la::Vector &solution,
                          const dealii::Function<dim> &exact,
-                         const ElasticMaterials *materials)
+                         const Materials<dim> *materials)
   {
     const auto &fe = dof_handler.get_fe();
     const dealii::QGauss<dim> quadrature(fe.degree + 2);
@@ -190,8 +190,8 @@ namespace abut::app
         double weight = points.JxW(q);
         if (materials != nullptr)
         {
-          const ElasticMaterial &material = materials->at(cell->material_id());
-          weight *= material.template measure<dim>(x);
+          const Material<dim> &material = *materials->at(cell->material_id());
+          weight *= material.measure(x);
           energy += errors.energy(material, q, x) * weight;
         }
         l2 += errors.value_square(q) * weight;
@@ -275,7 +275,7 @@ namespace abut::app
   template ErrorNorms error_norms<dim>(                                        \
       const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &,           \
       const la::Vector &, const dealii::Function<dim> &,                       \
-      const ElasticMaterials *);                                               \
+      const Materials<dim> *);                                                 \
   template double membrane_energy<dim>(                                        \
       const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &,           \
       const la::Vector &, const dealii::Function<dim> &,                       \

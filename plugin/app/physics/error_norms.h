@@ -7,7 +7,7 @@
  */
 
 #include "app/input/expression.h"
-#include "elastic_material.h"
+#include "material.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <deal.II/base/types.h>
@@ -65,7 +65,7 @@ namespace abut::app
                          const dealii::DoFHandler<dim> &dof_handler,
                          const la::Vector &solution,
                          const dealii::Function<dim> &exact,
-                         const ElasticMaterials *materials = nullptr);
+                         const Materials<dim> *materials = nullptr);
 
   /** Energy 1/2 (k grad u, grad u) - (f, u) - <t_N, u> by Gauss' formula with
    * degree+1 points (exact for constant data on parallelograms).

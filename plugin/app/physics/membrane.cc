@@ -17,7 +17,7 @@ namespace abut::app
       dealii::parallel::distributed::Triangulation<dim> &triangulation,
       const unsigned int degree)
       : LinearProblem<dim>(triangulation,
-                             std::make_unique<dealii::FE_Q<dim>>(degree))
+                           std::make_unique<dealii::FE_Q<dim>>(degree))
   {
   }
 

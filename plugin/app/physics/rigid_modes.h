@@ -2,7 +2,7 @@
 #ifndef ABUT_APP_RIGID_MODES_H
 #define ABUT_APP_RIGID_MODES_H
 
-#include "elastic_material.h"
+#include "material.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>

@@ -19,7 +19,7 @@ namespace abut::app
   template <int dim>
   StiffnessCache<dim>::StiffnessCache(const dealii::Mapping<dim> &mapping,
                                       const dealii::FiniteElement<dim> &fe,
-                                      const ElasticMaterials &materials)
+                                      const Materials<dim> &materials)
       : materials(materials),
         fe(fe),
         values(mapping, fe.base_element(0), dealii::QGauss<dim>(fe.degree + 1),
@@ -32,7 +32,7 @@ namespace abut::app
 
   template <int dim> bool StiffnessCache<dim>::has_shape(const Cell &cell) const
   {
-    if (materials.at(cell->material_id()).template is_axisymmetric<dim>())
+    if (materials.at(cell->material_id())->is_axisymmetric())
       return false;
     if (fe.degree == 1)
       return true;
@@ -67,55 +67,10 @@ namespace abut::app
   void StiffnessCache<dim>::compute(const Cell &cell,
                                     dealii::FullMatrix<double> &matrix)
   {
-    const ElasticMaterial &material = materials.at(cell->material_id());
-    const double lambda = material.template lambda<dim>();
-    const double mu = material.mu();
-    const bool rings = material.template is_axisymmetric<dim>();
     values.reinit(
         static_cast<typename dealii::Triangulation<dim>::cell_iterator>(cell));
-    const unsigned int n_nodes = fe.base_element(0).n_dofs_per_cell();
-    for (unsigned int i = 0; i < n_nodes; ++i)
-      for (unsigned int j = 0; j <= i; ++j)
-      {
-        dealii::Tensor<2, dim> product;
-        // Hoop strain with div u: (i, j), (j, i); with itself.
-        dealii::Tensor<1, dim> hoop_i, hoop_j;
-        double hoop = 0.;
-        for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
-        {
-          const double weight =
-              values.JxW(q) * material.measure<dim>(values.quadrature_point(q));
-          product +=
-              weight
-              * outer_product(values.shape_grad(i, q), values.shape_grad(j, q));
-          if (rings)
-          {
-            const double r = values.quadrature_point(q)[0];
-            hoop_i +=
-                weight * values.shape_value(i, q) / r * values.shape_grad(j, q);
-            hoop_j +=
-                weight * values.shape_value(j, q) / r * values.shape_grad(i, q);
-            hoop += weight * values.shape_value(i, q) * values.shape_value(j, q)
-                    / (r * r);
-          }
-        }
-        const double trace_of = trace(product);
-        for (unsigned int a = 0; a < dim; ++a)
-          for (unsigned int b = 0; b < dim; ++b)
-          {
-            double entry = lambda * product[a][b] + mu * product[b][a]
-                           + (a == b ? mu * trace_of : 0.);
-            if (rings)
-              entry +=
-                  lambda
-                      * ((a == 0 ? hoop_i[b] : 0.) + (b == 0 ? hoop_j[a] : 0.))
-                  + (a == 0 && b == 0 ? (lambda + 2. * mu) * hoop : 0.);
-            const unsigned int row = fe.component_to_system_index(a, i);
-            const unsigned int column = fe.component_to_system_index(b, j);
-            matrix(row, column) = entry;
-            matrix(column, row) = entry;
-          }
-      }
+    materials.at(cell->material_id())
+        ->cell_tangent(values, fe, CellState<dim>(), matrix);
   }
 
   template <int dim>

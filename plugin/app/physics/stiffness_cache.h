@@ -6,7 +6,7 @@
  * Stiffness matrices of cells, computed once for cells of the same shape.
  */
 
-#include "elastic_material.h"
+#include "material.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_values.h>
@@ -20,13 +20,7 @@
 
 namespace abut::app
 {
-  /** Computes the stiffness matrix of a cell of an isotropic elastic body,
-   *
-   *     K_(i,a)(j,b) = int lambda d_a phi_i d_b phi_j + mu d_b phi_i d_a phi_j
-   *                      + mu delta_ab grad phi_i . grad phi_j
-   *
-   * and for axisymmetric ones the terms of the hoop strain, with 2 pi r in
-   * the integral.
+  /** Computes the stiffness matrix of a cell of a linear material.
    *
    * Cells whose edges are straight and equal up to 1e-11 of their size, a
    * shift and a common factor share one matrix, scaled by size^(dim-2): most
@@ -41,7 +35,7 @@ namespace abut::app
      * this object. */
     StiffnessCache(const dealii::Mapping<dim> &mapping,
                    const dealii::FiniteElement<dim> &fe,
-                   const ElasticMaterials &materials);
+                   const Materials<dim> &materials);
 
     /** Matrix of @p cell, valid until the next call. */
     const dealii::FullMatrix<double> &matrix(const Cell &cell);
@@ -56,7 +50,7 @@ namespace abut::app
     Key key(const Cell &cell, double size) const;
     void compute(const Cell &cell, dealii::FullMatrix<double> &result);
 
-    const ElasticMaterials &materials;
+    const Materials<dim> &materials;
     const dealii::FiniteElement<dim> &fe;
     dealii::FEValues<dim> values; ///< of one component
     std::map<Key, std::pair<double, dealii::FullMatrix<double>>> known;

@@ -48,8 +48,7 @@ namespace abut::app
   } // namespace
 
   template <int dim>
-  StressPostprocessor<dim>::StressPostprocessor(
-      const ElasticMaterials &materials)
+  StressPostprocessor<dim>::StressPostprocessor(const Materials<dim> &materials)
       : materials(materials)
   {
   }
@@ -86,8 +85,8 @@ namespace abut::app
       const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
       std::vector<dealii::Vector<double>> &results) const
   {
-    const ElasticMaterial &material =
-        materials.at(inputs.template get_cell<dim>()->material_id());
+    const Material<dim> &material =
+        *materials.at(inputs.template get_cell<dim>()->material_id());
     for (unsigned int q = 0; q < results.size(); ++q)
     {
       dealii::Tensor<1, dim> u;
@@ -97,8 +96,7 @@ namespace abut::app
         u[c] = inputs.solution_values[q][c];
         du[c] = inputs.solution_gradients[q][c];
       }
-      const Stress<dim> s =
-          stress(material, du, u, inputs.evaluation_points[q]);
+      const Stress<dim> s = material.stress(du, u, inputs.evaluation_points[q]);
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
           results[q][dim * i + j] = s.tensor[i][j];
@@ -112,11 +110,12 @@ namespace abut::app
   {
     /** Sums over cells: volume times stress, and volume last. */
     template <int dim>
-    std::vector<la::Vector> stress_sums(
-        const dealii::Mapping<dim> &mapping,
-        const dealii::DoFHandler<dim> &dof_handler,
-        const la::Vector &displacement, const ElasticMaterials &materials,
-        const dealii::DoFHandler<dim> &scalar, const dealii::IndexSet &relevant)
+    std::vector<la::Vector>
+    stress_sums(const dealii::Mapping<dim> &mapping,
+                const dealii::DoFHandler<dim> &dof_handler,
+                const la::Vector &displacement, const Materials<dim> &materials,
+                const dealii::DoFHandler<dim> &scalar,
+                const dealii::IndexSet &relevant)
     {
       const auto &nodes = scalar.get_fe();
       dealii::FEValues<dim> points(
@@ -143,12 +142,12 @@ namespace abut::app
         typename dealii::DoFHandler<dim>::active_cell_iterator(
             &scalar.get_triangulation(), cell->level(), cell->index(), &scalar)
             ->get_dof_indices(dofs);
-        const ElasticMaterial &material = materials.at(cell->material_id());
+        const Material<dim> &material = *materials.at(cell->material_id());
         const double volume = cell->measure();
         for (unsigned int i = 0; i < dofs.size(); ++i)
         {
           const auto values = components(
-              stress(material, du[i], u[i], points.quadrature_point(i)));
+              material.stress(du[i], u[i], points.quadrature_point(i)));
           for (unsigned int c = 0; c < values.size(); ++c)
             sums[c](dofs[i]) += volume * values[c];
           sums.back()(dofs[i]) += volume;
@@ -162,8 +161,7 @@ namespace abut::app
   std::vector<la::Vector>
   nodal_stress(const dealii::Mapping<dim> &mapping,
                const dealii::DoFHandler<dim> &dof_handler,
-               const la::Vector &displacement,
-               const ElasticMaterials &materials,
+               const la::Vector &displacement, const Materials<dim> &materials,
                const dealii::DoFHandler<dim> &scalar)
   {
     dealii::IndexSet relevant;
@@ -205,7 +203,7 @@ namespace abut::app
   template class StressPostprocessor<dim>;                                     \
   template std::vector<la::Vector> nodal_stress<dim>(                          \
       const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &,           \
-      const la::Vector &, const ElasticMaterials &,                            \
+      const la::Vector &, const Materials<dim> &,                              \
       const dealii::DoFHandler<dim> &);
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

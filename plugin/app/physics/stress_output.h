@@ -6,7 +6,7 @@
  * Stresses of elastic bodies: as fields of output files, and at nodes.
  */
 
-#include "elastic_material.h"
+#include "material.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -26,7 +26,7 @@ namespace abut::app
   {
   public:
     /** @p materials must outlive this object. */
-    explicit StressPostprocessor(const ElasticMaterials &materials);
+    explicit StressPostprocessor(const Materials<dim> &materials);
 
     std::vector<std::string> get_names() const override;
 
@@ -41,7 +41,7 @@ namespace abut::app
         std::vector<dealii::Vector<double>> &results) const override;
 
   private:
-    const ElasticMaterials &materials;
+    const Materials<dim> &materials;
   };
 
   /** Stress at the nodes of a scalar Lagrange element on the same mesh: the
@@ -59,8 +59,7 @@ namespace abut::app
   std::vector<la::Vector>
   nodal_stress(const dealii::Mapping<dim> &mapping,
                const dealii::DoFHandler<dim> &dof_handler,
-               const la::Vector &displacement,
-               const ElasticMaterials &materials,
+               const la::Vector &displacement, const Materials<dim> &materials,
                const dealii::DoFHandler<dim> &scalar);
 } // namespace abut::app
 

@@ -12,8 +12,8 @@ namespace abut::app
     /** Energies of one cell: all of it, and what varying volume costs. */
     template <int dim>
     void add_cell(const dealii::FEValues<dim> &points,
-                  const la::Vector &displacement,
-                  const ElasticMaterial &material, double (&energies)[2])
+                  const la::Vector &displacement, const Material<dim> &material,
+                  double (&energies)[2])
     {
       const dealii::FEValuesExtractors::Vector field(0);
       const unsigned int n = points.n_quadrature_points;
@@ -25,16 +25,16 @@ namespace abut::app
       for (unsigned int q = 0; q < n; ++q)
       {
         const dealii::Point<dim> &x = points.quadrature_point(q);
-        const double weight = points.JxW(q) * material.template measure<dim>(x);
+        const double weight = points.JxW(q) * material.measure(x);
         double dilation = trace(gradient[q]);
-        if (material.template is_axisymmetric<dim>())
+        if (material.is_axisymmetric())
           dilation += u[q][0] / x[0];
         volume += weight;
         first += weight * dilation;
         second += weight * dilation * dilation;
-        energies[0] += weight * strain_product(material, gradient[q], u[q], x);
+        energies[0] += weight * 2. * material.energy(gradient[q], u[q], x);
       }
-      energies[1] += material.template lambda<dim>()
+      energies[1] += material.dilation_stiffness()
                      * std::max(0., second - first * first / volume);
     }
   } // namespace
@@ -43,7 +43,7 @@ namespace abut::app
   double volumetric_locking(const dealii::Mapping<dim> &mapping,
                             const dealii::DoFHandler<dim> &dof_handler,
                             const la::Vector &displacement,
-                            const ElasticMaterials &materials)
+                            const Materials<dim> &materials)
   {
     const auto &fe = dof_handler.get_fe();
     dealii::FEValues<dim> points(
@@ -55,7 +55,7 @@ namespace abut::app
       if (cell->is_locally_owned())
       {
         points.reinit(cell);
-        add_cell(points, displacement, materials.at(cell->material_id()),
+        add_cell(points, displacement, *materials.at(cell->material_id()),
                  energies);
       }
     dealii::Utilities::MPI::sum(energies, dof_handler.get_communicator(),
@@ -65,10 +65,8 @@ namespace abut::app
 
   template double volumetric_locking(const dealii::Mapping<2> &,
                                      const dealii::DoFHandler<2> &,
-                                     const la::Vector &,
-                                     const ElasticMaterials &);
+                                     const la::Vector &, const Materials<2> &);
   template double volumetric_locking(const dealii::Mapping<3> &,
                                      const dealii::DoFHandler<3> &,
-                                     const la::Vector &,
-                                     const ElasticMaterials &);
+                                     const la::Vector &, const Materials<3> &);
 } // namespace abut::app

@@ -2,7 +2,7 @@
 #ifndef ABUT_APP_VOLUMETRIC_LOCKING_H
 #define ABUT_APP_VOLUMETRIC_LOCKING_H
 
-#include "elastic_material.h"
+#include "material.h"
 
 #include <abut/dealii/linear_algebra.h>
 
@@ -20,7 +20,7 @@ namespace abut::app
   double volumetric_locking(const dealii::Mapping<dim> &mapping,
                             const dealii::DoFHandler<dim> &dof_handler,
                             const la::Vector &displacement,
-                            const ElasticMaterials &materials);
+                            const Materials<dim> &materials);
 } // namespace abut::app
 
 #endif

@@ -170,7 +170,7 @@ namespace abut::app
                    const std::string &name, const dealii::Mapping<2> &mapping,
                    const dealii::DoFHandler<2> &dof_handler,
                    const la::Vector &displacement,
-                   const ElasticMaterials &materials,
+                   const Materials<2> &materials,
                    const std::vector<PressureCurve> &pressures,
                    const std::string &title)
   {

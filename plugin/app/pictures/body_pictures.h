@@ -6,7 +6,7 @@
  * Pictures of plane elastic bodies.
  */
 
-#include "app/physics/elastic_material.h"
+#include "app/physics/material.h"
 #include "app/report/report.h"
 #include "contact_line.h"
 
@@ -38,7 +38,7 @@ namespace abut::app
                    const std::string &name, const dealii::Mapping<2> &mapping,
                    const dealii::DoFHandler<2> &dof_handler,
                    const la::Vector &displacement,
-                   const ElasticMaterials &materials,
+                   const Materials<2> &materials,
                    const std::vector<PressureCurve> &pressures,
                    const std::string &title);
 } // namespace abut::app

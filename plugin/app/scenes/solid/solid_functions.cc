@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_functions.h"
 
+#include "app/physics/hooke.h"
+
 #include <algorithm>
 
 namespace abut::app
@@ -59,8 +61,8 @@ namespace abut::app
       if (own.force->is_present())
         result.body_force[body] = own.force.get();
       const BodyParameters &given = parameters.bodies[body];
-      result.materials[body] = {given.young_modulus, given.poisson_ratio,
-                                parameters.plane};
+      result.materials[body] = std::make_shared<Hooke<dim>>(
+          given.young_modulus, given.poisson_ratio, parameters.plane);
     }
     return result;
   }

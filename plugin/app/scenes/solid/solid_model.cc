@@ -88,7 +88,7 @@ namespace abut::app
       elasticity.setup(data);
     }
     SectionTimes::Scope scope(run.report.times, "assembly");
-    elasticity.assemble_stiffness(data);
+    elasticity.assemble_stiffness();
   }
 
   template <int dim> void SolidModel<dim>::assemble()

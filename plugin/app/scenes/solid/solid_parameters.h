@@ -6,7 +6,7 @@
 #include "app/input/parameters.h"
 #include "app/mesh/body_parameters.h"
 #include "app/mesh/rigid_obstacle_parameters.h"
-#include "app/physics/elastic_material.h"
+#include "app/physics/material.h"
 #include "app/scenes/load_step_parameters.h"
 #include "app/scenes/pair_parameters.h"
 

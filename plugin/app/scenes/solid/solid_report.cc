@@ -326,7 +326,7 @@ namespace abut::app
     diagnose_condition(report, condition, penalty);
     double poisson_ratio = 0.;
     for (const auto &material : model.data.materials)
-      poisson_ratio = std::max(poisson_ratio, material.second.poisson_ratio);
+      poisson_ratio = std::max(poisson_ratio, material.second->poisson_ratio());
     if (parameters.degree > 1 || parameters.plane == PlaneModel::stress
         || poisson_ratio < least_locking_ratio)
       return;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_MATERIAL_H
+#define ABUT_APP_MATERIAL_H
+
+/** @file
+ * What bodies are made of, in the plane, around an axis and in space.
+ */
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/base/types.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace abut::app
+{
+  /** What a two-dimensional model says of the third direction. Axisymmetric
+   * models have radius x >= 0 and axis x = 0. */
+  enum class PlaneModel
+  {
+    strain,      /**< no strain along z */
+    stress,      /**< no stress along z */
+    axisymmetric /**< hoop strain u_x / x */
+  };
+
+  /** Stress at a point, positive in tension. */
+  template <int dim> struct Stress
+  {
+    dealii::SymmetricTensor<2, dim> tensor;
+    /** Normal stress along z, or around the axis; 0 in three dimensions. */
+    double out_of_plane = 0.;
+
+    /** sqrt(3/2 s:s) with the deviator s of all three directions. */
+    double von_mises() const;
+  };
+
+  /** The displacement at the quadrature points of a cell. */
+  template <int dim> struct CellState
+  {
+    std::vector<dealii::Tensor<1, dim>> value;
+    std::vector<dealii::Tensor<2, dim>> gradient; ///< du_i/dx_j
+  };
+
+  /** A material. All that the program knows of stress and stiffness goes
+   * through these functions. The state at a point is the gradient[i][j] =
+   * du_i/dx_j of the displacement, and for axisymmetric bodies its value and
+   * the point, too. */
+  template <int dim> class Material
+  {
+  public:
+    /** @p plane is without meaning in three dimensions. */
+    explicit Material(const PlaneModel plane) : plane(plane)
+    {
+    }
+
+    virtual ~Material() = default;
+
+    /** Whether stress is linear in the displacement, so that the tangent is the
+     * same for all states. */
+    virtual bool is_linear() const = 0;
+
+    /** Stress of a state. */
+    virtual Stress<dim> stress(const dealii::Tensor<2, dim> &gradient,
+                               const dealii::Tensor<1, dim> &displacement,
+                               const dealii::Point<dim> &point) const = 0;
+
+    /** Stored energy per volume. */
+    virtual double energy(const dealii::Tensor<2, dim> &gradient,
+                          const dealii::Tensor<1, dim> &displacement,
+                          const dealii::Point<dim> &point) const = 0;
+
+    /** Divergence of the stress, a force per volume; hessian[i][j][k] =
+     * d^2 u_i / dx_j dx_k. Not on the axis of an axisymmetric body. */
+    virtual dealii::Tensor<1, dim>
+    stress_divergence(const dealii::Tensor<3, dim> &hessian,
+                      const dealii::Tensor<2, dim> &gradient,
+                      const dealii::Tensor<1, dim> &displacement,
+                      const dealii::Point<dim> &point) const = 0;
+
+    /** Derivative of cell_forces() by the values of a cell.
+     * @param values of one component, with values, gradients, points and JxW
+     * @param fe system of dim such components, which numbers the rows
+     * @param state not looked at if is_linear() */
+    virtual void cell_tangent(const dealii::FEValues<dim> &values,
+                              const dealii::FiniteElement<dim> &fe,
+                              const CellState<dim> &state,
+                              dealii::FullMatrix<double> &tangent) const = 0;
+
+    /** Internal forces of a cell, int stress : strain(phi); arguments as
+     * above. */
+    void cell_forces(const dealii::FEValues<dim> &values,
+                     const dealii::FiniteElement<dim> &fe,
+                     const CellState<dim> &state,
+                     dealii::Vector<double> &forces) const;
+
+    /** Of the size of |stress| / |strain|, whatever the strain. */
+    virtual double stiffness() const = 0;
+
+    /** Mean stress by volume change, added to that of the shear: what locking
+     * pays for. */
+    virtual double dilation_stiffness() const = 0;
+
+    /** Of small strain, -1 < nu < 1/2. */
+    virtual double poisson_ratio() const = 0;
+
+    /** Whether volumes are those of rings. */
+    bool is_axisymmetric() const
+    {
+      return dim == 2 && plane == PlaneModel::axisymmetric;
+    }
+
+    /** What a volume or an area of the mesh is multiplied by: 2 pi x for
+     * axisymmetric bodies, else 1. */
+    double measure(const dealii::Point<dim> &point) const;
+
+    /** u_x / x of axisymmetric bodies, whose limit on the axis is du_x/dx; 0
+     * for others. */
+    double hoop_strain(const dealii::Tensor<2, dim> &gradient,
+                       const dealii::Tensor<1, dim> &displacement,
+                       const dealii::Point<dim> &point) const;
+
+    const PlaneModel plane;
+  };
+
+  /** The materials of a mesh by material id of its cells. */
+  template <int dim>
+  using Materials = std::map<dealii::types::material_id,
+                             std::shared_ptr<const Material<dim>>>;
+} // namespace abut::app
+
+#endif
