@@ -87,12 +87,12 @@ namespace abut::app
   }
 
   template <int dim>
-  void LinearProblem<dim>::residual(const la::Vector &u,
-                                    la::Vector &result) const
+  void DiscreteProblem<dim>::linear_residual(const la::Vector &u,
+                                             la::Vector &result) const
   {
-    this->stiffness.vmult(result, u);
-    result.add(-1., this->load);
-    this->constraints.set_zero(result);
+    stiffness.vmult(result, u);
+    result.add(-1., load);
+    constraints.set_zero(result);
   }
 
   template <int dim>
@@ -121,6 +121,4 @@ namespace abut::app
 
   template class DiscreteProblem<2>;
   template class DiscreteProblem<3>;
-  template class LinearProblem<2>;
-  template class LinearProblem<3>;
 } // namespace abut::app

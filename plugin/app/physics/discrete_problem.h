@@ -42,6 +42,9 @@ namespace abut::app
     /** Its derivative by u, as it is until the next call. Collective. */
     virtual const la::Matrix &tangent(const la::Vector &u) = 0;
 
+    /** Energy at u, which the residual is the derivative of. Collective. */
+    virtual double energy(const la::Vector &u) const = 0;
+
     /** Whether the tangent is the same for all u, and the residual costs no
      * more than a product with it. */
     virtual bool is_linear() const = 0;
@@ -88,6 +91,9 @@ namespace abut::app
      * unknowns. Collective. */
     void set_constraints(const Prescribe &prescribe);
 
+    /** The residual where it is linear: that of `stiffness` and `load`. */
+    void linear_residual(const la::Vector &u, la::Vector &result) const;
+
     /** A load vector that takes contributions to unknowns of other ranks. */
     la::Vector open_load() const;
 
@@ -103,8 +109,10 @@ namespace abut::app
   public:
     using DiscreteProblem<dim>::DiscreteProblem;
 
-    /** K u - f. */
-    void residual(const la::Vector &u, la::Vector &result) const override;
+    void residual(const la::Vector &u, la::Vector &result) const override
+    {
+      this->linear_residual(u, result);
+    }
 
     const la::Matrix &tangent(const la::Vector &) override
     {

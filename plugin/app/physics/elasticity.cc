@@ -207,9 +207,11 @@ namespace abut::app
   void Elasticity<dim>::residual(const la::Vector &u, la::Vector &result) const
   {
     if (is_linear())
-      this->stiffness.vmult(result, u);
-    else
-      result = internal_forces(u, this->constraints);
+    {
+      this->linear_residual(u, result);
+      return;
+    }
+    result = internal_forces(u, this->constraints);
     result.add(-1., this->load);
     this->constraints.set_zero(result);
   }

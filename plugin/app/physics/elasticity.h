@@ -73,7 +73,7 @@ namespace abut::app
 
     /** Stored energy minus the work of external forces, supports included.
      * Collective. */
-    double energy(const la::Vector &u) const;
+    double energy(const la::Vector &u) const override;
 
     /** External forces at all unknowns but hanging ones. */
     la::Vector external;

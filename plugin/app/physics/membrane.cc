@@ -4,6 +4,7 @@
 #include "app/input/collective.h"
 #include "app/input/expression.h"
 #include "app/input/input_error.h"
+#include "error_norms.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
@@ -135,6 +136,21 @@ namespace abut::app
     this->stiffness.compress(dealii::VectorOperation::add);
     la::Vector closed = this->close_load(open);
     this->load.swap(closed);
+    assembled = data;
+  }
+
+  template <int dim> double Membrane<dim>::energy(const la::Vector &u) const
+  {
+    if (this->constraints.has_inhomogeneities())
+      return membrane_energy(this->mapping, this->dof_handler, this->ghosted(u),
+                             *assembled.load, assembled.conductivity,
+                             assembled.neumann);
+    // Without prescribed values the assembled system has it.
+    la::Vector free(u), internal(u);
+    this->constraints.set_zero(free);
+    this->stiffness.vmult(internal, free);
+    internal.sadd(0.5, -1., this->load);
+    return internal * free;
   }
 
   template class Membrane<2>;

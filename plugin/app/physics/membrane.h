@@ -9,10 +9,10 @@ namespace abut::app
   /** Data of a membrane; functions must outlive it. */
   template <int dim> struct MembraneData
   {
-    const dealii::Function<dim> *conductivity; ///< k
-    const dealii::Function<dim> *load;         ///< f
-    bool constant_conductivity;                ///< k is the same everywhere
-    bool constant_load;                        ///< f is the same everywhere
+    const dealii::Function<dim> *conductivity = nullptr; ///< k
+    const dealii::Function<dim> *load = nullptr;         ///< f
+    bool constant_conductivity = false; ///< k is the same everywhere
+    bool constant_load = false;         ///< f is the same everywhere
     BoundaryFunctions<dim> dirichlet;
     BoundaryFunctions<dim> neumann;
   };
@@ -33,9 +33,14 @@ namespace abut::app
      * that are not legal. Collective. */
     void assemble(const MembraneData<dim> &data);
 
+    /** Energy with the data of the last assemble(). Collective. */
+    double energy(const la::Vector &u) const override;
+
   private:
     void assemble_cells(const MembraneData<dim> &data, la::Vector &open);
     void assemble_neumann(const MembraneData<dim> &data, la::Vector &open);
+
+    MembraneData<dim> assembled;
   };
 } // namespace abut::app
 

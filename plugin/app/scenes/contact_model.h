@@ -113,8 +113,6 @@ namespace abut::app
     /** Estimate the error in the energy norm; @p squared by cell. */
     virtual double estimate(dealii::Vector<float> &squared) const = 0;
 
-    virtual double energy() const = 0;
-
     /** Energy norm of the solution. */
     virtual double solution_norm() const = 0;
 

@@ -454,7 +454,7 @@ namespace abut::app
     SectionTimes::Scope scope(report.times, "results");
     present.cells = model.triangulation.n_global_active_cells();
     present.dofs = model.problem().dof_handler.n_dofs();
-    present.energy = model.energy();
+    present.energy = model.problem().energy(state.u);
     if (model.has_contact())
     {
       present.progress = contact.progress();

@@ -142,20 +142,6 @@ namespace abut::app
     return estimate_error(input, squared);
   }
 
-  template <int dim> double MembraneModel<dim>::energy() const
-  {
-    if (membrane.constraints.has_inhomogeneities())
-      return membrane_energy(membrane.mapping, membrane.dof_handler,
-                             membrane.ghosted(run.u), *load, conductivity.get(),
-                             data.neumann);
-    // Without prescribed values the assembled system has it.
-    la::Vector free(run.u), internal(run.u);
-    membrane.constraints.set_zero(free);
-    membrane.stiffness.vmult(internal, free);
-    internal.sadd(0.5, -1., membrane.load);
-    return internal * free;
-  }
-
   template <int dim> double MembraneModel<dim>::solution_norm() const
   {
     const dealii::Functions::ZeroFunction<dim> no_load;

@@ -57,7 +57,6 @@ namespace abut::app
     }
 
     double estimate(dealii::Vector<float> &squared) const override;
-    double energy() const override;
     double solution_norm() const override;
     std::optional<ErrorNorms> errors() const override;
     bool has_exact_solution() const override

@@ -205,7 +205,7 @@ namespace abut::app
 
   template <int dim> double SolidModel<dim>::solution_norm() const
   {
-    // The energy is 1/2 |u|^2 - f u.
+    // What the energy is without loads: what is stored, 1/2 |u|^2.
     const double twice =
         2. * (elasticity.energy(run.u) + elasticity.external * run.u);
     return std::sqrt(std::max(0., twice));

@@ -57,10 +57,6 @@ namespace abut::app
     std::string refuse() const override;
 
     double estimate(dealii::Vector<float> &squared) const override;
-    double energy() const override
-    {
-      return elasticity.energy(run.u);
-    }
     double solution_norm() const override;
     std::optional<ErrorNorms> errors() const override;
     bool has_exact_solution() const override
