@@ -11,6 +11,7 @@
 #include "expect.h"
 #include "problem.h"
 #include "run_checks.h"
+#include "stiffening.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -106,60 +107,6 @@ namespace
     Expect::near(tube.measure(at), 4 * dealii::numbers::PI, 1e-14, "ring");
   }
 
-  /** stress = (lambda + c tr^2) tr I + 2 mu strain, as Hooke's law with a
-   * volume that stiffens. */
-  template <int dim> class Stiffening : public Hooke<dim>
-  {
-  public:
-    explicit Stiffening(const double c) : Hooke<dim>(7., 0.3), c(c)
-    {
-    }
-
-    bool is_linear() const override
-    {
-      return false;
-    }
-
-    Stress<dim> stress(const Tensor<2, dim> &gradient,
-                       const Tensor<1, dim> &displacement,
-                       const Point<dim> &point) const override
-    {
-      Stress<dim> result = Hooke<dim>::stress(gradient, displacement, point);
-      for (unsigned int d = 0; d < dim; ++d)
-        result.tensor[d][d] += c * std::pow(trace(gradient), 3);
-      return result;
-    }
-
-    double energy(const Tensor<2, dim> &gradient,
-                  const Tensor<1, dim> &displacement,
-                  const Point<dim> &point) const override
-    {
-      return Hooke<dim>::energy(gradient, displacement, point)
-             + 0.25 * c * std::pow(trace(gradient), 4);
-    }
-
-    void cell_tangent(const dealii::FEValues<dim> &values,
-                      const dealii::FiniteElement<dim> &fe,
-                      const CellState<dim> &state,
-                      dealii::FullMatrix<double> &tangent) const override
-    {
-      Hooke<dim>::cell_tangent(values, fe, state, tangent);
-      for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
-        for (unsigned int j = 0; j < fe.n_dofs_per_cell(); ++j)
-          for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
-          {
-            const auto [a, k] = fe.system_to_component_index(i);
-            const auto [b, l] = fe.system_to_component_index(j);
-            tangent(i, j) += 3. * c * std::pow(trace(state.gradient[q]), 2)
-                             * values.shape_grad(k, q)[a]
-                             * values.shape_grad(l, q)[b] * values.JxW(q);
-          }
-    }
-
-  private:
-    const double c;
-  };
-
   /** The unit square without supports, of one material. */
   class FreeSquare
   {
@@ -229,7 +176,7 @@ namespace
   void nonlinear_material()
   {
     const double c = 40., e = 0.1;
-    FreeSquare square(std::make_shared<Stiffening<2>>(c));
+    FreeSquare square(std::make_shared<Stiffening<2>>(7., 0.3, c));
     Elasticity<2> &elasticity = square.elasticity;
     const la::Vector u = square.interpolate("0.1*x; 0");
     la::Vector forces(u);

@@ -55,6 +55,17 @@ namespace abut::app
   }
 
   template <int dim>
+  Stress<dim>
+  Hooke<dim>::tangent(const dealii::Tensor<2, dim> &,
+                      const dealii::Tensor<1, dim> &,
+                      const dealii::Point<dim> &point,
+                      const dealii::Tensor<2, dim> &gradient_change,
+                      const dealii::Tensor<1, dim> &displacement_change) const
+  {
+    return stress(gradient_change, displacement_change, point);
+  }
+
+  template <int dim>
   dealii::Tensor<1, dim>
   Hooke<dim>::stress_divergence(const dealii::Tensor<3, dim> &hessian,
                                 const dealii::Tensor<2, dim> &gradient,
@@ -83,7 +94,7 @@ namespace abut::app
   void Hooke<dim>::cell_tangent(const dealii::FEValues<dim> &values,
                                 const dealii::FiniteElement<dim> &fe,
                                 const CellState<dim> &,
-                                dealii::FullMatrix<double> &tangent) const
+                                dealii::FullMatrix<double> &result) const
   {
     const double lambda = this->lambda(), mu = this->mu();
     const bool rings = this->is_axisymmetric();
@@ -126,8 +137,8 @@ namespace abut::app
                   + (a == 0 && b == 0 ? (lambda + 2. * mu) * hoop : 0.);
             const unsigned int row = fe.component_to_system_index(a, i);
             const unsigned int column = fe.component_to_system_index(b, j);
-            tangent(row, column) = entry;
-            tangent(column, row) = entry;
+            result(row, column) = entry;
+            result(column, row) = entry;
           }
       }
   }

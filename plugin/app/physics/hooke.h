@@ -28,6 +28,13 @@ namespace abut::app
                   const dealii::Tensor<1, dim> &displacement,
                   const dealii::Point<dim> &point) const override;
 
+    Stress<dim>
+    tangent(const dealii::Tensor<2, dim> &gradient,
+            const dealii::Tensor<1, dim> &displacement,
+            const dealii::Point<dim> &point,
+            const dealii::Tensor<2, dim> &gradient_change,
+            const dealii::Tensor<1, dim> &displacement_change) const override;
+
     dealii::Tensor<1, dim>
     stress_divergence(const dealii::Tensor<3, dim> &hessian,
                       const dealii::Tensor<2, dim> &gradient,
@@ -44,7 +51,7 @@ namespace abut::app
     void cell_tangent(const dealii::FEValues<dim> &values,
                       const dealii::FiniteElement<dim> &fe,
                       const CellState<dim> &state,
-                      dealii::FullMatrix<double> &tangent) const override;
+                      dealii::FullMatrix<double> &result) const override;
 
     /** At most 3/2 times 2 mu, which bounds it below, however large lambda is.
      */

@@ -37,6 +37,91 @@ namespace abut::app
   }
 
   template <int dim>
+  dealii::Tensor<1, dim>
+  Material<dim>::stress_divergence(const dealii::Tensor<3, dim> &hessian,
+                                   const dealii::Tensor<2, dim> &gradient,
+                                   const dealii::Tensor<1, dim> &displacement,
+                                   const dealii::Point<dim> &point) const
+  {
+    const double hoop = hoop_strain(gradient, displacement, point);
+    dealii::Tensor<1, dim> result;
+    for (unsigned int j = 0; j < dim; ++j)
+    {
+      dealii::Tensor<2, dim> along;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int k = 0; k < dim; ++k)
+          along[i][k] = hessian[i][k][j];
+      // The displacement whose hoop strain changes as that of the state does.
+      dealii::Tensor<1, dim> radial;
+      if (is_axisymmetric())
+        radial[0] = gradient[0][j] - (j == 0 ? hoop : 0.);
+      const Stress<dim> change =
+          tangent(gradient, displacement, point, along, radial);
+      for (unsigned int i = 0; i < dim; ++i)
+        result[i] += change.tensor[i][j];
+    }
+    if (is_axisymmetric())
+    {
+      // What the turning base vectors add.
+      const Stress<dim> s = stress(gradient, displacement, point);
+      result[0] += (s.tensor[0][0] - s.out_of_plane) / point[0];
+      result[1] += s.tensor[0][1] / point[0];
+    }
+    return result;
+  }
+
+  template <int dim>
+  void Material<dim>::cell_tangent(const dealii::FEValues<dim> &values,
+                                   const dealii::FiniteElement<dim> &fe,
+                                   const CellState<dim> &state,
+                                   dealii::FullMatrix<double> &result) const
+  {
+    result = 0.;
+    const unsigned int n_nodes = fe.base_element(0).n_dofs_per_cell();
+    for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+    {
+      const dealii::Point<dim> &x = values.quadrature_point(q);
+      const double weight = values.JxW(q) * measure(x);
+      dealii::Tensor<1, dim> u;
+      dealii::Tensor<2, dim> du;
+      if (!is_linear())
+      {
+        u = state.value[q];
+        du = state.gradient[q];
+      }
+      for (unsigned int column = 0; column < fe.n_dofs_per_cell(); ++column)
+      {
+        const auto [component, node] = fe.system_to_component_index(column);
+        dealii::Tensor<1, dim> shape;
+        dealii::Tensor<2, dim> gradient;
+        shape[component] = values.shape_value(node, q);
+        gradient[component] = values.shape_grad(node, q);
+        const Stress<dim> change = tangent(du, u, x, gradient, shape);
+        for (unsigned int i = 0; i < n_nodes; ++i)
+        {
+          const auto force = nodal_force(values, change, i, q);
+          for (unsigned int c = 0; c < dim; ++c)
+            result(fe.component_to_system_index(c, i), column) +=
+                weight * force[c];
+        }
+      }
+    }
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  Material<dim>::nodal_force(const dealii::FEValues<dim> &values,
+                             const Stress<dim> &stress, const unsigned int node,
+                             const unsigned int q) const
+  {
+    dealii::Tensor<1, dim> force = stress.tensor * values.shape_grad(node, q);
+    if (is_axisymmetric())
+      force[0] += stress.out_of_plane * values.shape_value(node, q)
+                  / values.quadrature_point(q)[0];
+    return force;
+  }
+
+  template <int dim>
   void Material<dim>::cell_forces(const dealii::FEValues<dim> &values,
                                   const dealii::FiniteElement<dim> &fe,
                                   const CellState<dim> &state,
@@ -51,9 +136,7 @@ namespace abut::app
       const Stress<dim> s = stress(state.gradient[q], state.value[q], x);
       for (unsigned int i = 0; i < n_nodes; ++i)
       {
-        dealii::Tensor<1, dim> force = s.tensor * values.shape_grad(i, q);
-        if (is_axisymmetric())
-          force[0] += s.out_of_plane * values.shape_value(i, q) / x[0];
+        const auto force = nodal_force(values, s, i, q);
         for (unsigned int c = 0; c < dim; ++c)
           forces(fe.component_to_system_index(c, i)) += weight * force[c];
       }

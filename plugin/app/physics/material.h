@@ -76,22 +76,33 @@ namespace abut::app
                           const dealii::Tensor<1, dim> &displacement,
                           const dealii::Point<dim> &point) const = 0;
 
+    /** Change of the stress of a state per change of its gradient and
+     * displacement. */
+    virtual Stress<dim>
+    tangent(const dealii::Tensor<2, dim> &gradient,
+            const dealii::Tensor<1, dim> &displacement,
+            const dealii::Point<dim> &point,
+            const dealii::Tensor<2, dim> &gradient_change,
+            const dealii::Tensor<1, dim> &displacement_change) const = 0;
+
     /** Divergence of the stress, a force per volume; hessian[i][j][k] =
-     * d^2 u_i / dx_j dx_k. Not on the axis of an axisymmetric body. */
+     * d^2 u_i / dx_j dx_k. Not on the axis of an axisymmetric body. From
+     * tangent(), where a material knows no faster way. */
     virtual dealii::Tensor<1, dim>
     stress_divergence(const dealii::Tensor<3, dim> &hessian,
                       const dealii::Tensor<2, dim> &gradient,
                       const dealii::Tensor<1, dim> &displacement,
-                      const dealii::Point<dim> &point) const = 0;
+                      const dealii::Point<dim> &point) const;
 
-    /** Derivative of cell_forces() by the values of a cell.
+    /** Derivative of cell_forces() by the values of a cell. From tangent(),
+     * where a material knows no faster way.
      * @param values of one component, with values, gradients, points and JxW
      * @param fe system of dim such components, which numbers the rows
      * @param state not looked at if is_linear() */
     virtual void cell_tangent(const dealii::FEValues<dim> &values,
                               const dealii::FiniteElement<dim> &fe,
                               const CellState<dim> &state,
-                              dealii::FullMatrix<double> &tangent) const = 0;
+                              dealii::FullMatrix<double> &result) const;
 
     /** Internal forces of a cell, int stress : strain(phi); arguments as
      * above. */
@@ -127,6 +138,12 @@ namespace abut::app
                        const dealii::Point<dim> &point) const;
 
     const PlaneModel plane;
+
+  private:
+    /** What a stress at point @p q does to a node, per volume. */
+    dealii::Tensor<1, dim> nodal_force(const dealii::FEValues<dim> &values,
+                                       const Stress<dim> &stress,
+                                       unsigned int node, unsigned int q) const;
   };
 
   /** The materials of a mesh by material id of its cells. */

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What is asked of a material, at a point and of bodies: Hooke's law, and a
+// nonlinear material that the program does not have.
+
+#include "app/physics/elasticity.h"
+
+#include "expect.h"
+#include "problem.h"
+#include "run_checks.h"
+#include "stiffening.h"
+
+using namespace abut;
+using namespace abut::app;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  /** Lame's constants 1 and 1/2. */
+  constexpr double lambda = 1, mu = 0.5;
+  constexpr double young_modulus = 4. / 3, poisson_ratio = 1. / 3;
+  constexpr double stiffening = 3;
+
+  template <int dim>
+  std::shared_ptr<const Material<dim>> make(const bool is_linear,
+                                            const PlaneModel plane)
+  {
+    if (is_linear)
+      return std::make_shared<Hooke<dim>>(young_modulus, poisson_ratio, plane);
+    return std::make_shared<Stiffening<dim>>(young_modulus, poisson_ratio,
+                                             stiffening, plane);
+  }
+
+  /** A displacement and its gradient at a point. */
+  template <int dim> struct State
+  {
+    Tensor<2, dim> gradient;
+    Tensor<1, dim> value;
+    Point<dim> point;
+
+    State plus(const double factor, const State &other) const
+    {
+      return {gradient + factor * other.gradient, value + factor * other.value,
+              point};
+    }
+  };
+
+  /** Without symmetry, with the given size. */
+  template <int dim> State<dim> some_state(const double size, const double seed)
+  {
+    State<dim> result;
+    for (unsigned int i = 0; i < dim; ++i)
+    {
+      result.value[i] = size * std::cos(seed + 2. * i);
+      result.point[i] = 0.8 + 0.3 * i;
+      for (unsigned int j = 0; j < dim; ++j)
+        result.gradient[i][j] = size * std::sin(seed + 3. * i + 1.7 * j);
+    }
+    return result;
+  }
+
+  template <int dim>
+  double energy(const Material<dim> &material, const State<dim> &at)
+  {
+    return material.energy(at.gradient, at.value, at.point);
+  }
+
+  template <int dim>
+  Stress<dim> stress(const Material<dim> &material, const State<dim> &at)
+  {
+    return material.stress(at.gradient, at.value, at.point);
+  }
+
+  template <int dim>
+  Stress<dim> tangent(const Material<dim> &material, const State<dim> &at,
+                      const State<dim> &change)
+  {
+    return material.tangent(at.gradient, at.value, at.point, change.gradient,
+                            change.value);
+  }
+
+  /** Power of a stress. */
+  template <int dim>
+  double power(const Material<dim> &material, const Stress<dim> &stress,
+               const State<dim> &rate)
+  {
+    double sum = stress.out_of_plane
+                 * material.hoop_strain(rate.gradient, rate.value, rate.point);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        sum += stress.tensor[i][j] * rate.gradient[i][j];
+    return sum;
+  }
+
+  /** The stress is the energy's derivative, the tangent the stress's, by
+   * symmetric differences. */
+  template <int dim> void derivatives(const Material<dim> &material)
+  {
+    const double h = 1e-5;
+    const auto at = some_state<dim>(0.2, 1.);
+    const auto along = some_state<dim>(1., 2.), other = some_state<dim>(1., 5.);
+    const auto forth = at.plus(h, along), back = at.plus(-h, along);
+    Expect::near((energy(material, forth) - energy(material, back)) / (2 * h),
+                 power(material, stress(material, at), along), 1e-8,
+                 "stress, of the energy");
+    const double change = power(material, stress(material, forth), other)
+                          - power(material, stress(material, back), other);
+    const double predicted =
+        power(material, tangent(material, at, along), other);
+    Expect::near(change / (2 * h), predicted, 1e-8, "tangent, of the stress");
+    Expect::near(power(material, tangent(material, at, other), along),
+                 predicted, 1e-13, "symmetry of the tangent");
+  }
+
+  /** sigma:eps = lambda tr^2 + 2 mu eps:eps by hand, but in plane stress, where
+   * lambda is 2 mu lambda / (lambda + 2 mu) = 1/2. */
+  template <int dim> void energy_by_hand(const PlaneModel plane)
+  {
+    const auto hooke = make<dim>(true, plane);
+    const auto at = some_state<dim>(1., 3.);
+    const double hoop = dim == 2 && plane == PlaneModel::axisymmetric
+                            ? at.value[0] / at.point[0]
+                            : 0;
+    const double modulus =
+        dim == 2 && plane == PlaneModel::stress ? 0.5 : lambda;
+    double square = hoop * hoop;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        square += std::pow((at.gradient[i][j] + at.gradient[j][i]) / 2, 2);
+    const double expected =
+        modulus / 2 * std::pow(trace(at.gradient) + hoop, 2) + mu * square;
+    Expect::near(energy(*hooke, at), expected, 1e-13, "energy");
+    Expect::near(hooke->stiffness(), young_modulus, 1e-15, "E");
+    Expect::near(hooke->poisson_ratio(), poisson_ratio, 1e-15, "nu");
+    Expect::near(hooke->dilation_stiffness(), modulus, 1e-14, "lambda");
+  }
+
+  /** Divergence as every material has it against differences of the stress of
+   * u = (x^2, x y, ..) / 5, and against the material's own. */
+  template <int dim> void divergence(const PlaneModel plane)
+  {
+    const auto state = [](const Point<dim> &x)
+    {
+      State<dim> result;
+      result.point = x;
+      for (unsigned int i = 0; i < dim; ++i)
+      {
+        result.value[i] = 0.2 * x[0] * x[i];
+        result.gradient[i][0] += 0.2 * x[i];
+        result.gradient[i][i] += 0.2 * x[0];
+      }
+      return result;
+    };
+    Point<dim> at;
+    Tensor<3, dim> hessian;
+    for (unsigned int i = 0; i < dim; ++i)
+    {
+      at[i] = 1. + 0.3 * i;
+      hessian[i][0][i] += 0.2;
+      hessian[i][i][0] += 0.2;
+    }
+    for (const bool is_linear : {true, false})
+    {
+      const auto material = make<dim>(is_linear, plane);
+      const State<dim> here = state(at);
+      const Stress<dim> s = stress(*material, here);
+      Tensor<1, dim> expected;
+      for (unsigned int j = 0; j < dim; ++j)
+      {
+        Point<dim> forth = at, back = at;
+        forth[j] += 1e-5;
+        back[j] -= 1e-5;
+        const auto change = stress(*material, state(forth)).tensor
+                            - stress(*material, state(back)).tensor;
+        for (unsigned int i = 0; i < dim; ++i)
+          expected[i] += change[i][j] / 2e-5;
+      }
+      if (material->is_axisymmetric())
+      {
+        expected[0] += (s.tensor[0][0] - s.out_of_plane) / at[0];
+        expected[1] += s.tensor[1][0] / at[0];
+      }
+      const Tensor<1, dim> general = material->Material<dim>::stress_divergence(
+          hessian, here.gradient, here.value, at);
+      Expect::near((general - expected).norm(), 0, 1e-7, "divergence");
+      const Tensor<1, dim> own =
+          material->stress_divergence(hessian, here.gradient, here.value, at);
+      Expect::near((own - general).norm(), 0, 1e-13,
+                   "the material's own divergence");
+    }
+  }
+
+  /** Hooke's stiffness by pairs of nodes against the tangent that every
+   * material has, on a cell without right angles. */
+  template <int dim>
+  void cell_tangent(const PlaneModel plane, const unsigned int degree)
+  {
+    dealii::Triangulation<dim> mesh;
+    dealii::GridGenerator::hyper_cube(mesh, 1, 2);
+    mesh.begin_active()->vertex(0)[0] += 0.2;
+    mesh.begin_active()->vertex(1)[1] -= 0.1;
+    const dealii::FESystem<dim> fe(dealii::FE_Q<dim>(degree), dim);
+    dealii::FEValues<dim> points(
+        fe.base_element(0), dealii::QGauss<dim>(degree + 1),
+        dealii::update_values | dealii::update_gradients
+            | dealii::update_quadrature_points | dealii::update_JxW_values);
+    points.reinit(mesh.begin_active());
+    const unsigned int n = fe.n_dofs_per_cell();
+    dealii::FullMatrix<double> own(n, n), general(n, n);
+    const auto material = make<dim>(true, plane);
+    material->cell_tangent(points, fe, CellState<dim>(), own);
+    material->Material<dim>::cell_tangent(points, fe, CellState<dim>(),
+                                          general);
+    Expect::that(own.frobenius_norm() > 0.1, "stiffness");
+    own.add(-1., general);
+    Expect::near(own.frobenius_norm(), 0, 1e-12, "stiffness by pairs of nodes");
+  }
+
+  /** A square or cube of two bodies with hanging nodes, a support that moves,
+   * a free side under pressure and weight. */
+  template <int dim> class Bodies
+  {
+  public:
+    Bodies(const Materials<dim> &materials, const unsigned int degree)
+        : mesh(degree, dim),
+          problem(mesh.mesh, degree),
+          support(dim == 2 ? "0.05*y; 0.02" : "0.05*y; 0.02; 0.02*x", "s", dim),
+          push("0.3", "p"),
+          weight(1., nullptr, dim == 2 ? "0.1; -0.2" : "0.1; -0.2; 0.3", "f")
+    {
+      unit_cube(mesh, dim == 2 ? 2 : 1);
+      refine_corner(mesh);
+      for (const auto &cell : mesh.mesh.active_cell_iterators())
+        if (cell->is_locally_owned())
+          cell->set_material_id(cell->center()[1] < 0.5 ? 0 : 1);
+      data.materials = materials;
+      data.supports[1] = {&support, dealii::ComponentMask(dim, true)};
+      data.pressures[3] = {&push, dealii::ComponentMask(1, true)};
+      data.body_force[1] = &weight;
+      data.name = [](dealii::types::boundary_id) { return "a side"; };
+      problem.setup(data);
+      problem.assemble_stiffness();
+      problem.assemble_load(data);
+    }
+
+    /** Values at free nodes; the others follow. */
+    la::Vector some(const double size, const double seed) const
+    {
+      la::Vector result = problem.vector();
+      for (const auto i : problem.dof_handler.locally_owned_dofs())
+        result(i) = size * std::sin(seed + 1.3 * double(i));
+      result.compress(dealii::VectorOperation::insert);
+      problem.constraints.set_zero(result);
+      return result;
+    }
+
+    Problem<dim> mesh;
+    Elasticity<dim> problem;
+
+  private:
+    Expression<dim> support, push;
+    VolumeForce<dim> weight;
+    ElasticData<dim> data;
+  };
+
+  /** The residual is the derivative of the energy and the tangent that of the
+   * residual, at a displacement that is no solution. */
+  template <int dim>
+  void bodies(const PlaneModel plane, const unsigned int degree,
+              const bool is_linear, const bool other_is_linear)
+  {
+    Bodies<dim> two({{0, make<dim>(is_linear, plane)},
+                     {1, make<dim>(other_is_linear, plane)}},
+                    degree);
+    Elasticity<dim> &problem = two.problem;
+    Expect::that(problem.is_linear() == (is_linear && other_is_linear),
+                 "linear if both are");
+    const double h = 1e-4;
+    la::Vector u = two.some(0.005, 1.);
+    const la::Vector along = two.some(1e-1, 4.);
+    problem.constraints.distribute(u);
+    la::Vector forth(u), back(u), residual(u), difference(u), predicted(u);
+    forth.add(h, along);
+    back.add(-h, along);
+    for (la::Vector *v : {&forth, &back})
+      problem.constraints.distribute(*v);
+    problem.residual(u, residual);
+    const double power = residual * along;
+    Expect::that(std::abs(power) > 1e-4, "a residual");
+    Expect::near((problem.energy(forth) - problem.energy(back)) / (2 * h),
+                 power, 1e-7 * (1 + std::abs(power)), "energy's derivative");
+    problem.residual(forth, difference);
+    problem.residual(back, residual);
+    difference -= residual;
+    difference /= 2 * h;
+    problem.tangent(u).vmult(predicted, along);
+    problem.constraints.set_zero(predicted);
+    const double size = predicted.l2_norm();
+    predicted -= difference;
+    Expect::near(predicted.l2_norm() / size, 0, 1e-6, "residual's derivative");
+  }
+
+  /** A strain of 0.2 along x and none across, held on all sides: its energy
+   * and the force on x = 1, by hand. */
+  template <int dim> void stretched(const bool is_linear)
+  {
+    Problem<dim> mesh(1, dim);
+    unit_cube(mesh, 1);
+    Elasticity<dim> problem(mesh.mesh, 1);
+    const double e = 0.2;
+    const Expression<dim> value(dim == 2 ? "0.2*x; 0" : "0.2*x; 0; 0", "s",
+                                dim);
+    ElasticData<dim> data;
+    data.materials[0] = make<dim>(is_linear, PlaneModel::strain);
+    for (const auto id : all_sides<dim>())
+      data.supports[id] = {&value, dealii::ComponentMask(dim, true)};
+    data.name = [](dealii::types::boundary_id) { return "a side"; };
+    problem.setup(data);
+    problem.assemble_stiffness();
+    problem.assemble_load(data);
+    la::Vector u = problem.vector(), residual = problem.vector();
+    dealii::VectorTools::interpolate(problem.mapping, problem.dof_handler,
+                                     value, u);
+    const double c = is_linear ? 0 : stiffening;
+    const double energy = (lambda + 2 * mu) / 2 * e * e + c / 4 * e * e * e * e;
+    const double force = (lambda + 2 * mu) * e + c * e * e * e;
+    Expect::near(problem.energy(u), energy, 1e-14, "energy of a stretch");
+    problem.residual(u, residual);
+    Expect::near(residual.l2_norm(), 0, 1e-14, "balance inside");
+    const la::Vector forces = problem.unbalanced_forces(u);
+    const dealii::IndexSet side = dealii::DoFTools::extract_boundary_dofs(
+        problem.dof_handler, dealii::ComponentMask(dim, true), {1});
+    // Those along the side cancel each other.
+    double sum = 0;
+    for (const auto dof : problem.dof_handler.locally_owned_dofs())
+      if (side.is_element(dof))
+        sum += forces(dof);
+    Expect::near(dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD), force, 1e-14,
+                 "force on a side");
+  }
+
+  template <int dim> void all(const PlaneModel plane)
+  {
+    derivatives(*make<dim>(true, plane));
+    derivatives(*make<dim>(false, plane));
+    energy_by_hand<dim>(plane);
+    divergence<dim>(plane);
+    for (const unsigned int degree : {1U, 2U})
+    {
+      cell_tangent<dim>(plane, degree);
+      bodies<dim>(plane, degree, true, true);
+      bodies<dim>(plane, degree, false, true);
+    }
+    bodies<dim>(plane, 1, false, false);
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  return run_checks(
+      argc, argv,
+      [](const std::filesystem::path &)
+      {
+        for (const PlaneModel plane :
+             {PlaneModel::strain, PlaneModel::stress, PlaneModel::axisymmetric})
+          all<2>(plane);
+        all<3>(PlaneModel::strain);
+        for (const bool is_linear : {true, false})
+        {
+          stretched<2>(is_linear);
+          stretched<3>(is_linear);
+        }
+      });
+}
