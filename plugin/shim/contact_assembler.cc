@@ -118,7 +118,9 @@ namespace abut
     AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(),
                 ExcMessage("The unknowns of a rank must be numbered "
                            "consecutively."));
-    i.keep_rows();
+    i.record_present();
+    i.history.leave_ranks();
+    i.is_forgotten = true;
     i.rows_mesh = 0;
     i.mapping = &mapping;
     i.dof_handler = &dof_handler;
@@ -127,11 +129,9 @@ namespace abut
     i.solver.reset();
     // Assigned anew, they would keep the ranks that unknowns had before, where
     // the number of unknowns is the same.
-    i.start_field = la::Vector();
+    i.abandon_iteration();
     i.start_displacement = la::Vector();
     i.start_pressure.clear();
-    i.starts_from_present = false;
-    i.is_started = false;
     i.reference_matrix = nullptr;
     i.report = LinearReport();
   }
@@ -143,13 +143,20 @@ namespace abut
     AssertThrow(i.dof_handler != nullptr,
                 ExcMessage("Call reinit() before detect()."));
     // The pressures reached so far are the start of the next solve.
-    if (i.is_started || i.starts_from_present)
-      i.start_field = pressure();
+    i.record_present();
+    if (i.is_started || i.is_restarted)
+    {
+      i.given_field = la::Vector();
+      i.is_forgotten = false;
+    }
     if (i.source_is_outdated)
+    {
+      i.keep_field();
       i.create_source();
+    }
     i.find_rows(displacement);
     i.start_state.clear();
-    i.starts_from_present = false;
+    i.is_restarted = false;
     i.iteration_tolerance = 0.;
     i.begin_at(displacement);
   }
@@ -164,7 +171,10 @@ namespace abut
                                             "elastic bodies: do not call "
                                             "linearise() with it."));
     if (i.is_started)
+    {
+      i.record_present();
       i.start_from_present();
+    }
     i.iteration_tolerance = linear_tolerance;
     i.has_new_matrix = true;
     i.begin_at(displacement);
@@ -173,7 +183,7 @@ namespace abut
   template <int dim>
   void ContactAssembler<dim>::set_pressure(const la::Vector &pressure)
   {
-    implementation->start_field = pressure;
+    implementation->given_field = pressure;
   }
 
   template <int dim>
@@ -465,6 +475,8 @@ namespace abut
   {
     const Implementation &i = *implementation;
     CommunicationReport result = i.sent_before;
+    result.messages += i.history.sent().messages;
+    result.bytes += i.history.sent().bytes;
     if (i.exchange == nullptr)
       return result;
     const CommunicationReport now = i.exchange->communication();

@@ -240,67 +240,9 @@ namespace abut
       find_stress();
       solver.reset();
     }
-    rows_mesh = surfaces != nullptr ? surfaces->mesh_signature() : 0;
-    start_pressure.clear();
-    starts_from_kept = false;
-    if (start_field.size() > 0)
-    {
-      start_pressure = source->row_pressure(start_field);
-      for (int i = 0; i < view.n_rows; ++i)
-        if (view.bilateral[i] == 0)
-          start_pressure[i] = std::max(0., start_pressure[i]);
-      take_kept_rows();
-    }
-  }
-
-  template <int dim>
-  bool ContactAssembler<dim>::Implementation::has_pressure() const
-  {
-    return is_started || starts_from_present || start_field.size() > 0;
-  }
-
-  template <int dim> void ContactAssembler<dim>::Implementation::keep_rows()
-  {
-    // Unknowns of obstacles in a domain are numbered by rank.
-    if (rows_mesh == 0 || !has_pressure())
-    {
-      kept.clear();
-      return;
-    }
-    kept.keep(rows_mesh, view, row_pressures());
-    if (is_started)
-    {
-      // A strategy whose law fails is not started any more: 0 then.
-      abut_progress progress = {};
-      abut_strategy_progress(strategy.get(), &progress);
-      kept_penalty.reached = progress.penalty;
-    }
-    else if (!starts_from_kept)
-      kept_penalty = Penalty();
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::take_kept_rows()
-  {
-    if (rows_mesh == 0)
-      return;
-    constexpr double same_field = 1e-8;
-    shim::PointToPoint post(communicator);
-    std::vector<double> pressure;
-    const bool is_same = kept.find(rows_mesh, view, post, pressure);
-    const CommunicationReport &sent = post.sent();
-    sent_before.messages += sent.messages;
-    sent_before.bytes += sent.bytes;
-    if (!is_same)
-      return;
-    const la::Vector field = source->pressure(pressure.data());
-    la::Vector difference(field);
-    difference = start_field;
-    difference -= field;
-    if (difference.linfty_norm() > same_field * field.linfty_norm())
-      return;
-    start_pressure = pressure;
-    starts_from_kept = true;
+    rows_mesh = source->mesh_signature();
+    placed_rows = source->placed_rows();
+    find_start();
   }
 
   template <int dim>
@@ -431,19 +373,6 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::start_from_present()
-  {
-    start_pressure = row_pressures();
-    for (int i = 0; i < view.n_rows; ++i)
-      if (view.bilateral[i] == 0)
-        start_pressure[i] = std::max(0., start_pressure[i]);
-    starts_from_present = true;
-    start_state.clear();
-    if (!abut_law_is_interior(method.options.law))
-      start_state.assign(request.state, request.state + view.n_rows);
-  }
-
-  template <int dim>
   void ContactAssembler<dim>::Implementation::begin_at(
       const la::Vector &displacement)
   {
@@ -467,13 +396,7 @@ namespace abut
     method.options.project = has_space ? project_on_nodes<dim> : nullptr;
     method.options.project_user = surfaces;
     abut_strategy_options options = method.options;
-    const double first = abut_strategy_first_penalty(&options);
-    if (!starts_from_kept || kept_penalty.law != options.law
-        || kept_penalty.first != first)
-      kept_penalty = {options.law, first, 0.};
-    else if (kept_penalty.reached > 0.)
-      options.penalty = kept_penalty.reached;
-    kept.clear();
+    go_on_with_penalty(options);
     if (iteration_tolerance > 0.)
       options.linear_tolerance = options.final_linear_tolerance =
           iteration_tolerance;
@@ -487,7 +410,7 @@ namespace abut
     }
     else if (surfaces != nullptr && is_penalty(*method.options.law))
       surfaces->make_uniform(stiffness);
-    if (surfaces != nullptr && !starts_from_present
+    if (surfaces != nullptr && !is_restarted
         && !abut_law_is_interior(method.options.law))
     {
       std::vector<double> scale(stiffness);

@@ -5,6 +5,7 @@
 #include <abut/coupling.h>
 #include <abut/dealii/coded.h>
 #include <abut/detect.h>
+#include <abut/history.h>
 #include <abut/obstacle.h>
 #include <abut/points.h>
 #include <abut/rows.h>
@@ -32,6 +33,10 @@ namespace abut::shim
     void operator()(abut_points *object) const
     {
       abut_points_destroy(&object);
+    }
+    void operator()(abut_history *object) const
+    {
+      abut_history_destroy(&object);
     }
     void operator()(abut_strategy *object) const
     {
@@ -99,6 +104,13 @@ namespace abut::shim
     abut_points *points = nullptr;
     check(context, abut_points_create(context, dimension, &points));
     return Handle<abut_points>(points);
+  }
+
+  inline Handle<abut_history> create_history(abut_context *context)
+  {
+    abut_history *history = nullptr;
+    check(context, abut_history_create(context, &history));
+    return Handle<abut_history>(history);
   }
 
   inline Handle<abut_strategy>

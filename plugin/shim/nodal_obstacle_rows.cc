@@ -2,9 +2,11 @@
 #include "nodal_obstacle_rows.h"
 
 #include "agree.h"
+#include "fnv_hash.h"
 #include "solve/projected_gauss_seidel.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -169,6 +171,30 @@ namespace abut::shim
     check_prescribed_values();
     abut_rows_clear(rows);
     append_rows(lower, upper, rows);
+  }
+
+  template <int dim>
+  std::uint64_t NodalObstacleRows<dim>::mesh_signature() const
+  {
+    // Unknowns are numbered by rank: rows have the same numbers where the same
+    // unknowns are at the same places.
+    std::uint64_t sum = 0;
+    for (const auto &node : candidates_.free)
+    {
+      FnvHash hash;
+      hash.mix(node.dof);
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        std::uint64_t word = 0;
+        std::memcpy(&word, &node.point[d], sizeof(word));
+        hash.mix(word);
+      }
+      sum += hash.value;
+    }
+    FnvHash hash;
+    hash.mix(dof_handler_.n_dofs());
+    hash.mix(MPI::sum(sum, communicator_));
+    return std::max<std::uint64_t>(hash.value, 1);
   }
 
   template <int dim>

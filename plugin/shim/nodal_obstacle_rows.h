@@ -21,6 +21,7 @@ namespace abut::shim
                       const Obstacle<dim> &obstacle);
 
     void find(const la::Vector &displacement, abut_rows *rows) override;
+    std::uint64_t mesh_signature() const override;
     std::vector<double> row_pressure(const la::Vector &field) const override;
     la::Vector pressure(const double *row_pressure) const override;
     la::Vector gap(const double *row_gap) const override;

@@ -2,6 +2,8 @@
 #ifndef ABUT_SHIM_ROW_SOURCE_H
 #define ABUT_SHIM_ROW_SOURCE_H
 
+#include "point_number.h"
+
 #include <abut/dealii/linear_algebra.h>
 #include <abut/rows.h>
 
@@ -22,6 +24,16 @@ namespace abut::shim
     /** Replace @p rows by those for the bodies displaced by @p displacement
      * (owned entries). Throws on all ranks. Collective. */
     virtual void find(const la::Vector &displacement, abut_rows *rows) = 0;
+
+    /** A number that is the same for the same points: wherever it is, numbers
+     * of rows say the same. Never 0. Collective. */
+    virtual std::uint64_t mesh_signature() const = 0;
+
+    /** The rows whose points have no number that lasts. */
+    virtual std::vector<PlacedRow> placed_rows() const
+    {
+      return {};
+    }
 
     /** Pressure of each row from a field as pressure() makes it; may be
      * negative. Collective. */

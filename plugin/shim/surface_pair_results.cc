@@ -102,6 +102,7 @@ namespace abut::shim
     result.name = pair.data.name;
     result.secondary_facets = sizes.n_facets;
     result.primary_facets = pair.primary.everywhere.n_facets;
+    result.history_by_place = !has_lasting_numbers(pair);
     result.n_dropped = n_dropped;
     result.area = MPI::sum(statistics.full_area, communicator_);
     if (result.area == 0.)

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 
 namespace abut::shim
 {
@@ -270,12 +271,12 @@ namespace abut::shim
       row.pair = number;
       row.node = view.node[i] < 0 ? -1 : pair.secondary.node[view.node[i]];
       row.facet = row.node < 0 ? pair.secondary.facet[view.facet[i]] : -1;
-      row.id = pair.first_id
-               + (row.node >= 0
-                      ? surface_.nodes[row.node].number * dim
-                            + std::max(component, 0)
-                      : surface_.facets[row.facet].number * points_per_facet
-                            + view.point[i]);
+      row.id = row.node >= 0 ? surface_.nodes[row.node].number * dim
+                                   + std::max(component, 0)
+                             : PointNumber::first_of_facets
+                                   + surface_.facets[row.facet].number
+                                         * PointNumber::points_per_facet
+                                   + view.point[i];
       for (unsigned int d = 0; d < dim; ++d)
         row.position[d] = view.position[i * dim + d];
       row.weight = view.weight[i];
@@ -349,6 +350,48 @@ namespace abut::shim
     make_check(number, n_dropped);
   }
 
+  template <int dim> void SurfacePairRows<dim>::number_again()
+  {
+    if (pairs_.size() == 1)
+      return;
+    // The k-th point at a node, as in a corner between obstacles, or on a
+    // facet of several pairs. All are on the same rank.
+    const std::int64_t end_of_nodes = surface_.node_number_end * dim;
+    const std::int64_t end_of_facets =
+        surface_.n_facets_everywhere * PointNumber::points_per_facet;
+    std::unordered_map<std::int64_t, std::int64_t> n_met;
+    for (Row &row : rows_)
+      row.id +=
+          n_met[row.id]++ * (row.node >= 0 ? end_of_nodes : end_of_facets);
+    std::sort(rows_.begin(), rows_.end(),
+              [](const Row &a, const Row &b) { return a.id < b.id; });
+  }
+
+  template <int dim>
+  bool SurfacePairRows<dim>::has_lasting_numbers(const Pair &pair) const
+  {
+    // Against obstacles, and if they are told so, points are those of a rule
+    // over the whole facet.
+    return pair.discretisation != Discretisation::quadrature_point
+           || pair.data.obstacle != nullptr || !settings_.method.segments;
+  }
+
+  template <int dim>
+  std::vector<PlacedRow> SurfacePairRows<dim>::placed_rows() const
+  {
+    std::vector<PlacedRow> result;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+    {
+      if (has_lasting_numbers(pairs_[rows_[i].pair]))
+        continue;
+      PlacedRow placed = {static_cast<std::int32_t>(i), {}};
+      for (unsigned int d = 0; d < dim; ++d)
+        placed.place[d] = rows_[i].position[d];
+      result.push_back(placed);
+    }
+    return result;
+  }
+
   template <int dim>
   bool SurfacePairRows<dim>::append(const Row &row, abut_rows *rows,
                                     std::string &message) const
@@ -395,6 +438,7 @@ namespace abut::shim
     std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       find_pair(p, motion(pairs_[p], u), taken);
+    number_again();
 
     // Rows between nodes that cannot move say nothing.
     std::string message;

@@ -58,6 +58,8 @@ namespace abut::shim
     void find_stress(const NormalStress<dim> &normal_stress,
                      abut_rows *stress) const;
 
+    std::uint64_t mesh_signature() const override;
+    std::vector<PlacedRow> placed_rows() const override;
     std::vector<double> row_pressure(const la::Vector &field) const override;
     la::Vector pressure(const double *row_pressure) const override;
     la::Vector gap(const double *row_gap) const override;
@@ -92,10 +94,6 @@ namespace abut::shim
                                          const double *row_gap,
                                          const std::uint8_t *row_state) const;
 
-    /** A number that is the same for the same facets and pairs, whatever ranks
-     * the cells are on: then rows have the same numbers. Collective. */
-    std::uint64_t mesh_signature() const;
-
     /** Whether some pair has rows at quadrature points. */
     bool has_points() const;
 
@@ -128,9 +126,6 @@ namespace abut::shim
   private:
     using Node = std::int32_t;
 
-    /** More than the points of quadrature on any facet. */
-    static constexpr std::int64_t points_per_facet = 1 << 24;
-
     using Direction = dealii::Tensor<1, dim>;
 
     /** A pair with its two sides and their coupling. */
@@ -142,7 +137,6 @@ namespace abut::shim
       Handle<abut_coupling> coupling;
       /** Distances that the facets known here suffice for. */
       double reach = 0., margin = 0.;
-      std::int64_t first_id = 0;
       /** [nodes of the secondary] without a multiplier in the present rows:
        * 1 because of another pair, 2 because of supports. */
       std::vector<std::uint8_t> dropped;
@@ -154,7 +148,7 @@ namespace abut::shim
      * first. */
     struct Row
     {
-      std::int64_t id;
+      std::int64_t id; ///< see PointNumber
       std::size_t pair;
       Node node; ///< -1: quadrature point
       double weight;
@@ -206,6 +200,8 @@ namespace abut::shim
     void build(const Pair &pair, abut_coupling *coupling,
                const std::vector<std::uint8_t> &dropped, double motion) const;
     void take_rows(std::size_t pair, int component);
+    void number_again();
+    bool has_lasting_numbers(const Pair &pair) const;
     void find_pair(std::size_t pair, double motion,
                    std::vector<std::uint8_t> &taken);
     void append_stress(const NormalStress<dim> &normal_stress,

@@ -40,14 +40,8 @@ namespace abut::shim
       pairs_[i].reach = links[i].reach;
       pairs_[i].margin = links[i].margin;
     }
-    std::int64_t first_id = 0;
     for (Pair &pair : pairs_)
-    {
-      pair.first_id = first_id;
-      first_id += std::max(surface_.node_number_end * dim,
-                           surface_.n_facets_everywhere * points_per_facet);
       create_sides(pair);
-    }
   }
 
   template <int dim> std::uint64_t SurfacePairRows<dim>::mesh_signature() const
@@ -71,10 +65,13 @@ namespace abut::shim
     hash.mix(MPI::sum(sum, communicator_));
     for (const Pair &pair : pairs_)
     {
-      hash.mix(pair.first_id);
       hash.mix(static_cast<std::uint64_t>(pair.discretisation));
+      if (pair.discretisation != Discretisation::quadrature_point)
+        continue;
+      hash.mix(settings_.method.quadrature_degree);
+      hash.mix(has_lasting_numbers(pair));
     }
-    return hash.value;
+    return std::max<std::uint64_t>(hash.value, 1);
   }
 
   template <int dim> void SurfacePairRows<dim>::create_sides(Pair &pair)

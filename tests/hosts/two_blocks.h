@@ -180,9 +180,11 @@ namespace abut::hosts
   class TwoBlocks
   {
   public:
-    explicit TwoBlocks(const Case &run)
+    /** @p communicator of a distributed mesh. */
+    explicit TwoBlocks(const Case &run,
+                       const MPI_Comm communicator = MPI_COMM_WORLD)
         : run_(run),
-          triangulation_(make_triangulation()),
+          triangulation_(make_triangulation(communicator)),
           communicator_(triangulation_->get_communicator()),
           fe_(dealii::FE_Q<dim>(run.degree), dim),
           mapping_(1),
@@ -344,6 +346,11 @@ namespace abut::hosts
     const la::Matrix &stiffness() const
     {
       return stiffness_;
+    }
+
+    const dealii::AffineConstraints<double> &constraints() const
+    {
+      return constraints_;
     }
 
   private:
@@ -667,10 +674,11 @@ namespace abut::hosts
     }
 
     /** A mesh that is not distributed is that of each rank alone. */
-    static std::unique_ptr<Mesh> make_triangulation()
+    static std::unique_ptr<Mesh>
+    make_triangulation([[maybe_unused]] const MPI_Comm communicator)
     {
       if constexpr (std::is_constructible_v<Mesh, MPI_Comm>)
-        return std::make_unique<Mesh>(MPI_COMM_WORLD);
+        return std::make_unique<Mesh>(communicator);
       else
         return std::make_unique<Mesh>();
     }
