@@ -191,11 +191,10 @@ namespace abut
       dealii::DynamicSparsityPattern &pattern) const
   {
     const Implementation &i = *implementation;
-    for (int row = 0; row < i.view.n_rows; ++row)
+    std::vector<global_dof_index> columns;
+    for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {
-      const std::vector<global_dof_index> columns(
-          i.view.column + i.view.row_start[row],
-          i.view.column + i.view.row_start[row + 1]);
+      i.coefficients.get_columns(row, columns);
       for (const global_dof_index dof : columns)
         pattern.add_entries(dof, columns.begin(), columns.end());
     }
@@ -266,26 +265,26 @@ namespace abut
       i.take_matrix(matrix);
       i.begin(matrix, residual);
     }
-    i.local.reinit(i.request, i.view.n_rows, i.view.weight, i.communicator);
+    const solve::PointOperator &rows = i.coefficients;
+    i.local.reinit(i.request, rows.n_rows(), rows.weights(), i.communicator);
     std::vector<global_dof_index> columns;
     std::vector<double> values;
-    for (int row = 0; row < i.view.n_rows; ++row)
+    for (int row = 0; row < rows.n_rows(); ++row)
     {
       const double stiffness = i.local.spring()[row];
       const double force = i.local.force()[row];
-      const auto begin = i.view.row_start[row], end = i.view.row_start[row + 1];
-      columns.assign(i.view.column + begin, i.view.column + end);
+      const auto begin = rows.begin(row);
+      rows.get_columns(row, columns);
       values.resize(columns.size());
-      for (auto j = begin; j < end; ++j)
+      for (std::size_t j = 0; j < columns.size(); ++j)
       {
-        const double b = i.view.coefficient[j];
-        residual(i.view.column[j]) -= force * b;
+        const double b = rows.coefficient(begin + j);
+        residual(columns[j]) -= force * b;
         if (stiffness == 0.)
           continue;
-        for (auto k = begin; k < end; ++k)
-          values[k - begin] = stiffness * b * i.view.coefficient[k];
-        matrix.add(i.view.column[j], columns.size(), columns.data(),
-                   values.data());
+        for (std::size_t k = 0; k < columns.size(); ++k)
+          values[k] = stiffness * b * rows.coefficient(begin + k);
+        matrix.add(columns[j], columns.size(), columns.data(), values.data());
       }
     }
     matrix.compress(dealii::VectorOperation::add);
@@ -307,7 +306,7 @@ namespace abut
     i.compute_gap(displacement);
     if (i.was_added)
     {
-      for (int row = 0; row < i.view.n_rows; ++row)
+      for (int row = 0; row < i.coefficients.n_rows(); ++row)
         i.request.gap_change[row] = i.gap[row] - before[row];
       i.local.recover(i.request);
       i.was_added = false;
@@ -451,7 +450,7 @@ namespace abut
 
   template <int dim> unsigned int ContactAssembler<dim>::n_own_rows() const
   {
-    return implementation->view.n_rows;
+    return implementation->coefficients.n_rows();
   }
 
   template <int dim> global_dof_index ContactAssembler<dim>::n_active() const
@@ -463,7 +462,7 @@ namespace abut
   double ContactAssembler<dim>::inf_sup_constant(const la::Matrix &matrix) const
   {
     const Implementation &i = *implementation;
-    AssertThrow(i.view.row_start != nullptr || i.n_rows == 0,
+    AssertThrow(i.view.start != nullptr || i.n_rows == 0,
                 ExcMessage("Call detect() before inf_sup_constant()."));
     return solve::inf_sup_constant(matrix, i.coefficients, i.solver_parameters,
                                    i.near_null_space())

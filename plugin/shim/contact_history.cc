@@ -107,7 +107,7 @@ namespace abut::shim
   }
 
   void ContactHistory::record(const std::uint64_t mesh,
-                              const abut_rows_view &rows,
+                              const std::vector<std::int64_t> &id,
                               const std::vector<PlacedRow> &placed,
                               const std::vector<double> &pressure,
                               const std::vector<std::uint8_t> &state,
@@ -118,15 +118,28 @@ namespace abut::shim
     std::vector<double> finite(pressure);
     for (double &p : finite)
       p = std::isfinite(p) ? p : 0.;
-    std::vector<double> place(placed.empty() ? 0 : 3 * pressure.size(), 0.);
-    for (const PlacedRow &row : placed)
-      std::copy(row.place.begin(), row.place.end(),
-                place.begin() + 3 * row.row);
-    const abut_history_entries entries = {
-        sizeof(entries), rows.n_rows,  rows.id,
-        finite.data(),   state.data(), place.empty() ? nullptr : place.data()};
     check(context_, abut_history_begin_step(history_.get()));
-    check(context_, abut_history_set(history_.get(), &entries));
+    if (std::is_sorted(id.begin(), id.end()))
+    {
+      std::vector<double> place(placed.empty() ? 0 : 3 * id.size(), 0.);
+      for (const PlacedRow &row : placed)
+        std::copy(row.place.begin(), row.place.end(),
+                  place.begin() + 3 * row.row);
+      const abut_history_entries entries = {
+          sizeof(entries), static_cast<std::int64_t>(id.size()),
+          id.data(),       finite.data(),
+          state.data(),    place.empty() ? nullptr : place.data()};
+      check(context_, abut_history_set(history_.get(), &entries));
+    }
+    else
+    {
+      std::vector<Entry> entries(id.size());
+      for (std::size_t i = 0; i < id.size(); ++i)
+        entries[i] = {id[i], finite[i], state[i], {}};
+      for (const PlacedRow &row : placed)
+        entries[row.row].place = row.place;
+      set(context_, history_.get(), std::move(entries));
+    }
 
     abut_history_problem known = {};
     known.struct_size = sizeof(known);
@@ -197,10 +210,9 @@ namespace abut::shim
   }
 
   std::vector<double>
-  ContactHistory::pressures(const abut_rows_view &rows,
+  ContactHistory::pressures(const std::vector<std::int64_t> &id,
                             const std::vector<PlacedRow> &placed)
   {
-    const std::vector<std::int64_t> id(rows.id, rows.id + rows.n_rows);
     if (is_here_[ABUT_HISTORY_TRIAL])
       return pressures_here(history_.get(), id, placed);
 

@@ -34,9 +34,10 @@ namespace abut::shim
     /** @p context must outlive this object. */
     ContactHistory(abut_context *context, MPI_Comm communicator);
 
-    /** Make the trial version the values [rows] of these rows, of a mesh with
-     * this signature. Not collective, but to be called on all ranks. */
-    void record(std::uint64_t mesh, const abut_rows_view &rows,
+    /** Make the trial version the values [rows] of the rows with these numbers,
+     * of a mesh with this signature. Not collective, but to be called on all
+     * ranks. */
+    void record(std::uint64_t mesh, const std::vector<std::int64_t> &id,
                 const std::vector<PlacedRow> &placed,
                 const std::vector<double> &pressure,
                 const std::vector<std::uint8_t> &state, const Penalty &penalty);
@@ -48,10 +49,10 @@ namespace abut::shim
     /** Whether a version is of the mesh with this signature. Not collective. */
     bool knows(abut_history_version version, std::uint64_t mesh) const;
 
-    /** Pressures of the trial version at @p rows, 0 where a point has no past;
+    /** Pressures of the trial version at rows, 0 where a point has no past;
      * of placed ones those of the nearest old point of the facet. Collective.
      */
-    std::vector<double> pressures(const abut_rows_view &rows,
+    std::vector<double> pressures(const std::vector<std::int64_t> &id,
                                   const std::vector<PlacedRow> &placed);
 
     /** The penalty that the next solve goes on with; without a law if it is

@@ -37,6 +37,8 @@ namespace abut
     /** Forget the mesh. */
     void clear_source();
     void find_rows(const la::Vector &displacement);
+    /** Make the operator of the points. Collective. */
+    void make_operator();
     /** Make what has been reached the trial version of the history. */
     void record_present();
     /** Find the pressures that the next solve starts from. */
@@ -77,6 +79,7 @@ namespace abut
     /** Pressures and states reached, or those to start from. */
     double row_pressure(int row) const;
     std::vector<double> row_pressures() const;
+    std::vector<std::int64_t> row_numbers() const;
     /** Add the forces of the rows' pressures. */
     void add_forces(la::Vector &forces) const;
     std::vector<std::uint8_t> row_states() const;
@@ -113,14 +116,15 @@ namespace abut
     CommunicationReport sent_before; ///< on earlier meshes
     bool source_is_outdated = true;
 
-    shim::Handle<abut_rows> rows = shim::create_rows(context.get());
+    shim::Handle<abut_points> points; ///< of the last detect()
+    int points_dimension = 0;         ///< unknowns of their nodes
     shim::Handle<abut_strategy> strategy;
-    abut_rows_view view = {};
-    solve::RowOperator coefficients; ///< B of these rows
+    abut_points_view view = {};
+    solve::PointOperator coefficients; ///< B, by component of the points
     dealii::types::global_dof_index n_rows = 0;
 
     std::shared_ptr<const NormalStress<dim>> normal_stress;
-    shim::Handle<abut_rows> stress = shim::create_rows(context.get());
+    shim::Handle<abut_points> stress = shim::create_points(context.get(), 1);
     solve::NitscheTerms nitsche;
     std::vector<double> nitsche_gap; ///< [rows] gap + sigma_n / gamma
 
@@ -134,8 +138,8 @@ namespace abut
     bool is_restarted = false;             ///< from the last iteration's end
     std::uint64_t rows_mesh = 0; ///< signature of the rows' mesh; 0: no rows
     std::vector<shim::PlacedRow> placed_rows; ///< of the rows
-    shim::ContactHistory::Penalty penalty;           ///< of this iteration
-    shim::ContactHistory::Penalty resumed;           ///< that it may go on with
+    shim::ContactHistory::Penalty penalty;    ///< of this iteration
+    shim::ContactHistory::Penalty resumed;    ///< that it may go on with
     la::Vector start_displacement;
     std::vector<double> gap; ///< [rows] at the present displacement
     /** [rows] pressure per length, > 0: of each row in the last matrix taken,

@@ -22,21 +22,28 @@ namespace abut
     abut_progress progress = {};
     abut_strategy_progress(strategy.get(), &progress);
     penalty.reached = progress.penalty;
-    history.record(rows_mesh, view, placed_rows, row_pressures(),
+    history.record(rows_mesh, row_numbers(), placed_rows, row_pressures(),
                    row_states(), penalty);
+  }
+
+  template <int dim>
+  std::vector<std::int64_t>
+  ContactAssembler<dim>::Implementation::row_numbers() const
+  {
+    return {coefficients.ids(), coefficients.ids() + coefficients.n_rows()};
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::limit_start()
   {
-    for (int i = 0; i < view.n_rows; ++i)
-      if (view.bilateral[i] == 0)
+    for (int i = 0; i < coefficients.n_rows(); ++i)
+      if (coefficients.bilateral()[i] == 0)
         start_pressure[i] = std::max(0., start_pressure[i]);
   }
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::start_from_history()
   {
-    start_pressure = history.pressures(view, placed_rows);
+    start_pressure = history.pressures(row_numbers(), placed_rows);
     resumed = history.penalty_to_resume();
     limit_start();
   }
@@ -58,7 +65,7 @@ namespace abut
       // The field that the rows' own values make says that the host means them.
       constexpr double same_field = 1e-8;
       const std::vector<double> own =
-          history.pressures(view, placed_rows);
+          history.pressures(row_numbers(), placed_rows);
       const la::Vector field = source->pressure(own.data());
       la::Vector difference(field);
       difference = given;
@@ -69,7 +76,7 @@ namespace abut
         return;
       }
     }
-    history.record(rows_mesh, view, placed_rows, start_pressure,
+    history.record(rows_mesh, row_numbers(), placed_rows, start_pressure,
                    row_states(), shim::ContactHistory::Penalty());
     // Of another mesh, nothing can be brought back but this.
     if (!history.knows(ABUT_HISTORY_COMMITTED, rows_mesh))
@@ -112,7 +119,7 @@ namespace abut
     is_restarted = true;
     start_state.clear();
     if (!abut_law_is_interior(method.options.law))
-      start_state.assign(request.state, request.state + view.n_rows);
+      start_state.assign(request.state, request.state + coefficients.n_rows());
   }
 
   template <int dim>

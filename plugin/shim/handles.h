@@ -8,7 +8,6 @@
 #include <abut/history.h>
 #include <abut/obstacle.h>
 #include <abut/points.h>
-#include <abut/rows.h>
 #include <abut/search.h>
 #include <abut/strategy.h>
 #include <abut/surface.h>
@@ -25,10 +24,6 @@ namespace abut::shim
     void operator()(abut_context *object) const
     {
       abut_context_destroy(&object);
-    }
-    void operator()(abut_rows *object) const
-    {
-      abut_rows_destroy(&object);
     }
     void operator()(abut_points *object) const
     {
@@ -88,13 +83,6 @@ namespace abut::shim
     abut_context *context = nullptr;
     check(nullptr, abut_context_create(nullptr, &context));
     return Handle<abut_context>(context);
-  }
-
-  inline Handle<abut_rows> create_rows(abut_context *context)
-  {
-    abut_rows *rows = nullptr;
-    check(context, abut_rows_create(context, &rows));
-    return Handle<abut_rows>(rows);
   }
 
   /** Points over nodes with @p dimension unknowns each. */

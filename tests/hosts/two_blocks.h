@@ -149,6 +149,8 @@ namespace abut::hosts
     /** Pressed by a pressure of 1 on the top of straight blocks of uniform
      * meshes, which slide freely on the bottom, instead of moved. */
     bool pressed = false;
+    /** The upper block is a die: its interface is prescribed, too. */
+    bool is_die = false;
     /** The upper block is lifted by separation + tilt times the first
      * coordinate of its own frame; 0 for the patch test. */
     double separation = 0., tilt = 0.;
@@ -319,6 +321,20 @@ namespace abut::hosts
       return moved;
     }
 
+    /** Prescribe displacements that are larger by @p lift along the normal
+     * wherever the upper block is held. */
+    void lift_supports(const double lift)
+    {
+      la::Vector shift(owned_, relevant_, communicator_);
+      const la::Vector owned_shift = displacement(lift);
+      shift = owned_shift;
+      for (const auto dof : relevant_)
+        if (constraints_.is_constrained(dof)
+            && constraints_.get_constraint_entries(dof)->empty())
+          constraints_.set_inhomogeneity(
+              dof, constraints_.get_inhomogeneity(dof) + shift(dof));
+    }
+
     /** Forget what contact has found. */
     void forget()
     {
@@ -474,6 +490,10 @@ namespace abut::hosts
       dealii::VectorTools::interpolate_boundary_values(
           mapping_, dof_handler_, top, ExactDisplacement<dim>(material(true)),
           constraints_);
+      if (run_.is_die)
+        dealii::VectorTools::interpolate_boundary_values(
+            mapping_, dof_handler_, upper_interface,
+            dealii::Functions::ZeroFunction<dim>(dim), constraints_);
     }
 
     /** The bottom slides; a corner of each block does not move sideways. */
