@@ -359,13 +359,13 @@ namespace abut
     AssertThrow(i.is_started, ExcMessage("Call solve() before evaluate()."));
     forces = 0.;
     add_contact_forces(forces);
-    std::vector<double> gap(i.view.n_rows);
+    std::vector<double> gap(i.coefficients.n_rows());
     i.coefficients.gap(displacement, gap.data());
     double sum = 0.;
-    for (int row = 0; row < i.view.n_rows; ++row)
+    for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {
       const double defect = i.law_defect(row, gap[row]);
-      sum += i.view.weight[row] * i.stiffness[row] * defect * defect;
+      sum += i.coefficients.weight(row) * i.stiffness[row] * defect * defect;
     }
     return std::sqrt(dealii::Utilities::MPI::sum(sum, i.communicator));
   }
@@ -396,10 +396,8 @@ namespace abut
     i.check_rows("candidate_nodes()");
     const dealii::IndexSet &owned = i.dof_handler->locally_owned_dofs();
     la::Vector count(owned, i.communicator);
-    for (int row = 0; row < i.view.n_rows; ++row)
-      for (auto j = i.view.row_start[row]; j < i.view.row_start[row + 1]; ++j)
-        count(i.view.column[j]) += 1.;
-    count.compress(dealii::VectorOperation::add);
+    const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
+    i.coefficients.add_counts(all.data(), count);
     dealii::IndexSet result(owned.size());
     for (int k = 0; k < la::n_owned(count); ++k)
       if (la::data(count)[k] > 0.)

@@ -140,7 +140,8 @@ namespace abut
   double ContactAssembler<dim>::Implementation::law_defect(
       const int row, const double gap_there) const
   {
-    if (view.bilateral[row] == 0 && request.state[row] == ABUT_STATE_OPEN
+    if (coefficients.bilateral()[row] == 0
+        && request.state[row] == ABUT_STATE_OPEN
         && !abut_law_is_interior(method.options.law))
       return std::min(0., gap_there);
     const double a = request.d_pressure[row], b = request.d_gap[row];
