@@ -22,7 +22,6 @@
 #include <abut/parts.h>
 #include <abut/points.h>
 #include <abut/projection.h>
-#include <abut/rows.h>
 #include <abut/search.h>
 #include <abut/self_contact.h>
 #include <abut/status.h>

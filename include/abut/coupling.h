@@ -4,9 +4,9 @@
 
 /** @file
  * Coupling of two surfaces, or of a surface and a rigid obstacle: the contact
- * condition discretised into rows over nodes.
+ * condition discretised into points over nodes (abut/points.h).
  *
- * Row j has a weighting function psi_j on the secondary surface and
+ * Point j has a weighting function psi_j on the secondary surface and
  *
  *     W_j  = integral of psi_j                       weight, area
  *     D_jl = integral of psi_j phi_l                 l: secondary nodes
@@ -16,44 +16,41 @@
  * where the integrals run over the part of the secondary surface that the
  * primary covers, x_m is the point of the primary opposite the point x_s of
  * the secondary, phi and N are the shape functions of the two sides, and n_j
- * the outward unit normal of the secondary. The coefficients given are
- * D_jl / W_j and M_jl / W_j; for small displacements u
+ * the outward unit normal of the secondary. The stencil has the coefficients
+ * D_jl / W_j at nodes of the secondary and -M_jl / W_j at those of the primary;
+ * for small displacements u
  *
- *     g_j(u) = g_j - n_j . sum_l D_jl / W_j u_l + n_j . sum_l M_jl / W_j u_l
+ *     g_j(u) = g_j - n_j . (sum_l D_jl / W_j u_l - sum_l M_jl / W_j u_l)
  *
- * Both sums of coefficients are one, and the weights of all rows add up to the
- * covered area.
+ * Both sums of coefficients are one, and the weights of all points add up to
+ * the covered area.
  *
- *   node to segment    psi_j is the node itself: one row per node, against the
- *                      nearest point of the primary surface; n_j is minus the
- *                      normal there. A constant pressure is not transferred
- *                      exactly.
- *   quadrature point   one row per point of a quadrature rule on each common
- *                      segment or polygon, or on each facet, against the
- *                      primary along the secondary's normal.
- *   mortar             psi_j = phi_j, integrals over the exact common
- *                      segments (2D) or polygons (3D) of the facets: Puso and
- *                      Laursen, Comput. Methods Appl. Mech. Engrg. 193 (2004)
- *                      601 ; quadratic facets are cut into linear
- *                      parts for clipping: Puso, Laursen and Solberg, Comput.
- *                      Methods Appl. Mech. Engrg. 197 (2008) 555.
- *   dual mortar        psi_j biorthogonal to phi_j, on partly covered facets
- *                      over the covered part: Wohlmuth, SIAM J. Numer. Anal.
- *                      38 (2000) 989; Popp, Gitterle, Gee and Wall, Int. J.
- *                      Numer. Meth. Engng 83 (2010) 1428; Cichosz and
- *                      Bischoff, Comput. Methods Appl. Mech. Engrg. 200 (2011)
- *                      1317. The row of a node has no other secondary node
- *                      than its own and dropped neighbours.
+ *   node to segment    psi_j is the node itself: one point per node, against
+ * the nearest point of the primary surface; n_j is minus the normal there. A
+ * constant pressure is not transferred exactly. quadrature point   one per
+ * point of a quadrature rule on each common segment or polygon, or on each
+ * facet, against the primary along the secondary's normal. mortar psi_j =
+ * phi_j, integrals over the exact common segments (2D) or polygons (3D) of the
+ * facets: Puso and Laursen, Comput. Methods Appl. Mech. Engrg. 193 (2004) 601 ;
+ * quadratic facets are cut into linear parts for clipping: Puso, Laursen and
+ * Solberg, Comput. Methods Appl. Mech. Engrg. 197 (2008) 555. dual mortar psi_j
+ * biorthogonal to phi_j, on partly covered facets over the covered part:
+ * Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989; Popp, Gitterle, Gee and Wall,
+ * Int. J. Numer. Meth. Engng 83 (2010) 1428; Cichosz and Bischoff, Comput.
+ * Methods Appl. Mech. Engrg. 200 (2011) 1317. The row of a node has no other
+ * secondary node than its own and dropped neighbours.
  *
- * Rows are sums over facets in the order of the facets' numbers, so that they
- * are bitwise independent of which other rows are wanted. Nothing here is
- * collective: a process that holds all facets around its nodes (two layers of
- * them for quadratic facets and at corners) builds complete rows by itself.
+ * Stencils are sums over facets in the order of the facets' numbers, so that
+ * they are bitwise independent of which other points are wanted. Nothing here
+ * is collective: a process that holds all facets around its nodes (two layers
+ * of them for quadratic facets and at corners) builds complete points by
+ * itself.
  */
 
 #include <abut/context.h>
 #include <abut/export.h>
 #include <abut/obstacle.h>
+#include <abut/points.h>
 #include <abut/search.h>
 #include <abut/surface.h>
 #include <stdbool.h>
@@ -250,56 +247,87 @@ extern "C"
   /** Destroy a coupling and set the handle to NULL. */
   ABUT_API abut_status abut_coupling_destroy(abut_coupling **coupling);
 
-  /** Build the rows at the present positions (and pose).
+  /** Where the points of a build go, and what they are to be. */
+  typedef struct abut_coupling_target
+  {
+    size_t struct_size;  /**< sizeof(abut_coupling_target) */
+    abut_points *points; /**< appended to; as many dimensions as the surfaces */
+    /** Numbers that nodes have in the set, >= 0: [n_nodes] of each side. NULL:
+     * those of the secondary are its own, those of the primary follow them. */
+    const int32_t *secondary_node, *primary_node;
+    /** Number of the point of a node, [n_nodes] of the secondary, or of the
+     * first quadrature point of a facet, [n_facets]; further ones follow it.
+     * NULL: that of the node itself, or the facet's times
+     * ABUT_COUPLING_POINTS_PER_FACET. */
+    const int64_t *id;
+    /** 0 (default): contact along the normal. Else ties along those axes whose
+     * bits (1, 2, 4) are set, with one component each and gaps of zero. */
+    uint32_t tie_axes;
+    double gap; /**< added to gaps of contact, length; default 0 */
+    bool flush; /**< surfaces count as touching: leave out their distance */
+  } abut_coupling_target;
+
+  enum
+  {
+    /** More than the quadrature points of any facet. */
+    ABUT_COUPLING_POINTS_PER_FACET = 1 << 24
+  };
+
+  /** Contact points, nodes and points with their own numbers. */
+  static inline abut_coupling_target
+  abut_coupling_target_defaults(abut_points *points)
+  {
+    const abut_coupling_target target = {
+        sizeof(abut_coupling_target), points, NULL, NULL, NULL, 0, 0., false};
+    return target;
+  }
+
+  /** Append the points at the present positions (and pose).
    *
    * @param nodes may be NULL: the defaults
    * @param motion length >= 0: largest relative motion of the surfaces since
    *   the last call (over all processes); the reach is at least 1.5 times as
    *   large. 0 if unknown
    *
-   * Nodes without coverage have no row; nor have nodes whose weight is below
+   * Points come in ascending order of the numbers that the surface was given
+   * for its nodes (quadrature points: of the facet, then of the point), entries
+   * of a side in that of its nodes. After a failure nothing is appended.
+   *
+   * Nodes without coverage have no point; nor have nodes whose weight is below
    * 1e-6 of their full weight. On quadratic facets, whose shape functions
    * change sign, a node of which less than about a quarter is covered is
-   * treated as dropped.
+   * treated as dropped. A hanging node is in no stencil as one of the
+   * secondary; it may be in one as a node of the primary.
    *
    * 2D: about a microsecond per pair of facets; 3D: about ten. Allocates
    * nothing once warmed up. */
   ABUT_API abut_status abut_coupling_build(abut_coupling *coupling,
                                            const abut_coupling_nodes *nodes,
-                                           double motion);
+                                           double motion,
+                                           const abut_coupling_target *target);
 
-  /** Read-only view of the rows; lives until the next build. Rows are in
-   * ascending order of the numbers of their nodes (quadrature points: of the
-   * facet, then of the point), entries in that of the numbers of nodes. */
+  /** Read-only view of what is known of the points beside the set that they
+   * are in; lives until the next build. */
   typedef struct abut_coupling_view
   {
     size_t struct_size;   /**< sizeof(abut_coupling_view) */
     int32_t dimension;    /**< 2 or 3 */
-    int32_t n_rows;       /**< number of rows */
-    const int32_t *node;  /**< [n_rows] secondary node; -1: quadrature point */
-    const int32_t *facet; /**< [n_rows] quadrature point: its secondary facet;
+    int32_t n_points;     /**< points of the last build */
+    int32_t first;        /**< place of the first of them in the set */
+    const int32_t *node;  /**< [n_points] secondary node, with its number on the
+                               surface; -1: quadrature point */
+    const int32_t *facet; /**< [n_points] quadrature point: its secondary facet;
                                node to segment: the primary facet; else -1 */
-    const int32_t *point; /**< [n_rows] quadrature point: number of the point
+    const int32_t *point; /**< [n_points] quadrature point: number of the point
                                within the facet; else 0 */
-    const double *weight; /**< [n_rows] W_j > 0, area (2D: length) */
-    /** [n_rows] weight if the whole surface were covered: the integral of
+    /** [n_points] weight if the whole surface were covered: the integral of
      * phi_j plus the shares of dropped neighbours. */
     const double *full_weight;
-    const double *gap;      /**< [n_rows] g_j, length; positive: open */
-    const double *normal;   /**< [n_rows * dimension] n_j = -dg_j/dx_s */
-    const double *position; /**< [n_rows * dimension] where the row sits: the
-                                 node, or the quadrature point */
-    /** Row j has the secondary entries from secondary_start[j] to
-     * secondary_start[j + 1] - 1. [n_rows + 1] */
-    const int64_t *secondary_start;
-    const int32_t *secondary_node;       /**< never a hanging node */
-    const double *secondary_coefficient; /**< D_jl / W_j */
-    const int64_t *primary_start;        /**< [n_rows + 1] */
-    const int32_t *primary_node;         /**< may hang */
-    const double *primary_coefficient;   /**< M_jl / W_j */
+    const double *position; /**< [n_points * dimension] where the point sits:
+                                 the node, or the quadrature point */
   } abut_coupling_view;
 
-  /** View of the rows. O(1). */
+  /** View of the last build. O(1). */
   ABUT_API abut_status abut_coupling_get_sized(const abut_coupling *coupling,
                                                abut_coupling_view *view);
 

@@ -121,21 +121,43 @@ extern "C"
                                             const double *place,
                                             const abut_history_past *past);
 
-  /** All entries of a version, ascending; valid until the next change.
-   * @p entries->struct_size must be set. */
-  ABUT_API abut_status abut_history_view(const abut_history *history,
-                                         abut_history_version version,
-                                         abut_history_entries *entries);
+  /** All entries of a version, ascending; valid until the next change. Fills as
+   * much as entries->struct_size says. */
+  ABUT_API abut_status abut_history_view_sized(const abut_history *history,
+                                               abut_history_version version,
+                                               abut_history_entries *entries);
 
-  /** Tell the trial version what is known of the problem. */
-  ABUT_API abut_status abut_history_set_problem(
-      abut_history *history, const abut_history_problem *problem);
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status abut_history_view(const abut_history *history,
+                                              abut_history_version version,
+                                              abut_history_entries *entries)
+  {
+    if (entries != NULL)
+      entries->struct_size = sizeof(*entries);
+    return abut_history_view_sized(history, version, entries);
+  }
 
-  /** What a version knows of the problem. @p problem->struct_size must be set.
-   */
-  ABUT_API abut_status abut_history_get_problem(const abut_history *history,
-                                                abut_history_version version,
-                                                abut_history_problem *problem);
+  /** Tell a version what is known of the problem. */
+  ABUT_API abut_status
+  abut_history_set_problem(abut_history *history, abut_history_version version,
+                           const abut_history_problem *problem);
+
+  /** What a version knows of the problem. Fills as much as
+   * problem->struct_size says. */
+  ABUT_API abut_status abut_history_get_problem_sized(
+      const abut_history *history, abut_history_version version,
+      abut_history_problem *problem);
+
+  /** The same, with the size of the caller's struct filled in. */
+  static inline abut_status
+  abut_history_get_problem(const abut_history *history,
+                           abut_history_version version,
+                           abut_history_problem *problem)
+  {
+    if (problem != NULL)
+      problem->struct_size = sizeof(*problem);
+    return abut_history_get_problem_sized(history, version, problem);
+  }
 
   /** The trial version becomes the committed one, and stays as it is.
    * O(entries).

@@ -118,7 +118,9 @@ namespace abut
     AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(),
                 ExcMessage("The unknowns of a rank must be numbered "
                            "consecutively."));
-    i.keep_rows();
+    i.record_present();
+    i.history.leave_ranks();
+    i.is_forgotten = true;
     i.rows_mesh = 0;
     i.mapping = &mapping;
     i.dof_handler = &dof_handler;
@@ -127,11 +129,9 @@ namespace abut
     i.solver.reset();
     // Assigned anew, they would keep the ranks that unknowns had before, where
     // the number of unknowns is the same.
-    i.start_field = la::Vector();
+    i.abandon_iteration();
     i.start_displacement = la::Vector();
     i.start_pressure.clear();
-    i.starts_from_present = false;
-    i.is_started = false;
     i.reference_matrix = nullptr;
     i.report = LinearReport();
   }
@@ -143,13 +143,20 @@ namespace abut
     AssertThrow(i.dof_handler != nullptr,
                 ExcMessage("Call reinit() before detect()."));
     // The pressures reached so far are the start of the next solve.
-    if (i.is_started || i.starts_from_present)
-      i.start_field = pressure();
+    i.record_present();
+    if (i.is_started || i.is_restarted)
+    {
+      i.given_field = la::Vector();
+      i.is_forgotten = false;
+    }
     if (i.source_is_outdated)
+    {
+      i.keep_field();
       i.create_source();
+    }
     i.find_rows(displacement);
     i.start_state.clear();
-    i.starts_from_present = false;
+    i.is_restarted = false;
     i.iteration_tolerance = 0.;
     i.begin_at(displacement);
   }
@@ -164,7 +171,10 @@ namespace abut
                                             "elastic bodies: do not call "
                                             "linearise() with it."));
     if (i.is_started)
+    {
+      i.record_present();
       i.start_from_present();
+    }
     i.iteration_tolerance = linear_tolerance;
     i.has_new_matrix = true;
     i.begin_at(displacement);
@@ -173,7 +183,7 @@ namespace abut
   template <int dim>
   void ContactAssembler<dim>::set_pressure(const la::Vector &pressure)
   {
-    implementation->start_field = pressure;
+    implementation->given_field = pressure;
   }
 
   template <int dim>
@@ -181,11 +191,10 @@ namespace abut
       dealii::DynamicSparsityPattern &pattern) const
   {
     const Implementation &i = *implementation;
-    for (int row = 0; row < i.view.n_rows; ++row)
+    std::vector<global_dof_index> columns;
+    for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {
-      const std::vector<global_dof_index> columns(
-          i.view.column + i.view.row_start[row],
-          i.view.column + i.view.row_start[row + 1]);
+      i.coefficients.get_columns(row, columns);
       for (const global_dof_index dof : columns)
         pattern.add_entries(dof, columns.begin(), columns.end());
     }
@@ -256,26 +265,26 @@ namespace abut
       i.take_matrix(matrix);
       i.begin(matrix, residual);
     }
-    i.local.reinit(i.request, i.view.n_rows, i.view.weight, i.communicator);
+    const solve::PointOperator &rows = i.coefficients;
+    i.local.reinit(i.request, rows.n_rows(), rows.weights(), i.communicator);
     std::vector<global_dof_index> columns;
     std::vector<double> values;
-    for (int row = 0; row < i.view.n_rows; ++row)
+    for (int row = 0; row < rows.n_rows(); ++row)
     {
       const double stiffness = i.local.spring()[row];
       const double force = i.local.force()[row];
-      const auto begin = i.view.row_start[row], end = i.view.row_start[row + 1];
-      columns.assign(i.view.column + begin, i.view.column + end);
+      const auto begin = rows.begin(row);
+      rows.get_columns(row, columns);
       values.resize(columns.size());
-      for (auto j = begin; j < end; ++j)
+      for (std::size_t j = 0; j < columns.size(); ++j)
       {
-        const double b = i.view.coefficient[j];
-        residual(i.view.column[j]) -= force * b;
+        const double b = rows.coefficient(begin + j);
+        residual(columns[j]) -= force * b;
         if (stiffness == 0.)
           continue;
-        for (auto k = begin; k < end; ++k)
-          values[k - begin] = stiffness * b * i.view.coefficient[k];
-        matrix.add(i.view.column[j], columns.size(), columns.data(),
-                   values.data());
+        for (std::size_t k = 0; k < columns.size(); ++k)
+          values[k] = stiffness * b * rows.coefficient(begin + k);
+        matrix.add(columns[j], columns.size(), columns.data(), values.data());
       }
     }
     matrix.compress(dealii::VectorOperation::add);
@@ -297,7 +306,7 @@ namespace abut
     i.compute_gap(displacement);
     if (i.was_added)
     {
-      for (int row = 0; row < i.view.n_rows; ++row)
+      for (int row = 0; row < i.coefficients.n_rows(); ++row)
         i.request.gap_change[row] = i.gap[row] - before[row];
       i.local.recover(i.request);
       i.was_added = false;
@@ -350,13 +359,13 @@ namespace abut
     AssertThrow(i.is_started, ExcMessage("Call solve() before evaluate()."));
     forces = 0.;
     add_contact_forces(forces);
-    std::vector<double> gap(i.view.n_rows);
+    std::vector<double> gap(i.coefficients.n_rows());
     i.coefficients.gap(displacement, gap.data());
     double sum = 0.;
-    for (int row = 0; row < i.view.n_rows; ++row)
+    for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {
       const double defect = i.law_defect(row, gap[row]);
-      sum += i.view.weight[row] * i.stiffness[row] * defect * defect;
+      sum += i.coefficients.weight(row) * i.stiffness[row] * defect * defect;
     }
     return std::sqrt(dealii::Utilities::MPI::sum(sum, i.communicator));
   }
@@ -387,10 +396,8 @@ namespace abut
     i.check_rows("candidate_nodes()");
     const dealii::IndexSet &owned = i.dof_handler->locally_owned_dofs();
     la::Vector count(owned, i.communicator);
-    for (int row = 0; row < i.view.n_rows; ++row)
-      for (auto j = i.view.row_start[row]; j < i.view.row_start[row + 1]; ++j)
-        count(i.view.column[j]) += 1.;
-    count.compress(dealii::VectorOperation::add);
+    const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
+    i.coefficients.add_counts(all.data(), count);
     dealii::IndexSet result(owned.size());
     for (int k = 0; k < la::n_owned(count); ++k)
       if (la::data(count)[k] > 0.)
@@ -441,7 +448,7 @@ namespace abut
 
   template <int dim> unsigned int ContactAssembler<dim>::n_own_rows() const
   {
-    return implementation->view.n_rows;
+    return implementation->coefficients.n_rows();
   }
 
   template <int dim> global_dof_index ContactAssembler<dim>::n_active() const
@@ -453,7 +460,7 @@ namespace abut
   double ContactAssembler<dim>::inf_sup_constant(const la::Matrix &matrix) const
   {
     const Implementation &i = *implementation;
-    AssertThrow(i.view.row_start != nullptr || i.n_rows == 0,
+    AssertThrow(i.view.start != nullptr || i.n_rows == 0,
                 ExcMessage("Call detect() before inf_sup_constant()."));
     return solve::inf_sup_constant(matrix, i.coefficients, i.solver_parameters,
                                    i.near_null_space())
@@ -465,6 +472,8 @@ namespace abut
   {
     const Implementation &i = *implementation;
     CommunicationReport result = i.sent_before;
+    result.messages += i.history.sent().messages;
+    result.bytes += i.history.sent().bytes;
     if (i.exchange == nullptr)
       return result;
     const CommunicationReport now = i.exchange->communication();

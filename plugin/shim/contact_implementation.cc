@@ -9,6 +9,7 @@
 #include "solve/make_row_solver.h"
 #include "solve/row_stiffness.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -50,28 +51,27 @@ namespace abut
       return abut_law_has_penalty(&law) && !abut_law_updates_multipliers(&law);
     }
 
-    /** Number that tells sets of rows apart: places and values of their arrays,
-     * but gaps. */
-    std::uint64_t signature(const abut_rows_view &view)
+    /** Number that tells operators apart: their values, but for gaps. */
+    std::uint64_t signature(const solve::PointOperator &rows)
     {
       shim::FnvHash hash;
-      const auto add = [&](const auto *data, const std::size_t n)
+      const auto add = [&](const double value)
       {
-        hash.mix(reinterpret_cast<std::uintptr_t>(data));
-        for (std::size_t i = 0; i < n; ++i)
-        {
-          std::uint64_t word = 0;
-          std::memcpy(&word, data + i, sizeof(data[i]));
-          hash.mix(word);
-        }
+        std::uint64_t word = 0;
+        std::memcpy(&word, &value, sizeof(value));
+        hash.mix(word);
       };
-      const std::size_t n = view.n_rows;
-      const std::size_t n_entries = n > 0 ? view.row_start[n] : 0;
-      add(view.id, n);
-      add(view.weight, n);
-      add(view.row_start, n > 0 ? n + 1 : 0);
-      add(view.column, n_entries);
-      add(view.coefficient, n_entries);
+      for (int i = 0; i < rows.n_rows(); ++i)
+      {
+        hash.mix(rows.ids()[i]);
+        hash.mix(rows.end(i) - rows.begin(i));
+        add(rows.weight(i));
+        for (auto e = rows.begin(i); e < rows.end(i); ++e)
+        {
+          hash.mix(rows.global_column(rows.column(e)));
+          add(rows.coefficient(e));
+        }
+      }
       return hash.value;
     }
   } // namespace
@@ -107,8 +107,8 @@ namespace abut
   std::vector<double>
   ContactAssembler<dim>::Implementation::row_pressures() const
   {
-    std::vector<double> result(view.n_rows);
-    for (int row = 0; row < view.n_rows; ++row)
+    std::vector<double> result(coefficients.n_rows());
+    for (int row = 0; row < coefficients.n_rows(); ++row)
       result[row] = row_pressure(row);
     return result;
   }
@@ -118,8 +118,8 @@ namespace abut
   ContactAssembler<dim>::Implementation::add_forces(la::Vector &forces) const
   {
     std::vector<double> force = row_pressures();
-    for (int row = 0; row < view.n_rows; ++row)
-      force[row] *= view.weight[row];
+    for (int row = 0; row < coefficients.n_rows(); ++row)
+      force[row] *= coefficients.weights()[row];
     coefficients.add_transposed(force.data(), forces);
   }
 
@@ -128,10 +128,10 @@ namespace abut
   ContactAssembler<dim>::Implementation::row_states() const
   {
     if (is_started)
-      return {request.state, request.state + view.n_rows};
-    std::vector<std::uint8_t> result(view.n_rows, ABUT_STATE_OPEN);
+      return {request.state, request.state + coefficients.n_rows()};
+    std::vector<std::uint8_t> result(coefficients.n_rows(), ABUT_STATE_OPEN);
     for (std::size_t row = 0; row < start_pressure.size(); ++row)
-      if (view.bilateral[row] != 0 || start_pressure[row] > 0.)
+      if (coefficients.bilateral()[row] != 0 || start_pressure[row] > 0.)
         result[row] = ABUT_STATE_CLOSED;
     return result;
   }
@@ -140,7 +140,8 @@ namespace abut
   double ContactAssembler<dim>::Implementation::law_defect(
       const int row, const double gap_there) const
   {
-    if (view.bilateral[row] == 0 && request.state[row] == ABUT_STATE_OPEN
+    if (coefficients.bilateral()[row] == 0
+        && request.state[row] == ABUT_STATE_OPEN
         && !abut_law_is_interior(method.options.law))
       return std::min(0., gap_there);
     const double a = request.d_pressure[row], b = request.d_gap[row];
@@ -163,7 +164,7 @@ namespace abut
   void ContactAssembler<dim>::Implementation::check_rows(
       const std::string &function) const
   {
-    AssertThrow(view.row_start != nullptr || n_rows == 0,
+    AssertThrow(view.start != nullptr || n_rows == 0,
                 ExcMessage("Call detect() before " + function + "."));
   }
 
@@ -219,20 +220,41 @@ namespace abut
     source_is_outdated = true;
   }
 
+  template <int dim> void ContactAssembler<dim>::Implementation::make_operator()
+  {
+    check(abut_points_get(points.get(), &view));
+    coefficients = solve::PointOperator(dof_handler->locally_owned_dofs(), view,
+                                        source->nodes(), communicator);
+  }
+
   template <int dim>
   void ContactAssembler<dim>::Implementation::find_rows(
       const la::Vector &displacement)
   {
     rows_mesh = 0;
-    source->find(displacement, rows.get());
-    check(abut_rows_get(rows.get(), &view));
-    n_rows = MPI::sum(static_cast<global_dof_index>(view.n_rows), communicator);
-    coefficients = solve::RowOperator(dof_handler->locally_owned_dofs(), view,
-                                      communicator);
+    coefficients = solve::PointOperator();
+    view = {};
+    if (points == nullptr || points_dimension != source->dimension())
+    {
+      points_dimension = source->dimension();
+      points = shim::create_points(context.get(), points_dimension);
+    }
+    source->find(displacement, points.get());
+    make_operator();
+    // Rows between nodes that cannot move say nothing.
+    const std::vector<std::uint8_t> rows = coefficients.rows_with_columns();
+    if (MPI::logical_or(std::count(rows.begin(), rows.end(), 0) > 0,
+                        communicator))
+    {
+      source->filter(rows);
+      make_operator();
+    }
+    n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
+                      communicator);
     // A solver is kept as long as it would be made of the same rows: of the
     // undeformed bodies they are the same in most load steps.
     const std::uint64_t before = rows_signature;
-    rows_signature = signature(view);
+    rows_signature = signature(coefficients);
     if (MPI::logical_or(before != rows_signature, communicator))
       solver.reset();
     if (is_nitsche())
@@ -240,67 +262,9 @@ namespace abut
       find_stress();
       solver.reset();
     }
-    rows_mesh = surfaces != nullptr ? surfaces->mesh_signature() : 0;
-    start_pressure.clear();
-    starts_from_kept = false;
-    if (start_field.size() > 0)
-    {
-      start_pressure = source->row_pressure(start_field);
-      for (int i = 0; i < view.n_rows; ++i)
-        if (view.bilateral[i] == 0)
-          start_pressure[i] = std::max(0., start_pressure[i]);
-      take_kept_rows();
-    }
-  }
-
-  template <int dim>
-  bool ContactAssembler<dim>::Implementation::has_pressure() const
-  {
-    return is_started || starts_from_present || start_field.size() > 0;
-  }
-
-  template <int dim> void ContactAssembler<dim>::Implementation::keep_rows()
-  {
-    // Unknowns of obstacles in a domain are numbered by rank.
-    if (rows_mesh == 0 || !has_pressure())
-    {
-      kept.clear();
-      return;
-    }
-    kept.keep(rows_mesh, view, row_pressures());
-    if (is_started)
-    {
-      // A strategy whose law fails is not started any more: 0 then.
-      abut_progress progress = {};
-      abut_strategy_progress(strategy.get(), &progress);
-      kept_penalty.reached = progress.penalty;
-    }
-    else if (!starts_from_kept)
-      kept_penalty = Penalty();
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::take_kept_rows()
-  {
-    if (rows_mesh == 0)
-      return;
-    constexpr double same_field = 1e-8;
-    shim::PointToPoint post(communicator);
-    std::vector<double> pressure;
-    const bool is_same = kept.find(rows_mesh, view, post, pressure);
-    const CommunicationReport &sent = post.sent();
-    sent_before.messages += sent.messages;
-    sent_before.bytes += sent.bytes;
-    if (!is_same)
-      return;
-    const la::Vector field = source->pressure(pressure.data());
-    la::Vector difference(field);
-    difference = start_field;
-    difference -= field;
-    if (difference.linfty_norm() > same_field * field.linfty_norm())
-      return;
-    start_pressure = pressure;
-    starts_from_kept = true;
+    rows_mesh = source->mesh_signature();
+    placed_rows = source->placed_rows();
+    find_start();
   }
 
   template <int dim>
@@ -318,21 +282,22 @@ namespace abut
     AssertThrow(normal_stress != nullptr,
                 ExcMessage("Method/Enforcement = nitsche needs the stress of "
                            "the bodies: call set_normal_stress() first."));
-    surfaces->find_stress(*normal_stress, stress.get());
-    abut_rows_view stress_view = {};
-    check(abut_rows_get(stress.get(), &stress_view));
-    nitsche.stress = solve::RowOperator(dof_handler->locally_owned_dofs(),
-                                        stress_view, communicator);
+    const solve::NodeMap nodes =
+        surfaces->find_stress(*normal_stress, stress.get());
+    abut_points_view stress_view;
+    check(abut_points_get(stress.get(), &stress_view));
+    nitsche.stress = solve::PointOperator(dof_handler->locally_owned_dofs(),
+                                          stress_view, nodes, communicator);
     nitsche.theta = method.nitsche_theta;
-    nitsche.compliance.assign(view.n_rows, 0.);
-    nitsche.normal_stress.assign(view.n_rows, 0.);
+    nitsche.compliance.assign(coefficients.n_rows(), 0.);
+    nitsche.normal_stress.assign(coefficients.n_rows(), 0.);
   }
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::compute_gap(
       const la::Vector &displacement)
   {
-    gap.resize(view.n_rows);
+    gap.resize(coefficients.n_rows());
     coefficients.gap(displacement, gap.data());
     if (is_nitsche())
       nitsche.stress.gap(displacement, nitsche.normal_stress.data());
@@ -343,8 +308,8 @@ namespace abut
   {
     if (!is_nitsche())
       return gap.data();
-    nitsche_gap.resize(view.n_rows);
-    for (int i = 0; i < view.n_rows; ++i)
+    nitsche_gap.resize(coefficients.n_rows());
+    for (int i = 0; i < coefficients.n_rows(); ++i)
       nitsche_gap[i] =
           gap[i] + nitsche.compliance[i] * nitsche.normal_stress[i];
     return nitsche_gap.data();
@@ -368,8 +333,8 @@ namespace abut
                         * std::max(residual.l2_norm(), internal.l2_norm());
 
     double weight = 0.;
-    for (int i = 0; i < view.n_rows; ++i)
-      weight += view.weight[i];
+    for (int i = 0; i < coefficients.n_rows(); ++i)
+      weight += coefficients.weights()[i];
     weight = MPI::sum(weight, communicator);
     const double load = std::max(residual.l1_norm(), internal.l1_norm());
     abut_strategy_options &options = method.options;
@@ -400,10 +365,10 @@ namespace abut
   double ContactAssembler<dim>::Implementation::softness() const
   {
     double sums[2] = {0., 0.};
-    for (int i = 0; i < view.n_rows; ++i)
+    for (int i = 0; i < coefficients.n_rows(); ++i)
     {
-      sums[0] += view.weight[i];
-      sums[1] += view.weight[i] * stiffness[i];
+      sums[0] += coefficients.weights()[i];
+      sums[1] += coefficients.weights()[i] * stiffness[i];
     }
     MPI::sum(sums, communicator, sums);
     return sums[1] > 0. ? sums[0] / sums[1] : 0.;
@@ -420,27 +385,14 @@ namespace abut
     // The harmonic mean of the gaps: parts of an obstacle that are out of
     // reach do not count.
     double sums[2] = {0., 0.};
-    for (int i = 0; i < view.n_rows; ++i)
+    for (int i = 0; i < coefficients.n_rows(); ++i)
       if (gap[i] != 0.)
       {
-        sums[0] += view.weight[i];
-        sums[1] += view.weight[i] / std::abs(gap[i]);
+        sums[0] += coefficients.weights()[i];
+        sums[1] += coefficients.weights()[i] / std::abs(gap[i]);
       }
     MPI::sum(sums, communicator, sums);
     return sums[1] > 0. ? sums[0] / sums[1] : 1.;
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::start_from_present()
-  {
-    start_pressure = row_pressures();
-    for (int i = 0; i < view.n_rows; ++i)
-      if (view.bilateral[i] == 0)
-        start_pressure[i] = std::max(0., start_pressure[i]);
-    starts_from_present = true;
-    start_state.clear();
-    if (!abut_law_is_interior(method.options.law))
-      start_state.assign(request.state, request.state + view.n_rows);
   }
 
   template <int dim>
@@ -467,13 +419,7 @@ namespace abut
     method.options.project = has_space ? project_on_nodes<dim> : nullptr;
     method.options.project_user = surfaces;
     abut_strategy_options options = method.options;
-    const double first = abut_strategy_first_penalty(&options);
-    if (!starts_from_kept || kept_penalty.law != options.law
-        || kept_penalty.first != first)
-      kept_penalty = {options.law, first, 0.};
-    else if (kept_penalty.reached > 0.)
-      options.penalty = kept_penalty.reached;
-    kept.clear();
+    go_on_with_penalty(options);
     if (iteration_tolerance > 0.)
       options.linear_tolerance = options.final_linear_tolerance =
           iteration_tolerance;
@@ -482,12 +428,12 @@ namespace abut
     if (is_nitsche())
     {
       method.options.penalty = abut_strategy_first_penalty(&method.options);
-      for (int i = 0; i < view.n_rows; ++i)
+      for (int i = 0; i < coefficients.n_rows(); ++i)
         nitsche.compliance[i] = 1. / (method.options.penalty * stiffness[i]);
     }
     else if (surfaces != nullptr && is_penalty(*method.options.law))
       surfaces->make_uniform(stiffness);
-    if (surfaces != nullptr && !starts_from_present
+    if (surfaces != nullptr && !is_restarted
         && !abut_law_is_interior(method.options.law))
     {
       std::vector<double> scale(stiffness);
@@ -496,9 +442,9 @@ namespace abut
       start_state = surfaces->first_contact(gap, start_pressure, scale);
     }
     check_law(abut_strategy_start(
-        strategy.get(), view.n_rows, view.id, view.weight, stiffness.data(),
-        view.bilateral, law_gap(),
-        start_pressure.empty() ? nullptr : start_pressure.data(),
+        strategy.get(), coefficients.n_rows(), coefficients.ids(),
+        coefficients.weights(), stiffness.data(), coefficients.bilateral(),
+        law_gap(), start_pressure.empty() ? nullptr : start_pressure.data(),
         start_state.empty() ? nullptr : start_state.data()));
     next();
     is_started = true;
@@ -557,9 +503,9 @@ namespace abut
     const bool warm = largest > 0.;
     const double barrier = warm ? std::min(1e-4, method.options.barrier_start)
                                 : method.options.barrier_start;
-    std::vector<double> margin(view.n_rows, barrier * length_scale());
+    std::vector<double> margin(coefficients.n_rows(), barrier * length_scale());
     if (warm)
-      for (int i = 0; i < view.n_rows; ++i)
+      for (int i = 0; i < coefficients.n_rows(); ++i)
         margin[i] *= largest / std::max(start_pressure[i], 1e-2 * largest);
     source->push_inside(gap, margin, displacement);
   }

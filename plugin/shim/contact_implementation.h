@@ -2,7 +2,7 @@
 #ifndef ABUT_SHIM_CONTACT_IMPLEMENTATION_H
 #define ABUT_SHIM_CONTACT_IMPLEMENTATION_H
 
-#include "carried_rows.h"
+#include "contact_history.h"
 #include "handles.h"
 #include "row_source.h"
 #include "solve/local_elimination.h"
@@ -37,13 +37,25 @@ namespace abut
     /** Forget the mesh. */
     void clear_source();
     void find_rows(const la::Vector &displacement);
-    /** Whether there are pressures, of a solve or to start from. */
-    bool has_pressure() const;
-    /** Keep the pressures of the rows in case that only ranks change. */
-    void keep_rows();
-    /** Start from the pressures kept, if these are the rows that they were kept
-     * of and if the host wants them: start_field is theirs. */
-    void take_kept_rows();
+    /** Make the operator of the points. Collective. */
+    void make_operator();
+    /** Make what has been reached the trial version of the history. */
+    void record_present();
+    /** Find the pressures that the next solve starts from. */
+    void find_start();
+    /** Keep the rows' pressures as a field, in case that other surfaces
+     * follow. */
+    void keep_field();
+    void start_from_field(const la::Vector &field);
+    void start_from_history();
+    /** No tension but of ties. */
+    void limit_start();
+    /** Take up the penalty that was reached on other ranks. */
+    void go_on_with_penalty(abut_strategy_options &options);
+    /** Forget an iteration without its result. */
+    void abandon_iteration();
+    /** The same, and begin again with the trial version. */
+    void return_to_history();
     void find_stress();
     void compute_gap(const la::Vector &displacement);
     /** Whether the law needs the normal stress of the bodies. */
@@ -67,6 +79,7 @@ namespace abut
     /** Pressures and states reached, or those to start from. */
     double row_pressure(int row) const;
     std::vector<double> row_pressures() const;
+    std::vector<std::int64_t> row_numbers() const;
     /** Add the forces of the rows' pressures. */
     void add_forces(la::Vector &forces) const;
     std::vector<std::uint8_t> row_states() const;
@@ -103,32 +116,30 @@ namespace abut
     CommunicationReport sent_before; ///< on earlier meshes
     bool source_is_outdated = true;
 
-    shim::Handle<abut_rows> rows = shim::create_rows(context.get());
+    shim::Handle<abut_points> points; ///< of the last detect()
+    int points_dimension = 0;         ///< unknowns of their nodes
     shim::Handle<abut_strategy> strategy;
-    abut_rows_view view = {};
-    solve::RowOperator coefficients; ///< B of these rows
+    abut_points_view view = {};
+    solve::PointOperator coefficients; ///< B, by component of the points
     dealii::types::global_dof_index n_rows = 0;
 
     std::shared_ptr<const NormalStress<dim>> normal_stress;
-    shim::Handle<abut_rows> stress = shim::create_rows(context.get());
+    shim::Handle<abut_points> stress = shim::create_points(context.get(), 1);
     solve::NitscheTerms nitsche;
     std::vector<double> nitsche_gap; ///< [rows] gap + sigma_n / gamma
 
-    la::Vector start_field;                ///< pressure to start from; empty: 0
-    std::vector<double> start_pressure;    ///< [rows] of it, at least 0 unless
+    shim::ContactHistory history{context.get(), communicator};
+    bool is_forgotten = false; ///< by reinit(), unless set_pressure() follows
+    la::Vector given_field;    ///< by set_pressure(); empty: none
+    la::Vector kept_field;     ///< of other surfaces; empty: none
+    std::vector<double> start_pressure;    ///< [rows] at least 0 unless
                                            ///< bilateral; empty: 0
     std::vector<std::uint8_t> start_state; ///< [rows]; empty: from p and g
-    bool starts_from_present = false;      ///< that of the last iteration
+    bool is_restarted = false;             ///< from the last iteration's end
     std::uint64_t rows_mesh = 0; ///< signature of the rows' mesh; 0: no rows
-    shim::CarriedRows kept;      ///< of the mesh before reinit()
-    /** The penalty that an outer iteration has reached there, and the method
-     * that it belongs to. */
-    struct Penalty
-    {
-      const abut_law *law = nullptr;
-      double first = 0., reached = 0.;
-    } kept_penalty;
-    bool starts_from_kept = false;
+    std::vector<shim::PlacedRow> placed_rows; ///< of the rows
+    shim::ContactHistory::Penalty penalty;    ///< of this iteration
+    shim::ContactHistory::Penalty resumed;    ///< that it may go on with
     la::Vector start_displacement;
     std::vector<double> gap; ///< [rows] at the present displacement
     /** [rows] pressure per length, > 0: of each row in the last matrix taken,

@@ -12,12 +12,12 @@ namespace abut
   {
     const Implementation &i = *implementation;
     double force = 0.;
-    for (int row = 0; row < i.view.n_rows; ++row)
+    for (int row = 0; row < i.coefficients.n_rows(); ++row)
       if (i.surfaces == nullptr)
-        force += i.view.weight[row] * i.row_pressure(row)
-                 * i.view.coefficient[i.view.row_start[row]];
-      else if (i.view.bilateral[row] == 0)
-        force += i.view.weight[row] * i.row_pressure(row);
+        force += i.coefficients.weights()[row] * i.row_pressure(row)
+                 * i.coefficients.coefficient(i.coefficients.begin(row));
+      else if (i.coefficients.bilateral()[row] == 0)
+        force += i.coefficients.weights()[row] * i.row_pressure(row);
     return MPI::sum(force, i.communicator);
   }
 
@@ -25,11 +25,11 @@ namespace abut
   {
     const Implementation &i = *implementation;
     double sums[2] = {0., 0.};
-    for (int row = 0; row < i.view.n_rows; ++row)
+    for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {
       const double p = i.row_pressure(row);
-      sums[0] += i.view.weight[row] * std::abs(p * i.gap[row]);
-      sums[1] += i.view.weight[row] * std::abs(p);
+      sums[0] += i.coefficients.weights()[row] * std::abs(p * i.gap[row]);
+      sums[1] += i.coefficients.weights()[row] * std::abs(p);
     }
     MPI::sum(sums, i.communicator, sums);
     return sums[1] > 0. ? sums[0] / sums[1] : 0.;
@@ -39,14 +39,14 @@ namespace abut
   {
     const Implementation &i = *implementation;
     double sum = 0.;
-    for (int row = 0; row < i.view.n_rows && i.is_started; ++row)
+    for (int row = 0; row < i.coefficients.n_rows() && i.is_started; ++row)
     {
       const double s = i.stiffness[row];
       const double residual =
-          i.view.bilateral[row] != 0
+          i.coefficients.bilateral()[row] != 0
               ? i.gap[row]
               : std::min(i.gap[row], i.row_pressure(row) / s);
-      sum += i.view.weight[row] * s * residual * residual;
+      sum += i.coefficients.weights()[row] * s * residual * residual;
     }
     return std::sqrt(MPI::sum(sum, i.communicator));
   }
@@ -55,10 +55,10 @@ namespace abut
   {
     const Implementation &i = *implementation;
     double largest = 0.;
-    for (int row = 0; row < i.view.n_rows; ++row)
-      largest =
-          std::max(largest, i.view.bilateral[row] != 0 ? std::abs(i.gap[row])
-                                                       : -i.gap[row]);
+    for (int row = 0; row < i.coefficients.n_rows(); ++row)
+      largest = std::max(largest, i.coefficients.bilateral()[row] != 0
+                                      ? std::abs(i.gap[row])
+                                      : -i.gap[row]);
     return MPI::max(largest, i.communicator);
   }
 

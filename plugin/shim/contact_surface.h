@@ -2,6 +2,8 @@
 #ifndef ABUT_SHIM_CONTACT_SURFACE_H
 #define ABUT_SHIM_CONTACT_SURFACE_H
 
+#include "solve/node_map.h"
+
 #include <abut/facet.h>
 
 #include <deal.II/base/point.h>
@@ -37,19 +39,11 @@ namespace abut::shim
       std::int64_t number;
     };
 
-    /** A term of a constraint: factor times an unknown (or a node). */
-    struct Term
+    /** A node that another hangs on, times a factor. */
+    struct Parent
     {
       Index index;
       double factor;
-    };
-
-    /** What the host's constraints make of an unknown: the sum of terms over
-     * free unknowns and a constant. */
-    struct Line
-    {
-      std::vector<Term> terms;
-      double constant = 0.;
     };
 
     /** A boundary face of an active cell. */
@@ -67,10 +61,10 @@ namespace abut::shim
     abut_facet_kind kind = dim == 2 ? ABUT_FACET_LINE2 : ABUT_FACET_QUAD4;
     std::vector<Facet> facets;
     std::vector<Node> nodes;
-    /** [nodes * dim] of each component. */
-    std::vector<Line> lines;
+    /** What the host's constraints make of the unknowns of each node. */
+    solve::NodeMap map{dim};
     /** [nodes] parents of a hanging node, by number; empty: does not hang. */
-    std::vector<std::vector<Term>> parents;
+    std::vector<std::vector<Parent>> parents;
     /** Over all ranks. */
     std::int64_t n_facets_everywhere = 0;
     /** All numbers of nodes are below. */

@@ -37,18 +37,20 @@ namespace abut::shim
     // Rows that a body needs to be held, if it cannot turn as it likes.
     constexpr std::size_t n_needed = dim == 2 ? 2 : 4;
 
-    std::vector<std::uint8_t> state(rows_.size());
+    std::vector<std::uint8_t> state(view_.n_components);
     std::vector<unsigned int> n_closed(pairs_.size(), 0),
         n_pressed(pairs_.size(), 0);
     const auto pressed = [&](const std::size_t i)
     { return !pressure.empty() && pressure[i] > 0.; };
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-    {
-      const double p = pressed(i) ? pressure[i] : 0.;
-      state[i] = pairs_[rows_[i].pair].data.tied || p - scale[i] * gap[i] > 0.;
-      n_closed[rows_[i].pair] += state[i];
-      n_pressed[rows_[i].pair] += pressed(i);
-    }
+    for_each_component(
+        [&](const Component &component)
+        {
+          const std::size_t i = component.row, pair = component.place.pair;
+          const double p = pressed(i) ? pressure[i] : 0.;
+          state[i] = pairs_[pair].data.tied || p - scale[i] * gap[i] > 0.;
+          n_closed[pair] += state[i];
+          n_pressed[pair] += pressed(i);
+        });
     MPI::sum(n_closed, communicator_, n_closed);
     MPI::sum(n_pressed, communicator_, n_pressed);
 
@@ -59,13 +61,20 @@ namespace abut::shim
         continue;
       any = true;
       std::vector<double> gaps;
-      for (std::size_t i = 0; i < rows_.size(); ++i)
-        if (rows_[i].pair == pair)
-          gaps.push_back(gap[i]);
+      for_each_component(
+          [&](const Component &component)
+          {
+            if (component.place.pair == pair)
+              gaps.push_back(gap[component.row]);
+          });
       const double limit = nth_smallest(gaps, n_needed, communicator_);
-      for (std::size_t i = 0; i < rows_.size(); ++i)
-        if (rows_[i].pair == pair)
-          state[i] = n_pressed[pair] > 0 ? pressed(i) : gap[i] <= limit;
+      for_each_component(
+          [&](const Component &component)
+          {
+            const std::size_t i = component.row;
+            if (component.place.pair == pair)
+              state[i] = n_pressed[pair] > 0 ? pressed(i) : gap[i] <= limit;
+          });
     }
     return any ? state : std::vector<std::uint8_t>();
   }

@@ -5,9 +5,9 @@
 #include <abut/coupling.h>
 #include <abut/dealii/coded.h>
 #include <abut/detect.h>
+#include <abut/history.h>
 #include <abut/obstacle.h>
 #include <abut/points.h>
-#include <abut/rows.h>
 #include <abut/search.h>
 #include <abut/strategy.h>
 #include <abut/surface.h>
@@ -25,13 +25,13 @@ namespace abut::shim
     {
       abut_context_destroy(&object);
     }
-    void operator()(abut_rows *object) const
-    {
-      abut_rows_destroy(&object);
-    }
     void operator()(abut_points *object) const
     {
       abut_points_destroy(&object);
+    }
+    void operator()(abut_history *object) const
+    {
+      abut_history_destroy(&object);
     }
     void operator()(abut_strategy *object) const
     {
@@ -85,13 +85,6 @@ namespace abut::shim
     return Handle<abut_context>(context);
   }
 
-  inline Handle<abut_rows> create_rows(abut_context *context)
-  {
-    abut_rows *rows = nullptr;
-    check(context, abut_rows_create(context, &rows));
-    return Handle<abut_rows>(rows);
-  }
-
   /** Points over nodes with @p dimension unknowns each. */
   inline Handle<abut_points> create_points(abut_context *context,
                                            const std::int32_t dimension)
@@ -99,6 +92,13 @@ namespace abut::shim
     abut_points *points = nullptr;
     check(context, abut_points_create(context, dimension, &points));
     return Handle<abut_points>(points);
+  }
+
+  inline Handle<abut_history> create_history(abut_context *context)
+  {
+    abut_history *history = nullptr;
+    check(context, abut_history_create(context, &history));
+    return Handle<abut_history>(history);
   }
 
   inline Handle<abut_strategy>

@@ -2,9 +2,11 @@
 #include "nodal_obstacle_rows.h"
 
 #include "agree.h"
+#include "fnv_hash.h"
 #include "solve/projected_gauss_seidel.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -41,8 +43,13 @@ namespace abut::shim
       return text.str();
     }
 
-    /** Row numbers: two per unknown, so that numbers are unique over ranks
-     * and sorted by unknown. */
+    dealii::types::global_dof_index first_of(const dealii::IndexSet &owned)
+    {
+      return owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
+    }
+
+    /** Numbers of points: two per unknown, so that numbers are unique over
+     * ranks and sorted by unknown. */
     std::int64_t row_id(const dealii::types::global_dof_index dof,
                         const bool upper)
     {
@@ -61,7 +68,9 @@ namespace abut::shim
         obstacle_(obstacle),
         communicator_(dof_handler.get_communicator()),
         candidates_(collect_nodal_candidates(mapping, dof_handler, constraints,
-                                             obstacle.boundary_ids))
+                                             obstacle.boundary_ids)),
+        nodes_(solve::NodeMap::numbered(
+            first_of(dof_handler.locally_owned_dofs())))
   {
   }
 
@@ -127,25 +136,22 @@ namespace abut::shim
   }
 
   template <int dim>
-  void NodalObstacleRows<dim>::append_rows(const std::vector<double> &lower,
-                                           const std::vector<double> &upper,
-                                           abut_rows *rows)
+  void NodalObstacleRows<dim>::append_points(const std::vector<double> &lower,
+                                             const std::vector<double> &upper,
+                                             abut_points *points)
   {
     const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
     const auto append =
         [&](const auto &node, const bool is_upper, const double initial_gap)
     {
-      rows_.push_back(
-          {static_cast<int>(owned.index_within_set(node.dof)), is_upper});
-      initial_gap_.push_back(initial_gap);
-      const auto column = static_cast<std::int64_t>(node.dof);
-      const double slope = rows_.back().slope();
-      return abut_rows_append(rows, row_id(node.dof, is_upper), node.weight,
-                              initial_gap, 0, 1, &column, &slope);
+      const auto number =
+          static_cast<std::int32_t>(owned.index_within_set(node.dof));
+      const double slope = is_upper ? -1. : 1.;
+      return abut_points_append_scalar(points, row_id(node.dof, is_upper),
+                                       node.weight, initial_gap,
+                                       ABUT_POINT_CONTACT, 1, &number, &slope);
     };
 
-    rows_.clear();
-    initial_gap_.clear();
     abut_status status = ABUT_SUCCESS;
     for (std::size_t i = 0; i < lower.size() && status == ABUT_SUCCESS; ++i)
     {
@@ -154,12 +160,14 @@ namespace abut::shim
       if (upper[i] != INFINITY && status == ABUT_SUCCESS)
         status = append(candidates_.free[i], true, upper[i]);
     }
+    if (status == ABUT_SUCCESS)
+      status = abut_points_get(points, &view_);
     throw_everywhere<std::runtime_error>(
         communicator_, status == ABUT_SUCCESS ? "" : abut_status_text(status));
   }
 
   template <int dim>
-  void NodalObstacleRows<dim>::find(const la::Vector &, abut_rows *rows)
+  void NodalObstacleRows<dim>::find(const la::Vector &, abut_points *points)
   {
     const auto lower = evaluate<dim>(obstacle_.lower, candidates_.free,
                                      -INFINITY, communicator_);
@@ -167,8 +175,32 @@ namespace abut::shim
                                      INFINITY, communicator_);
     check_obstacles(lower, upper);
     check_prescribed_values();
-    abut_rows_clear(rows);
-    append_rows(lower, upper, rows);
+    abut_points_clear(points);
+    append_points(lower, upper, points);
+  }
+
+  template <int dim>
+  std::uint64_t NodalObstacleRows<dim>::mesh_signature() const
+  {
+    // Unknowns are numbered by rank: rows have the same numbers where the same
+    // unknowns are at the same places.
+    std::uint64_t sum = 0;
+    for (const auto &node : candidates_.free)
+    {
+      FnvHash hash;
+      hash.mix(node.dof);
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        std::uint64_t word = 0;
+        std::memcpy(&word, &node.point[d], sizeof(word));
+        hash.mix(word);
+      }
+      sum += hash.value;
+    }
+    FnvHash hash;
+    hash.mix(dof_handler_.n_dofs());
+    hash.mix(MPI::sum(sum, communicator_));
+    return std::max<std::uint64_t>(hash.value, 1);
   }
 
   template <int dim>
@@ -176,9 +208,9 @@ namespace abut::shim
   NodalObstacleRows<dim>::row_pressure(const la::Vector &field) const
   {
     const double *p = la::data(field);
-    std::vector<double> result(rows_.size());
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      result[i] = rows_[i].slope() * p[rows_[i].unknown];
+    std::vector<double> result(n_rows());
+    for (int i = 0; i < n_rows(); ++i)
+      result[i] = slope(i) * p[unknown(i)];
     return result;
   }
 
@@ -187,8 +219,8 @@ namespace abut::shim
   {
     la::Vector result = nodal_vector();
     double *p = la::data(result);
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      p[rows_[i].unknown] += rows_[i].slope() * row_pressure[i];
+    for (int i = 0; i < n_rows(); ++i)
+      p[unknown(i)] += slope(i) * row_pressure[i];
     result.compress(dealii::VectorOperation::insert);
     return result;
   }
@@ -199,9 +231,9 @@ namespace abut::shim
     la::Vector result = nodal_vector();
     double *g = la::data(result);
     int previous = -1;
-    for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (int i = 0; i < n_rows(); ++i)
     {
-      const int u = rows_[i].unknown;
+      const int u = unknown(i);
       g[u] = u == previous ? std::min(g[u], row_gap[i]) : row_gap[i];
       previous = u;
     }
@@ -215,12 +247,12 @@ namespace abut::shim
     la::Vector result = nodal_vector();
     result = -1.;
     double *s = la::data(result);
-    for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (int i = 0; i < n_rows(); ++i)
     {
-      const int u = rows_[i].unknown;
+      const int u = unknown(i);
       s[u] = std::max(s[u], 0.);
       if (row_state != nullptr && row_state[i] != ABUT_STATE_OPEN)
-        s[u] = rows_[i].is_upper ? 2. : 1.;
+        s[u] = is_upper(i) ? 2. : 1.;
     }
     result.compress(dealii::VectorOperation::insert);
     return result;
@@ -235,20 +267,20 @@ namespace abut::shim
     const double infinity = std::numeric_limits<double>::infinity();
     std::vector<double> lower(la::n_owned(displacement), -infinity);
     std::vector<double> upper(la::n_owned(displacement), infinity);
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (rows_[i].is_upper)
-        upper[rows_[i].unknown] = gap[i];
+    for (int i = 0; i < n_rows(); ++i)
+      if (is_upper(i))
+        upper[unknown(i)] = gap[i];
       else
-        lower[rows_[i].unknown] = -gap[i];
+        lower[unknown(i)] = -gap[i];
 
     la::Vector correction = nodal_vector();
     solve::projected_gauss_seidel(matrix, residual, lower, upper, n_sweeps,
                                   correction);
     const double *d = la::data(correction);
-    std::vector<std::uint8_t> state(rows_.size());
-    for (std::size_t i = 0; i < rows_.size(); ++i)
+    std::vector<std::uint8_t> state(n_rows());
+    for (int i = 0; i < n_rows(); ++i)
     {
-      const double change = rows_[i].slope() * d[rows_[i].unknown];
+      const double change = slope(i) * d[unknown(i)];
       state[i] = change <= -gap[i] ? ABUT_STATE_CLOSED : ABUT_STATE_OPEN;
     }
     displacement += correction;
@@ -261,22 +293,27 @@ namespace abut::shim
                                            la::Vector &displacement) const
   {
     double *u = la::data(displacement);
-    for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (int i = 0; i < n_rows(); ++i)
     {
       // Between two obstacles the margin is at most a quarter of the room.
-      const int unknown = rows_[i].unknown;
-      const bool before = i > 0 && rows_[i - 1].unknown == unknown;
-      const bool after =
-          i + 1 < rows_.size() && rows_[i + 1].unknown == unknown;
+      const int own = unknown(i);
+      const bool before = i > 0 && unknown(i - 1) == own;
+      const bool after = i + 1 < n_rows() && unknown(i + 1) == own;
       if (before || after)
-        margin[i] = std::min(
-            margin[i],
-            0.25 * (initial_gap_[i] + initial_gap_[before ? i - 1 : i + 1]));
-      const double g = initial_gap_[i] + rows_[i].slope() * u[unknown];
+        margin[i] =
+            std::min(margin[i],
+                     0.25 * (view_.gap[i] + view_.gap[before ? i - 1 : i + 1]));
+      const double g = view_.gap[i] + slope(i) * u[own];
       if (g < margin[i])
-        u[unknown] += rows_[i].slope() * (margin[i] - g);
+        u[own] += slope(i) * (margin[i] - g);
     }
     displacement.compress(dealii::VectorOperation::insert);
+  }
+
+  template <int dim>
+  void NodalObstacleRows<dim>::filter(const std::vector<std::uint8_t> &)
+  {
+    Assert(false, dealii::ExcInternalError());
   }
 
   template class NodalObstacleRows<2>;

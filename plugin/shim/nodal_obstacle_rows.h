@@ -9,8 +9,8 @@
 
 namespace abut::shim
 {
-  /** A membrane above, below or between obstacles: one row with a single
-   * coefficient per support point and obstacle. */
+  /** A membrane above, below or between obstacles: one point with a single
+   * node per support point and obstacle. Nodes are the owned unknowns. */
   template <int dim> class NodalObstacleRows : public RowSource
   {
   public:
@@ -20,7 +20,17 @@ namespace abut::shim
                       const dealii::AffineConstraints<double> &constraints,
                       const Obstacle<dim> &obstacle);
 
-    void find(const la::Vector &displacement, abut_rows *rows) override;
+    int dimension() const override
+    {
+      return 1;
+    }
+    void find(const la::Vector &displacement, abut_points *points) override;
+    void filter(const std::vector<std::uint8_t> &keep) override;
+    const solve::NodeMap &nodes() const override
+    {
+      return nodes_;
+    }
+    std::uint64_t mesh_signature() const override;
     std::vector<double> row_pressure(const la::Vector &field) const override;
     la::Vector pressure(const double *row_pressure) const override;
     la::Vector gap(const double *row_gap) const override;
@@ -34,24 +44,33 @@ namespace abut::shim
                      la::Vector &displacement) const override;
 
   private:
-    /** A row's unknown, as a local number, and which obstacle it is. */
-    struct Row
+    int n_rows() const
     {
-      int unknown;
-      bool is_upper;
+      return view_.n_points;
+    }
 
-      /** dg/du. */
-      double slope() const
-      {
-        return is_upper ? -1. : 1.;
-      }
-    };
+    /** The owned unknown of a row. */
+    int unknown(const int row) const
+    {
+      return view_.node[row];
+    }
+
+    /** Its dg/du: 1, or -1 below the upper obstacle. */
+    double slope(const int row) const
+    {
+      return view_.coefficient[row];
+    }
+
+    bool is_upper(const int row) const
+    {
+      return slope(row) < 0.;
+    }
 
     void check_obstacles(const std::vector<double> &lower,
                          const std::vector<double> &upper) const;
     void check_prescribed_values() const;
-    void append_rows(const std::vector<double> &lower,
-                     const std::vector<double> &upper, abut_rows *rows);
+    void append_points(const std::vector<double> &lower,
+                       const std::vector<double> &upper, abut_points *points);
     la::Vector nodal_vector() const;
 
     const dealii::DoFHandler<dim> &dof_handler_;
@@ -59,8 +78,8 @@ namespace abut::shim
     const Obstacle<dim> obstacle_;
     const MPI_Comm communicator_;
     NodalCandidates<dim> candidates_;
-    std::vector<Row> rows_;
-    std::vector<double> initial_gap_; ///< [rows]
+    solve::NodeMap nodes_;
+    abut_points_view view_ = {}; ///< of the points of the last find()
   };
 } // namespace abut::shim
 

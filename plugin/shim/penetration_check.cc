@@ -76,9 +76,9 @@ namespace abut::shim
   {
     const std::size_t n_nodes = surface_.nodes.size();
     std::vector<std::uint8_t> held(n_nodes * pairs_.size(), 0);
-    for (const Row &row : rows_)
-      for (std::size_t e = row.first; e < row.first_primary; ++e)
-        held[row.pair * n_nodes + entries_[e].node] = 1;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      for_each_secondary(i, [&](const Node node, double)
+                         { held[places_[i].pair * n_nodes + node] = 1; });
     // Owners of nodes know all facets around them.
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       for (std::size_t n = 0; n < pairs_[p].dropped.size(); ++n)

@@ -2,8 +2,11 @@
 #ifndef ABUT_SHIM_ROW_SOURCE_H
 #define ABUT_SHIM_ROW_SOURCE_H
 
+#include "point_number.h"
+#include "solve/node_map.h"
+
 #include <abut/dealii/linear_algebra.h>
-#include <abut/rows.h>
+#include <abut/points.h>
 
 #include <cstdint>
 #include <string>
@@ -11,17 +14,37 @@
 
 namespace abut::shim
 {
-  /** A way to make constraint rows from a DoFHandler, and to bring what is
-   * known of rows back to its unknowns. All else in the assembler deals with
-   * rows only. */
+  /** A way to make contact points from a DoFHandler, and to bring what is known
+   * of their components, the rows of the linear systems, back to its unknowns.
+   * All else in the assembler deals with points and rows only. */
   class RowSource
   {
   public:
     virtual ~RowSource() = default;
 
-    /** Replace @p rows by those for the bodies displaced by @p displacement
-     * (owned entries). Throws on all ranks. Collective. */
-    virtual void find(const la::Vector &displacement, abut_rows *rows) = 0;
+    /** Unknowns of a node. */
+    virtual int dimension() const = 0;
+
+    /** Replace @p points, which must outlive their use here, by those for the
+     * bodies displaced by @p displacement (owned entries). Throws on all ranks.
+     * Collective. */
+    virtual void find(const la::Vector &displacement, abut_points *points) = 0;
+
+    /** Keep those rows only; see abut_points_filter(). */
+    virtual void filter(const std::vector<std::uint8_t> &keep) = 0;
+
+    /** The unknowns of the points' nodes. */
+    virtual const solve::NodeMap &nodes() const = 0;
+
+    /** A number that is the same for the same points: wherever it is, numbers
+     * of rows say the same. Never 0. Collective. */
+    virtual std::uint64_t mesh_signature() const = 0;
+
+    /** The rows whose points have no number that lasts. */
+    virtual std::vector<PlacedRow> placed_rows() const
+    {
+      return {};
+    }
 
     /** Pressure of each row from a field as pressure() makes it; may be
      * negative. Collective. */

@@ -370,19 +370,11 @@ namespace abut::shim
   void SurfaceExchange<dim>::write(const NodeRecord &record,
                                    Parcel &parcel) const
   {
-    const auto write_terms = [&](const std::vector<Term> &terms)
-    {
-      for (const Term &term : terms)
-      {
-        parcel.write(term.index);
-        parcel.write_value(term.factor);
-      }
-    };
     // Free unknowns, which are most, are told by a bit.
     std::int64_t kinds = std::int64_t(record.parents.size()) << 8;
     for (unsigned int d = 0; d < dim; ++d)
       if (record.lines[d].terms.size() == 1
-          && record.lines[d].terms[0].index == record.node.dof[d])
+          && record.lines[d].terms[0].unknown == record.node.dof[d])
         kinds |= 1 << d;
     parcel.write(kinds);
     parcel.write(record.node.number);
@@ -395,9 +387,17 @@ namespace abut::shim
         continue;
       parcel.write(line.terms.size());
       parcel.write_value(line.constant);
-      write_terms(line.terms);
+      for (const Term &term : line.terms)
+      {
+        parcel.write(term.unknown);
+        parcel.write_value(term.factor);
+      }
     }
-    write_terms(record.parents);
+    for (const Parent &parent : record.parents)
+    {
+      parcel.write(parent.index);
+      parcel.write_value(parent.factor);
+    }
   }
 
   template <int dim>
@@ -405,16 +405,6 @@ namespace abut::shim
   SurfaceExchange<dim>::read_node(Parcel &parcel) const
   {
     NodeRecord record;
-    const auto read_terms = [&](const std::size_t n)
-    {
-      std::vector<Term> terms(n);
-      for (Term &term : terms)
-      {
-        term.index = parcel.read();
-        term.factor = parcel.read_value();
-      }
-      return terms;
-    };
     const std::int64_t kinds = parcel.read();
     record.node.number = parcel.read();
     for (unsigned int d = 0; d < dim; ++d)
@@ -427,9 +417,19 @@ namespace abut::shim
         continue;
       const std::size_t n = parcel.read();
       line.constant = parcel.read_value();
-      line.terms = read_terms(n);
+      line.terms.resize(n);
+      for (Term &term : line.terms)
+      {
+        term.unknown = parcel.read();
+        term.factor = parcel.read_value();
+      }
     }
-    record.parents = read_terms(kinds >> 8);
+    record.parents.resize(kinds >> 8);
+    for (Parent &parent : record.parents)
+    {
+      parent.index = parcel.read();
+      parent.factor = parcel.read_value();
+    }
     return record;
   }
 

@@ -94,6 +94,10 @@ namespace abut::shim
      * exceed, from the boxes of the last gather(). Collective. */
     double distance_bound(std::size_t link) const;
 
+    /** Bring prescribed values up to those that the host's constraints have
+     * now. Nothing is sent unless one has changed. Collective. */
+    void update_constants(ContactSurface<dim> &surface);
+
     /** Displacement of each node of the gathered surface, from the owned
      * unknowns: what constraints make of it. Collective. */
     std::vector<dealii::Tensor<1, dim>>
@@ -111,8 +115,8 @@ namespace abut::shim
     using Index = dealii::types::global_dof_index;
     using Facet = typename ContactSurface<dim>::Facet;
     using Node = typename ContactSurface<dim>::Node;
-    using Line = typename ContactSurface<dim>::Line;
-    using Term = typename ContactSurface<dim>::Term;
+    using Parent = typename ContactSurface<dim>::Parent;
+    using Term = solve::NodeMap::Term;
 
     /** A facet with its nodes, and the nodes that these hang on, named by their
      * first unknown. */
@@ -126,12 +130,19 @@ namespace abut::shim
     };
     static constexpr int near = 4, beyond = 5;
 
+    /** What constraints make of an unknown: a sum of terms and a constant. */
+    struct Line
+    {
+      std::vector<Term> terms;
+      double constant = 0.;
+    };
+
     /** What the owner of a node tells of it. */
     struct NodeRecord
     {
       Node node;
       std::array<Line, dim> lines;
-      std::vector<Term> parents;
+      std::vector<Parent> parents;
     };
 
     /** What an owner knows of a node's place in the surfaces. */

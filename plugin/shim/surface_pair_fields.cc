@@ -21,12 +21,16 @@ namespace abut::shim
   template <typename Function>
   void SurfacePairRows<dim>::for_each_share(const Function &function) const
   {
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (rows_[i].node >= 0)
-        function(i, rows_[i].node, 1.);
-      else
-        for (std::size_t e = rows_[i].first; e < rows_[i].first_primary; ++e)
-          function(i, entries_[e].node, -entries_[e].coefficient);
+    for_each_component(
+        [&](const Component &component)
+        {
+          if (component.place.node >= 0)
+            function(component, component.place.node, 1.);
+          else
+            for_each_secondary(component.point,
+                               [&](const Node node, const double share)
+                               { function(component, node, share); });
+        });
   }
 
   template <int dim>
@@ -36,7 +40,7 @@ namespace abut::shim
     const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
     std::vector<global_dof_index> others;
     for_each_share(
-        [&](std::size_t, const Node node, double)
+        [&](const Component &, const Node node, double)
         {
           for (const auto dof : surface_.nodes[node].dof)
             if (!owned.is_element(dof))
@@ -48,13 +52,13 @@ namespace abut::shim
     la::Vector ghosted(owned, needed, communicator_);
     ghosted = field;
 
-    std::vector<double> result(rows_.size(), 0.);
+    std::vector<double> result(view_.n_components, 0.);
     for_each_share(
-        [&](const std::size_t i, const Node node, const double share)
+        [&](const Component &i, const Node node, const double share)
         {
           for (unsigned int d = 0; d < dim; ++d)
-            result[i] += share * rows_[i].direction[d]
-                         * ghosted(surface_.nodes[node].dof[d]);
+            result[i.row] +=
+                share * i.direction[d] * ghosted(surface_.nodes[node].dof[d]);
         });
     return result;
   }
@@ -65,14 +69,15 @@ namespace abut::shim
     // At nodes as it is; from quadrature points by weighted means.
     la::Vector result = field(), weight = field();
     for_each_share(
-        [&](const std::size_t i, const Node node, const double share)
+        [&](const Component &i, const Node node, const double share)
         {
-          const double w = rows_[i].node >= 0 ? 1. : share * rows_[i].weight;
+          const double w =
+              i.place.node >= 0 ? 1. : share * view_.weight[i.point];
           for (unsigned int d = 0; d < dim; ++d)
           {
             const auto dof = surface_.nodes[node].dof[d];
-            result(dof) += w * row_pressure[i] * rows_[i].direction[d];
-            if (rows_[i].node < 0)
+            result(dof) += w * row_pressure[i.row] * i.direction[d];
+            if (i.place.node < 0)
               weight(dof) += w;
           }
         });
@@ -93,12 +98,12 @@ namespace abut::shim
     // The weighted mean of the rows of a node.
     la::Vector result = field(), weight = field();
     for_each_share(
-        [&](const std::size_t i, const Node node, const double share)
+        [&](const Component &i, const Node node, const double share)
         {
-          const double w = share * rows_[i].weight;
+          const double w = share * view_.weight[i.point];
           for (const auto dof : surface_.nodes[node].dof)
           {
-            result(dof) += w * row_gap[i];
+            result(dof) += w * row_gap[i.row];
             weight(dof) += w;
           }
         });
@@ -119,10 +124,10 @@ namespace abut::shim
     // Rows and closed rows are counted, since counts add up over ranks.
     la::Vector present = field(), closed = field();
     for_each_share(
-        [&](const std::size_t i, const Node node, double)
+        [&](const Component &i, const Node node, double)
         {
           const bool is_closed =
-              row_state != nullptr && row_state[i] != ABUT_STATE_OPEN;
+              row_state != nullptr && row_state[i.row] != ABUT_STATE_OPEN;
           for (const auto dof : surface_.nodes[node].dof)
           {
             present(dof) += 1.;
@@ -155,9 +160,8 @@ namespace abut::shim
   bool SurfacePairRows<dim>::is_free(const Node node,
                                      const unsigned int component) const
   {
-    const auto &line = surface_.lines[node * dim + component];
-    return line.terms.size() == 1
-           && line.terms[0].index == surface_.nodes[node].dof[component];
+    return surface_.map.is_itself(node, component,
+                                  surface_.nodes[node].dof[component]);
   }
 
   template <int dim>
@@ -180,34 +184,35 @@ namespace abut::shim
     // points step back together, as far as the worst point asks.
     la::Vector step = field();
     double worst = 0.;
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (rows_[i].node < 0)
-        worst = std::max(worst, margin[i] - gap[i]);
+    for_each_component(
+        [&](const Component &i)
+        {
+          if (i.place.node < 0)
+            worst = std::max(worst, margin[i.row] - gap[i.row]);
+        });
     worst = dealii::Utilities::MPI::max(worst, communicator_);
     la::Vector share_of_points = field();
     for_each_share(
-        [&](const std::size_t i, const Node node, double)
+        [&](const Component &i, const Node node, double)
         {
-          double amount = margin[i] - gap[i], own = 1.;
+          double amount = margin[i.row] - gap[i.row], own = 1.;
           if (amount <= 0.)
             return;
-          if (rows_[i].node >= 0)
+          if (i.place.node >= 0)
           {
             own = 0.;
-            for (std::size_t e = rows_[i].first; e < rows_[i].first_primary;
-                 ++e)
-              if (entries_[e].node == node)
-                own -= entries_[e].coefficient;
+            for_each_secondary(i.point, [&](const Node other, const double c)
+                               { own += other == node ? c : 0.; });
           }
-          const double free = own * own_freedom(node, rows_[i].direction);
+          const double free = own * own_freedom(node, i.direction);
           if (free <= 0.)
             return;
-          amount = (rows_[i].node >= 0 ? amount : worst) / free;
+          amount = (i.place.node >= 0 ? amount : worst) / free;
           for (unsigned int d = 0; d < dim; ++d)
           {
             const auto dof = surface_.nodes[node].dof[d];
-            step(dof) -= amount * rows_[i].direction[d];
-            share_of_points(dof) += rows_[i].node >= 0 ? 0. : 1.;
+            step(dof) -= amount * i.direction[d];
+            share_of_points(dof) += i.place.node >= 0 ? 0. : 1.;
           }
         });
     step.compress(dealii::VectorOperation::add);

@@ -114,21 +114,23 @@ namespace abut::shim
                            {}};
       std::vector<std::size_t> rows;
       std::vector<global_dof_index> others;
-      for (std::size_t i = 0; i < rows_.size(); ++i)
-      {
-        if (rows_[i].pair != p)
-          continue;
-        rows.push_back(i);
-        points.weight.push_back(rows_[i].weight);
-        points.share.emplace_back();
-        for (std::size_t e = rows_[i].first; e < rows_[i].first_primary; ++e)
-        {
-          const auto dof = surface_.nodes[entries_[e].node].dof[0];
-          points.share.back().push_back({dof, -entries_[e].coefficient});
-          if (!points.owned.is_element(dof))
-            others.push_back(dof);
-        }
-      }
+      for_each_component(
+          [&](const Component &component)
+          {
+            if (component.place.pair != p)
+              return;
+            rows.push_back(component.row);
+            points.weight.push_back(view_.weight[component.point]);
+            points.share.emplace_back();
+            for_each_secondary(component.point,
+                               [&](const Node node, const double c)
+                               {
+                                 const auto dof = surface_.nodes[node].dof[0];
+                                 points.share.back().push_back({dof, c});
+                                 if (!points.owned.is_element(dof))
+                                   others.push_back(dof);
+                               });
+          });
       std::sort(others.begin(), others.end());
       points.needed.add_indices(others.begin(), others.end());
       function(points, rows);

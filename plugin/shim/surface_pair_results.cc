@@ -52,10 +52,13 @@ namespace abut::shim
   {
     // Only what is near the other side: facets at the nodes of rows.
     std::vector<std::uint8_t> near(surface_.nodes.size(), 0);
-    for (const Row &row : rows_)
-      if (&pairs_[row.pair] == &pair)
-        for (std::size_t e = row.first; e < row.end; ++e)
-          near[entries_[e].node] = 1;
+    const auto mark = [&](const Node node, double) { near[node] = 1; };
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      if (&pairs_[places_[i].pair] == &pair)
+      {
+        for_each_secondary(i, mark);
+        for_each_primary(i, mark);
+      }
     const auto turns = [&](const SurfaceSide<dim> &side)
     {
       std::vector<std::uint8_t> mask(side.n_facets());
@@ -102,6 +105,7 @@ namespace abut::shim
     result.name = pair.data.name;
     result.secondary_facets = sizes.n_facets;
     result.primary_facets = pair.primary.everywhere.n_facets;
+    result.history_by_place = !has_lasting_numbers(pair);
     result.n_dropped = n_dropped;
     result.area = MPI::sum(statistics.full_area, communicator_);
     if (result.area == 0.)
@@ -111,13 +115,16 @@ namespace abut::shim
       result.size_ratio = sizes.median / pair.primary.everywhere.median;
     double covered = 0., overlap = 0.;
     dealii::types::global_dof_index n_rows = 0;
-    for (const Row &row : rows_)
-      if (row.pair == number)
-      {
-        ++n_rows;
-        covered += row.weight / (pair.data.tied ? dim : 1.);
-        overlap = std::max(overlap, pair.data.tied ? 0. : -row.gap);
-      }
+    for_each_component(
+        [&](const Component &row)
+        {
+          if (row.place.pair != number)
+            return;
+          ++n_rows;
+          covered += view_.weight[row.point] / (pair.data.tied ? dim : 1.);
+          overlap =
+              std::max(overlap, pair.data.tied ? 0. : -view_.gap[row.row]);
+        });
     result.n_rows = MPI::sum(n_rows, communicator_);
     result.covered_area = MPI::sum(covered, communicator_);
     result.overlap = MPI::max(overlap, communicator_);
@@ -173,33 +180,43 @@ namespace abut::shim
       results[p].between_rows = pairs_[p].between_rows;
       results[p].held_inside = pairs_[p].held_inside;
     }
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-    {
-      const Row &row = rows_[i];
-      const bool tied = pairs_[row.pair].data.tied;
-      PairResult<dim> &result = results[row.pair];
-      ++result.n_rows;
-      const double area = row.weight / (tied ? dim : 1.);
-      result.covered_area += area;
-      if (row_state != nullptr && row_state[i] != ABUT_STATE_OPEN)
-      {
-        ++result.n_active;
-        result.contact_area += area;
-      }
-      result.penetration = std::max(result.penetration,
-                                    tied ? std::abs(row_gap[i]) : -row_gap[i]);
-      result.pressure = std::max(result.pressure, row_pressure[i]);
-      for (std::size_t e = row.first; e < row.end; ++e)
-      {
-        const Direction force = row.weight * row_pressure[i]
-                                * entries_[e].coefficient * row.direction;
-        const auto moment =
-            cross(surface_.nodes[entries_[e].node].point, force);
-        const bool secondary = e < row.first_primary;
-        (secondary ? result.secondary_force : result.primary_force) += force;
-        (secondary ? result.secondary_moment : result.primary_moment) += moment;
-      }
-    }
+    for_each_component(
+        [&](const Component &row)
+        {
+          const std::size_t i = row.row;
+          const bool tied = pairs_[row.place.pair].data.tied;
+          PairResult<dim> &result = results[row.place.pair];
+          ++result.n_rows;
+          const double weight = view_.weight[row.point];
+          const double area = weight / (tied ? dim : 1.);
+          result.covered_area += area;
+          if (row_state != nullptr && row_state[i] != ABUT_STATE_OPEN)
+          {
+            ++result.n_active;
+            result.contact_area += area;
+          }
+          result.penetration = std::max(
+              result.penetration, tied ? std::abs(row_gap[i]) : -row_gap[i]);
+          result.pressure = std::max(result.pressure, row_pressure[i]);
+          for_each_secondary(row.point,
+                             [&](const Node node, const double c)
+                             {
+                               const Direction force = -weight * row_pressure[i]
+                                                       * c * row.direction;
+                               result.secondary_force += force;
+                               result.secondary_moment +=
+                                   cross(surface_.nodes[node].point, force);
+                             });
+          for_each_primary(row.point,
+                           [&](const Node node, const double c)
+                           {
+                             const Direction force =
+                                 -weight * row_pressure[i] * c * row.direction;
+                             result.primary_force += force;
+                             result.primary_moment +=
+                                 cross(surface_.nodes[node].point, force);
+                           });
+        });
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
       PairResult<dim> &result = results[p];
@@ -236,15 +253,17 @@ namespace abut::shim
   void SurfacePairRows<dim>::make_uniform(std::vector<double> &value) const
   {
     std::vector<double> sum(pairs_.size(), 0.), count(pairs_.size(), 0.);
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-    {
-      sum[rows_[i].pair] += std::log(value[i]);
-      count[rows_[i].pair] += 1.;
-    }
+    for_each_component(
+        [&](const Component &i)
+        {
+          sum[i.place.pair] += std::log(value[i.row]);
+          count[i.place.pair] += 1.;
+        });
     MPI::sum(sum, communicator_, sum);
     MPI::sum(count, communicator_, count);
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      value[i] = std::exp(sum[rows_[i].pair] / count[rows_[i].pair]);
+    for_each_component(
+        [&](const Component &i)
+        { value[i.row] = std::exp(sum[i.place.pair] / count[i.place.pair]); });
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

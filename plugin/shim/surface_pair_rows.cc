@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// From pairs of surfaces to rows.
+// From pairs of surfaces to points.
 #include "surface_pair_rows.h"
 
 #include "agree.h"
@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <unordered_map>
 
 namespace abut::shim
 {
@@ -180,8 +182,10 @@ namespace abut::shim
   {
     std::map<global_dof_index, Direction> columns;
     for (unsigned int d = 0; d < dim; ++d)
-      for (const auto &term : surface_.lines[node * dim + d].terms)
-        columns[term.index][d] += term.factor;
+      surface_.map.for_each_term(
+          node, d,
+          [&](const global_dof_index unknown, const double factor)
+          { columns[unknown][d] += factor; });
     double sum = 0.;
     for (const auto &column : columns)
       if (column.second.norm_square() > 0.)
@@ -223,7 +227,8 @@ namespace abut::shim
   template <int dim>
   void SurfacePairRows<dim>::build(const Pair &pair, abut_coupling *coupling,
                                    const std::vector<std::uint8_t> &dropped,
-                                   const double motion) const
+                                   const double motion,
+                                   const abut_coupling_target &target) const
   {
     const SurfaceSide<dim> &side = pair.secondary;
     const auto me = MPI::this_mpi_process(communicator_);
@@ -242,7 +247,8 @@ namespace abut::shim
     nodes.hanging_start = side.hanging_start.data();
     nodes.hanging_parent = side.hanging_parent.data();
     nodes.hanging_weight = side.hanging_weight.data();
-    const abut_status status = abut_coupling_build(coupling, &nodes, motion);
+    const abut_status status =
+        abut_coupling_build(coupling, &nodes, motion, &target);
     std::string message;
     if (status != ABUT_SUCCESS)
     {
@@ -258,46 +264,99 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::take_rows(const std::size_t number,
-                                       const int component)
+  std::vector<std::int64_t>
+  SurfacePairRows<dim>::point_numbers(const std::size_t number,
+                                      const int shift) const
+  {
+    // The k-th point at a node, as in a corner between obstacles, or on a facet
+    // of several pairs, has a number of its own. All are on the same rank.
+    const Pair &pair = pairs_[number];
+    const std::int64_t end_of_nodes = surface_.node_number_end * dim;
+    const std::int64_t end_of_facets =
+        surface_.n_facets_everywhere * PointNumber::points_per_facet;
+    std::unordered_map<std::int32_t, std::set<std::size_t>> before;
+    const bool at_points =
+        discretisation_info(pair.discretisation).row_per_point;
+    for (const Place &place : places_)
+      if (place.pair != number && (place.node < 0) == at_points)
+        before[at_points ? place.facet : place.node].insert(place.pair);
+    const auto n_before = [&](const std::int32_t index)
+    {
+      const auto it = before.find(index);
+      return it == before.end() ? 0
+                                : static_cast<std::int64_t>(it->second.size());
+    };
+    std::vector<std::int64_t> id;
+    if (at_points)
+      for (const std::int32_t facet : pair.secondary.facet)
+        id.push_back(PointNumber::first_of_facets
+                     + surface_.facets[facet].number
+                           * PointNumber::points_per_facet
+                     + n_before(facet) * end_of_facets);
+    else
+      for (const Node node : pair.secondary.node)
+        id.push_back(surface_.nodes[node].number * dim + shift
+                     + n_before(node) * end_of_nodes);
+    return id;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::append(const std::size_t number,
+                                    const std::vector<std::uint8_t> &dropped,
+                                    const double motion,
+                                    const std::uint32_t tie_axes,
+                                    const int shift)
   {
     const Pair &pair = pairs_[number];
+    const SurfaceSide<dim> &side = pair.secondary;
+    const std::vector<std::int64_t> id = point_numbers(number, shift);
+    abut_coupling_target target = abut_coupling_target_defaults(points_);
+    target.secondary_node = side.node.data();
+    target.primary_node = pair.primary.node.data();
+    target.id = id.data();
+    target.tie_axes = tie_axes;
+    target.gap = pair.data.gap;
+    target.flush = !pair.data.geometric_gap;
+    build(pair, pair.coupling.get(), dropped, motion, target);
+
     abut_coupling_view view;
     check(context_, abut_coupling_get(pair.coupling.get(), &view));
-    for (std::int32_t i = 0; i < view.n_rows; ++i)
+    for (std::int32_t i = 0; i < view.n_points; ++i)
     {
-      Row row;
-      row.pair = number;
-      row.node = view.node[i] < 0 ? -1 : pair.secondary.node[view.node[i]];
-      row.facet = row.node < 0 ? pair.secondary.facet[view.facet[i]] : -1;
-      row.id = pair.first_id
-               + (row.node >= 0
-                      ? surface_.nodes[row.node].number * dim
-                            + std::max(component, 0)
-                      : surface_.facets[row.facet].number * points_per_facet
-                            + view.point[i]);
+      Place place;
+      place.pair = number;
+      place.node = view.node[i] < 0 ? -1 : side.node[view.node[i]];
+      place.facet = view.node[i] < 0 ? side.facet[view.facet[i]] : -1;
       for (unsigned int d = 0; d < dim; ++d)
-        row.position[d] = view.position[i * dim + d];
-      row.weight = view.weight[i];
-      row.gap = 0.;
-      if (component < 0)
-        row.gap = pair.data.gap + (pair.data.geometric_gap ? view.gap[i] : 0.);
-      for (unsigned int d = 0; d < dim; ++d)
-        row.direction[d] = component < 0
-                               ? view.normal[i * dim + d]
-                               : (d == static_cast<unsigned>(component));
-      row.first = entries_.size();
-      for (auto e = view.secondary_start[i]; e < view.secondary_start[i + 1];
-           ++e)
-        entries_.push_back({pair.secondary.node[view.secondary_node[e]],
-                            -view.secondary_coefficient[e]});
-      row.first_primary = entries_.size();
-      for (auto e = view.primary_start[i]; e < view.primary_start[i + 1]; ++e)
-        entries_.push_back({pair.primary.node[view.primary_node[e]],
-                            view.primary_coefficient[e]});
-      row.end = entries_.size();
-      rows_.push_back(row);
+        place.position[d] = view.position[i * dim + d];
+      places_.push_back(place);
     }
+    check(context_, abut_points_get(points_, &view_));
+  }
+
+  template <int dim>
+  std::vector<typename SurfacePairRows<dim>::TieGroup>
+  SurfacePairRows<dim>::tie_groups(const Pair &pair,
+                                   const std::vector<std::uint8_t> &taken) const
+  {
+    // Supports may hold a node in some directions only.
+    std::vector<TieGroup> groups;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      TieGroup group;
+      group.dropped = dropped_nodes(pair, taken, d);
+      for (auto g = groups.begin(); g != groups.end();)
+        if (MPI::logical_or(g->dropped != group.dropped, communicator_))
+          ++g;
+        else
+        {
+          group.axes = g->axes;
+          g = groups.erase(g);
+        }
+      group.axes |= 1u << d;
+      groups.push_back(std::move(group));
+    }
+    return groups;
   }
 
   template <int dim>
@@ -306,105 +365,88 @@ namespace abut::shim
                                        std::vector<std::uint8_t> &taken)
   {
     Pair &pair = pairs_[number];
-    const std::size_t first = rows_.size();
-    std::vector<std::uint8_t> &dropped = pair.dropped;
-    dropped.clear();
+    const std::size_t first = places_.size();
     unsigned int n_dropped = 0;
-    const auto count = [&]
+    int shift = 0;
+    auto groups =
+        pair.data.tied
+            ? tie_groups(pair, taken)
+            : std::vector<TieGroup>{{0, dropped_nodes(pair, taken, -1)}};
+    for (TieGroup &group : groups)
     {
+      pair.dropped = std::move(group.dropped);
       unsigned int n = 0;
-      for (std::size_t i = 0; i < dropped.size(); ++i)
-        n += dropped[i] != 0 && is_owned(pair.secondary.node[i]);
-      return MPI::sum(n, communicator_);
-    };
-    if (!pair.data.tied)
-    {
-      dropped = dropped_nodes(pair, taken, -1);
-      n_dropped = count();
-      build(pair, pair.coupling.get(), dropped, motion);
-      take_rows(number, -1);
-    }
-    else
+      for (std::size_t i = 0; i < pair.dropped.size(); ++i)
+        n += pair.dropped[i] != 0 && is_owned(pair.secondary.node[i]);
+      n_dropped = std::max(n_dropped, MPI::sum(n, communicator_));
+      append(number, pair.dropped, motion, group.axes, shift);
       for (unsigned int d = 0; d < dim; ++d)
-      {
-        const auto now = dropped_nodes(pair, taken, d);
-        if (MPI::logical_or(d == 0 || now != dropped, communicator_))
-        {
-          dropped = now;
-          n_dropped = std::max<unsigned int>(n_dropped, count());
-          build(pair, pair.coupling.get(), dropped, motion);
-        }
-        take_rows(number, d);
-      }
-    std::sort(rows_.begin() + first, rows_.end(),
-              [](const Row &a, const Row &b) { return a.id < b.id; });
+        shift += group.axes >> d & 1;
+    }
 
-    // A node has rows of one pair only: two would constrain it twice. Several
+    // A node has points of one pair only: two would constrain it twice. Several
     // obstacles may hold one node in a corner.
     if (!pair.data.obstacle)
-      for (std::size_t i = first; i < rows_.size(); ++i)
-        if (rows_[i].node >= 0)
-          taken[rows_[i].node] = 1;
+      for (std::size_t i = first; i < places_.size(); ++i)
+        if (places_[i].node >= 0)
+          taken[places_[i].node] = 1;
     exchange_->merge_marks(surface_, taken);
     make_check(number, n_dropped);
   }
 
   template <int dim>
-  bool SurfacePairRows<dim>::append(const Row &row, abut_rows *rows,
-                                    std::string &message) const
+  bool SurfacePairRows<dim>::has_lasting_numbers(const Pair &pair) const
   {
-    std::map<global_dof_index, double> terms;
-    double gap = row.gap;
-    for (std::size_t e = row.first; e < row.end; ++e)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double factor = entries_[e].coefficient * row.direction[d];
-        const auto &line = surface_.lines[entries_[e].node * dim + d];
-        gap += factor * line.constant;
-        for (const auto &term : line.terms)
-          terms[term.index] += factor * term.factor;
-      }
-    std::vector<std::int64_t> column;
-    std::vector<double> coefficient;
-    for (const auto &term : terms)
-      if (std::abs(term.second) > 1e-14)
-      {
-        column.push_back(static_cast<std::int64_t>(term.first));
-        coefficient.push_back(term.second);
-      }
-    if (column.empty())
-      return false;
-    const abut_status status = abut_rows_append(
-        rows, row.id, row.weight, gap, pairs_[row.pair].data.tied ? 1 : 0,
-        static_cast<std::int32_t>(column.size()), column.data(),
-        coefficient.data());
-    if (status != ABUT_SUCCESS && message.empty())
-      message = "Pair '" + pairs_[row.pair].data.name
-                + "': " + message_of(context_, status);
-    return true;
+    // Against obstacles, and if they are told so, points are those of a rule
+    // over the whole facet.
+    return !discretisation_info(pair.discretisation).row_per_point
+           || pair.data.obstacle != nullptr || !settings_.method.segments;
+  }
+
+  template <int dim>
+  std::vector<PlacedRow> SurfacePairRows<dim>::placed_rows() const
+  {
+    std::vector<PlacedRow> result;
+    for_each_component(
+        [&](const Component &component)
+        {
+          if (has_lasting_numbers(pairs_[component.place.pair]))
+            return;
+          PlacedRow placed = {static_cast<std::int32_t>(component.row), {}};
+          for (unsigned int d = 0; d < dim; ++d)
+            placed.place[d] = component.place.position[d];
+          result.push_back(placed);
+        });
+    return result;
   }
 
   template <int dim>
   void SurfacePairRows<dim>::find(const la::Vector &displacement,
-                                  abut_rows *rows)
+                                  abut_points *points)
   {
-    rows_.clear();
-    entries_.clear();
+    points_ = points;
+    places_.clear();
     checks_.clear();
+    check(context_, abut_points_clear(points_));
+    exchange_->update_constants(surface_);
     const std::vector<Direction> u = displacements_in_reach(displacement);
     std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       find_pair(p, motion(pairs_[p], u), taken);
+  }
 
-    // Rows between nodes that cannot move say nothing.
-    std::string message;
-    abut_rows_clear(rows);
-    std::size_t n_kept = 0;
-    for (const Row &row : rows_)
-      if (append(row, rows, message))
-        rows_[n_kept++] = row;
-    rows_.resize(n_kept);
-    throw_everywhere<ContactError>(communicator_, message);
+  template <int dim>
+  void SurfacePairRows<dim>::filter(const std::vector<std::uint8_t> &keep)
+  {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      if (std::any_of(keep.begin() + view_.component_start[i],
+                      keep.begin() + view_.component_start[i + 1],
+                      [](const std::uint8_t k) { return k != 0; }))
+        places_[n++] = places_[i];
+    places_.resize(n);
+    check(context_, abut_points_filter(points_, keep.data()));
+    check(context_, abut_points_get(points_, &view_));
   }
 
   template class SurfacePairRows<2>;

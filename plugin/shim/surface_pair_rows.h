@@ -9,18 +9,17 @@
 #include <abut/dealii/contact_pair.h>
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/normal_stress.h>
-#include <abut/rows.h>
 
 namespace abut::shim
 {
-  /** Rows between surfaces of bodies, and of surfaces against rigid obstacles,
-   * from the core's coupling.
+  /** Points between surfaces of bodies, and of surfaces against rigid
+   * obstacles, from the core's coupling. Values of rows, here and elsewhere,
+   * are those of the points' components.
    *
    * The geometry is that of the reference configuration (displacement 0), so
-   * that the gap is linear in the displacement. A row is on the rank that owns
-   * its secondary node, or for quadrature points the facet's cell. Its
-   * coefficients are those of free unknowns: what constraints make of an
-   * unknown is put in its place. */
+   * that the gap is linear in the displacement. A point is on the rank that
+   * owns its secondary node, or for quadrature points the facet's cell. Nodes
+   * are those of the gathered surface. */
   template <int dim> class SurfacePairRows : public RowSource
   {
   public:
@@ -49,15 +48,27 @@ namespace abut::shim
       return exchange_;
     }
 
-    void find(const la::Vector &displacement, abut_rows *rows) override;
+    int dimension() const override
+    {
+      return dim;
+    }
+    void find(const la::Vector &displacement, abut_points *points) override;
+    void filter(const std::vector<std::uint8_t> &keep) override;
+    const solve::NodeMap &nodes() const override
+    {
+      return surface_.map;
+    }
 
-    /** Replace @p stress by the normal stress at the present rows, which must
-     * be those of quadrature points: the same numbers and weights, sigma_n at
-     * displacement 0 as the gap and d sigma_n/du as coefficients. Throws on
-     * all ranks. Collective. */
-    void find_stress(const NormalStress<dim> &normal_stress,
-                     abut_rows *stress) const;
+    /** Replace @p stress, of dimension 1, by the normal stress at the present
+     * points, which must be those of quadrature: the same numbers and weights,
+     * with d sigma_n/du as coefficients over the unknowns of the cells, each
+     * of which is a node of the map returned. Throws on all ranks. Collective.
+     */
+    solve::NodeMap find_stress(const NormalStress<dim> &normal_stress,
+                               abut_points *stress) const;
 
+    std::uint64_t mesh_signature() const override;
+    std::vector<PlacedRow> placed_rows() const override;
     std::vector<double> row_pressure(const la::Vector &field) const override;
     la::Vector pressure(const double *row_pressure) const override;
     la::Vector gap(const double *row_gap) const override;
@@ -92,10 +103,6 @@ namespace abut::shim
                                          const double *row_gap,
                                          const std::uint8_t *row_state) const;
 
-    /** A number that is the same for the same facets and pairs, whatever ranks
-     * the cells are on: then rows have the same numbers. Collective. */
-    std::uint64_t mesh_signature() const;
-
     /** Whether some pair has rows at quadrature points. */
     bool has_points() const;
 
@@ -128,9 +135,6 @@ namespace abut::shim
   private:
     using Node = std::int32_t;
 
-    /** More than the points of quadrature on any facet. */
-    static constexpr std::int64_t points_per_facet = 1 << 24;
-
     using Direction = dealii::Tensor<1, dim>;
 
     /** A pair with its two sides and their coupling. */
@@ -142,34 +146,41 @@ namespace abut::shim
       Handle<abut_coupling> coupling;
       /** Distances that the facets known here suffice for. */
       double reach = 0., margin = 0.;
-      std::int64_t first_id = 0;
       /** [nodes of the secondary] without a multiplier in the present rows:
        * 1 because of another pair, 2 because of supports. */
       std::vector<std::uint8_t> dropped;
       double between_rows = 0., held_inside = 0.; ///< as in PairResult
     };
 
-    /** A row before constraints are put in. Its entries are dg/du = direction
-     * * coefficient of nodes of the whole surface, those of the secondary
-     * first. */
-    struct Row
+    /** What is known of a point beside the set that it is in. */
+    struct Place
     {
-      std::int64_t id;
       std::size_t pair;
-      Node node; ///< -1: quadrature point
-      double weight;
-      double gap;         ///< at displacement 0
-      std::int32_t facet; ///< of a quadrature point, in the whole surface
-      dealii::Point<dim> position;           ///< where the row sits
-      Direction direction;                   ///< normal, or axis of a tie
-      std::size_t first, first_primary, end; ///< entries
+      Node node;                   ///< -1: quadrature point
+      std::int32_t facet;          ///< of a quadrature point
+      dealii::Point<dim> position; ///< where the point sits
     };
 
-    struct Entry
+    /** A component of a point, which is a row for everybody else. */
+    struct Component
     {
-      Node node;
-      double coefficient;
+      std::size_t point;
+      std::size_t row;
+      const Place &place;
+      /** Along which the secondary closes the gap: normal, or axis of a tie. */
+      Direction direction;
     };
+
+    /** Call function(component) in the order of the rows. */
+    template <typename Function>
+    void for_each_component(const Function &function) const;
+
+    /** Call function(node, c) for the stencil of a point: D / W at nodes of
+     * the secondary, or - M / W at those of the primary. */
+    template <typename Function>
+    void for_each_secondary(std::size_t point, const Function &function) const;
+    template <typename Function>
+    void for_each_primary(std::size_t point, const Function &function) const;
 
     /** [pairs][nodes of the whole surface] nonzero: a row of the pair holds
      * this node of its secondary, or none can. Collective. */
@@ -204,14 +215,28 @@ namespace abut::shim
     dropped_nodes(const Pair &pair, const std::vector<std::uint8_t> &taken,
                   int component) const;
     void build(const Pair &pair, abut_coupling *coupling,
-               const std::vector<std::uint8_t> &dropped, double motion) const;
-    void take_rows(std::size_t pair, int component);
+               const std::vector<std::uint8_t> &dropped, double motion,
+               const abut_coupling_target &target) const;
+    /** Directions of a tie that the same nodes are dropped for. */
+    struct TieGroup
+    {
+      std::uint32_t axes = 0; ///< bits
+      std::vector<std::uint8_t> dropped;
+    };
+    std::vector<TieGroup>
+    tie_groups(const Pair &pair, const std::vector<std::uint8_t> &taken) const;
+    /** Numbers of points, that far behind the first of their node: by node of
+     * the secondary, or by facet for the first quadrature point of each. */
+    std::vector<std::int64_t> point_numbers(std::size_t pair, int shift) const;
+    /** Append the points of a pair, with numbers that far behind the first of
+     * their node or facet. */
+    void append(std::size_t pair, const std::vector<std::uint8_t> &dropped,
+                double motion, std::uint32_t tie_axes, int shift);
+    bool has_lasting_numbers(const Pair &pair) const;
     void find_pair(std::size_t pair, double motion,
                    std::vector<std::uint8_t> &taken);
-    void append_stress(const NormalStress<dim> &normal_stress,
-                       abut_rows *stress) const;
-    /** Put a row with free unknowns into @p rows; false if it has none. */
-    bool append(const Row &row, abut_rows *rows, std::string &message) const;
+    solve::NodeMap append_stress(const NormalStress<dim> &normal_stress,
+                                 abut_points *stress) const;
     void make_check(std::size_t pair, unsigned int n_dropped);
     la::Vector field() const;
     /** Pairs with rows at quadrature points, and these rows. Collective. */
@@ -229,10 +254,49 @@ namespace abut::shim
     std::shared_ptr<SurfaceExchange<dim>> exchange_;
     ContactSurface<dim> surface_;
     std::vector<Pair> pairs_;
-    std::vector<Row> rows_;
-    std::vector<Entry> entries_;
+    abut_points *points_ = nullptr; ///< of the last find()
+    abut_points_view view_ = {};
+    std::vector<Place> places_; ///< [points]
     std::vector<PairCheck> checks_;
   };
+
+  template <int dim>
+  template <typename Function>
+  void SurfacePairRows<dim>::for_each_component(const Function &function) const
+  {
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      for (std::int32_t row = view_.component_start[i];
+           row < view_.component_start[i + 1]; ++row)
+      {
+        const double sign =
+            abut_point_sign(view_.kind[i], row - view_.component_start[i]);
+        Direction direction;
+        for (unsigned int d = 0; d < dim; ++d)
+          direction[d] = -sign * view_.frame[row * std::size_t(dim) + d];
+        function(
+            Component{i, static_cast<std::size_t>(row), places_[i], direction});
+      }
+  }
+
+  template <int dim>
+  template <typename Function>
+  void SurfacePairRows<dim>::for_each_secondary(const std::size_t point,
+                                                const Function &function) const
+  {
+    const std::int64_t first = view_.start[point];
+    for (auto e = first; e < first + view_.n_secondary[point]; ++e)
+      function(view_.node[e], view_.coefficient[e]);
+  }
+
+  template <int dim>
+  template <typename Function>
+  void SurfacePairRows<dim>::for_each_primary(const std::size_t point,
+                                              const Function &function) const
+  {
+    for (auto e = view_.start[point] + view_.n_secondary[point];
+         e < view_.start[point + 1]; ++e)
+      function(view_.node[e], view_.coefficient[e]);
+  }
 } // namespace abut::shim
 
 #endif

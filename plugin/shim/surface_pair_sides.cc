@@ -40,14 +40,8 @@ namespace abut::shim
       pairs_[i].reach = links[i].reach;
       pairs_[i].margin = links[i].margin;
     }
-    std::int64_t first_id = 0;
     for (Pair &pair : pairs_)
-    {
-      pair.first_id = first_id;
-      first_id += std::max(surface_.node_number_end * dim,
-                           surface_.n_facets_everywhere * points_per_facet);
       create_sides(pair);
-    }
   }
 
   template <int dim> std::uint64_t SurfacePairRows<dim>::mesh_signature() const
@@ -71,10 +65,13 @@ namespace abut::shim
     hash.mix(MPI::sum(sum, communicator_));
     for (const Pair &pair : pairs_)
     {
-      hash.mix(pair.first_id);
       hash.mix(static_cast<std::uint64_t>(pair.discretisation));
+      if (!discretisation_info(pair.discretisation).row_per_point)
+        continue;
+      hash.mix(settings_.method.quadrature_degree);
+      hash.mix(has_lasting_numbers(pair));
     }
-    return hash.value;
+    return std::max<std::uint64_t>(hash.value, 1);
   }
 
   template <int dim> void SurfacePairRows<dim>::create_sides(Pair &pair)
@@ -104,14 +101,11 @@ namespace abut::shim
     // What refers to nodes and facets does so by their numbers meanwhile.
     const auto number_of = [](const auto &list, const std::int32_t index)
     { return index < 0 ? std::int64_t(-1) : list[index].number; };
-    std::vector<std::int64_t> rows, facets, entries;
-    for (const Row &row : rows_)
-    {
-      rows.push_back(number_of(surface_.nodes, row.node));
-      facets.push_back(number_of(surface_.facets, row.facet));
-    }
-    for (const Entry &entry : entries_)
-      entries.push_back(number_of(surface_.nodes, entry.node));
+    std::vector<std::int64_t> nodes, facets;
+    for (const auto &node : surface_.nodes)
+      nodes.push_back(node.number);
+    for (const Place &place : places_)
+      facets.push_back(number_of(surface_.facets, place.facet));
     using Dropped = std::pair<std::int64_t, std::uint8_t>;
     std::vector<std::vector<Dropped>> dropped(pairs_.size());
     for (std::size_t p = 0; p < pairs_.size(); ++p)
@@ -131,13 +125,18 @@ namespace abut::shim
                            { return entry.number < n; });
       return number < 0 ? -1 : static_cast<std::int32_t>(it - list.begin());
     };
-    for (std::size_t i = 0; i < rows_.size(); ++i)
+    std::vector<Node> now;
+    for (const std::int64_t number : nodes)
+      now.push_back(index_of(surface_.nodes, number));
+    for (std::size_t i = 0; i < places_.size(); ++i)
     {
-      rows_[i].node = index_of(surface_.nodes, rows[i]);
-      rows_[i].facet = index_of(surface_.facets, facets[i]);
+      places_[i].node = places_[i].node < 0 ? -1 : now[places_[i].node];
+      places_[i].facet = index_of(surface_.facets, facets[i]);
     }
-    for (std::size_t e = 0; e < entries_.size(); ++e)
-      entries_[e].node = index_of(surface_.nodes, entries[e]);
+    if (points_ != nullptr)
+      check(context_,
+            abut_points_renumber(points_, static_cast<std::int32_t>(now.size()),
+                                 now.data()));
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
       Pair &pair = pairs_[p];

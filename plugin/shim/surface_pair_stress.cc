@@ -5,7 +5,7 @@
 
 #include <deal.II/grid/cell_id.h>
 
-#include <map>
+#include <unordered_map>
 
 namespace abut::shim
 {
@@ -13,91 +13,118 @@ namespace abut::shim
 
   namespace
   {
-    /** Put what constraints make of the unknowns of a cell in their place. */
-    void resolve(const dealii::AffineConstraints<double> &constraints,
-                 const global_dof_index dof, const double factor,
-                 std::map<std::int64_t, double> &terms, double &constant)
+    /** Unknowns of cells as nodes, numbered as they come. */
+    class CellNodes
     {
-      if (!constraints.is_constrained(dof))
+    public:
+      explicit CellNodes(const dealii::AffineConstraints<double> &constraints)
+          : constraints_(constraints)
       {
-        terms[static_cast<std::int64_t>(dof)] += factor;
-        return;
       }
-      constant += factor * constraints.get_inhomogeneity(dof);
-      for (const auto &entry : *constraints.get_constraint_entries(dof))
-        terms[static_cast<std::int64_t>(entry.first)] += factor * entry.second;
-    }
+
+      std::int32_t operator()(const global_dof_index dof)
+      {
+        const auto [it, is_new] = number_.emplace(dof, number_.size());
+        if (is_new)
+          append(dof);
+        return it->second;
+      }
+
+      const solve::NodeMap &map() const
+      {
+        return map_;
+      }
+
+    private:
+      /** What constraints make of an unknown. */
+      void append(const global_dof_index dof)
+      {
+        std::vector<solve::NodeMap::Term> terms;
+        if (!constraints_.is_constrained(dof))
+          terms.push_back({dof, 1.});
+        else
+          for (const auto &entry : *constraints_.get_constraint_entries(dof))
+            terms.push_back({entry.first, entry.second});
+        map_.append(terms, constraints_.get_inhomogeneity(dof));
+      }
+
+      const dealii::AffineConstraints<double> &constraints_;
+      std::unordered_map<global_dof_index, std::int32_t> number_;
+      solve::NodeMap map_;
+    };
   } // namespace
 
   template <int dim>
-  void SurfacePairRows<dim>::find_stress(const NormalStress<dim> &normal_stress,
-                                         abut_rows *stress) const
+  solve::NodeMap
+  SurfacePairRows<dim>::find_stress(const NormalStress<dim> &normal_stress,
+                                    abut_points *stress) const
   {
-    abut_rows_clear(stress);
-    run_everywhere<ContactError>(communicator_,
-                                 [&] { append_stress(normal_stress, stress); });
+    abut_points_clear(stress);
+    solve::NodeMap map;
+    run_everywhere<ContactError>(
+        communicator_, [&] { map = append_stress(normal_stress, stress); });
+    return map;
   }
 
   template <int dim>
-  void
+  solve::NodeMap
   SurfacePairRows<dim>::append_stress(const NormalStress<dim> &normal_stress,
-                                      abut_rows *stress) const
+                                      abut_points *stress) const
   {
     const unsigned int n_dofs = dof_handler_.get_fe().n_dofs_per_cell();
     std::vector<global_dof_index> dofs(n_dofs);
-    for (std::size_t first = 0, end; first < rows_.size(); first = end)
+    CellNodes nodes(constraints_);
+    for (std::size_t first = 0, end; first < places_.size(); first = end)
     {
-      // Rows of a facet follow each other.
-      for (end = first + 1; end < rows_.size()
-                            && rows_[end].facet == rows_[first].facet
-                            && rows_[end].pair == rows_[first].pair;)
+      // Points of a facet follow each other.
+      for (end = first + 1; end < places_.size()
+                            && places_[end].facet == places_[first].facet
+                            && places_[end].pair == places_[first].pair;)
         ++end;
-      const auto &facet = surface_.facets[rows_[first].facet];
+      const auto &facet = surface_.facets[places_[first].facet];
       const auto place = dof_handler_.get_triangulation().create_cell_iterator(
           dealii::CellId(facet.cell));
       const typename dealii::DoFHandler<dim>::active_cell_iterator cell(
           &dof_handler_.get_triangulation(), place->level(), place->index(),
           &dof_handler_);
       std::vector<dealii::Point<dim>> points;
-      std::vector<Direction> normals;
+      std::vector<Direction> normals(end - first);
       for (std::size_t i = first; i < end; ++i)
       {
         points.push_back(dealii::GeometryInfo<dim>::project_to_unit_cell(
-            mapping_.transform_real_to_unit_cell(cell, rows_[i].position)));
-        normals.push_back(rows_[i].direction);
+            mapping_.transform_real_to_unit_cell(cell, places_[i].position)));
+        for (unsigned int d = 0; d < dim; ++d)
+          normals[i - first][d] =
+              view_.frame[view_.component_start[i] * std::size_t(dim) + d];
       }
       dealii::FullMatrix<double> derivative(end - first, n_dofs);
       normal_stress.evaluate(cell, points, normals, derivative);
       cell->get_dof_indices(dofs);
       for (std::size_t i = first; i < end; ++i)
       {
-        std::map<std::int64_t, double> terms;
-        double constant = 0.;
+        std::vector<std::int32_t> node;
+        std::vector<double> coefficient;
         for (unsigned int k = 0; k < n_dofs; ++k)
           if (derivative(i - first, k) != 0.)
-            resolve(constraints_, dofs[k], derivative(i - first, k), terms,
-                    constant);
-        std::vector<std::int64_t> column;
-        std::vector<double> coefficient;
-        for (const auto &term : terms)
-        {
-          column.push_back(term.first);
-          coefficient.push_back(term.second);
-        }
-        const abut_status status =
-            abut_rows_append(stress, rows_[i].id, rows_[i].weight, constant, 0,
-                             static_cast<std::int32_t>(column.size()),
-                             column.data(), coefficient.data());
+          {
+            node.push_back(nodes(dofs[k]));
+            coefficient.push_back(derivative(i - first, k));
+          }
+        const abut_status status = abut_points_append_scalar(
+            stress, view_.id[i], view_.weight[i], 0., ABUT_POINT_CONTACT,
+            static_cast<std::int32_t>(node.size()), node.data(),
+            coefficient.data());
         if (status != ABUT_SUCCESS)
-          throw ContactError("Pair '" + pairs_[rows_[i].pair].data.name
+          throw ContactError("Pair '" + pairs_[places_[i].pair].data.name
                              + "': the normal stress of a body: "
                              + message_of(context_, status));
       }
     }
+    return nodes.map();
   }
 
-  template void SurfacePairRows<2>::find_stress(const NormalStress<2> &,
-                                                abut_rows *) const;
-  template void SurfacePairRows<3>::find_stress(const NormalStress<3> &,
-                                                abut_rows *) const;
+  template solve::NodeMap
+  SurfacePairRows<2>::find_stress(const NormalStress<2> &, abut_points *) const;
+  template solve::NodeMap
+  SurfacePairRows<3>::find_stress(const NormalStress<3> &, abut_points *) const;
 } // namespace abut::shim

@@ -25,24 +25,32 @@ namespace abut::shim
       la::Vector exact = field();
       const Handle<abut_coupling> mortar =
           make_coupling(pair, ABUT_DISCRETISATION_MORTAR);
+      const Handle<abut_points> points = create_points(context_, dim);
+      abut_coupling_target target = abut_coupling_target_defaults(points.get());
+      target.secondary_node = pair.secondary.node.data();
+      target.primary_node = pair.primary.node.data();
       build(pair, mortar.get(),
             std::vector<std::uint8_t>(pair.secondary.n_nodes(), 0),
-            motion(pair, u));
-      abut_coupling_view view;
-      check(context_, abut_coupling_get(mortar.get(), &view));
-      for (std::int32_t i = 0; i < view.n_rows; ++i)
-        for (auto e = view.primary_start[i]; e < view.primary_start[i + 1]; ++e)
-          exact(unknown(pair.primary.node[view.primary_node[e]])) +=
-              view.weight[i] * view.primary_coefficient[e];
+            motion(pair, u), target);
+      abut_points_view view;
+      check(context_, abut_points_get(points.get(), &view));
+      for (std::int32_t i = 0; i < view.n_points; ++i)
+        for (auto e = view.start[i] + view.n_secondary[i];
+             e < view.start[i + 1]; ++e)
+          exact(unknown(view.node[e])) -= view.weight[i] * view.coefficient[e];
       exact.compress(dealii::VectorOperation::add);
 
       la::Vector wrong(exact);
-      for (const Row &row : rows_)
-        // A tie has a row for each direction.
-        if (row.pair == p && (!pair.data.tied || row.direction[0] == 1.))
-          for (std::size_t e = row.first_primary; e < row.end; ++e)
-            wrong(unknown(entries_[e].node)) -=
-                row.weight * entries_[e].coefficient;
+      for_each_component(
+          [&](const Component &row)
+          {
+            // A tie has a row for each direction.
+            if (row.place.pair == p
+                && (!pair.data.tied || row.direction[0] == 1.))
+              for_each_primary(
+                  row.point, [&](const Node node, const double c)
+                  { wrong(unknown(node)) += view_.weight[row.point] * c; });
+          });
       wrong.compress(dealii::VectorOperation::add);
       const double total = exact.l1_norm();
       errors[p] = total > 0. ? 0.5 * wrong.l1_norm() / total : 0.;

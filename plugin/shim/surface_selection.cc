@@ -284,13 +284,13 @@ namespace abut::shim
     {
       place.emplace(record->node.dof[0], place.size());
       surface.nodes.push_back(record->node);
-      surface.lines.insert(surface.lines.end(), record->lines.begin(),
-                           record->lines.end());
+      for (const Line &line : record->lines)
+        surface.map.append(line.terms, line.constant);
       surface.parents.push_back(record->parents);
     }
     // Parents of a node of a facet are known; a parent does not hang.
     for (auto &parents : surface.parents)
-      for (Term &parent : parents)
+      for (Parent &parent : parents)
         parent.index = place.at(parent.index);
 
     for (const auto &[number, record] : facets_)
@@ -309,9 +309,14 @@ namespace abut::shim
   void SurfaceExchange<dim>::share_values(const ContactSurface<dim> &surface)
   {
     std::vector<Index> unknowns, nodes;
-    for (const Line &line : surface.lines)
-      for (const Term &term : line.terms)
-        unknowns.push_back(term.index);
+    for (std::size_t n = 0; n < surface.nodes.size(); ++n)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        unknowns.push_back(surface.nodes[n].dof[d]);
+        surface.map.for_each_term(n, d,
+                                  [&](const Index unknown, double)
+                                  { unknowns.push_back(unknown); });
+      }
     for (const Node &node : surface.nodes)
       nodes.push_back(node.dof[0]);
     const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
@@ -329,12 +334,44 @@ namespace abut::shim
     for (std::size_t n = 0; n < result.size(); ++n)
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const Line &line = surface.lines[n * dim + d];
-        result[n][d] = line.constant;
-        for (const Term &term : line.terms)
-          result[n][d] += term.factor * unknowns_(term.index);
+        result[n][d] = surface.map.constant(n, d);
+        surface.map.for_each_term(
+            n, d,
+            [&](const Index unknown, const double factor)
+            { result[n][d] += factor * unknowns_(unknown); });
       }
     return result;
+  }
+
+  template <int dim>
+  void SurfaceExchange<dim>::update_constants(ContactSurface<dim> &surface)
+  {
+    bool has_new = false;
+    for (auto &[dof, record] : described_)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double value =
+            constraints_.is_constrained(record.node.dof[d])
+                ? constraints_.get_inhomogeneity(record.node.dof[d])
+                : 0.;
+        has_new = has_new || value != record.lines[d].constant;
+        record.lines[d].constant = value;
+      }
+    if (!MPI::logical_or(has_new, post_.communicator()))
+      return;
+    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    std::vector<double> values(owned.n_elements(), 0.);
+    for (const auto &line : constraints_.get_lines())
+      if (owned.is_element(line.index))
+        values[owned.index_within_set(line.index)] = line.inhomogeneity;
+    unknowns_.fetch(values.data(), post_);
+    for (std::size_t n = 0; n < surface.nodes.size(); ++n)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double value = unknowns_(surface.nodes[n].dof[d]);
+        surface.map.set_constant(n, d, value);
+        nodes_.at(surface.nodes[n].dof[0]).lines[d].constant = value;
+      }
   }
 
   template <int dim>
@@ -371,6 +408,7 @@ namespace abut::shim
 #define ABUT_INSTANTIATE(dim)                                                  \
   template ContactSurface<dim> SurfaceExchange<dim>::gather(                   \
       abut_context *, std::vector<Link> &, const abut_search_options &);       \
+  template void SurfaceExchange<dim>::update_constants(ContactSurface<dim> &); \
   template std::vector<dealii::Tensor<1, dim>>                                 \
   SurfaceExchange<dim>::displacements(const ContactSurface<dim> &,             \
                                       const la::Vector &);                     \

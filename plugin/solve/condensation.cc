@@ -17,7 +17,7 @@ namespace abut::solve
   }
 
   void Condensation::reinit(const la::Matrix &stiffness,
-                            const RowOperator &rows,
+                            const PointOperator &rows,
                             const std::vector<double> &row_stiffness)
   {
     solver_.reinit(stiffness, rows, row_stiffness);
@@ -25,7 +25,8 @@ namespace abut::solve
     saddle_point_.reset();
   }
 
-  void Condensation::renew(const la::Matrix &stiffness, const RowOperator &rows,
+  void Condensation::renew(const la::Matrix &stiffness,
+                           const PointOperator &rows,
                            const std::vector<double> &row_stiffness)
   {
     solver_.renew(stiffness, rows, row_stiffness);
@@ -34,7 +35,8 @@ namespace abut::solve
       saddle_point_->renew(stiffness, rows, row_stiffness);
   }
 
-  void Condensation::take(const la::Matrix &stiffness, const RowOperator &rows,
+  void Condensation::take(const la::Matrix &stiffness,
+                          const PointOperator &rows,
                           const std::vector<double> &row_stiffness)
   {
     stiffness_ = &stiffness;

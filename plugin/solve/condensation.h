@@ -29,10 +29,10 @@ namespace abut::solve
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
                 const std::vector<double> &row_stiffness) override;
 
-    void renew(const la::Matrix &stiffness, const RowOperator &rows,
+    void renew(const la::Matrix &stiffness, const PointOperator &rows,
                const std::vector<double> &row_stiffness) override;
 
     LinearReport solve(const la::Vector &residual, const abut_request &request,
@@ -40,7 +40,7 @@ namespace abut::solve
                        la::Vector &increment) override;
 
   private:
-    void take(const la::Matrix &stiffness, const RowOperator &rows,
+    void take(const la::Matrix &stiffness, const PointOperator &rows,
               const std::vector<double> &row_stiffness);
     bool condense();
     la::Vector right_hand_side(const la::Vector &residual,
@@ -52,7 +52,7 @@ namespace abut::solve
     SolverParameters parameters_;
     NearNullSpace space_;
     const la::Matrix *stiffness_ = nullptr;
-    const RowOperator *rows_ = nullptr;
+    const PointOperator *rows_ = nullptr;
     std::vector<double> row_stiffness_;
     LocalElimination local_;
     CondensedSolver solver_;

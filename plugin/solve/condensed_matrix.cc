@@ -8,7 +8,7 @@ namespace abut::solve
   namespace MPI = dealii::Utilities::MPI;
 
   void CondensedMatrix::reinit(const la::Matrix &stiffness,
-                               const RowOperator &rows)
+                               const PointOperator &rows)
   {
     stiffness_ = &stiffness;
     rows_ = &rows;

@@ -17,7 +17,7 @@ namespace abut::solve
   {
   public:
     /** Take K and rows; both must outlive this object. */
-    void reinit(const la::Matrix &stiffness, const RowOperator &rows);
+    void reinit(const la::Matrix &stiffness, const PointOperator &rows);
 
     /** Take what is condensed. Collective. */
     void set(const Condensate &condensate);
@@ -60,7 +60,7 @@ namespace abut::solve
     la::Matrix eliminate(const la::Matrix &whole) const;
 
     const la::Matrix *stiffness_ = nullptr;
-    const RowOperator *rows_ = nullptr;
+    const PointOperator *rows_ = nullptr;
     Condensate condensate_;
     std::vector<int> pivot_rows_; ///< rows with a pivot
     bool has_springs_ = false, has_pivots_ = false;

@@ -55,7 +55,7 @@ namespace abut::solve
   }
 
   void CondensedSolver::reinit(const la::Matrix &stiffness,
-                               const RowOperator &rows,
+                               const PointOperator &rows,
                                const std::vector<double> &row_stiffness)
   {
     take(stiffness, rows, row_stiffness);
@@ -66,7 +66,7 @@ namespace abut::solve
   }
 
   void CondensedSolver::renew(const la::Matrix &stiffness,
-                              const RowOperator &rows,
+                              const PointOperator &rows,
                               const std::vector<double> &row_stiffness)
   {
     // Multigrid looks at the matrix that it was built on, which must be an own
@@ -79,7 +79,7 @@ namespace abut::solve
   }
 
   void CondensedSolver::take(const la::Matrix &stiffness,
-                             const RowOperator &rows,
+                             const PointOperator &rows,
                              const std::vector<double> &row_stiffness)
   {
     stiffness_ = &stiffness;

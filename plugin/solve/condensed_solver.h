@@ -37,12 +37,12 @@ namespace abut::solve
     /** Take a new matrix and rows, which must outlive this object or the next
      * call, with the local stiffness of each row, see row_stiffness().
      * Collective. */
-    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
                 const std::vector<double> &row_stiffness);
 
     /** The same when only values of the matrix are new, and not very
      * different: a multigrid is kept until it is slow. Collective. */
-    void renew(const la::Matrix &stiffness, const RowOperator &rows,
+    void renew(const la::Matrix &stiffness, const PointOperator &rows,
                const std::vector<double> &row_stiffness);
 
     /** Take what is condensed, and make the preconditioner or factorisation
@@ -81,7 +81,7 @@ namespace abut::solve
     }
 
   private:
-    void take(const la::Matrix &stiffness, const RowOperator &rows,
+    void take(const la::Matrix &stiffness, const PointOperator &rows,
               const std::vector<double> &row_stiffness);
     bool is_outdated() const;
     void build();
@@ -95,7 +95,7 @@ namespace abut::solve
     SolverParameters parameters_;
     NearNullSpace space_;
     const la::Matrix *stiffness_ = nullptr;
-    const RowOperator *rows_ = nullptr;
+    const PointOperator *rows_ = nullptr;
     std::vector<double> diagonal_, row_stiffness_;
     bool is_symmetric_ = true;
     CondensedMatrix matrix_;

@@ -107,7 +107,7 @@ namespace abut::solve
     };
 
     /** Lines of Z of this rank's pivots, by local unknown. */
-    std::vector<SparseLine> own_lines(const RowOperator &rows,
+    std::vector<SparseLine> own_lines(const PointOperator &rows,
                                       const std::vector<std::int64_t> &pivot,
                                       Columns &columns)
     {
@@ -194,7 +194,7 @@ namespace abut::solve
   } // namespace
 
   la::Matrix elimination_terms(const la::Matrix &matrix,
-                               const RowOperator &rows,
+                               const PointOperator &rows,
                                const std::vector<std::int64_t> &pivot)
   {
     Columns columns(matrix);

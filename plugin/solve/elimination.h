@@ -13,7 +13,7 @@ namespace abut::solve
    * unknowns that rows tie them to. @p matrix needs an entry (i, j) wherever it
    * has an entry (j, i). Collective. */
   la::Matrix elimination_terms(const la::Matrix &matrix,
-                               const RowOperator &rows,
+                               const PointOperator &rows,
                                const std::vector<std::int64_t> &pivot);
 } // namespace abut::solve
 

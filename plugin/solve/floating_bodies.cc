@@ -126,7 +126,7 @@ namespace abut::solve
   } // namespace
 
   void FloatingBodies::reinit(const la::Matrix &stiffness,
-                              const RowOperator &rows,
+                              const PointOperator &rows,
                               const NearNullSpace &space)
   {
     motions_.clear();
@@ -238,7 +238,7 @@ namespace abut::solve
                        : " about the direction " + direction(dim, 2 * dim));
   }
 
-  void FloatingBodies::check(const RowOperator &rows,
+  void FloatingBodies::check(const PointOperator &rows,
                              const std::vector<std::uint8_t> &resists) const
   {
     const unsigned int n = static_cast<unsigned int>(motions_.size());

@@ -3,7 +3,7 @@
 #define ABUT_SOLVE_FLOATING_BODIES_H
 
 #include "near_null_space.h"
-#include "row_operator.h"
+#include "point_operator.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -21,13 +21,13 @@ namespace abut::solve
     /** Find the motions that K leaves free: translations, and rotations if the
      * positions of unknowns are known. Nothing is done for scalar fields. As
      * many products with K as a body has motions. Collective. */
-    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
                 const NearNullSpace &space);
 
     /** Throw SolverFailure if rows with @p resists nonzero leave a motion
      * free: the message names the body and the motion. O(rows) for each motion
      * that K leaves free. Collective. */
-    void check(const RowOperator &rows,
+    void check(const PointOperator &rows,
                const std::vector<std::uint8_t> &resists) const;
 
   private:

@@ -26,7 +26,7 @@ namespace abut::solve
     class ScaledSchur
     {
     public:
-      ScaledSchur(const la::Matrix &stiffness, const RowOperator &rows,
+      ScaledSchur(const la::Matrix &stiffness, const PointOperator &rows,
                   const SolverParameters &parameters,
                   const NearNullSpace &space)
           : rows_(rows),
@@ -97,7 +97,7 @@ namespace abut::solve
       }
 
     private:
-      const RowOperator &rows_;
+      const PointOperator &rows_;
       CondensedSolver solver_;
       la::Vector force_, answer_;
       RowVector factor_; ///< sqrt(w s)
@@ -168,7 +168,8 @@ namespace abut::solve
     }
   } // namespace
 
-  InfSup inf_sup_constant(const la::Matrix &stiffness, const RowOperator &rows,
+  InfSup inf_sup_constant(const la::Matrix &stiffness,
+                          const PointOperator &rows,
                           const SolverParameters &parameters,
                           const NearNullSpace &space)
   {

@@ -3,7 +3,7 @@
 #define ABUT_SOLVE_INF_SUP_H
 
 #include "near_null_space.h"
-#include "row_operator.h"
+#include "point_operator.h"
 
 #include <abut/dealii/solver_parameters.h>
 
@@ -36,7 +36,8 @@ namespace abut::solve
    * equivalent problem T (K + T^T T)^-1 T^T whose eigenvalues lie in (0, 1):
    * beta^2 = mu / (1 - mu), to 1e-3. One factorisation or preconditioner, then
    * a solve for each of some 20 to 100 vectors. Collective. */
-  InfSup inf_sup_constant(const la::Matrix &stiffness, const RowOperator &rows,
+  InfSup inf_sup_constant(const la::Matrix &stiffness,
+                          const PointOperator &rows,
                           const SolverParameters &parameters,
                           const NearNullSpace &space);
 } // namespace abut::solve

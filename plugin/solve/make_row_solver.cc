@@ -7,7 +7,7 @@
 
 namespace abut::solve
 {
-  bool are_nodal(const RowOperator &rows)
+  bool are_nodal(const PointOperator &rows)
   {
     bool others = false;
     for (int i = 0; i < rows.n_rows() && !others; ++i)
@@ -18,7 +18,7 @@ namespace abut::solve
 
   std::unique_ptr<RowSolver> make_row_solver(const System system,
                                              const SolverParameters &parameters,
-                                             const RowOperator &rows)
+                                             const PointOperator &rows)
   {
     if (system == System::saddle_point)
       return std::make_unique<SaddlePoint>(parameters);

@@ -11,13 +11,13 @@
 namespace abut::solve
 {
   /** Whether each row is one owned unknown alone, on all ranks. Collective. */
-  bool are_nodal(const RowOperator &rows);
+  bool are_nodal(const PointOperator &rows);
 
   /** The solver for a set of rows: by elimination unless the user's word
    * @p system asks for a saddle point. Collective. */
   std::unique_ptr<RowSolver> make_row_solver(System system,
                                              const SolverParameters &parameters,
-                                             const RowOperator &rows);
+                                             const PointOperator &rows);
 } // namespace abut::solve
 
 #endif

@@ -19,7 +19,7 @@ namespace abut::solve
       std::vector<global_dof_index> column;
       std::vector<double> value;
 
-      void take(const RowOperator &rows, const int i, const double factor)
+      void take(const PointOperator &rows, const int i, const double factor)
       {
         if (factor == 0.)
           return;
@@ -67,7 +67,7 @@ namespace abut::solve
   }
 
   void NitscheSolver::reinit(const la::Matrix &stiffness,
-                             const RowOperator &rows,
+                             const PointOperator &rows,
                              const std::vector<double> &row_stiffness)
   {
     stiffness_ = &stiffness;
@@ -76,7 +76,7 @@ namespace abut::solve
   }
 
   void NitscheSolver::renew(const la::Matrix &stiffness,
-                            const RowOperator &rows,
+                            const PointOperator &rows,
                             const std::vector<double> &row_stiffness)
   {
     stiffness_ = &stiffness;

@@ -11,7 +11,7 @@ namespace abut::solve
   /** What Nitsche's method needs of each row beside its gap. */
   struct NitscheTerms
   {
-    RowOperator stress;             ///< S = d sigma_n / du, sigma_n(0) as gap
+    PointOperator stress;           ///< S = d sigma_n / du, sigma_n(0) as gap
     std::vector<double> compliance; ///< [rows] 1/gamma, length per pressure
     std::vector<double> normal_stress; ///< [rows] sigma_n at the present u
     double theta = 0.;                 ///< 1: symmetric, 0, -1
@@ -36,10 +36,10 @@ namespace abut::solve
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
                 const std::vector<double> &row_stiffness) override;
 
-    void renew(const la::Matrix &stiffness, const RowOperator &rows,
+    void renew(const la::Matrix &stiffness, const PointOperator &rows,
                const std::vector<double> &row_stiffness) override;
 
     LinearReport solve(const la::Vector &residual, const abut_request &request,
@@ -58,7 +58,7 @@ namespace abut::solve
     SolverParameters parameters_;
     const NitscheTerms &terms_;
     const la::Matrix *stiffness_ = nullptr;
-    const RowOperator *rows_ = nullptr;
+    const PointOperator *rows_ = nullptr;
     LocalElimination local_;
     /** K and the springs alone, symmetric and positive definite as multigrid
      * wants it. */

@@ -17,7 +17,7 @@ namespace abut::solve
   }
 
   void NodalCondensation::reinit(const la::Matrix &stiffness,
-                                 const RowOperator &rows,
+                                 const PointOperator &rows,
                                  const std::vector<double> &)
   {
     solver_.reinit(stiffness);
@@ -25,7 +25,7 @@ namespace abut::solve
   }
 
   void NodalCondensation::renew(const la::Matrix &stiffness,
-                                const RowOperator &rows,
+                                const PointOperator &rows,
                                 const std::vector<double> &)
   {
     solver_.renew(stiffness);
@@ -33,7 +33,7 @@ namespace abut::solve
   }
 
   void NodalCondensation::take(const la::Matrix &stiffness,
-                               const RowOperator &rows)
+                               const PointOperator &rows)
   {
     stiffness_ = &stiffness;
     rows_ = &rows;

@@ -22,10 +22,10 @@ namespace abut::solve
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
                 const std::vector<double> &row_stiffness) override;
 
-    void renew(const la::Matrix &stiffness, const RowOperator &rows,
+    void renew(const la::Matrix &stiffness, const PointOperator &rows,
                const std::vector<double> &row_stiffness) override;
 
     LinearReport solve(const la::Vector &residual, const abut_request &request,
@@ -43,7 +43,7 @@ namespace abut::solve
       return rows_->coefficient(rows_->begin(row));
     }
 
-    void take(const la::Matrix &stiffness, const RowOperator &rows);
+    void take(const la::Matrix &stiffness, const PointOperator &rows);
     void fill_mask();
     void fill_right_hand_side(const la::Vector &residual,
                               la::Vector &rhs) const;
@@ -58,7 +58,7 @@ namespace abut::solve
     NearNullSpace space_;
     FloatingBodies floating_;
     const la::Matrix *stiffness_ = nullptr;
-    const RowOperator *rows_ = nullptr;
+    const PointOperator *rows_ = nullptr;
     LocalElimination local_;
     Mask mask_;
     std::vector<int> holder_; ///< [owned] row that holds it, or -1

@@ -12,7 +12,7 @@ namespace abut::solve
     constexpr double smallest_pivot = 0.05;
   } // namespace
 
-  bool choose_pivots(const RowOperator &rows,
+  bool choose_pivots(const PointOperator &rows,
                      const std::vector<std::uint8_t> &wanted,
                      std::vector<std::int64_t> &pivot)
   {

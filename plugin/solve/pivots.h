@@ -2,7 +2,7 @@
 #ifndef ABUT_SOLVE_PIVOTS_H
 #define ABUT_SOLVE_PIVOTS_H
 
-#include "row_operator.h"
+#include "point_operator.h"
 
 #include <cstdint>
 
@@ -26,7 +26,7 @@ namespace abut::solve
    * on all ranks whether every wanted row has one; dual mortar rows, rows of
    * single nodes and ties component by component do. O(entries).
    * Collective. */
-  bool choose_pivots(const RowOperator &rows,
+  bool choose_pivots(const PointOperator &rows,
                      const std::vector<std::uint8_t> &wanted,
                      std::vector<std::int64_t> &pivot);
 } // namespace abut::solve

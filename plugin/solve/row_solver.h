@@ -3,7 +3,7 @@
 #define ABUT_SOLVE_ROW_SOLVER_H
 
 #include "near_null_space.h"
-#include "row_operator.h"
+#include "point_operator.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
@@ -33,13 +33,13 @@ namespace abut::solve
     /** Take a matrix and the rows that go with it, which must outlive the
      * calls to solve(), and what row_stiffness() gives for both. Columns of
      * rows may be unknowns of other ranks. Collective. */
-    virtual void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+    virtual void reinit(const la::Matrix &stiffness, const PointOperator &rows,
                         const std::vector<double> &row_stiffness) = 0;
 
     /** The same when only the values of the matrix are new, and not very
      * different: a preconditioner may be kept as long as it is good.
      * Collective. */
-    virtual void renew(const la::Matrix &stiffness, const RowOperator &rows,
+    virtual void renew(const la::Matrix &stiffness, const PointOperator &rows,
                        const std::vector<double> &row_stiffness) = 0;
 
     /** Solve with relative tolerance request.linear_tolerance for the

@@ -6,7 +6,7 @@
 namespace abut::solve
 {
   std::vector<double> row_stiffness(const la::Matrix &stiffness,
-                                    const RowOperator &rows)
+                                    const PointOperator &rows)
   {
     const std::vector<double> diagonal =
         la::diagonal(la::local_rows(stiffness));

@@ -2,7 +2,7 @@
 #ifndef ABUT_SOLVE_ROW_STIFFNESS_H
 #define ABUT_SOLVE_ROW_STIFFNESS_H
 
-#include "row_operator.h"
+#include "point_operator.h"
 
 namespace abut::solve
 {
@@ -11,7 +11,7 @@ namespace abut::solve
    * the gap by one if each unknown were held by its own stiffness alone: the
    * two sides of a pair act in series. Collective. */
   std::vector<double> row_stiffness(const la::Matrix &stiffness,
-                                    const RowOperator &rows);
+                                    const PointOperator &rows);
 } // namespace abut::solve
 
 #endif

@@ -46,8 +46,8 @@ namespace abut::solve
     template <typename System> class AugmentedOperator
     {
     public:
-      AugmentedOperator(const CondensedMatrix &leading, const RowOperator &rows,
-                        const System &system)
+      AugmentedOperator(const CondensedMatrix &leading,
+                        const PointOperator &rows, const System &system)
           : leading_(leading), rows_(rows), system_(system), gap_(rows.n_rows())
       {
       }
@@ -69,7 +69,7 @@ namespace abut::solve
 
     private:
       const CondensedMatrix &leading_;
-      const RowOperator &rows_;
+      const PointOperator &rows_;
       const System &system_;
       mutable std::vector<double> gap_;
     };
@@ -79,7 +79,7 @@ namespace abut::solve
     {
     public:
       TriangularPreconditioner(const CondensedSolver &leading,
-                               const RowOperator &rows, const System &system,
+                               const PointOperator &rows, const System &system,
                                const la::Vector &model)
           : leading_(leading),
             rows_(rows),
@@ -105,7 +105,7 @@ namespace abut::solve
 
     private:
       const CondensedSolver &leading_;
-      const RowOperator &rows_;
+      const PointOperator &rows_;
       const System &system_;
       mutable la::Vector force_;
       mutable std::vector<double> factor_;
@@ -123,7 +123,8 @@ namespace abut::solve
     leading_.set_near_null_space(space);
   }
 
-  void SaddlePoint::reinit(const la::Matrix &stiffness, const RowOperator &rows,
+  void SaddlePoint::reinit(const la::Matrix &stiffness,
+                           const PointOperator &rows,
                            const std::vector<double> &row_stiffness)
   {
     stiffness_ = &stiffness;
@@ -132,7 +133,8 @@ namespace abut::solve
     floating_.reinit(stiffness, rows, space_);
   }
 
-  void SaddlePoint::renew(const la::Matrix &stiffness, const RowOperator &rows,
+  void SaddlePoint::renew(const la::Matrix &stiffness,
+                          const PointOperator &rows,
                           const std::vector<double> &row_stiffness)
   {
     stiffness_ = &stiffness;

@@ -27,10 +27,10 @@ namespace abut::solve
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness, const RowOperator &rows,
+    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
                 const std::vector<double> &row_stiffness) override;
 
-    void renew(const la::Matrix &stiffness, const RowOperator &rows,
+    void renew(const la::Matrix &stiffness, const PointOperator &rows,
                const std::vector<double> &row_stiffness) override;
 
     LinearReport solve(const la::Vector &residual, const abut_request &request,
@@ -57,7 +57,7 @@ namespace abut::solve
     CondensedSolver leading_;
     FloatingBodies floating_;
     const la::Matrix *stiffness_ = nullptr;
-    const RowOperator *rows_ = nullptr;
+    const PointOperator *rows_ = nullptr;
     LocalElimination local_;
   };
 } // namespace abut::solve

@@ -35,7 +35,7 @@ namespace
   template <int dim> void run(const Settings &settings)
   {
     TwoBlocks<dim> blocks(MPI_COMM_WORLD, settings.blocks);
-    for (int i = 0; i < blocks.rows.n_rows; ++i)
+    for (int i = 0; i < blocks.rows.n_points; ++i)
       if (settings.open > 0 && i % settings.open == 0)
         blocks.set_open(i);
       else if (settings.method == "springs")
@@ -60,7 +60,7 @@ namespace
       const double seconds = timer.wall_time();
       const auto errors = blocks.errors(increment);
       const int n_rows =
-          dealii::Utilities::MPI::sum(blocks.rows.n_rows, MPI_COMM_WORLD);
+          dealii::Utilities::MPI::sum(blocks.rows.n_points, MPI_COMM_WORLD);
       if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
         std::cout << "dofs " << blocks.n_dofs() << "  rows " << n_rows
                   << "  iterations " << report.n_iterations << "  products "

@@ -9,11 +9,24 @@
 
 #include <abut/coupling.h>
 
+/* The points of a coupling by sides: nodes with their numbers on the surface,
+ * coefficients D / W and M / W. */
+typedef struct couple_view
+{
+  int32_t dimension, n_rows;
+  const int32_t *node, *facet, *point;
+  const double *weight, *full_weight, *gap, *normal, *position;
+  int64_t *secondary_start, *primary_start;
+  int32_t *secondary_node, *primary_node;
+  double *secondary_coefficient, *primary_coefficient;
+} couple_view;
+
 typedef struct couple
 {
   abut_surface *secondary, *primary;
   abut_coupling *coupling;
-  abut_coupling_view view;
+  abut_points *points;
+  couple_view view;
   abut_coupling_statistics statistics;
 } couple;
 
@@ -26,11 +39,95 @@ near(double value, double expected, double tolerance, const char *what)
 }
 
 static inline void
+couple_release(couple_view *v)
+{
+  free(v->secondary_start);
+  free(v->primary_start);
+  free(v->secondary_node);
+  free(v->primary_node);
+  free(v->secondary_coefficient);
+  free(v->primary_coefficient);
+  memset(v, 0, sizeof(*v));
+}
+
+/* Sort the stencils by sides. */
+static inline void
+couple_sort(couple *c, const abut_points_view *p)
+{
+  abut_surface_view secondary;
+  couple_view *v = &c->view;
+  const size_t n = (size_t)p->n_points + 1, m = (size_t)p->start[n - 1] + 1;
+  require(abut_surface_get(c->secondary, &secondary));
+  v->secondary_start = calloc(n, sizeof(int64_t));
+  v->primary_start = calloc(n, sizeof(int64_t));
+  v->secondary_node = calloc(m, sizeof(int32_t));
+  v->primary_node = calloc(m, sizeof(int32_t));
+  v->secondary_coefficient = calloc(m, sizeof(double));
+  v->primary_coefficient = calloc(m, sizeof(double));
+  for (int32_t i = 0; i < p->n_points; ++i)
+  {
+    int64_t s = v->secondary_start[i], q = v->primary_start[i];
+    for (int64_t e = p->start[i]; e < p->start[i + 1]; ++e)
+      if (e < p->start[i] + p->n_secondary[i])
+      {
+        assert_true(p->node[e] < secondary.n_nodes);
+        v->secondary_node[s] = p->node[e];
+        v->secondary_coefficient[s++] = p->coefficient[e];
+      }
+      else
+      {
+        assert_true(p->node[e] >= secondary.n_nodes);
+        v->primary_node[q] = p->node[e] - secondary.n_nodes;
+        v->primary_coefficient[q++] = -p->coefficient[e];
+      }
+    v->secondary_start[i + 1] = s;
+    v->primary_start[i + 1] = q;
+  }
+}
+
+/* The points of the last build. */
+static inline void
+couple_look(couple *c)
+{
+  abut_coupling_view view;
+  abut_points_view points;
+  require(abut_coupling_get(c->coupling, &view));
+  require(abut_points_get(c->points, &points));
+  require(abut_coupling_get_statistics(c->coupling, &c->statistics));
+  assert_int_equal(view.first, 0);
+  assert_int_equal(view.n_points, points.n_points);
+  couple_release(&c->view);
+  c->view.dimension = view.dimension;
+  c->view.n_rows = view.n_points;
+  c->view.node = view.node;
+  c->view.facet = view.facet;
+  c->view.point = view.point;
+  c->view.full_weight = view.full_weight;
+  c->view.position = view.position;
+  c->view.weight = points.weight;
+  c->view.gap = points.gap;
+  c->view.normal = points.frame;
+  couple_sort(c, &points);
+}
+
+/* Build; what was there before is gone. */
+static inline abut_status
+couple_try(couple *c, const abut_coupling_nodes *nodes)
+{
+  abut_surface_view secondary;
+  require(abut_surface_get(c->secondary, &secondary));
+  if (c->points == NULL)
+    require(abut_points_create(context, secondary.dimension, &c->points));
+  require(abut_points_clear(c->points));
+  const abut_coupling_target target = abut_coupling_target_defaults(c->points);
+  return abut_coupling_build(c->coupling, nodes, 0., &target);
+}
+
+static inline void
 couple_build(couple *c, const abut_coupling_nodes *nodes)
 {
-  require(abut_coupling_build(c->coupling, nodes, 0.));
-  require(abut_coupling_get(c->coupling, &c->view));
-  require(abut_coupling_get_statistics(c->coupling, &c->statistics));
+  require(couple_try(c, nodes));
+  couple_look(c);
 }
 
 /* Surfaces from two meshes, a coupling, and its rows. */
@@ -52,6 +149,8 @@ couple_meshes(const scene_mesh *secondary, const scene_mesh *primary,
 static inline void
 couple_destroy(couple *c)
 {
+  couple_release(&c->view);
+  require(abut_points_destroy(&c->points));
   require(abut_coupling_destroy(&c->coupling));
   require(abut_surface_destroy(&c->secondary));
   if (c->primary != NULL)
@@ -78,7 +177,7 @@ typedef struct side_entries
 } side_entries;
 
 static inline side_entries
-entries_of(const abut_coupling_view *v, int side)
+entries_of(const couple_view *v, int side)
 {
   const side_entries secondary = {v->secondary_start, v->secondary_node,
                                   v->secondary_coefficient, -1.},
@@ -101,7 +200,7 @@ sum_of(const double *value, int64_t from, int64_t to)
 static inline void
 check_rows(const couple *c)
 {
-  const abut_coupling_view *v = &c->view;
+  const couple_view *v = &c->view;
   const int dim = v->dimension;
   for (int32_t j = 0; j < v->n_rows; ++j)
   {
@@ -131,7 +230,7 @@ check_rows(const couple *c)
 /* Nodal forces of the pressure one: out[l] = sum_j W_j c_jl n_j on the primary
  * (side 1), minus that on the secondary (side 0). [n_nodes * dimension] */
 static inline void
-nodal_forces(const abut_coupling_view *v, int side, double *out)
+nodal_forces(const couple_view *v, int side, double *out)
 {
   const side_entries c = entries_of(v, side);
   for (int32_t j = 0; j < v->n_rows; ++j)
@@ -146,7 +245,7 @@ static inline double
 field_difference(const couple *c, double (*u)(const double *x, const void *),
                  const void *data)
 {
-  const abut_coupling_view *v = &c->view;
+  const couple_view *v = &c->view;
   abut_surface_view s[2];
   double largest = 0.;
   require(abut_surface_get(c->secondary, &s[0]));
@@ -241,7 +340,7 @@ force_error(const couple *c, int side, const double *normal)
 static inline void
 check_balance(const couple *c, double force_tolerance, double moment_tolerance)
 {
-  const abut_coupling_view *v = &c->view;
+  const couple_view *v = &c->view;
   const int dim = v->dimension;
   abut_surface_view s[2];
   double force[3] = {0.}, moment[3] = {0.};

@@ -172,7 +172,7 @@ test_matching(void **state)
     scene_mesh s = plane(kinds[i], 6, 6, unit, true),
                m = plane(kinds[i], 6, 6, above, false);
     couple c = couple_meshes(&s, &m, NULL, NULL);
-    const abut_coupling_view *v = &c.view;
+    const couple_view *v = &c.view;
     check_dual(&c, s.n_nodes);
     assert_int_equal(v->primary_start[v->n_rows], v->n_rows);
     for (int32_t j = 0; j < v->n_rows; ++j)

@@ -184,8 +184,7 @@ options_of(int k)
 
 /* Sum over rows of W_j c_jl against the areas of the nodes. */
 static void
-check_areas(const abut_coupling_view *v, int side, const double *area,
-            int32_t n_nodes)
+check_areas(const couple_view *v, int side, const double *area, int32_t n_nodes)
 {
   const side_entries of = entries_of(v, side);
   double *sum = calloc((size_t)n_nodes, sizeof(double));
@@ -343,8 +342,8 @@ test_dropped(void **state)
 }
 
 static void
-assert_same_row(const abut_coupling_view *a, int32_t i,
-                const abut_coupling_view *b, int32_t j)
+assert_same_row(const couple_view *a, int32_t i, const couple_view *b,
+                int32_t j)
 {
   const int dim = a->dimension;
   assert_memory_equal(&a->weight[i], &b->weight[j], sizeof(double));
@@ -457,7 +456,7 @@ test_order(void **state)
     assert_int_equal(first.view.n_rows, second.view.n_rows);
     for (int32_t j = 0; j < first.view.n_rows; ++j)
     {
-      const abut_coupling_view *a = &first.view, *b = &second.view;
+      const couple_view *a = &first.view, *b = &second.view;
       assert_int_equal(a->node[j], node[0][b->node[j]]);
       assert_memory_equal(&a->weight[j], &b->weight[j], sizeof(double));
       const int64_t n = a->primary_start[j + 1] - a->primary_start[j];
@@ -579,6 +578,7 @@ build_with(int n, const scene_mesh *s, const scene_mesh *m,
   abut_context *scarce = NULL;
   abut_surface *secondary = NULL, *primary = NULL;
   abut_coupling *coupling = NULL;
+  abut_points *points = NULL;
   memory.user = &left;
   memory.allocate = scarce_allocate;
   memory.release = scarce_release;
@@ -591,7 +591,11 @@ build_with(int n, const scene_mesh *s, const scene_mesh *m,
       abut_coupling_create(scarce, secondary, primary, o, &coupling);
   assert_int_equal(coupling != NULL, status == ABUT_SUCCESS);
   if (status == ABUT_SUCCESS)
-    status = abut_coupling_build(coupling, NULL, 0.);
+    status = abut_points_create(scarce, 3, &points);
+  const abut_coupling_target target = abut_coupling_target_defaults(points);
+  if (status == ABUT_SUCCESS)
+    status = abut_coupling_build(coupling, NULL, 0., &target);
+  require(abut_points_destroy(&points));
   require(abut_coupling_destroy(&coupling));
   require(abut_surface_destroy(&secondary));
   require(abut_surface_destroy(&primary));
@@ -725,7 +729,7 @@ test_node_arguments(void **state)
   good.hanging_start = start;
   good.hanging_parent = parent;
   good.hanging_weight = weight;
-  require(abut_coupling_build(c.coupling, &good, 0.));
+  require(couple_try(&c, &good));
   const int32_t node_wrong[][2] = {{1, 1}, {1, 9}, {1, -1}},
                 parent_wrong[][4] = {{0, 2, 0, 9}, {0, 2, 0, -1}, {0, 3, 0, 6}},
                 start_wrong[][3] = {{0, 2, 2}, {1, 2, 4}};
@@ -735,39 +739,141 @@ test_node_arguments(void **state)
   {
     n = good;
     n.hanging_node = node_wrong[i];
-    assert_int_equal(abut_coupling_build(c.coupling, &n, 0.),
-                     ABUT_INVALID_ARGUMENT);
+    assert_int_equal(couple_try(&c, &n), ABUT_INVALID_ARGUMENT);
     n = good;
     n.hanging_parent = parent_wrong[i];
-    assert_int_equal(abut_coupling_build(c.coupling, &n, 0.),
-                     ABUT_INVALID_ARGUMENT);
+    assert_int_equal(couple_try(&c, &n), ABUT_INVALID_ARGUMENT);
   }
   for (int i = 0; i < 2; ++i)
   {
     n = good;
     n.hanging_start = start_wrong[i];
-    assert_int_equal(abut_coupling_build(c.coupling, &n, 0.),
-                     ABUT_INVALID_ARGUMENT);
+    assert_int_equal(couple_try(&c, &n), ABUT_INVALID_ARGUMENT);
     n = good;
     n.hanging_weight = weight_wrong[i];
-    assert_int_equal(abut_coupling_build(c.coupling, &n, 0.),
+    assert_int_equal(couple_try(&c, &n),
                      i == 0 ? ABUT_INVALID_ARGUMENT : ABUT_NOT_FINITE);
   }
   n = good;
   n.hanging_weight = NULL;
-  assert_int_equal(abut_coupling_build(c.coupling, &n, 0.),
-                   ABUT_INVALID_ARGUMENT);
+  assert_int_equal(couple_try(&c, &n), ABUT_INVALID_ARGUMENT);
+  const abut_coupling_target target = abut_coupling_target_defaults(c.points);
   n = good;
   n.struct_size = 1;
-  assert_int_equal(abut_coupling_build(c.coupling, &n, 0.),
+  assert_int_equal(couple_try(&c, &n), ABUT_INVALID_ARGUMENT);
+  assert_int_equal(abut_coupling_build(c.coupling, NULL, -1., &target),
                    ABUT_INVALID_ARGUMENT);
-  assert_int_equal(abut_coupling_build(c.coupling, NULL, -1.),
-                   ABUT_INVALID_ARGUMENT);
-  assert_int_equal(abut_coupling_build(c.coupling, NULL, (double)NAN),
+  assert_int_equal(abut_coupling_build(c.coupling, NULL, (double)NAN, &target),
                    ABUT_INVALID_ARGUMENT);
   couple_build(&c, &good);
   assert_int_equal(c.view.n_rows, 7);
   check_rows(&c);
+  couple_destroy(&c);
+  scene_free(&s);
+  scene_free(&m);
+}
+
+/* Numbers, kinds and gaps are the caller's, behind points that are there. */
+static void
+test_target(void **state)
+{
+  (void)state;
+  const double p[5] = {0., 0., 1., 1., 0.}, q[5] = {0., 0., 1., 1., -0.02};
+  scene_mesh s = scene_patch(ABUT_FACET_QUAD4, 2, 2, scene_plane, p, false),
+             m = scene_patch(ABUT_FACET_QUAD4, 3, 3, scene_plane, q, true);
+  couple c = couple_meshes(&s, &m, NULL, NULL);
+  const couple_view v = c.view;
+  int32_t secondary[9], primary[16];
+  int64_t id[9];
+  for (int l = 0; l < 9; ++l)
+  {
+    secondary[l] = 100 + l;
+    id[l] = 1000 - 3 * l;
+  }
+  for (int l = 0; l < 16; ++l)
+    primary[l] = 50 - l;
+  abut_points *points = NULL;
+  require(abut_points_create(context, 3, &points));
+  abut_coupling_target target = abut_coupling_target_defaults(points);
+  abut_points_view view;
+  abut_coupling_view last;
+  target.secondary_node = secondary;
+  target.primary_node = primary;
+  target.id = id;
+  target.gap = 0.5;
+  require(abut_coupling_build(c.coupling, NULL, 0., &target));
+  target.flush = true;
+  require(abut_coupling_build(c.coupling, NULL, 0., &target));
+  target.tie_axes = 5; /* x and z */
+  require(abut_coupling_build(c.coupling, NULL, 0., &target));
+  require(abut_coupling_get(c.coupling, &last));
+  require(abut_points_get(points, &view));
+  assert_int_equal(v.n_rows, 9);
+  assert_int_equal(view.n_points, 27);
+  assert_int_equal(view.n_components, 9 + 9 + 18);
+  assert_int_equal(last.first, 18);
+  assert_int_equal(last.n_points, 9);
+  for (int32_t i = 0; i < 27; ++i)
+  {
+    const int32_t j = i % 9, a = view.component_start[i];
+    const bool tie = i >= 18;
+    assert_int_equal(view.id[i], id[v.node[j]]);
+    assert_int_equal(view.kind[i], tie ? ABUT_POINT_TIE : ABUT_POINT_CONTACT);
+    assert_int_equal(view.component_start[i + 1] - a, tie ? 2 : 1);
+    near(view.weight[i], v.weight[j], 0., "weight");
+    near(view.gap[a], i < 9 ? 0.5 + v.gap[j] : i < 18 ? 0.5 : 0., 0., "gap");
+    for (int d = 0; d < 3; ++d)
+      near(view.frame[3 * a + d], tie ? d == 0 : v.normal[3 * j + d], 0.,
+           "direction");
+    if (tie)
+      near(view.frame[3 * (a + 1) + 2], 1., 0., "second direction");
+    int64_t e = view.start[i];
+    for (int64_t k = v.secondary_start[j]; k < v.secondary_start[j + 1]; ++k)
+    {
+      assert_int_equal(view.node[e], 100 + v.secondary_node[k]);
+      near(view.coefficient[e++], v.secondary_coefficient[k], 0., "D");
+    }
+    for (int64_t k = v.primary_start[j]; k < v.primary_start[j + 1]; ++k)
+    {
+      assert_int_equal(view.node[e], 50 - v.primary_node[k]);
+      near(view.coefficient[e++], -v.primary_coefficient[k], 0., "M");
+    }
+    assert_int_equal(e, view.start[i + 1]);
+  }
+  /* After a failure there is what was there before. */
+  primary[5] = -1;
+  assert_int_equal(abut_coupling_build(c.coupling, NULL, 0., &target),
+                   ABUT_INVALID_ARGUMENT);
+  require(abut_points_get(points, &view));
+  assert_int_equal(view.n_points, 27);
+  require(abut_points_destroy(&points));
+  couple_destroy(&c);
+  scene_free(&s);
+  scene_free(&m);
+}
+
+static void
+test_target_arguments(void **state)
+{
+  (void)state;
+  const double p[5] = {0., 0., 1., 1., 0.};
+  scene_mesh s = scene_patch(ABUT_FACET_QUAD4, 2, 2, scene_plane, p, false),
+             m = scene_patch(ABUT_FACET_QUAD4, 2, 2, scene_plane, p, true);
+  couple c = couple_meshes(&s, &m, NULL, NULL);
+  abut_points *flat = NULL;
+  require(abut_points_create(context, 2, &flat));
+  for (int k = 0; k < 6; ++k)
+  {
+    abut_coupling_target target = abut_coupling_target_defaults(c.points);
+    target.struct_size -= k == 0;
+    target.points = k == 1 ? NULL : k == 2 ? flat : c.points;
+    target.tie_axes = k == 3 ? 8 : 0;
+    target.gap = k == 4 ? (double)NAN : 0.;
+    assert_int_equal(
+        abut_coupling_build(c.coupling, NULL, 0., k == 5 ? NULL : &target),
+        ABUT_INVALID_ARGUMENT);
+  }
+  require(abut_points_destroy(&flat));
   couple_destroy(&c);
   scene_free(&s);
   scene_free(&m);
@@ -787,6 +893,9 @@ main(void)
       cmocka_unit_test_setup_teardown(test_memory, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_out_of_memory, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_options, set_up, tear_down),
-      cmocka_unit_test_setup_teardown(test_node_arguments, set_up, tear_down)};
+      cmocka_unit_test_setup_teardown(test_node_arguments, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_target, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_target_arguments, set_up,
+                                      tear_down)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

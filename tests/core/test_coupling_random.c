@@ -122,7 +122,7 @@ test_frame(void **state)
     scene_move(&s, scale, angles, shift);
     scene_move(&m, scale, angles, shift);
     couple b = couple_meshes(&s, &m, &o, NULL);
-    const abut_coupling_view *v = &a.view, *w = &b.view;
+    const couple_view *v = &a.view, *w = &b.view;
     assert_int_equal(v->n_rows, w->n_rows);
     assert_true(v->n_rows > 10);
     scene_mesh turned = {3, v->n_rows, 0, ABUT_FACET_QUAD4, NULL, NULL};

@@ -100,13 +100,13 @@ rollback_gives_the_committed_version_bit_for_bit(void **unused)
   make_values(&second, 150, 0, 2, 2);
   abut_history_problem problem = some_problem();
   assert_ok(abut_history_set(s.history, &first.entries));
-  assert_ok(abut_history_set_problem(s.history, &problem));
+  assert_ok(abut_history_set_problem(s.history, ABUT_HISTORY_TRIAL, &problem));
   assert_ok(abut_history_commit(s.history));
 
   problem.penalty = 2500;
   assert_ok(abut_history_begin_step(s.history));
   assert_ok(abut_history_set(s.history, &second.entries));
-  assert_ok(abut_history_set_problem(s.history, &problem));
+  assert_ok(abut_history_set_problem(s.history, ABUT_HISTORY_TRIAL, &problem));
   abut_history_entries trial = view_of(s.history, ABUT_HISTORY_TRIAL);
   assert_same(&trial, &second.entries);
   abut_history_entries committed = view_of(s.history, ABUT_HISTORY_COMMITTED);
@@ -229,7 +229,7 @@ bytes_make_the_same_history_again(void **unused)
   make_values(&v, 120, 7, 11, 6);
   const abut_history_problem problem = some_problem();
   assert_ok(abut_history_set(s.history, &v.entries));
-  assert_ok(abut_history_set_problem(s.history, &problem));
+  assert_ok(abut_history_set_problem(s.history, ABUT_HISTORY_TRIAL, &problem));
   size_t bytes;
   char *blob = pack(s.history, ABUT_HISTORY_TRIAL, &bytes);
   assert_true(bytes > 120 * 41 && bytes < 120 * 41 + 256);
@@ -363,8 +363,9 @@ wrong_arguments_are_refused(void **unused)
   assert_int_equal(view_of(s.history, ABUT_HISTORY_TRIAL).n, 0);
   abut_history_problem problem = some_problem();
   memset(problem.law, 'a', sizeof(problem.law));
-  assert_int_equal(abut_history_set_problem(s.history, &problem),
-                   ABUT_INVALID_ARGUMENT);
+  assert_int_equal(
+      abut_history_set_problem(s.history, ABUT_HISTORY_TRIAL, &problem),
+      ABUT_INVALID_ARGUMENT);
   const abut_history_past past = {sizeof(past), NULL, NULL, NULL};
   assert_int_equal(
       abut_history_get(s.history, (abut_history_version)2, 0, NULL, &past),

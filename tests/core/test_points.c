@@ -265,40 +265,48 @@ filter_keeps_what_it_is_told(void **unused)
 {
   (void)unused;
   scene s = open_scene(3);
-  const int n[] = {1, 3, 2, 1, 3};
-  const uint8_t keep[] = {0, 1, 0, 1, 1};
-  for (int i = 0; i < 5; ++i)
+  const int n[] = {1, 3, 2, 1, 3, 3};
+  const uint8_t keep[] = {0, 1, 0, 1, 0, 0, 1, 1, 1, 1, 1, 0, 0};
+  for (int i = 0; i < 6; ++i)
   {
-    abut_point p = over_a_facet(10 * i, ABUT_POINT_TIE, n[i]);
-    p.n_nodes = 1 + i;
+    abut_point p =
+        over_a_facet(10 * i, i < 5 ? ABUT_POINT_TIE : ABUT_POINT_CONTACT, n[i]);
+    p.n_nodes = 1 + i % 5;
     p.weight = 1 + i;
     assert_ok(abut_points_append(s.points, &p));
   }
   assert_ok(abut_points_filter(s.points, keep));
+  /* Points and, of each, components that are left: the second loses the one in
+   * the middle, a contact point goes by its first. */
+  const int left[] = {1, 3, 4, 5},
+            components[][3] = {{0, 2, -1}, {0, -1, -1}, {0, 1, 2}, {0, 1, 2}};
   const abut_points_view view = view_of(s.points);
-  assert_int_equal(view.n_points, 3);
-  assert_int_equal(view.n_components, 7);
-  int32_t point = 0, component = 0;
-  for (int i = 0; i < 5; ++i)
+  int32_t row = 0;
+  assert_int_equal(view.n_points, 4);
+  assert_int_equal(view.n_components, 9);
+  for (int k = 0; k < 4; ++k)
   {
-    if (!keep[i])
-      continue;
-    assert_int_equal(view.id[point], 10 * i);
-    assert_close(view.weight[point], 1 + i, 0);
-    assert_int_equal(view.start[point + 1] - view.start[point], 1 + i);
-    for (int l = 0; l <= i; ++l)
+    const int i = left[k];
+    assert_int_equal(view.id[k], 10 * i);
+    assert_int_equal(view.component_start[k], row);
+    assert_close(view.weight[k], 1 + i, 0);
+    assert_int_equal(view.start[k + 1] - view.start[k], 1 + i % 5);
+    for (int l = 0; l <= i % 5; ++l)
     {
-      assert_int_equal(view.node[view.start[point] + l], corner[l]);
-      assert_close(view.coefficient[view.start[point] + l], quarter[l], 0);
+      assert_int_equal(view.node[view.start[k] + l], corner[l]);
+      assert_close(view.coefficient[view.start[k] + l], quarter[l], 0);
     }
-    for (int a = 0; a < n[i]; ++a, ++component)
+    for (int a = 0; a < 3 && components[k][a] >= 0; ++a, ++row)
     {
-      assert_int_equal(view.component_id[component], 10 * i + a);
-      assert_close(view.gap[component], values[a], 0);
-      assert_close(view.frame[3 * component + 2], frame[3 * a + 2], 0);
+      assert_int_equal(view.component_id[row], 10 * i + a);
+      assert_int_equal(view.bilateral[row] != 0, i < 5);
+      assert_close(view.gap[row], values[components[k][a]], 0);
+      for (int d = 0; d < 3; ++d)
+        assert_close(view.frame[3 * row + d], frame[3 * components[k][a] + d],
+                     0);
     }
-    ++point;
   }
+  assert_int_equal(row, 9);
   close_scene(&s);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* Couplings of arbitrary surfaces with arbitrary options and nodes: rows are
+/* Couplings of arbitrary surfaces with arbitrary options and nodes: points are
  * finite, have positive weights and coefficients that add up to one, and are
  * the same when built again. */
 #include "two_surfaces.h"
@@ -65,37 +65,37 @@ take_nodes(input *in, int32_t n_nodes, node_arrays *a)
   return n;
 }
 
-/* Finite entries in range that add up to one; sum of their magnitudes. */
+/* Finite entries from..to in range that add up to one with this sign. */
 static void
-check_side(const int64_t *start, const int32_t *node, const double *value,
-           int32_t row, int32_t n_nodes)
+check_side(const abut_points_view *v, int64_t from, int64_t to, double sign,
+           int32_t first, int32_t n_nodes)
 {
   double sum = 0., size = 0.;
-  REQUIRE(start[row + 1] > start[row]);
-  for (int64_t e = start[row]; e < start[row + 1]; ++e)
+  REQUIRE(to > from);
+  for (int64_t e = from; e < to; ++e)
   {
-    REQUIRE(node[e] >= 0 && node[e] < n_nodes);
-    REQUIRE(isfinite(value[e]));
-    sum += value[e];
-    size += fabs(value[e]);
+    REQUIRE(v->node[e] >= first && v->node[e] < first + n_nodes);
+    REQUIRE(isfinite(v->coefficient[e]));
+    sum += sign * v->coefficient[e];
+    size += fabs(v->coefficient[e]);
   }
   REQUIRE(fabs(sum - 1.) <= 1e-12 * (1. + size));
 }
 
 static void
-check_rows(const abut_coupling_view *v, int32_t n_secondary, int32_t n_primary)
+check_points(const abut_coupling_view *c, const abut_points_view *v,
+             int32_t n_secondary, int32_t n_primary)
 {
-  for (int32_t j = 0; j < v->n_rows; ++j)
+  for (int32_t j = 0; j < v->n_points; ++j)
   {
-    REQUIRE(v->node[j] >= -1 && v->node[j] < n_secondary);
+    REQUIRE(c->node[j] >= -1 && c->node[j] < n_secondary);
     REQUIRE(v->weight[j] > 0. && isfinite(v->weight[j]));
-    REQUIRE(isfinite(v->gap[j]) && isfinite(v->full_weight[j]));
+    REQUIRE(isfinite(v->gap[j]) && isfinite(c->full_weight[j]));
     for (int d = 0; d < v->dimension; ++d)
-      REQUIRE(fabs(v->normal[v->dimension * j + d]) <= 1. + 1e-12);
-    check_side(v->secondary_start, v->secondary_node, v->secondary_coefficient,
-               j, n_secondary);
-    check_side(v->primary_start, v->primary_node, v->primary_coefficient, j,
-               n_primary);
+      REQUIRE(fabs(v->frame[v->dimension * j + d]) <= 1. + 1e-12);
+    const int64_t middle = v->start[j] + v->n_secondary[j];
+    check_side(v, v->start[j], middle, 1., 0, n_secondary);
+    check_side(v, middle, v->start[j + 1], -1., n_secondary, n_primary);
   }
 }
 
@@ -105,7 +105,9 @@ run(input *in, abut_context *context, abut_surface *secondary,
 {
   static node_arrays arrays_of_nodes;
   abut_coupling *coupling = NULL;
+  abut_points *points = NULL;
   abut_coupling_view view;
+  abut_points_view set;
   abut_surface_view s, m;
   const abut_coupling_options o = take_coupling_options(in);
   REQUIRE(abut_surface_get(secondary, &s) == ABUT_SUCCESS);
@@ -114,6 +116,8 @@ run(input *in, abut_context *context, abut_surface *secondary,
   if (abut_coupling_create(context, secondary, primary, &o, &coupling)
       != ABUT_SUCCESS)
     return;
+  REQUIRE(abut_points_create(context, s.dimension, &points) == ABUT_SUCCESS);
+  const abut_coupling_target target = abut_coupling_target_defaults(points);
   double area = -1.;
   for (int k = 0; k < 3; ++k)
   {
@@ -124,15 +128,20 @@ run(input *in, abut_context *context, abut_surface *secondary,
         moved->position[i] += take_grid(in) * 0.1;
       (void)abut_surface_update(primary, moved->position);
     }
-    const abut_status status = abut_coupling_build(coupling, &nodes, 0.);
+    REQUIRE(abut_points_clear(points) == ABUT_SUCCESS);
+    const abut_status status =
+        abut_coupling_build(coupling, &nodes, 0., &target);
     REQUIRE(status >= 0);
     REQUIRE(abut_coupling_get(coupling, &view) == ABUT_SUCCESS);
-    REQUIRE(status == ABUT_SUCCESS || view.n_rows == 0);
-    check_rows(&view, s.n_nodes, m.n_nodes);
+    REQUIRE(abut_points_get(points, &set) == ABUT_SUCCESS);
+    REQUIRE(view.n_points == set.n_points);
+    REQUIRE(status == ABUT_SUCCESS || view.n_points == 0);
+    check_points(&view, &set, s.n_nodes, m.n_nodes);
     REQUIRE(abut_coupling_get_statistics(coupling, &statistics)
             == ABUT_SUCCESS);
     REQUIRE(k != 1 || statistics.covered_area == area);
     area = statistics.covered_area;
   }
+  REQUIRE(abut_points_destroy(&points) == ABUT_SUCCESS);
   REQUIRE(abut_coupling_destroy(&coupling) == ABUT_SUCCESS);
 }

@@ -126,6 +126,30 @@ namespace
              name + ": depth of the primary's nodes, " + std::to_string(depth));
     }
   }
+
+  /** A die that its boundary values move after reinit(). */
+  void check_moved_die()
+  {
+    hosts::Case run;
+    run.is_die = true;
+    run.upper_is_secondary = false;
+    run.method = hosts::method("penalty", ABUT_DISCRETISATION_DUAL_MORTAR);
+    hosts::TwoBlocks<2> blocks(run);
+    blocks.prepare({blocks.pair()});
+    ContactAssembler<2> &contact = blocks.contact();
+    const la::Vector rest = blocks.displacement();
+    for (const double height : {0., 0.01, 0.03})
+    {
+      if (height > 0.)
+        blocks.lift_supports(height == 0.01 ? 0.01 : 0.02);
+      contact.detect(rest);
+      const la::Vector gap = contact.gap();
+      const double largest = gap.linfty_norm();
+      expect(std::abs(largest - height) < 1e-12,
+             "a gap of " + std::to_string(height) + " and not "
+                 + std::to_string(largest));
+    }
+  }
 } // namespace
 
 int
@@ -135,5 +159,6 @@ main(int argc, char **argv)
   check_refusals();
   check_search_after_motion();
   check_between_rows();
+  check_moved_die();
   return good ? 0 : 1;
 }

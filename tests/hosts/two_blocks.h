@@ -149,6 +149,8 @@ namespace abut::hosts
     /** Pressed by a pressure of 1 on the top of straight blocks of uniform
      * meshes, which slide freely on the bottom, instead of moved. */
     bool pressed = false;
+    /** The upper block is a die: its interface is prescribed, too. */
+    bool is_die = false;
     /** The upper block is lifted by separation + tilt times the first
      * coordinate of its own frame; 0 for the patch test. */
     double separation = 0., tilt = 0.;
@@ -180,9 +182,11 @@ namespace abut::hosts
   class TwoBlocks
   {
   public:
-    explicit TwoBlocks(const Case &run)
+    /** @p communicator of a distributed mesh. */
+    explicit TwoBlocks(const Case &run,
+                       const MPI_Comm communicator = MPI_COMM_WORLD)
         : run_(run),
-          triangulation_(make_triangulation()),
+          triangulation_(make_triangulation(communicator)),
           communicator_(triangulation_->get_communicator()),
           fe_(dealii::FE_Q<dim>(run.degree), dim),
           mapping_(1),
@@ -317,6 +321,20 @@ namespace abut::hosts
       return moved;
     }
 
+    /** Prescribe displacements that are larger by @p lift along the normal
+     * wherever the upper block is held. */
+    void lift_supports(const double lift)
+    {
+      la::Vector shift(owned_, relevant_, communicator_);
+      const la::Vector owned_shift = displacement(lift);
+      shift = owned_shift;
+      for (const auto dof : relevant_)
+        if (constraints_.is_constrained(dof)
+            && constraints_.get_constraint_entries(dof)->empty())
+          constraints_.set_inhomogeneity(
+              dof, constraints_.get_inhomogeneity(dof) + shift(dof));
+    }
+
     /** Forget what contact has found. */
     void forget()
     {
@@ -344,6 +362,11 @@ namespace abut::hosts
     const la::Matrix &stiffness() const
     {
       return stiffness_;
+    }
+
+    const dealii::AffineConstraints<double> &constraints() const
+    {
+      return constraints_;
     }
 
   private:
@@ -467,6 +490,10 @@ namespace abut::hosts
       dealii::VectorTools::interpolate_boundary_values(
           mapping_, dof_handler_, top, ExactDisplacement<dim>(material(true)),
           constraints_);
+      if (run_.is_die)
+        dealii::VectorTools::interpolate_boundary_values(
+            mapping_, dof_handler_, upper_interface,
+            dealii::Functions::ZeroFunction<dim>(dim), constraints_);
     }
 
     /** The bottom slides; a corner of each block does not move sideways. */
@@ -667,10 +694,11 @@ namespace abut::hosts
     }
 
     /** A mesh that is not distributed is that of each rank alone. */
-    static std::unique_ptr<Mesh> make_triangulation()
+    static std::unique_ptr<Mesh>
+    make_triangulation([[maybe_unused]] const MPI_Comm communicator)
     {
       if constexpr (std::is_constructible_v<Mesh, MPI_Comm>)
-        return std::make_unique<Mesh>(MPI_COMM_WORLD);
+        return std::make_unique<Mesh>(communicator);
       else
         return std::make_unique<Mesh>();
     }

@@ -10,7 +10,7 @@
 #include "row_laws.h"
 
 #include <abut/dealii/linear_algebra.h>
-#include <abut/rows.h>
+#include <abut/points.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
@@ -130,8 +130,9 @@ namespace abut::tests
     dealii::IndexSet owned;
     la::Matrix matrix;
     la::Vector residual, increment;
-    std::vector<int> number; ///< of each row of this rank in the whole
-    abut_rows_view view = {};
+    std::vector<int> number;    ///< of each row of this rank in the whole
+    abut_points_view view = {}; ///< nodes are unknowns
+    solve::NodeMap nodes = solve::NodeMap::numbered(0);
 
   private:
     void build_matrix(const Problem &problem, const MPI_Comm communicator)
@@ -149,6 +150,7 @@ namespace abut::tests
     void build_rows(const Problem &problem, const unsigned int me)
     {
       start.push_back(0);
+      component.push_back(0);
       for (std::size_t k = 0; k < problem.rows.size(); ++k)
       {
         const Row &row = problem.rows[k];
@@ -159,29 +161,38 @@ namespace abut::tests
         weight.push_back(row.weight);
         for (const auto &[j, value] : row.entries)
         {
-          column.push_back(j);
+          node.push_back(j);
           coefficient.push_back(value);
         }
-        start.push_back(static_cast<std::int64_t>(column.size()));
+        start.push_back(static_cast<std::int64_t>(node.size()));
+        n_secondary.push_back(static_cast<std::int32_t>(row.entries.size()));
+        component.push_back(static_cast<std::int32_t>(number.size()));
       }
       const std::size_t m = number.size();
       resize_laws(m);
       gap.assign(m, 0.);
-      bilateral.assign(m, 0);
+      frame.assign(m, -1.);
+      kind.assign(m, ABUT_POINT_CONTACT);
       set_laws(problem);
-      view.n_rows = static_cast<std::int32_t>(m);
-      view.id = id.data();
-      view.weight = weight.data();
-      view.initial_gap = gap.data();
-      view.bilateral = bilateral.data();
-      view.row_start = start.data();
-      view.column = column.data();
+      view.struct_size = sizeof(view);
+      view.dimension = 1;
+      view.n_points = view.n_components = static_cast<std::int32_t>(m);
+      view.id = view.component_id = id.data();
+      view.kind = view.bilateral = kind.data();
+      view.weight = view.component_weight = weight.data();
+      view.component_start = component.data();
+      view.frame = frame.data();
+      view.gap = gap.data();
+      view.n_secondary = n_secondary.data();
+      view.start = start.data();
+      view.node = node.data();
       view.coefficient = coefficient.data();
     }
 
-    std::vector<std::int64_t> id, start, column;
-    std::vector<double> weight, coefficient, gap;
-    std::vector<std::uint8_t> bilateral;
+    std::vector<std::int64_t> id, start;
+    std::vector<std::int32_t> component, n_secondary, node;
+    std::vector<double> weight, frame, coefficient, gap;
+    std::vector<std::uint8_t> kind;
   };
 
   /** The largest differences of a share from the dense solution, relative to

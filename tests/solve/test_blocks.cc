@@ -55,7 +55,7 @@ namespace
 
   template <int dim> void set_laws(TwoBlocks<dim> &blocks, const Laws laws)
   {
-    for (int i = 0; i < blocks.rows.n_rows; ++i)
+    for (int i = 0; i < blocks.rows.n_points; ++i)
     {
       const auto k = blocks.rows.id[i] / dim;
       if (k % 4 == 3)
@@ -129,13 +129,13 @@ namespace
     TwoBlocksOptions options;
     options.refinements = 2;
     TwoBlocks<3> blocks(communicator, options);
-    for (int i = 0; i < blocks.rows.n_rows; ++i)
+    for (int i = 0; i < blocks.rows.n_points; ++i)
       blocks.set_constraint(i);
     Expect::that(iterations(blocks, System::automatic) <= 14, "condensed");
     Expect::that(iterations(blocks, System::saddle_point) <= 19, "saddle");
     for (const double kappa : {10., 1e3, 1e6})
     {
-      for (int i = 0; i < blocks.rows.n_rows; ++i)
+      for (int i = 0; i < blocks.rows.n_points; ++i)
         blocks.set_spring(i, kappa);
       Expect::that(iterations(blocks, System::automatic) <= 19, "springs");
     }
@@ -165,11 +165,11 @@ namespace
         TwoBlocksOptions options;
         options.support = Support::slide;
         TwoBlocks<dim> held(communicator, options);
-        for (int i = 0; i < held.rows.n_rows; ++i)
+        for (int i = 0; i < held.rows.n_points; ++i)
           held.set_constraint(i);
         Expect::that(failure(held, system, linear).empty(),
                      "contact holds the upper block");
-        for (int i = 0; i < held.rows.n_rows; ++i)
+        for (int i = 0; i < held.rows.n_points; ++i)
           held.set_open(i);
         const std::string open = failure(held, system, linear);
         const std::string up = dim == 2 ? "(0, 1)" : "(0, 0, 1)";
@@ -182,7 +182,7 @@ namespace
         options.support = Support::free;
         options.angle = 0.3;
         TwoBlocks<dim> loose(communicator, options);
-        for (int i = 0; i < loose.rows.n_rows; ++i)
+        for (int i = 0; i < loose.rows.n_points; ++i)
           loose.set_constraint(i);
         const std::string text = failure(loose, system, linear);
         Expect::that(text.find("upper block") != text.npos,

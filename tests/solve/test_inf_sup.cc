@@ -68,7 +68,8 @@ namespace
   double constant_of(const Problem &problem)
   {
     const Share share(problem, communicator);
-    const solve::RowOperator rows(share.owned, share.view, communicator);
+    const solve::PointOperator rows(share.owned, share.view, share.nodes,
+                                    communicator);
     return solve::inf_sup_constant(share.matrix, rows, SolverParameters(),
                                    solve::NearNullSpace())
         .constant;

@@ -124,7 +124,8 @@ namespace
       Problem problem = make_problem(partition, 5);
       add_rows(problem, Shape::overlapping, random);
       Share share(problem, communicator);
-      const solve::RowOperator rows(share.owned, share.view, communicator);
+      const solve::PointOperator rows(share.owned, share.view, share.nodes,
+                                      communicator);
 
       la::Vector u(share.owned, communicator);
       for (int i = 0; i < share.n; ++i)
@@ -248,8 +249,8 @@ namespace
               Share share(problem, communicator);
               SolverParameters parameters;
               parameters.linear = linear;
-              const solve::RowOperator rows(share.owned, share.view,
-                                            communicator);
+              const solve::PointOperator rows(share.owned, share.view,
+                                              share.nodes, communicator);
               const auto solver =
                   solve::make_row_solver(system, parameters, rows);
               solver->reinit(share.matrix, rows,

@@ -358,12 +358,18 @@ namespace abut::tests
                                      &settings, &coupling));
     abut_coupling_nodes nodes = abut_coupling_nodes_defaults();
     nodes.wanted = wanted.data();
-    shim::check(context.get(), abut_coupling_build(coupling, &nodes, 0.));
+    const auto contact = shim::create_points(context.get(), dim);
+    const abut_coupling_target target =
+        abut_coupling_target_defaults(contact.get());
+    shim::check(context.get(),
+                abut_coupling_build(coupling, &nodes, 0., &target));
     abut_coupling_view view = {};
+    abut_points_view points = {};
     shim::check(context.get(), abut_coupling_get(coupling, &view));
+    shim::check(context.get(), abut_points_get(contact.get(), &points));
 
     std::map<std::int64_t, std::vector<int>> order;
-    for (int j = 0; j < view.n_rows; ++j)
+    for (int j = 0; j < view.n_points; ++j)
       order[options.constants
                 ? view.facet[j]
                 : static_cast<std::int64_t>(sides[1].unknown[view.node[j]])]
@@ -372,54 +378,55 @@ namespace abut::tests
     {
       double weight = 0., gap = 0.;
       for (const int j : parts)
-        weight += view.weight[j];
+        weight += points.weight[j];
       std::map<std::int64_t, double> entries;
       for (const int j : parts)
       {
-        const double part = view.weight[j] / weight;
+        const double part = points.weight[j] / weight;
         const auto add =
             [&](const global_dof_index first, const double coefficient)
         {
           for (unsigned int d = 0; d < dim; ++d)
             if (!constraints.is_constrained(first + d)
-                && view.normal[j * dim + d] != 0.)
+                && points.frame[j * dim + d] != 0.)
               entries[static_cast<std::int64_t>(first + d)] +=
-                  part * coefficient * view.normal[j * dim + d];
+                  part * coefficient * points.frame[j * dim + d];
         };
-        for (auto e = view.secondary_start[j]; e < view.secondary_start[j + 1];
-             ++e)
-          add(sides[1].unknown[view.secondary_node[e]],
-              -view.secondary_coefficient[e]);
-        for (auto e = view.primary_start[j]; e < view.primary_start[j + 1]; ++e)
-          add(sides[0].unknown[view.primary_node[e]],
-              view.primary_coefficient[e]);
-        gap += part * view.gap[j];
+        const auto n_secondary =
+            static_cast<std::int32_t>(sides[1].unknown.size());
+        for (auto e = points.start[j]; e < points.start[j + 1]; ++e)
+          add(points.node[e] < n_secondary
+                  ? sides[1].unknown[points.node[e]]
+                  : sides[0].unknown[points.node[e] - n_secondary],
+              -points.coefficient[e]);
+        gap += part * points.gap[j];
       }
-      std::vector<std::int64_t> columns;
+      std::vector<std::int32_t> columns;
       std::vector<double> values;
       for (const auto &[column, value] : entries)
       {
-        columns.push_back(column);
+        columns.push_back(static_cast<std::int32_t>(column));
         values.push_back(value);
       }
       shim::check(context.get(),
-                  abut_rows_append(row_set.get(), id, weight, gap, 0,
-                                   static_cast<std::int32_t>(columns.size()),
-                                   columns.data(), values.data()));
+                  abut_points_append_scalar(
+                      row_set.get(), id, weight, gap, ABUT_POINT_CONTACT,
+                      static_cast<std::int32_t>(columns.size()), columns.data(),
+                      values.data()));
     }
     abut_coupling_destroy(&coupling);
-    shim::check(context.get(), abut_rows_get(row_set.get(), &rows));
-    operation = solve::RowOperator(dof_handler.locally_owned_dofs(), rows,
-                                   communicator);
+    shim::check(context.get(), abut_points_get(row_set.get(), &rows));
+    operation = solve::PointOperator(dof_handler.locally_owned_dofs(), rows,
+                                     solve::NodeMap::numbered(0), communicator);
     row_stiffness = solve::row_stiffness(stiffness, operation);
-    resize_laws(rows.n_rows);
+    resize_laws(rows.n_points);
   }
 
   template <int dim> void TwoBlocks<dim>::set_constraint(const int i)
   {
     a[i] = 0.;
     b[i] = 1.;
-    c[i] = rows.initial_gap[i];
+    c[i] = rows.gap[i];
     pressure[i] = 0.;
     state[i] = ABUT_STATE_CLOSED;
   }
@@ -429,7 +436,7 @@ namespace abut::tests
   {
     a[i] = 1. / (kappa * row_stiffness[i]);
     b[i] = 1.;
-    c[i] = rows.initial_gap[i];
+    c[i] = rows.gap[i];
     pressure[i] = 0.;
     state[i] = ABUT_STATE_CLOSED;
   }
@@ -449,10 +456,10 @@ namespace abut::tests
     la::Vector force(residual);
     stiffness.vmult(force, increment);
     force.add(1., residual);
-    std::vector<double> factor(rows.n_rows), change(rows.n_rows);
+    std::vector<double> factor(rows.n_points), change(rows.n_points);
     operation.times(increment, change.data());
     double largest = 0., error = 0.;
-    for (int i = 0; i < rows.n_rows; ++i)
+    for (int i = 0; i < rows.n_points; ++i)
     {
       factor[i] = -rows.weight[i] * (pressure[i] + dp[i]);
       largest = std::max(largest, std::abs(b[i] * change[i]) + std::abs(c[i]));

@@ -62,8 +62,8 @@ namespace abut::tests
     la::Matrix stiffness;
     la::Vector residual;
     solve::NearNullSpace space;
-    abut_rows_view rows = {};
-    solve::RowOperator operation; ///< of the rows
+    abut_points_view rows = {};     ///< nodes are unknowns
+    solve::PointOperator operation; ///< of the rows
     std::vector<double> row_stiffness;
 
   private:
@@ -77,7 +77,7 @@ namespace abut::tests
     dealii::DoFHandler<dim> dof_handler;
     dealii::AffineConstraints<double> constraints;
     shim::Handle<abut_context> context = shim::create_context();
-    shim::Handle<abut_rows> row_set = shim::create_rows(context.get());
+    shim::Handle<abut_points> row_set = shim::create_points(context.get(), 1);
   };
 } // namespace abut::tests
 

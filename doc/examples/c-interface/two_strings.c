@@ -26,8 +26,8 @@ static const double weight = 1, distance = 0.02;
 /* What the callbacks of the strategy need. */
 typedef struct host
 {
-  abut_rows *rows;
-  abut_rows_view view;
+  abut_points *points;
+  abut_points_view view;
   double stiffness[N][N], force[N], u[N], du[N];
 } host;
 
@@ -108,10 +108,11 @@ detect(abut_context *context, abut_surface *upper, abut_surface *lower)
   require(context, abut_detection_destroy(&detection));
 }
 
-/* Mortar coupling of the two strings, written as rows over the unknowns. */
+/* Mortar coupling of the two strings: points over the nodes of both, those of
+ * the lower string behind those of the upper one, which are our unknowns. */
 static void
-make_rows(abut_context *context, abut_surface *upper, abut_surface *lower,
-          host *h)
+make_points(abut_context *context, abut_surface *upper, abut_surface *lower,
+            host *h)
 {
   uint8_t held[UPPER] = {0};
   held[0] = held[UPPER - 1] = 1;
@@ -120,35 +121,34 @@ make_rows(abut_context *context, abut_surface *upper, abut_surface *lower,
   abut_coupling_options options = abut_coupling_defaults();
   options.search.reach = 2 * distance;
   abut_coupling *coupling = NULL;
-  abut_coupling_view view;
   require(context,
           abut_coupling_create(context, upper, lower, &options, &coupling));
-  require(context, abut_coupling_build(coupling, &nodes, 0));
-  require(context, abut_coupling_get(coupling, &view));
-  require(context, abut_rows_create(context, &h->rows));
-  for (int32_t j = 0; j < view.n_rows; ++j)
-  {
-    int64_t column[N];
-    double coefficient[N];
-    int32_t n = 0;
-    const double normal = view.normal[2 * j + 1];
-    for (int64_t e = view.secondary_start[j]; e < view.secondary_start[j + 1];
-         ++e, ++n)
-    {
-      column[n] = view.secondary_node[e];
-      coefficient[n] = -normal * view.secondary_coefficient[e];
-    }
-    for (int64_t e = view.primary_start[j]; e < view.primary_start[j + 1];
-         ++e, ++n)
-    {
-      column[n] = UPPER + view.primary_node[e];
-      coefficient[n] = normal * view.primary_coefficient[e];
-    }
-    require(context, abut_rows_append(h->rows, view.node[j], view.weight[j],
-                                      view.gap[j], 0, n, column, coefficient));
-  }
-  require(context, abut_rows_get(h->rows, &h->view));
+  require(context, abut_points_create(context, 2, &h->points));
+  const abut_coupling_target target = abut_coupling_target_defaults(h->points);
+  require(context, abut_coupling_build(coupling, &nodes, 0, &target));
+  require(context, abut_points_get(h->points, &h->view));
   require(context, abut_coupling_destroy(&coupling));
+}
+
+/* dg/du of point i for the vertical displacement of the node of entry e. */
+static double
+slope(const abut_points_view *v, int i, int64_t e)
+{
+  return abut_point_sign(v->kind[i], 0) * v->frame[2 * i + 1]
+         * v->coefficient[e];
+}
+
+/* Gaps at the present displacement. */
+static void
+find_gaps(const host *h, double *gap)
+{
+  const abut_points_view *v = &h->view;
+  for (int i = 0; i < v->n_points; ++i)
+  {
+    gap[i] = v->gap[i];
+    for (int64_t e = v->start[i]; e < v->start[i + 1]; ++e)
+      gap[i] += slope(v, i, e) * h->u[v->node[e]];
+  }
 }
 
 /* Gaussian elimination with row pivots; a is overwritten, x is b on entry. */
@@ -190,13 +190,13 @@ solve_dense(int n, double *a, double *x)
 }
 
 /* SOLVE: K du - sum w dp B = -R with R = K u - f - sum w p B, and
- * a dp + b B du = -c for each row. */
+ * a dp + b B du = -c for each point. */
 static abut_status
 solve(void *user, const abut_request *request)
 {
   host *h = user;
-  const abut_rows_view *v = &h->view;
-  const int size = N + v->n_rows;
+  const abut_points_view *v = &h->view;
+  const int size = N + v->n_points;
   double *a = calloc((size_t)(size * size + size), sizeof(double));
   if (a == NULL)
     return ABUT_OUT_OF_MEMORY;
@@ -210,27 +210,27 @@ solve(void *user, const abut_request *request)
       x[i] -= h->stiffness[i][j] * h->u[j];
     }
   }
-  for (int r = 0; r < v->n_rows; ++r)
+  for (int r = 0; r < v->n_points; ++r)
   {
     x[N + r] = -request->residual[r];
     a[(N + r) * size + N + r] = request->d_pressure[r];
-    for (int64_t e = v->row_start[r]; e < v->row_start[r + 1]; ++e)
+    for (int64_t e = v->start[r]; e < v->start[r + 1]; ++e)
     {
-      const int64_t i = v->column[e];
-      const double w_b = v->weight[r] * v->coefficient[e];
+      const int i = v->node[e];
+      const double b = slope(v, r, e), w_b = v->weight[r] * b;
       a[i * size + N + r] = -w_b;
-      a[(N + r) * size + i] = request->d_gap[r] * v->coefficient[e];
+      a[(N + r) * size + i] = request->d_gap[r] * b;
       x[i] += w_b * request->pressure[r];
     }
   }
   const int singular = solve_dense(size, a, x);
   memcpy(h->du, x, sizeof(h->du));
-  for (int r = 0; r < v->n_rows; ++r)
+  for (int r = 0; r < v->n_points; ++r)
   {
     request->pressure_change[r] = x[N + r];
     request->gap_change[r] = 0;
-    for (int64_t e = v->row_start[r]; e < v->row_start[r + 1]; ++e)
-      request->gap_change[r] += v->coefficient[e] * x[v->column[e]];
+    for (int64_t e = v->start[r]; e < v->start[r + 1]; ++e)
+      request->gap_change[r] += slope(v, r, e) * x[v->node[e]];
   }
   free(a);
   return singular ? ABUT_INTERNAL : ABUT_SUCCESS;
@@ -243,7 +243,8 @@ move(void *user, const abut_request *request, double *gap)
   host *h = user;
   for (int i = 0; i < N; ++i)
     h->u[i] += request->step_length * h->du[i];
-  return abut_rows_gap(h->rows, h->u, 0, N, gap);
+  find_gaps(h, gap);
+  return ABUT_SUCCESS;
 }
 
 static void
@@ -253,7 +254,7 @@ report(void *user, const abut_progress *progress, const abut_request *request)
   if (request->action != ABUT_ACTION_STOP)
     return;
   double force = 0, first = 1;
-  for (int r = 0; r < h->view.n_rows; ++r)
+  for (int r = 0; r < h->view.n_points; ++r)
   {
     force += h->view.weight[r] * request->pressure[r];
     if (request->state[r] != ABUT_STATE_OPEN)
@@ -275,27 +276,27 @@ main(void)
   assemble_string(&h, 0, UPPER, weight);
   assemble_string(&h, UPPER, LOWER, 0);
   detect(context, upper, lower);
-  make_rows(context, upper, lower, &h);
+  make_points(context, upper, lower, &h);
 
   abut_strategy_options options = abut_strategy_defaults();
   options.length_scale = distance;
   options.pressure_scale = weight;
   double gap[UPPER], stiffness[UPPER];
-  require(context, abut_rows_gap(h.rows, h.u, 0, N, gap));
-  for (int r = 0; r < h.view.n_rows; ++r)
-    stiffness[r] = UPPER; /* pressure per length that a row sees, roughly */
+  find_gaps(&h, gap);
+  for (int r = 0; r < h.view.n_points; ++r)
+    stiffness[r] = UPPER; /* pressure per length that a point sees, roughly */
   abut_strategy *strategy = NULL;
   abut_reason reason;
   const abut_host callbacks = {sizeof(callbacks), &h, solve, move, report};
   require(context, abut_strategy_create(context, &options, &strategy));
   require(context,
-          abut_strategy_start(strategy, h.view.n_rows, h.view.id, h.view.weight,
-                              stiffness, NULL, gap, NULL, NULL));
+          abut_strategy_start(strategy, h.view.n_points, h.view.id,
+                              h.view.weight, stiffness, NULL, gap, NULL, NULL));
   require(context, abut_strategy_run(strategy, &callbacks, &reason));
   puts(abut_reason_text(reason));
 
   require(context, abut_strategy_destroy(&strategy));
-  require(context, abut_rows_destroy(&h.rows));
+  require(context, abut_points_destroy(&h.points));
   require(context, abut_surface_destroy(&upper));
   require(context, abut_surface_destroy(&lower));
   require(context, abut_context_destroy(&context));

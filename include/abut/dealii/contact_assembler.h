@@ -56,6 +56,7 @@
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
+#include <iosfwd>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -78,6 +79,14 @@ namespace abut
   /** An obstacle that no displacement can respect, or that is not a number:
    * the message says where. Thrown on all ranks. */
   class ObstacleError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /** A history of contact that cannot be read or written, or belongs to another
+   * mesh: the message says which. Thrown on all ranks. */
+  class HistoryError : public std::runtime_error
   {
   public:
     using std::runtime_error::runtime_error;
@@ -180,6 +189,32 @@ namespace abut
      * detect() on it is what pressure(), status() and pair_results() tell,
      * until there is a solve. */
     virtual void set_pressure(const la::Vector &pressure);
+
+    /** Accept the step that has been solved: its pressures, states and the
+     * penalty reached are what rollback() returns to and save() writes. To be
+     * called once per load or time step, at its @p displacement. */
+    virtual void commit(const la::Vector &displacement);
+
+    /** Give up the step since commit(), as if it had never been tried: the next
+     * detect(), which must follow, begins with what was committed, or with
+     * pressure 0 if nothing was. Of another mesh than that of commit(), what
+     * set_pressure() brought counts as committed. Preconditioners may be those
+     * of the step given up: with iterative solvers the same answer within
+     * their tolerance. */
+    virtual void rollback();
+
+    /** Write what was committed to @p stream of rank 0, binary; streams of
+     * other ranks are not touched. Preconditioners are made anew after it, so
+     * that this run goes on as one does that calls load(). Throws
+     * HistoryError. */
+    virtual void save(std::ostream &stream);
+
+    /** Begin with what save() wrote, read from @p stream of rank 0: it counts
+     * as committed. Call after reinit() and before detect(), with the same mesh
+     * and pairs; of pairs the number of ranks may be another, rows on single
+     * unknowns of an obstacle need the same numbers of unknowns. Throws
+     * HistoryError, and nothing changes, for anything else. */
+    virtual void load(std::istream &stream);
 
     /** Add the couplings that add() needs: those of all rows, in contact or
      * not. Rows on single unknowns, as those of a membrane's obstacle, need

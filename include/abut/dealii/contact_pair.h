@@ -82,6 +82,9 @@ namespace abut
                                       normal that points the same way */
     double facet_size = 0.;      /**< median of the secondary surface, length */
     double size_ratio = 0.;      /**< median facet size, secondary by primary */
+    bool history_by_place = false; /**< points of this pair have no number that
+                                        lasts: pressures are taken over from
+                                        the nearest old point of the facet */
     std::vector<std::string> warnings; /**< in words, with what to do */
   };
 

@@ -302,29 +302,38 @@ write_point(abut_points *p, const abut_point *point)
   p->n_components = first + n;
 }
 
+/* Append a point of this version. */
+static abut_status
+append(abut_points *p, const abut_point *point)
+{
+  const char *fault = fault_of(p, point);
+  if (fault == NULL && !is_finite(p, point))
+    return reject(p, ABUT_NOT_FINITE, point->id, ": a number is not finite");
+  if (fault != NULL)
+    return reject(p, ABUT_INVALID_ARGUMENT, point->id, fault);
+  const int64_t n = (int64_t)p->n_components + point->n_components;
+  abut_status status = make_room(p, (int64_t)p->n_points + 1, n,
+                                 n_entries_of(p) + point->n_nodes);
+  if (status == ABUT_SUCCESS && point->n_components > 1 && !p->is_split)
+    status = split(p, n);
+  if (status == ABUT_SUCCESS)
+    write_point(p, point);
+  return status;
+}
+
 abut_status
 abut_points_append(abut_points *points, const abut_point *point)
 {
+  static const char call[] = "abut_points_append";
   if (points == NULL)
     return ABUT_INVALID_ARGUMENT;
-  if (point == NULL || point->struct_size != sizeof(*point))
-    return abut_fail(points->context, ABUT_INVALID_ARGUMENT,
-                     "abut_points_append",
-                     "the point is NULL or of another version");
-  const char *fault = fault_of(points, point);
-  if (fault == NULL && !is_finite(points, point))
-    return reject(points, ABUT_NOT_FINITE, point->id,
-                  ": a number is not finite");
-  if (fault != NULL)
-    return reject(points, ABUT_INVALID_ARGUMENT, point->id, fault);
-  const int64_t n = (int64_t)points->n_components + point->n_components;
-  abut_status status = make_room(points, (int64_t)points->n_points + 1, n,
-                                 n_entries_of(points) + point->n_nodes);
-  if (status == ABUT_SUCCESS && point->n_components > 1 && !points->is_split)
-    status = split(points, n);
-  if (status == ABUT_SUCCESS)
-    write_point(points, point);
-  return status;
+  if (point == NULL)
+    return abut_fail(points->context, ABUT_INVALID_ARGUMENT, call,
+                     "point is NULL");
+  abut_point taken = abut_point_defaults();
+  const abut_status status =
+      abut_take(points->context, call, &taken, sizeof(taken), point);
+  return status == ABUT_SUCCESS ? append(points, &taken) : status;
 }
 
 abut_status
@@ -350,7 +359,7 @@ abut_points_append_scalar(abut_points *points, int64_t id, double weight,
                             n_nodes,
                             node,
                             coefficient};
-  return abut_points_append(points, &point);
+  return append(points, &point);
 }
 
 /* Point i as one to be appended. */
@@ -374,6 +383,26 @@ point_of(const abut_points *p, int32_t i)
   return point;
 }
 
+/* Move the components that are kept to the front. */
+static void
+keep_components(abut_points *p, const uint8_t *keep, abut_point *point)
+{
+  const size_t dim = (size_t)p->dimension;
+  const int64_t first = point->gap - (const double *)p->gap.data;
+  double *gap = (double *)p->gap.data + first,
+         *frame = (double *)p->frame.data + (size_t)first * dim;
+  int32_t n = 0;
+  for (int32_t a = 0; a < point->n_components; ++a)
+    if (keep[a])
+    {
+      gap[n] = gap[a];
+      memmove(frame + (size_t)n * dim, frame + (size_t)a * dim,
+              sizeof(double) * dim);
+      ++n;
+    }
+  point->n_components = n;
+}
+
 abut_status
 abut_points_filter(abut_points *points, const uint8_t *keep)
 {
@@ -385,11 +414,16 @@ abut_points_filter(abut_points *points, const uint8_t *keep)
   const int32_t n = points->n_points;
   points->n_points = points->n_components = 0;
   for (int32_t i = 0; i < n; ++i)
-    if (keep[i])
-    {
-      const abut_point point = point_of(points, i);
+  {
+    abut_point point = point_of(points, i);
+    const uint8_t *kept = keep + ((const int32_t *)points->component.data)[i];
+    if (point.kind == ABUT_POINT_TIE)
+      keep_components(points, kept, &point);
+    else if (!kept[0])
+      point.n_components = 0;
+    if (point.n_components > 0)
       write_point(points, &point);
-    }
+  }
   return ABUT_SUCCESS;
 }
 

@@ -57,20 +57,13 @@ list_arrays(abut_coupling *c, array_size *list)
                             {&c->seen[0], sizeof(uint8_t)},
                             {&c->seen[1], sizeof(uint8_t)},
                             {&c->touched, sizeof(int32_t)},
-                            {&c->row_node, sizeof(int32_t)},
-                            {&c->row_facet, sizeof(int32_t)},
-                            {&c->row_point, sizeof(int32_t)},
-                            {&c->row_weight, sizeof(double)},
-                            {&c->row_full, sizeof(double)},
-                            {&c->row_gap, sizeof(double)},
-                            {&c->row_normal, sizeof(double)},
-                            {&c->row_position, sizeof(double)},
-                            {&c->start[0], sizeof(int64_t)},
-                            {&c->start[1], sizeof(int64_t)},
-                            {&c->column[0], sizeof(int32_t)},
-                            {&c->column[1], sizeof(int32_t)},
-                            {&c->coefficient[0], sizeof(double)},
-                            {&c->coefficient[1], sizeof(double)}};
+                            {&c->point_node, sizeof(int32_t)},
+                            {&c->point_facet, sizeof(int32_t)},
+                            {&c->point_number, sizeof(int32_t)},
+                            {&c->point_full, sizeof(double)},
+                            {&c->point_position, sizeof(double)},
+                            {&c->stencil_node, sizeof(int32_t)},
+                            {&c->stencil_coefficient, sizeof(double)}};
   const int n = (int)(sizeof(all) / sizeof(all[0]));
   memcpy(list, all, sizeof(all));
   return n;
@@ -236,6 +229,7 @@ abut_coupling_create_any(abut_context *context, const char *call,
   if (c == NULL)
     return abut_fail(context, ABUT_OUT_OF_MEMORY, call, "no memory");
   array_size arrays[N_ARRAYS];
+  c->view.struct_size = sizeof(c->view);
   c->view.dimension = secondary->view.dimension;
   const int n = list_arrays(c, arrays);
   for (int i = 0; i < n; ++i)

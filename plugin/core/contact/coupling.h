@@ -13,7 +13,7 @@
  *                          the weighting functions psi
  *   coupling_shares.c      its shares in the rows of its nodes
  *
- * and coupling_rows.c adds the shares of each node up to a row. Node to
+ * and coupling_append.c adds the shares of each node up to a point. Node to
  * segment (coupling_nodal.c) takes its weights from the functions and its
  * entries from a detection. */
 
@@ -167,17 +167,19 @@ struct abut_coupling
   abut_array entries; /* abut_coupling_entry */
   int64_t n_shares, n_entries;
 
-  /* Adding up rows. */
+  /* Adding up. */
   abut_array share_start; /* int64_t, [n_nodes + 1] */
   abut_array share_list;  /* int64_t */
   abut_array sum[2];      /* double, [nodes of the side] */
   abut_array seen[2];     /* uint8_t, [nodes of the side] */
   abut_array touched;     /* int32_t */
 
-  /* Rows. */
-  abut_array row_node, row_facet, row_point; /* int32_t */
-  abut_array row_weight, row_full, row_gap, row_normal, row_position;
-  abut_array start[2], column[2], coefficient[2];
+  /* Of the points of this build. */
+  const abut_coupling_target *target;
+  abut_array point_node, point_facet, point_number; /* int32_t */
+  abut_array point_full, point_position;            /* double */
+  abut_array stencil_node;                          /* int32_t, of one point */
+  abut_array stencil_coefficient;                   /* double */
   abut_coupling_view view;
   abut_coupling_statistics statistics;
 };
@@ -306,8 +308,8 @@ bool abut_coupling_find_corners(abut_coupling *c);
 /* Drop weak nodes, and corners that are covered on both sides. */
 abut_status abut_coupling_drop(abut_coupling *c);
 
-/* Add the shares up to rows. */
-abut_status abut_coupling_make_rows(abut_coupling *c);
+/* Add the shares up to points. */
+abut_status abut_coupling_append(abut_coupling *c);
 
 /* Check and spread what is known of the nodes. */
 abut_status abut_coupling_read_nodes(abut_coupling *c);

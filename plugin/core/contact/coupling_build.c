@@ -2,6 +2,7 @@
 /* The course of a build: search, a pass that drops weak nodes of quadratic
  * surfaces and corners, the pass that makes the shares of all facets, and the
  * rows. */
+#include "constraint/points.h"
 #include "contact/discretisation.h"
 #include "geometry/vector.h"
 
@@ -121,7 +122,7 @@ build(abut_coupling *c, double motion)
     status = c->method->finish(c);
   if (status == ABUT_SUCCESS)
     status = add_full_area(c);
-  return status == ABUT_SUCCESS ? abut_coupling_make_rows(c) : status;
+  return status == ABUT_SUCCESS ? abut_coupling_append(c) : status;
 }
 
 /* On the axis of revolution or on its positive side. */
@@ -139,34 +140,58 @@ has_radii(const abut_surface *s)
   return least >= -1e-12 * largest;
 }
 
+static const char *
+fault_of_target(const abut_coupling *c, const abut_coupling_target *t)
+{
+  if (t->points == NULL)
+    return "there is no set of points";
+  if (abut_points_dimension(t->points) != c->view.dimension)
+    return "points and surfaces have different dimensions";
+  if (t->tie_axes >> c->view.dimension != 0)
+    return "an axis of a tie does not exist";
+  if (!(fabs(t->gap) <= ABUT_FACET_LIMIT))
+    return "the gap to be added is not finite";
+  return NULL;
+}
+
 abut_status
 abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
-                    double motion)
+                    double motion, const abut_coupling_target *target)
 {
   static const char call[] = "abut_coupling_build";
   if (coupling == NULL)
     return ABUT_INVALID_ARGUMENT;
   abut_coupling *c = coupling;
   abut_coupling_nodes chosen = abut_coupling_nodes_defaults();
+  abut_coupling_target place = abut_coupling_target_defaults(NULL);
   abut_status status =
       abut_take(c->context, call, &chosen, sizeof(chosen), nodes);
+  if (status == ABUT_SUCCESS)
+    status = abut_take(c->context, call, &place, sizeof(place), target);
   if (status != ABUT_SUCCESS)
     return status;
-  if (!(motion >= 0 && motion <= ABUT_FACET_LIMIT))
-    return abut_fail(c->context, ABUT_INVALID_ARGUMENT, call,
-                     "motion is negative or not finite");
-  if (c->options.axisymmetric && !has_radii(c->secondary))
-    return abut_fail(c->context, ABUT_INVALID_ARGUMENT, call,
-                     "axisymmetric: a node of the secondary surface has a "
-                     "negative radius x");
+  const char *fault = fault_of_target(c, &place);
+  if (fault == NULL && !(motion >= 0 && motion <= ABUT_FACET_LIMIT))
+    fault = "motion is negative or not finite";
+  if (fault == NULL && c->options.axisymmetric && !has_radii(c->secondary))
+    fault = "axisymmetric: a node of the secondary surface has a negative "
+            "radius x";
+  if (fault != NULL)
+    return abut_fail(c->context, ABUT_INVALID_ARGUMENT, call, fault);
   const abut_coupling_statistics none = {0};
   c->nodes = &chosen;
+  c->target = &place;
   c->statistics = none;
-  c->view.n_rows = 0;
+  c->view.first = abut_points_n(place.points);
+  c->view.n_points = 0;
   c->n_shares = c->n_entries = 0;
   status = build(c, motion);
   c->nodes = NULL;
+  c->target = NULL;
   if (status != ABUT_SUCCESS)
-    c->view.n_rows = 0;
+  {
+    abut_points_truncate(place.points, c->view.first);
+    c->view.n_points = 0;
+  }
   return status;
 }

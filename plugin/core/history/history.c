@@ -3,6 +3,8 @@
  * calls append, and what is looked up is found by bisection. */
 #include "history/history.h"
 
+#include "base/sized.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -215,31 +217,22 @@ merge(abut_entry_set *to, const abut_entry_set *old,
     append_old(to, old, i++);
 }
 
-abut_status
-abut_history_set(abut_history *history, const abut_history_entries *entries)
+/* Put checked entries into the trial version. */
+static abut_status
+insert(abut_history *history, const abut_history_entries *entries)
 {
-  if (history == NULL)
-    return ABUT_INVALID_ARGUMENT;
-  abut_context *context = history->context;
-  if (entries == NULL || entries->struct_size != sizeof(*entries)
-      || entries->n < 0
-      || (entries->n > 0 && (entries->id == NULL || entries->pressure == NULL)))
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_history_set",
-                     "entries, or id or pressure, is NULL, or a size is wrong");
-  abut_status status = abut_entries_check(context, "abut_history_set", entries);
-  if (status != ABUT_SUCCESS || entries->n == 0)
-    return status;
   abut_entry_set *trial = &history->trial;
   const int64_t n = trial->n + entries->n;
+  abut_status status = ABUT_SUCCESS;
   if (trial->n == 0 || ids(trial)[trial->n - 1] < entries->id[0])
   {
-    status = abut_entry_set_reserve(context, trial, n);
+    status = abut_entry_set_reserve(history->context, trial, n);
     for (int64_t i = 0; i < entries->n && status == ABUT_SUCCESS; ++i)
       append_given(trial, entries, i);
     return status;
   }
   history->spare.n = 0;
-  status = abut_entry_set_reserve(context, &history->spare, n);
+  status = abut_entry_set_reserve(history->context, &history->spare, n);
   if (status != ABUT_SUCCESS)
     return status;
   merge(&history->spare, trial, entries);
@@ -247,6 +240,28 @@ abut_history_set(abut_history *history, const abut_history_entries *entries)
   history->spare = *trial;
   *trial = merged;
   return ABUT_SUCCESS;
+}
+
+abut_status
+abut_history_set(abut_history *history, const abut_history_entries *entries)
+{
+  if (history == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_context *context = history->context;
+  abut_history_entries given = {.struct_size = sizeof(given)};
+  const char *fault = entries == NULL
+                          ? "entries is NULL"
+                          : abut_sized_read(&given, sizeof(given), entries);
+  if (fault == NULL
+      && (given.n < 0
+          || (given.n > 0 && (given.id == NULL || given.pressure == NULL))))
+    fault = "id or pressure is NULL, or n is negative";
+  if (fault != NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_history_set", fault);
+  const abut_status status =
+      abut_entries_check(context, "abut_history_set", &given);
+  return status == ABUT_SUCCESS && given.n > 0 ? insert(history, &given)
+                                               : status;
 }
 
 /* First entry whose number is not below id. */
@@ -273,6 +288,16 @@ version_of(const abut_history *history, abut_history_version version)
                                            : NULL;
 }
 
+/* The places for answers that a caller gave; what is wrong, or NULL. */
+static const char *
+take_past(const abut_history_past *past, abut_history_past *taken)
+{
+  memset(taken, 0, sizeof(*taken));
+  taken->struct_size = sizeof(*taken);
+  return past == NULL ? "past is NULL"
+                      : abut_sized_read(taken, sizeof(*taken), past);
+}
+
 /* Give out entry i of a set as the k-th answer; i < 0: none. */
 static void
 tell(const abut_entry_set *set, int64_t i, int64_t k,
@@ -293,15 +318,16 @@ abut_history_get(const abut_history *history, abut_history_version version,
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
   const abut_entry_set *set = version_of(history, version);
-  if (set == NULL || n < 0 || (n > 0 && id == NULL) || past == NULL
-      || past->struct_size != sizeof(*past))
+  abut_history_past taken;
+  if (set == NULL || n < 0 || (n > 0 && id == NULL)
+      || take_past(past, &taken) != NULL)
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
                      "abut_history_get",
                      "an argument is NULL, or a size or the version is wrong");
   for (int64_t k = 0; k < n; ++k)
   {
     const int64_t i = lower_bound(set, id[k]);
-    tell(set, i < set->n && ids(set)[i] == id[k] ? i : -1, k, past);
+    tell(set, i < set->n && ids(set)[i] == id[k] ? i : -1, k, &taken);
   }
   return ABUT_SUCCESS;
 }
@@ -323,9 +349,10 @@ abut_history_nearest(const abut_history *history, abut_history_version version,
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
   const abut_entry_set *set = version_of(history, version);
+  abut_history_past taken;
   if (set == NULL || n < 0
       || (n > 0 && (first_id == NULL || end_id == NULL || place == NULL))
-      || past == NULL || past->struct_size != sizeof(*past))
+      || take_past(past, &taken) != NULL)
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
                      "abut_history_nearest",
                      "an argument is NULL, or a size or the version is wrong");
@@ -343,64 +370,75 @@ abut_history_nearest(const abut_history *history, abut_history_version version,
         best = i;
       }
     }
-    tell(set, best, k, past);
+    tell(set, best, k, &taken);
   }
   return ABUT_SUCCESS;
 }
 
 abut_status
-abut_history_view(const abut_history *history, abut_history_version version,
-                  abut_history_entries *entries)
+abut_history_view_sized(const abut_history *history,
+                        abut_history_version version,
+                        abut_history_entries *entries)
 {
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
   const abut_entry_set *set = version_of(history, version);
-  if (set == NULL || entries == NULL
-      || entries->struct_size != sizeof(*entries))
+  if (set == NULL || entries == NULL)
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
                      "abut_history_view",
-                     "entries is NULL, or its size or the version is wrong");
-  entries->n = set->n;
-  entries->id = set->id.data;
-  entries->pressure = set->pressure.data;
-  entries->state = set->state.data;
-  entries->place = set->place.data;
-  return ABUT_SUCCESS;
+                     "entries is NULL, or the version is wrong");
+  const abut_history_entries view = {sizeof(view),    set->n,
+                                     set->id.data,    set->pressure.data,
+                                     set->state.data, set->place.data};
+  const char *fault = abut_sized_write(entries, sizeof(view), &view);
+  return fault == NULL ? ABUT_SUCCESS
+                       : abut_fail(history->context, ABUT_INVALID_ARGUMENT,
+                                   "abut_history_view", fault);
 }
 
 abut_status
-abut_history_set_problem(abut_history *history,
+abut_history_set_problem(abut_history *history, abut_history_version version,
                          const abut_history_problem *problem)
 {
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
-  if (problem == NULL || problem->struct_size != sizeof(*problem)
-      || memchr(problem->law, 0, sizeof(problem->law)) == NULL
-      || !isfinite(problem->first_penalty) || !isfinite(problem->penalty))
+  abut_history_problem taken = no_problem();
+  const char *fault =
+      version_of(history, version) == NULL ? "the version is wrong"
+      : problem == NULL                    ? "problem is NULL"
+                        : abut_sized_read(&taken, sizeof(taken), problem);
+  if (fault == NULL
+      && (memchr(taken.law, 0, sizeof(taken.law)) == NULL
+          || !isfinite(taken.first_penalty) || !isfinite(taken.penalty)))
+    fault = "the law has no end, or a penalty is not finite";
+  if (fault != NULL)
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
-                     "abut_history_set_problem",
-                     "problem is NULL or of another size, its law has no end, "
-                     "or a penalty is not finite");
-  history->trial.problem = *problem;
-  history->trial.problem.resumes = problem->resumes != 0;
+                     "abut_history_set_problem", fault);
+  abut_entry_set *set =
+      version == ABUT_HISTORY_COMMITTED ? &history->committed : &history->trial;
+  set->problem = taken;
+  set->problem.struct_size = sizeof(taken);
+  set->problem.resumes = taken.resumes != 0;
   return ABUT_SUCCESS;
 }
 
 abut_status
-abut_history_get_problem(const abut_history *history,
-                         abut_history_version version,
-                         abut_history_problem *problem)
+abut_history_get_problem_sized(const abut_history *history,
+                               abut_history_version version,
+                               abut_history_problem *problem)
 {
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
   const abut_entry_set *set = version_of(history, version);
-  if (set == NULL || problem == NULL
-      || problem->struct_size != sizeof(*problem))
+  if (set == NULL || problem == NULL)
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
                      "abut_history_get_problem",
-                     "problem is NULL, or its size or the version is wrong");
-  *problem = set->problem;
-  return ABUT_SUCCESS;
+                     "problem is NULL, or the version is wrong");
+  const char *fault =
+      abut_sized_write(problem, sizeof(set->problem), &set->problem);
+  return fault == NULL ? ABUT_SUCCESS
+                       : abut_fail(history->context, ABUT_INVALID_ARGUMENT,
+                                   "abut_history_get_problem", fault);
 }
 
 abut_status

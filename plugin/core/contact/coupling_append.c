@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* Add up the shares of each node to its row: O(shares + entries). Shares are
- * bucketed by node in the order of their making, which is that of the facets;
- * entries are summed in dense arrays and written in the order of the nodes'
- * numbers. */
+/* Add up the shares of each node to its point, written into the caller's set:
+ * O(shares + entries). Shares are bucketed by node in the order of their
+ * making, which is that of the facets; entries are summed in dense arrays and
+ * written in the order of the nodes' numbers. */
 #include "contact/discretisation.h"
 #include "geometry/vector.h"
 
 #include <string.h>
 
-/* Weight of a row relative to the full one below which there is none. */
+/* Weight of a point relative to the full one below which there is none. */
 static const double smallest_weight = 1e-6;
 
 /* Coefficients below this are round-off where matching meshes have zeros; they
@@ -78,29 +78,39 @@ sort_by_rank(int32_t *v, int32_t n, const int32_t *rank)
   }
 }
 
-/* Write the entries of a side, divided by their sum: the weight but for
- * round-off, which the cancellation of dual functions may magnify. */
+/* Number of a node of a side in the set of points. */
+static int32_t
+number_of(const abut_coupling *c, int side, int32_t node)
+{
+  const abut_coupling_target *t = c->target;
+  const int32_t *given = side == 0 ? t->secondary_node : t->primary_node;
+  return given != NULL ? given[node]
+         : side == 0   ? node
+                       : c->secondary->view.n_nodes + node;
+}
+
+/* Write the entries of a side behind the first *n of the stencil, divided by
+ * their sum: the weight but for round-off, which the cancellation of dual
+ * functions may magnify. Those of the primary are negative. */
 static abut_status
-gather(abut_coupling *c, int side, int32_t n_touched)
+gather(abut_coupling *c, int side, int32_t n_touched, int32_t *n)
 {
   double weight = 0.;
-  const int32_t row = c->view.n_rows;
-  int64_t *start = c->start[side].data;
   int32_t *touched = c->touched.data;
   uint8_t *seen = c->seen[side].data;
   const double *sum = c->sum[side].data;
-  abut_status status = abut_array_reserve(c->context, &c->column[side],
-                                          start[row], start[row] + n_touched);
+  const int32_t first = *n;
+  abut_status status = abut_array_reserve(c->context, &c->stencil_node, first,
+                                          (int64_t)first + n_touched);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(c->context, &c->coefficient[side], start[row],
-                                start[row] + n_touched);
+    status = abut_array_reserve(c->context, &c->stencil_coefficient, first,
+                                (int64_t)first + n_touched);
   if (status != ABUT_SUCCESS)
     return status;
   sort_by_rank(touched, n_touched,
                side == 0 ? c->node_rank.data : c->primary_node_rank.data);
-  int32_t *column = c->column[side].data;
-  double *coefficient = c->coefficient[side].data;
-  int64_t end = start[row];
+  int32_t *stencil = c->stencil_node.data;
+  double *coefficient = c->stencil_coefficient.data;
   for (int32_t i = 0; i < n_touched; ++i)
     weight += sum[touched[i]];
   const double least = smallest_coefficient * fabs(weight);
@@ -111,18 +121,18 @@ gather(abut_coupling *c, int side, int32_t n_touched)
     seen[node] = 0;
     if (!(fabs(sum[node]) > least))
       continue;
-    column[end] = node;
-    coefficient[end++] = sum[node];
+    stencil[*n] = number_of(c, side, node);
+    coefficient[(*n)++] = sum[node];
     weight += sum[node];
   }
-  for (int64_t e = start[row]; e < end; ++e)
-    coefficient[e] /= weight;
-  start[row + 1] = end;
+  for (int32_t e = first; e < *n; ++e)
+    coefficient[e] /= side == 0 ? weight : -weight;
   return ABUT_SUCCESS;
 }
 
 static abut_status
-add_entries(abut_coupling *c, int side, const int64_t *list, int64_t n)
+add_entries(abut_coupling *c, int side, const int64_t *list, int64_t n,
+            int32_t *n_stencil)
 {
   const abut_coupling_share *shares = c->shares.data;
   const abut_coupling_entry *entries = c->entries.data;
@@ -136,14 +146,14 @@ add_entries(abut_coupling *c, int side, const int64_t *list, int64_t n)
     if (status != ABUT_SUCCESS)
       return status;
   }
-  return gather(c, side, n_touched);
+  return gather(c, side, n_touched, n_stencil);
 }
 
 /* The averaged normal of the node; where it leans away from the mean normal of
  * the covered part by more than half the feature angle, and at nodes without
  * facets, and against obstacles, that mean. */
 static void
-row_normal(abut_coupling *c, const abut_coupling_share *total, double *n)
+normal_of(abut_coupling *c, const abut_coupling_share *total, double *n)
 {
   const int32_t dim = c->secondary->view.dimension;
   const double limit = cos(0.5 * c->secondary->feature_angle);
@@ -162,64 +172,108 @@ row_normal(abut_coupling *c, const abut_coupling_share *total, double *n)
     ++c->statistics.n_split;
 }
 
+/* Remember what the set does not hold. */
 static abut_status
-reserve_row(abut_coupling *c)
+note_point(abut_coupling *c, const abut_coupling_share *total, double full)
 {
-  const int64_t row = c->view.n_rows, dim = c->secondary->view.dimension;
+  const int64_t i = c->view.n_points, dim = c->secondary->view.dimension;
   struct
   {
     abut_array *array;
-    int64_t per_row, extra;
-  } const list[] = {{&c->row_node, 1, 0},     {&c->row_facet, 1, 0},
-                    {&c->row_point, 1, 0},    {&c->row_weight, 1, 0},
-                    {&c->row_full, 1, 0},     {&c->row_gap, 1, 0},
-                    {&c->row_normal, dim, 0}, {&c->row_position, dim, 0},
-                    {&c->start[0], 1, 1},     {&c->start[1], 1, 1}};
-  for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
+    int64_t each;
+  } const list[] = {{&c->point_node, 1},
+                    {&c->point_facet, 1},
+                    {&c->point_number, 1},
+                    {&c->point_full, 1},
+                    {&c->point_position, dim}};
+  for (size_t k = 0; k < sizeof(list) / sizeof(list[0]); ++k)
   {
     const abut_status status = abut_array_reserve(
-        c->context, list[i].array, row * list[i].per_row + list[i].extra,
-        (row + 1) * list[i].per_row + list[i].extra);
+        c->context, list[k].array, i * list[k].each, (i + 1) * list[k].each);
     if (status != ABUT_SUCCESS)
       return status;
   }
+  const double *position = total->node >= 0
+                               ? c->secondary->view.position + dim * total->node
+                               : total->position;
+  ((int32_t *)c->point_node.data)[i] = total->node;
+  ((int32_t *)c->point_facet.data)[i] =
+      abut_coupling_is_mortar(c) ? -1 : total->facet;
+  ((int32_t *)c->point_number.data)[i] = total->point;
+  ((double *)c->point_full.data)[i] = full;
+  memcpy((double *)c->point_position.data + i * dim, position,
+         sizeof(double) * (size_t)dim);
   return ABUT_SUCCESS;
 }
 
-/* Write the row of the shares list[n] with sum total. */
-static abut_status
-add_row(abut_coupling *c, const int64_t *list, int64_t n,
-        const abut_coupling_share *total, double full)
+static int64_t
+id_of(const abut_coupling *c, const abut_coupling_share *total)
 {
-  const int32_t row = c->view.n_rows, dim = c->secondary->view.dimension;
+  const int64_t *id = c->target->id;
+  if (total->node >= 0)
+    return id != NULL ? id[total->node] : total->node;
+  const int64_t first =
+      id != NULL ? id[total->facet]
+                 : (int64_t)total->facet * ABUT_COUPLING_POINTS_PER_FACET;
+  return first + total->point;
+}
+
+/* Frame and gaps of a point: the normal, or the axes of a tie. */
+static int32_t
+fill_components(abut_coupling *c, const abut_coupling_share *total,
+                double *frame, double *gap)
+{
+  const abut_coupling_target *t = c->target;
+  const int32_t dim = c->secondary->view.dimension;
   double normal[3];
-  abut_status status = reserve_row(c);
+  normal_of(c, total, normal);
+  if (t->tie_axes == 0)
+  {
+    const double distance =
+        c->obstacle != NULL ? total->distance : dot3(normal, total->gap);
+    memcpy(frame, normal, sizeof(double) * (size_t)dim);
+    gap[0] = t->gap + (t->flush ? 0. : distance / total->weight);
+    return 1;
+  }
+  int32_t n = 0;
+  for (int32_t axis = 0; axis < dim; ++axis)
+    if (t->tie_axes >> axis & 1u)
+    {
+      for (int32_t d = 0; d < dim; ++d)
+        frame[n * dim + d] = d == axis;
+      gap[n++] = 0.;
+    }
+  return n;
+}
+
+/* Append the point of the shares list[n] with sum total. */
+static abut_status
+add_point(abut_coupling *c, const int64_t *list, int64_t n,
+          const abut_coupling_share *total, double full)
+{
+  double frame[9], gap[3];
+  abut_status status = note_point(c, total, full);
   if (status != ABUT_SUCCESS)
     return status;
-  row_normal(c, total, normal);
-  const double *position = total->node >= 0 ? c->secondary->view.position
-                                                  + (int64_t)dim * total->node
-                                            : total->position;
-  const double gap =
-      c->obstacle != NULL ? total->distance : dot3(normal, total->gap);
-  ((int32_t *)c->row_node.data)[row] = total->node;
-  ((int32_t *)c->row_facet.data)[row] =
-      abut_coupling_is_mortar(c) ? -1 : total->facet;
-  ((int32_t *)c->row_point.data)[row] = total->point;
-  ((double *)c->row_weight.data)[row] = total->weight;
-  ((double *)c->row_full.data)[row] = full;
-  ((double *)c->row_gap.data)[row] = gap / total->weight;
-  for (int32_t d = 0; d < dim; ++d)
-  {
-    ((double *)c->row_normal.data)[row * (int64_t)dim + d] = normal[d];
-    ((double *)c->row_position.data)[row * (int64_t)dim + d] = position[d];
-  }
-  for (int side = 0; side < 2 && status == ABUT_SUCCESS; ++side)
-    status = add_entries(c, side, list, n);
+  abut_point point = abut_point_defaults();
+  point.id = id_of(c, total);
+  point.kind = c->target->tie_axes == 0 ? ABUT_POINT_CONTACT : ABUT_POINT_TIE;
+  point.n_components = fill_components(c, total, frame, gap);
+  point.weight = total->weight;
+  point.frame = frame;
+  point.gap = gap;
+  status = add_entries(c, 0, list, n, &point.n_nodes);
+  point.n_secondary = point.n_nodes;
+  if (status == ABUT_SUCCESS)
+    status = add_entries(c, 1, list, n, &point.n_nodes);
+  point.node = c->stencil_node.data;
+  point.coefficient = c->stencil_coefficient.data;
+  if (status == ABUT_SUCCESS)
+    status = abut_points_append(c->target->points, &point);
   if (status != ABUT_SUCCESS)
     return status;
   c->statistics.covered_area += total->weight;
-  ++c->view.n_rows;
+  ++c->view.n_points;
   return ABUT_SUCCESS;
 }
 
@@ -242,9 +296,9 @@ add_up(const abut_coupling *c, const int64_t *list, int64_t n,
   }
 }
 
-/* Rows of nodes, in the order of their numbers. */
+/* Points of nodes, in the order of their numbers. */
 static abut_status
-node_rows(abut_coupling *c)
+node_points(abut_coupling *c)
 {
   const int64_t *start = c->share_start.data, *list = c->share_list.data;
   const int32_t *order = c->node_order.data;
@@ -265,23 +319,24 @@ node_rows(abut_coupling *c)
     if (c->obstacle != NULL && total.distance > reach[node] * total.weight)
       continue;
     const abut_status status =
-        add_row(c, list + start[node], n, &total, full[node]);
+        add_point(c, list + start[node], n, &total, full[node]);
     if (status != ABUT_SUCCESS)
       return status;
   }
   return ABUT_SUCCESS;
 }
 
-/* Rows of quadrature points: a share each. */
+/* Quadrature points: a share each. */
 static abut_status
-point_rows(abut_coupling *c)
+quadrature_points(abut_coupling *c)
 {
   const abut_coupling_share *shares = c->shares.data;
   for (int64_t i = 0; i < c->n_shares; ++i)
   {
     if (!(shares[i].weight > 0.))
       continue;
-    const abut_status status = add_row(c, &i, 1, shares + i, shares[i].weight);
+    const abut_status status =
+        add_point(c, &i, 1, shares + i, shares[i].weight);
     if (status != ABUT_SUCCESS)
       return status;
   }
@@ -299,44 +354,32 @@ reserve_sums(abut_coupling *c)
         abut_array_reserve(c->context, &c->sum[side], 0, n + 1);
     if (status == ABUT_SUCCESS)
       status = abut_array_reserve(c->context, &c->seen[side], 0, n + 1);
-    if (status == ABUT_SUCCESS)
-      status = abut_array_reserve(c->context, &c->start[side], 0, 1);
     if (status != ABUT_SUCCESS)
       return status;
     memset(c->seen[side].data, 0, (size_t)n);
-    *(int64_t *)c->start[side].data = 0;
   }
   return ABUT_SUCCESS;
 }
 
 abut_status
-abut_coupling_make_rows(abut_coupling *c)
+abut_coupling_append(abut_coupling *c)
 {
   abut_status status = reserve_sums(c);
   if (status == ABUT_SUCCESS && c->method->info.row_per_point)
-    status = point_rows(c);
+    status = quadrature_points(c);
   else if (status == ABUT_SUCCESS)
   {
     status = bucket(c);
     if (status == ABUT_SUCCESS)
-      status = node_rows(c);
+      status = node_points(c);
   }
   if (status != ABUT_SUCCESS)
     return status;
   abut_coupling_view *v = &c->view;
-  v->node = c->row_node.data;
-  v->facet = c->row_facet.data;
-  v->point = c->row_point.data;
-  v->weight = c->row_weight.data;
-  v->full_weight = c->row_full.data;
-  v->gap = c->row_gap.data;
-  v->normal = c->row_normal.data;
-  v->position = c->row_position.data;
-  v->secondary_start = c->start[0].data;
-  v->secondary_node = c->column[0].data;
-  v->secondary_coefficient = c->coefficient[0].data;
-  v->primary_start = c->start[1].data;
-  v->primary_node = c->column[1].data;
-  v->primary_coefficient = c->coefficient[1].data;
+  v->node = c->point_node.data;
+  v->facet = c->point_facet.data;
+  v->point = c->point_number.data;
+  v->full_weight = c->point_full.data;
+  v->position = c->point_position.data;
   return ABUT_SUCCESS;
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_SOLVE_ROW_OPERATOR_H
-#define ABUT_SOLVE_ROW_OPERATOR_H
+#ifndef ABUT_SOLVE_POINT_OPERATOR_H
+#define ABUT_SOLVE_POINT_OPERATOR_H
+
+#include "node_map.h"
 
 #include <abut/dealii/linear_algebra.h>
-#include <abut/rows.h>
+#include <abut/points.h>
 
 #include <deal.II/base/partitioner.h>
 
@@ -12,27 +14,31 @@
 
 namespace abut::solve
 {
-  /** The constraint rows of all ranks as an operator B = dg/du. A row is
-   * stored on one rank; its columns may be unknowns of any rank, which are
-   * imported and exported point to point.
+  /** The contact points of all ranks as an operator B = dg/du over free
+   * unknowns, with a row for each component of a point: made once from the
+   * points and the map of their nodes, which are not needed any more for
+   * anything but numbers and weights. A row is stored on one rank; its columns
+   * may be unknowns of any rank, which are imported and exported point to
+   * point.
    *
    * Columns are numbered locally: first the owned unknowns in their order,
    * then the ghosts, those columns that other ranks own. */
-  class RowOperator
+  class PointOperator
   {
   public:
-    /** No rows. */
-    RowOperator() = default;
+    /** No points. */
+    PointOperator() = default;
 
-    /** Take the rows of this rank, whose arrays must outlive this object.
-     * @p owned must be a contiguous range. Collective. */
-    RowOperator(const dealii::IndexSet &owned, const abut_rows_view &rows,
-                MPI_Comm communicator);
+    /** Take the points of this rank, whose arrays must outlive this object,
+     * with what @p nodes makes of their nodes. @p owned must be a contiguous
+     * range. Collective. */
+    PointOperator(const dealii::IndexSet &owned, const abut_points_view &points,
+                  const NodeMap &nodes, MPI_Comm communicator);
 
     /** Rows on this rank. */
     int n_rows() const
     {
-      return rows_.n_rows;
+      return points_.n_components;
     }
 
     /** Owned unknowns. */
@@ -50,13 +56,13 @@ namespace abut::solve
     /** First entry of @p row; end(row) is past its last one. */
     std::int64_t begin(const int row) const
     {
-      return rows_.row_start[row];
+      return start_[row];
     }
 
     /** See begin(). */
     std::int64_t end(const int row) const
     {
-      return rows_.row_start[row + 1];
+      return start_[row + 1];
     }
 
     /** Local column of an entry. */
@@ -68,25 +74,45 @@ namespace abut::solve
     /** Value of an entry. */
     double coefficient(const std::int64_t entry) const
     {
-      return rows_.coefficient[entry];
+      return coefficient_[entry];
     }
+
+    /** Replace @p columns by the unknowns of a row, ascending. */
+    void
+    get_columns(int row,
+                std::vector<dealii::types::global_dof_index> &columns) const;
+
+    /** [rows] nonzero: the row has a column. */
+    std::vector<std::uint8_t> rows_with_columns() const;
 
     /** [rows] global numbers. */
     const std::int64_t *ids() const
     {
-      return rows_.id;
+      return points_.component_id;
     }
 
     /** [rows] weights. */
     const double *weights() const
     {
-      return rows_.weight;
+      return points_.component_weight;
     }
 
     /** Weight of a row. */
     double weight(const int row) const
     {
-      return rows_.weight[row];
+      return points_.component_weight[row];
+    }
+
+    /** [rows] nonzero: an equality. */
+    const std::uint8_t *bilateral() const
+    {
+      return points_.bilateral;
+    }
+
+    /** [rows] gap at displacement 0, prescribed values put in. */
+    const std::vector<double> &initial_gap() const
+    {
+      return initial_gap_;
     }
 
     /** Global number of a local column. */
@@ -140,9 +166,14 @@ namespace abut::solve
     void add_entries(const double *factor, const Function &function,
                      la::Vector &vector) const;
 
-    abut_rows_view rows_ = {};
+    std::vector<dealii::types::global_dof_index> expand(const NodeMap &nodes);
+
+    abut_points_view points_ = {};
     int n_owned_ = 0;
+    std::vector<std::int64_t> start_ = {0}; ///< [rows + 1]
     std::vector<int> column_;
+    std::vector<double> coefficient_;
+    std::vector<double> initial_gap_;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner_ =
         std::make_shared<dealii::Utilities::MPI::Partitioner>();
     mutable std::vector<double> values_; ///< [n_columns]

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a solve starts from, and what it leaves behind.
+//
+//   detect()     the rows' values so far become the trial version of the
+//                history; rows of the next solve look theirs up by number
+//   restart()    the same rows go on from what they have
+//   reinit()     entries stay where they are, though points may go to other
+//                ranks; they are used again if set_pressure() says so
+//   set_pairs()  of other surfaces: numbers are others, the field of pressures
+//                is what remains
+//   commit()     the trial version is kept; rollback() brings it back
+#include "contact_implementation.h"
+
+namespace abut
+{
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::record_present()
+  {
+    if (!is_started)
+      return;
+    // A strategy whose law fails is not started any more: 0 then.
+    abut_progress progress = {};
+    abut_strategy_progress(strategy.get(), &progress);
+    penalty.reached = progress.penalty;
+    history.record(rows_mesh, row_numbers(), placed_rows, row_pressures(),
+                   row_states(), penalty);
+  }
+
+  template <int dim>
+  std::vector<std::int64_t>
+  ContactAssembler<dim>::Implementation::row_numbers() const
+  {
+    return {coefficients.ids(), coefficients.ids() + coefficients.n_rows()};
+  }
+
+  template <int dim> void ContactAssembler<dim>::Implementation::limit_start()
+  {
+    for (int i = 0; i < coefficients.n_rows(); ++i)
+      if (coefficients.bilateral()[i] == 0)
+        start_pressure[i] = std::max(0., start_pressure[i]);
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::start_from_history()
+  {
+    start_pressure = history.pressures(row_numbers(), placed_rows);
+    resumed = history.penalty_to_resume();
+    limit_start();
+  }
+
+  template <int dim> void ContactAssembler<dim>::Implementation::keep_field()
+  {
+    if (source != nullptr && rows_mesh != 0 && !is_forgotten)
+      kept_field = source->pressure(row_pressures().data());
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::start_from_field(
+      const la::Vector &given)
+  {
+    start_pressure = source->row_pressure(given);
+    limit_start();
+    if (history.knows(ABUT_HISTORY_TRIAL, rows_mesh))
+    {
+      // The field that the rows' own values make says that the host means them.
+      constexpr double same_field = 1e-8;
+      const std::vector<double> own =
+          history.pressures(row_numbers(), placed_rows);
+      const la::Vector field = source->pressure(own.data());
+      la::Vector difference(field);
+      difference = given;
+      difference -= field;
+      if (difference.linfty_norm() <= same_field * field.linfty_norm())
+      {
+        start_from_history();
+        return;
+      }
+    }
+    history.record(rows_mesh, row_numbers(), placed_rows, start_pressure,
+                   row_states(), shim::ContactHistory::Penalty());
+    // Of another mesh, nothing can be brought back but this.
+    if (!history.knows(ABUT_HISTORY_COMMITTED, rows_mesh))
+      history.commit();
+  }
+
+  template <int dim> void ContactAssembler<dim>::Implementation::find_start()
+  {
+    start_pressure.clear();
+    resumed = shim::ContactHistory::Penalty();
+    if (given_field.size() > 0)
+      start_from_field(given_field);
+    else if (is_forgotten)
+      history.forget_trial();
+    else if (history.knows(ABUT_HISTORY_TRIAL, rows_mesh))
+      start_from_history();
+    else if (kept_field.size() > 0)
+      start_from_field(kept_field);
+    kept_field = la::Vector();
+    is_forgotten = false;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::go_on_with_penalty(
+      abut_strategy_options &options)
+  {
+    penalty = {
+        std::string(options.law->name).substr(0, ABUT_HISTORY_LAW_BYTES - 1),
+        abut_strategy_first_penalty(&options), 0.};
+    if (resumed.reached > 0. && resumed.law == penalty.law
+        && resumed.first == penalty.first)
+      options.penalty = resumed.reached;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::start_from_present()
+  {
+    start_pressure = row_pressures();
+    limit_start();
+    is_restarted = true;
+    start_state.clear();
+    if (!abut_law_is_interior(method.options.law))
+      start_state.assign(request.state, request.state + coefficients.n_rows());
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::abandon_iteration()
+  {
+    is_started = is_restarted = was_added = false;
+    given_field = la::Vector();
+    start_state.clear();
+    iteration_tolerance = 0.;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::return_to_history()
+  {
+    abandon_iteration();
+    is_forgotten = false;
+    start_pressure.clear();
+    if (history.knows(ABUT_HISTORY_TRIAL, rows_mesh))
+      start_from_history();
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::commit(const la::Vector &displacement)
+  {
+    Implementation &i = *implementation;
+    AssertThrow(i.dof_handler != nullptr,
+                dealii::ExcMessage("Call reinit() before commit()."));
+    AssertThrow(displacement.size() == i.dof_handler->n_dofs(),
+                dealii::ExcMessage("The displacement given to commit() has "
+                                   "another size than the unknowns."));
+    i.record_present();
+    i.history.commit();
+  }
+
+  template <int dim> void ContactAssembler<dim>::rollback()
+  {
+    implementation->history.rollback();
+    implementation->return_to_history();
+  }
+
+  template <int dim> void ContactAssembler<dim>::save(std::ostream &stream)
+  {
+    Implementation &i = *implementation;
+    i.history.save(stream);
+    // Who loads has no preconditioner: then neither should this run.
+    i.solver.reset();
+  }
+
+  template <int dim> void ContactAssembler<dim>::load(std::istream &stream)
+  {
+    Implementation &i = *implementation;
+    AssertThrow(i.dof_handler != nullptr,
+                dealii::ExcMessage("Call reinit() before load()."));
+    if (i.source_is_outdated)
+      i.create_source();
+    i.history.load(stream, i.source->mesh_signature());
+    i.return_to_history();
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template void ContactAssembler<dim>::Implementation::record_present();       \
+  template void ContactAssembler<dim>::Implementation::find_start();           \
+  template void ContactAssembler<dim>::Implementation::keep_field();           \
+  template void ContactAssembler<dim>::Implementation::go_on_with_penalty(     \
+      abut_strategy_options &);                                                \
+  template void ContactAssembler<dim>::Implementation::start_from_present();   \
+  template void ContactAssembler<dim>::Implementation::abandon_iteration();    \
+  template void ContactAssembler<dim>::commit(const la::Vector &);             \
+  template void ContactAssembler<dim>::rollback();                             \
+  template void ContactAssembler<dim>::save(std::ostream &);                   \
+  template void ContactAssembler<dim>::load(std::istream &);
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut

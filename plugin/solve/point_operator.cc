@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "point_operator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::solve
+{
+  using dealii::make_array_view;
+  using dealii::types::global_dof_index;
+
+  namespace
+  {
+    /** A row of B in the making: entries in the order in which they come, and
+     * those of one unknown added up in that order. */
+    class Line
+    {
+    public:
+      void clear()
+      {
+        terms_.clear();
+      }
+
+      void add(const global_dof_index unknown, const double value)
+      {
+        terms_.push_back({unknown, value});
+      }
+
+      /** Append the sums, sorted by unknown, but for those that are round-off
+       * of what cancels. */
+      void write(std::vector<global_dof_index> &column,
+                 std::vector<double> &coefficient)
+      {
+        constexpr double round_off = 1e-14;
+        double largest = 0.;
+        for (const auto &[unknown, value] : terms_)
+          largest = std::max(largest, std::abs(value));
+        std::stable_sort(terms_.begin(), terms_.end(),
+                         [](const auto &a, const auto &b)
+                         { return a.first < b.first; });
+        for (std::size_t first = 0, end; first < terms_.size(); first = end)
+        {
+          double sum = 0.;
+          for (end = first;
+               end < terms_.size() && terms_[end].first == terms_[first].first;
+               ++end)
+            sum += terms_[end].second;
+          if (std::abs(sum) <= round_off * largest)
+            continue;
+          column.push_back(terms_[first].first);
+          coefficient.push_back(sum);
+        }
+      }
+
+    private:
+      std::vector<std::pair<global_dof_index, double>> terms_;
+    };
+  } // namespace
+
+  std::vector<global_dof_index> PointOperator::expand(const NodeMap &nodes)
+  {
+    const int dim = points_.dimension;
+    std::vector<global_dof_index> columns;
+    Line line;
+    start_.reserve(n_rows() + std::size_t(1));
+    initial_gap_.reserve(n_rows());
+    if (dim == 1 && n_rows() > 0)
+    {
+      columns.reserve(points_.start[points_.n_points]);
+      coefficient_.reserve(points_.start[points_.n_points]);
+    }
+    for (int i = 0; i < points_.n_points; ++i)
+      for (int row = points_.component_start[i];
+           row < points_.component_start[i + 1]; ++row)
+      {
+        const double sign =
+            abut_point_sign(points_.kind[i], row - points_.component_start[i]);
+        double gap = points_.gap[row];
+        line.clear();
+        for (auto e = points_.start[i]; e < points_.start[i + 1]; ++e)
+          for (int d = 0; d < dim; ++d)
+          {
+            const double factor = sign
+                                  * points_.frame[row * std::size_t(dim) + d]
+                                  * points_.coefficient[e];
+            if (factor == 0.)
+              continue;
+            const auto node = static_cast<std::size_t>(points_.node[e]);
+            gap += factor * nodes.constant(node, d);
+            nodes.for_each_term(
+                node, d,
+                [&](const global_dof_index unknown, const double term)
+                { line.add(unknown, factor * term); });
+          }
+        line.write(columns, coefficient_);
+        initial_gap_.push_back(gap);
+        start_.push_back(static_cast<std::int64_t>(columns.size()));
+      }
+    return columns;
+  }
+
+  PointOperator::PointOperator(const dealii::IndexSet &owned,
+                               const abut_points_view &points,
+                               const NodeMap &nodes,
+                               const MPI_Comm communicator)
+      : points_(points), n_owned_(static_cast<int>(owned.n_elements()))
+  {
+    const std::vector<global_dof_index> columns = expand(nodes);
+    std::vector<global_dof_index> others;
+    for (const global_dof_index column : columns)
+      if (!owned.is_element(column))
+        others.push_back(column);
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    dealii::IndexSet ghosts(owned.size());
+    ghosts.add_indices(others.begin(), others.end());
+    partitioner_ = std::make_shared<dealii::Utilities::MPI::Partitioner>(
+        owned, ghosts, communicator);
+
+    column_.reserve(columns.size());
+    for (const global_dof_index column : columns)
+      column_.push_back(
+          static_cast<int>(partitioner_->global_to_local(column)));
+    values_.resize(n_columns());
+    buffer_.resize(partitioner_->n_import_indices());
+  }
+
+  global_dof_index PointOperator::global_column(const int column) const
+  {
+    return partitioner_->local_to_global(static_cast<unsigned int>(column));
+  }
+
+  void PointOperator::get_columns(const int row,
+                                  std::vector<global_dof_index> &columns) const
+  {
+    columns.clear();
+    for (auto e = begin(row); e < end(row); ++e)
+      columns.push_back(global_column(column_[e]));
+  }
+
+  std::vector<std::uint8_t> PointOperator::rows_with_columns() const
+  {
+    std::vector<std::uint8_t> result(n_rows());
+    for (int i = 0; i < n_rows(); ++i)
+      result[i] = end(i) > begin(i);
+    return result;
+  }
+
+  const double *PointOperator::import(const la::Vector &vector) const
+  {
+    std::copy_n(la::data(vector), n_owned_, values_.data());
+    const std::size_t n_ghosts = values_.size() - n_owned_;
+    const dealii::ArrayView<double> ghosts(values_.data() + n_owned_, n_ghosts);
+    std::vector<MPI_Request> requests;
+    partitioner_->export_to_ghosted_array_start(
+        0, dealii::ArrayView<const double>(values_.data(), n_owned_),
+        make_array_view(buffer_), ghosts, requests);
+    partitioner_->export_to_ghosted_array_finish(ghosts, requests);
+    return values_.data();
+  }
+
+  void PointOperator::times(const la::Vector &u, double *const result) const
+  {
+    const double *const values = import(u);
+    for (int i = 0; i < n_rows(); ++i)
+    {
+      double sum = 0.;
+      for (std::int64_t e = begin(i); e < end(i); ++e)
+        sum += coefficient_[e] * values[column_[e]];
+      result[i] = sum;
+    }
+  }
+
+  void PointOperator::gap(const la::Vector &u, double *const result) const
+  {
+    times(u, result);
+    for (int i = 0; i < n_rows(); ++i)
+      result[i] += initial_gap_[i];
+  }
+
+  template <typename Function>
+  void PointOperator::add_entries(const double *const factor,
+                                  const Function &function,
+                                  la::Vector &vector) const
+  {
+    double *const out = la::data(vector);
+    std::fill(values_.begin() + n_owned_, values_.end(), 0.);
+    for (int i = 0; i < n_rows(); ++i)
+    {
+      if (factor[i] == 0.)
+        continue;
+      for (std::int64_t e = begin(i); e < end(i); ++e)
+      {
+        const double value = factor[i] * function(coefficient_[e]);
+        const int j = column_[e];
+        (j < n_owned_ ? out[j] : values_[j]) += value;
+      }
+    }
+    const std::size_t n_ghosts = values_.size() - n_owned_;
+    const dealii::ArrayView<double> ghosts(values_.data() + n_owned_, n_ghosts);
+    std::vector<MPI_Request> requests;
+    partitioner_->import_from_ghosted_array_start(
+        dealii::VectorOperation::add, 0, ghosts, make_array_view(buffer_),
+        requests);
+    partitioner_->import_from_ghosted_array_finish(
+        dealii::VectorOperation::add,
+        dealii::ArrayView<const double>(buffer_.data(), buffer_.size()),
+        dealii::ArrayView<double>(out, n_owned_), ghosts, requests);
+  }
+
+  void PointOperator::add_transposed(const double *const factor,
+                                     la::Vector &force) const
+  {
+    add_entries(
+        factor, [](const double b) { return b; }, force);
+  }
+
+  void PointOperator::add_squares(const double *const factor,
+                                  la::Vector &d) const
+  {
+    add_entries(
+        factor, [](const double b) { return b * b; }, d);
+  }
+
+  void PointOperator::add_counts(const std::uint8_t *const wanted,
+                                 la::Vector &d) const
+  {
+    const std::vector<double> factor(wanted, wanted + n_rows());
+    add_entries(
+        factor.data(), [](const double b) { return b == 0. ? 0. : 1.; }, d);
+  }
+
+  std::vector<double> PointOperator::squares(const la::Vector &d) const
+  {
+    const double *const values = import(d);
+    std::vector<double> result(n_rows(), 0.);
+    for (int i = 0; i < n_rows(); ++i)
+      for (std::int64_t e = begin(i); e < end(i); ++e)
+        result[i] += coefficient_[e] * coefficient_[e] * values[column_[e]];
+    return result;
+  }
+} // namespace abut::solve
