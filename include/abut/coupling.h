@@ -252,9 +252,11 @@ extern "C"
   {
     size_t struct_size;  /**< sizeof(abut_coupling_target) */
     abut_points *points; /**< appended to; as many dimensions as the surfaces */
-    /** Numbers that nodes have in the set, >= 0: [n_nodes] of each side. NULL:
-     * those of the secondary are its own, those of the primary follow them. */
-    const int32_t *secondary_node, *primary_node;
+    /** [n_nodes] numbers >= 0 that nodes of the secondary have in the set;
+     * NULL: their own. */
+    const int32_t *secondary_node;
+    /** The same of the primary; NULL: they follow those of the secondary. */
+    const int32_t *primary_node;
     /** Number of the point of a node, [n_nodes] of the secondary, or of the
      * first quadrature point of a facet, [n_facets]; further ones follow it.
      * NULL: that of the node itself, or the facet's times
