@@ -3,7 +3,7 @@
 // model.
 #include "contact_run.h"
 
-#include "app/adapt/contact_refinement.h"
+#include "app/adapt/refine_mesh.h"
 #include "app/input/collective.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
