@@ -2,7 +2,7 @@
 //
 // Stresses and contact fields in files, and meshes that follow contact.
 
-#include "app/adapt/contact_refinement.h"
+#include "app/adapt/refine_mesh.h"
 #include "app/physics/hooke.h"
 #include "app/physics/stress_output.h"
 #include "app/pictures/body_pictures.h"
@@ -13,6 +13,8 @@
 #include "expect.h"
 #include "problem.h"
 #include "run_checks.h"
+
+#include <abut/dealii/contact_refinement.h>
 
 #include <filesystem>
 #include <fstream>

@@ -379,8 +379,8 @@ namespace
     Blocks blocks;
     SolverParameters direct;
     direct.linear = SolverParameters::Linear::direct;
-    blocks.contact.set_parameters(
-        hosts::method("penalty", Discretisation::automatic), direct);
+    blocks.contact.set_parameters(hosts::method("penalty", std::nullopt),
+                                  direct);
     la::Matrix reference;
     reference.copy_from(blocks.problem().tangent(blocks.u));
     reference *= factor;
@@ -402,7 +402,7 @@ namespace
     // Gaps are closed to a part of the length.
     Blocks blocks;
     const MethodParameters method =
-        hosts::method("augmented lagrangian", Discretisation::automatic);
+        hosts::method("augmented lagrangian", std::nullopt);
     blocks.contact.set_parameters(method, SolverParameters());
     blocks.contact.set_length_scale(1e-4);
     const NewtonResult result =

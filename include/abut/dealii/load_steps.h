@@ -8,13 +8,19 @@
  *     abut::LoadSteps steps(options);
  *     while (!steps.is_finished())
  *     {
+ *       const la::Vector before(u);
  *       // loads and supports of the time steps.target()
- *       if (solver.solve(u).converged())
- *         steps.accept(); // and write results
+ *       const abut::NewtonResult result = solver.solve(u);
+ *       if (result.converged())
+ *       {
+ *         contact.commit(u); // and the material
+ *         steps.accept();
+ *       }
  *       else
  *       {
- *         // u and the material as they were at steps.time()
- *         AssertThrow(steps.reject(), ExcMessage("..."));
+ *         contact.rollback(); // and the material
+ *         u = before;
+ *         AssertThrow(steps.reject(), ExcMessage(result.explanation));
  *       }
  *     }
  */

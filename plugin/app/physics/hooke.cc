@@ -47,7 +47,7 @@ namespace abut::app
                             const dealii::Tensor<1, dim> &displacement,
                             const dealii::Point<dim> &point) const
   {
-    const Stress<dim> s = stress(gradient, displacement, point);
+    const Stress<dim> s = Hooke<dim>::stress(gradient, displacement, point);
     return 0.5
            * (s.tensor * symmetrize(gradient)
               + s.out_of_plane
@@ -62,7 +62,7 @@ namespace abut::app
                       const dealii::Tensor<2, dim> &gradient_change,
                       const dealii::Tensor<1, dim> &displacement_change) const
   {
-    return stress(gradient_change, displacement_change, point);
+    return Hooke<dim>::stress(gradient_change, displacement_change, point);
   }
 
   template <int dim>
@@ -81,7 +81,7 @@ namespace abut::app
     {
       const double r = point[0];
       const double hoop = displacement[0] / r;
-      const Stress<dim> s = stress(gradient, displacement, point);
+      const Stress<dim> s = Hooke<dim>::stress(gradient, displacement, point);
       // lambda grad(u_r/r), then what the turning base vectors add.
       result[0] += lambda * (gradient[0][0] - hoop) / r
                    + (s.tensor[0][0] - s.out_of_plane) / r;

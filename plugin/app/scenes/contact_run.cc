@@ -3,7 +3,7 @@
 // model.
 #include "contact_run.h"
 
-#include "app/adapt/contact_refinement.h"
+#include "app/adapt/refine_mesh.h"
 #include "app/input/collective.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
@@ -90,18 +90,22 @@ namespace abut::app
     report.set("dofs", model.problem().dof_handler.n_dofs());
   }
 
+  template <int dim> void ContactRun<dim>::set_parameters()
+  {
+    const bool loose = !state.is_last_mesh() && !model.has_exact_solution()
+                       && !state.settings.all_levels && !state.control.is_on();
+    state.contact.set_parameters(
+        loose ? state.settings.refinement.loosened(state.method)
+              : state.control.method(),
+        state.settings.solver);
+  }
+
   template <int dim> void ContactRun<dim>::begin_contact()
   {
     SectionTimes::Scope scope(report.times, model.rows_section());
     if (!contact_is_ready)
     {
-      const bool loose = !state.is_last_mesh() && !model.has_exact_solution()
-                         && !state.settings.all_levels
-                         && !state.control.is_on();
-      state.contact.set_parameters(
-          loose ? state.settings.refinement.loosened(state.method)
-                : state.control.method(),
-          state.settings.solver);
+      set_parameters();
       const DiscreteProblem<dim> &problem = model.problem();
       state.contact.reinit(problem.mapping, problem.dof_handler,
                            problem.constraints);
@@ -386,7 +390,7 @@ namespace abut::app
     {
       model.write_fields();
       if (model.has_contact())
-        pressure = state.contact.pressure();
+        state.contact.commit(state.u);
       load_steps.accept();
       return true;
     }
@@ -401,10 +405,21 @@ namespace abut::app
       model.write_fields();
       return false;
     }
-    state.u = is_first ? model.problem().vector() : before;
-    contact_is_ready = false;
     if (is_first)
+    {
+      // Nothing was committed: begin again, on the mesh that there is now.
+      state.u = model.problem().vector();
+      contact_is_ready = false;
       pressure.clear();
+      return goes_on;
+    }
+    state.u = before;
+    if (model.has_contact())
+    {
+      state.contact.rollback();
+      // Nor are the preconditioners of the step that failed kept.
+      set_parameters();
+    }
     return goes_on;
   }
 

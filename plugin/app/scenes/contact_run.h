@@ -35,6 +35,8 @@ namespace abut::app
     void setup_mesh();
 
     // One solve
+    /** Of the method on the present mesh; forgets preconditioners. */
+    void set_parameters();
     void begin_contact();
     NewtonParameters newton_parameters() const;
     HostProblem host_problem();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_model.h"
 
-#include "app/adapt/contact_refinement.h"
 #include "app/adapt/elastic_estimator.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"

@@ -2,12 +2,12 @@
 #ifndef ABUT_APP_SOLID_PAIRS_H
 #define ABUT_APP_SOLID_PAIRS_H
 
-#include "app/adapt/contact_refinement.h"
 #include "app/input/expression.h"
 #include "app/mesh/bodies.h"
 #include "solid_parameters.h"
 
 #include <abut/dealii/contact_pair.h>
+#include <abut/dealii/contact_refinement.h>
 #include <abut/dealii/rigid_obstacle.h>
 
 #include <memory>

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_APP_CONTACT_REFINEMENT_H
-#define ABUT_APP_CONTACT_REFINEMENT_H
+#ifndef ABUT_DEALII_CONTACT_REFINEMENT_H
+#define ABUT_DEALII_CONTACT_REFINEMENT_H
 
 /** @file
- * What contact asks of a mesh beside small errors, and fields carried from one
- * mesh to the next.
+ * What contact asks of a mesh beside small errors: call these after the marking
+ * by an error estimate and before the mesh is refined. For programs that are
+ * linked to Abut.
  */
 
-#include "app/report/section_times.h"
-
 #include <abut/dealii/linear_algebra.h>
+
 #include <deal.II/base/types.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
 
-#include <functional>
 #include <set>
 #include <utility>
 #include <vector>
 
-namespace abut::app
+namespace abut
 {
   /** Boundary ids of the secondary and the primary side of a pair. */
   using ContactSides = std::pair<std::set<dealii::types::boundary_id>,
@@ -47,20 +46,6 @@ namespace abut::app
   unsigned int
   limit_size_ratio(dealii::parallel::distributed::Triangulation<dim> &mesh,
                    const std::vector<ContactSides> &pairs, double limit = 4.);
-
-  /** Refine and coarsen a mesh as flagged and interpolate nodal fields.
-   *
-   * @param fields ghosted, of @p dof_handler
-   * @param setup numbers the unknowns of the new mesh
-   * @param times gets the sections `mesh` and `transfer`
-   * @return the fields on the new mesh, owned entries, constraints not applied.
-   * Collective. */
-  template <int dim>
-  std::vector<la::Vector>
-  refine_mesh(dealii::parallel::distributed::Triangulation<dim> &mesh,
-              const dealii::DoFHandler<dim> &dof_handler,
-              const std::vector<la::Vector> &fields,
-              const std::function<void()> &setup, SectionTimes &times);
-} // namespace abut::app
+} // namespace abut
 
 #endif

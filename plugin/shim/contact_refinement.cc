@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
-#include "contact_refinement.h"
+#include <abut/dealii/contact_refinement.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/fe/fe.h>
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 
-namespace abut::app
+namespace abut
 {
   namespace MPI = dealii::Utilities::MPI;
 
@@ -164,50 +162,14 @@ namespace abut::app
     return total;
   }
 
-  template <int dim>
-  std::vector<la::Vector>
-  refine_mesh(dealii::parallel::distributed::Triangulation<dim> &mesh,
-              const dealii::DoFHandler<dim> &dof_handler,
-              const std::vector<la::Vector> &fields,
-              const std::function<void()> &setup, SectionTimes &times)
-  {
-    dealii::parallel::distributed::SolutionTransfer<dim, la::Vector> transfer(
-        dof_handler);
-    {
-      SectionTimes::Scope scope(times, "mesh");
-      std::vector<const la::Vector *> old;
-      for (const la::Vector &field : fields)
-        old.push_back(&field);
-      mesh.prepare_coarsening_and_refinement();
-      transfer.prepare_for_coarsening_and_refinement(old);
-      mesh.execute_coarsening_and_refinement();
-    }
-    setup();
-    SectionTimes::Scope scope(times, "transfer");
-    std::vector<la::Vector> result(fields.size());
-    std::vector<la::Vector *> destination;
-    for (la::Vector &field : result)
-    {
-      field.reinit(dof_handler.locally_owned_dofs(),
-                   dof_handler.get_communicator());
-      destination.push_back(&field);
-    }
-    transfer.interpolate(destination);
-    return result;
-  }
-
 #define ABUT_INSTANTIATE(dim)                                                  \
   template unsigned int flag_contact_border<dim>(                              \
       const dealii::DoFHandler<dim> &, const la::Vector &,                     \
       const std::set<dealii::types::boundary_id> &);                           \
   template unsigned int limit_size_ratio<dim>(                                 \
       dealii::parallel::distributed::Triangulation<dim> &,                     \
-      const std::vector<ContactSides> &, double);                              \
-  template std::vector<la::Vector> refine_mesh<dim>(                           \
-      dealii::parallel::distributed::Triangulation<dim> &,                     \
-      const dealii::DoFHandler<dim> &, const std::vector<la::Vector> &,        \
-      const std::function<void()> &, SectionTimes &);
+      const std::vector<ContactSides> &, double);
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
-} // namespace abut::app
+} // namespace abut

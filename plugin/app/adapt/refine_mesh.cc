@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "refine_mesh.h"
+
+#include <deal.II/distributed/solution_transfer.h>
+
+namespace abut::app
+{
+  template <int dim>
+  std::vector<la::Vector>
+  refine_mesh(dealii::parallel::distributed::Triangulation<dim> &mesh,
+              const dealii::DoFHandler<dim> &dof_handler,
+              const std::vector<la::Vector> &fields,
+              const std::function<void()> &setup, SectionTimes &times)
+  {
+    dealii::parallel::distributed::SolutionTransfer<dim, la::Vector> transfer(
+        dof_handler);
+    {
+      SectionTimes::Scope scope(times, "mesh");
+      std::vector<const la::Vector *> old;
+      for (const la::Vector &field : fields)
+        old.push_back(&field);
+      mesh.prepare_coarsening_and_refinement();
+      transfer.prepare_for_coarsening_and_refinement(old);
+      mesh.execute_coarsening_and_refinement();
+    }
+    setup();
+    SectionTimes::Scope scope(times, "transfer");
+    std::vector<la::Vector> result(fields.size());
+    std::vector<la::Vector *> destination;
+    for (la::Vector &field : result)
+    {
+      field.reinit(dof_handler.locally_owned_dofs(),
+                   dof_handler.get_communicator());
+      destination.push_back(&field);
+    }
+    transfer.interpolate(destination);
+    return result;
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template std::vector<la::Vector> refine_mesh<dim>(                           \
+      dealii::parallel::distributed::Triangulation<dim> &,                     \
+      const dealii::DoFHandler<dim> &, const std::vector<la::Vector> &,        \
+      const std::function<void()> &, SectionTimes &);
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+} // namespace abut::app
