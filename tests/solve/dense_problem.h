@@ -8,6 +8,7 @@
  */
 
 #include "row_laws.h"
+#include "solve/node_map.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/points.h>
