@@ -3,7 +3,7 @@
 //
 //   detect()     the rows' values so far become the trial version of the
 //                history; rows of the next solve look theirs up by number
-//   restart()    the same rows go on from what they have
+//   linearise()  the same rows go on from what they have
 //   reinit()     entries stay where they are, though points may go to other
 //                ranks; they are used again if set_pressure() says so
 //   set_pairs()  of other surfaces: numbers are others, the field of pressures

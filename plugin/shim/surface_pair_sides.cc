@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace abut::shim
@@ -63,14 +64,15 @@ namespace abut::shim
     }
     FnvHash hash;
     hash.mix(MPI::sum(sum, communicator_));
+    // Rules that number points on facets; nodes are numbered by the mesh alone.
+    std::set<bool> kinds;
     for (const Pair &pair : pairs_)
-    {
-      hash.mix(static_cast<std::uint64_t>(pair.discretisation));
-      if (!discretisation_info(pair.discretisation).row_per_point)
-        continue;
+      if (discretisation_info(pair.discretisation).row_per_point)
+        kinds.insert(has_lasting_numbers(pair));
+    if (!kinds.empty())
       hash.mix(settings_.method.quadrature_degree);
-      hash.mix(has_lasting_numbers(pair));
-    }
+    for (const bool kind : kinds)
+      hash.mix(kind ? 1 : 2);
     return std::max<std::uint64_t>(hash.value, 1);
   }
 

@@ -89,6 +89,7 @@ namespace
 
     void repartition(const unsigned int weight)
     {
+      contact().detect(displacement);
       displacement = blocks_.repartition(displacement, weight);
     }
 
@@ -99,7 +100,8 @@ namespace
     ContactPair<dim> pair_;
   };
 
-  hosts::Case wedge(const std::string &law, const Discretisation discretisation)
+  hosts::Case wedge(const std::string &law,
+                    const abut_discretisation discretisation)
   {
     hosts::Case run;
     run.name = law + ", " + discretisation_name(discretisation);
@@ -300,7 +302,8 @@ namespace
   /** Two planes change places: nodes go from the first pair to the second. */
   template <int dim> void check_change_of_pairs()
   {
-    const hosts::Case run = wedge("lagrange", Discretisation::node_to_segment);
+    const hosts::Case run =
+        wedge("lagrange", ABUT_DISCRETISATION_NODE_TO_SEGMENT);
     hosts::TwoBlocks<dim> blocks(run);
     blocks.prepare({plane<dim>("first", 0.), plane<dim>("second", -10.)});
     ContactAssembler<dim> &contact = blocks.contact();
@@ -324,14 +327,14 @@ namespace
   template <int dim> void check_all()
   {
     for (const hosts::Case &run :
-         {wedge("lagrange", Discretisation::dual_mortar),
-          wedge("augmented lagrangian", Discretisation::mortar),
-          wedge("augmented lagrangian", Discretisation::quadrature_point)})
+         {wedge("lagrange", ABUT_DISCRETISATION_DUAL_MORTAR),
+          wedge("augmented lagrangian", ABUT_DISCRETISATION_MORTAR),
+          wedge("augmented lagrangian", ABUT_DISCRETISATION_QUADRATURE_POINT)})
     {
       check_rollback<dim>(run);
       check_file<dim>(run);
     }
-    check_refusals<dim>(wedge("lagrange", Discretisation::dual_mortar));
+    check_refusals<dim>(wedge("lagrange", ABUT_DISCRETISATION_DUAL_MORTAR));
     check_change_of_pairs<dim>();
   }
 } // namespace
