@@ -21,6 +21,7 @@ namespace abut
     explicit Implementation(const MPI_Comm communicator)
         : communicator(communicator)
     {
+      method.options.law = abut_law_find("lagrange");
     }
 
     void check(const abut_status status) const;
