@@ -127,6 +127,7 @@ namespace abut
     i.constraints = &constraints;
     i.clear_source();
     i.solver.reset();
+    i.kept_preconditioner.clear();
     // Assigned anew, they would keep the ranks that unknowns had before, where
     // the number of unknowns is the same.
     i.abandon_iteration();

@@ -484,6 +484,7 @@ namespace abut
       solver->set_near_null_space(near_null_space());
     }
     solver->reinit(matrix, coefficients, row_stiffness);
+    restore_preconditioner();
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::next()

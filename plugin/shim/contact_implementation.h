@@ -75,6 +75,8 @@ namespace abut
     void begin(const la::Matrix &matrix, const la::Vector &residual);
     solve::NearNullSpace near_null_space() const;
     void prepare_solver(const la::Matrix &matrix);
+    /** Build the preconditioner that was loaded, if there is one. */
+    void restore_preconditioner();
     void push_inside(la::Vector &displacement);
     void next();
     /** Pressures and states reached, or those to start from. */
@@ -151,6 +153,11 @@ namespace abut
     bool has_new_matrix = false;     ///< since the last solve
 
     solve::LocalElimination local; ///< of rows that are added to a matrix
+    /** What a preconditioner to be built again was built for, with the
+     * signature of its rows; empty: none. */
+    std::vector<solve::PreconditionerState> kept_preconditioner;
+    std::uint64_t kept_rows = 0;
+
     /** Null until the first solve with the present rows. */
     std::unique_ptr<solve::RowSolver> solver;
     std::uint64_t rows_signature = 0; ///< of the rows of the last detect()

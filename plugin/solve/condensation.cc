@@ -45,6 +45,31 @@ namespace abut::solve
     floating_.reinit(stiffness, rows, space_);
   }
 
+  void Condensation::make_saddle_point()
+  {
+    saddle_point_ = std::make_unique<SaddlePoint>(parameters_);
+    saddle_point_->set_near_null_space(space_);
+    saddle_point_->reinit(*stiffness_, *rows_, row_stiffness_);
+  }
+
+  std::vector<PreconditionerState> Condensation::state() const
+  {
+    std::vector<PreconditionerState> result = {solver_.state()};
+    if (saddle_point_ != nullptr)
+      for (const PreconditionerState &inner : saddle_point_->state())
+        result.push_back(inner);
+    return result;
+  }
+
+  void Condensation::restore(const std::vector<PreconditionerState> &state)
+  {
+    solver_.restore(state.at(0));
+    if (state.size() == 1)
+      return;
+    make_saddle_point();
+    saddle_point_->restore({state[1]});
+  }
+
   bool Condensation::condense()
   {
     condensate_.stiffness = local_.spring();
@@ -114,11 +139,7 @@ namespace abut::solve
     if (!condense())
     {
       if (saddle_point_ == nullptr)
-      {
-        saddle_point_ = std::make_unique<SaddlePoint>(parameters_);
-        saddle_point_->set_near_null_space(space_);
-        saddle_point_->reinit(*stiffness_, *rows_, row_stiffness_);
-      }
+        make_saddle_point();
       LinearReport report =
           saddle_point_->solve(residual, request, smallest_residual, increment);
       report.method += " (constraints share all their unknowns)";

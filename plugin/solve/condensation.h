@@ -35,6 +35,10 @@ namespace abut::solve
     void renew(const la::Matrix &stiffness, const PointOperator &rows,
                const std::vector<double> &row_stiffness) override;
 
+    std::vector<PreconditionerState> state() const override;
+
+    void restore(const std::vector<PreconditionerState> &state) override;
+
     LinearReport solve(const la::Vector &residual, const abut_request &request,
                        double smallest_residual,
                        la::Vector &increment) override;
@@ -42,6 +46,7 @@ namespace abut::solve
   private:
     void take(const la::Matrix &stiffness, const PointOperator &rows,
               const std::vector<double> &row_stiffness);
+    void make_saddle_point();
     bool condense();
     la::Vector right_hand_side(const la::Vector &residual,
                                const la::Vector &lift) const;

@@ -169,6 +169,20 @@ namespace abut::solve
     filter_ = std::make_unique<ContactFilter>(system, *multigrid_, picked);
   }
 
+  PreconditionerState CondensedSolver::state() const
+  {
+    return {keeper_, built_.stiffness, built_.pivot, {}, {}};
+  }
+
+  void CondensedSolver::restore(const PreconditionerState &state)
+  {
+    if (!state.keeper.is_built())
+      return;
+    matrix_.set({state.stiffness, state.pivot});
+    build();
+    keeper_.restore(state.keeper);
+  }
+
   LinearReport CondensedSolver::prepare(const Condensate &condensate)
   {
     LinearReport report;

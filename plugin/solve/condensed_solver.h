@@ -6,7 +6,7 @@
 #include "contact_filter.h"
 #include "direct_solver.h"
 #include "near_null_space.h"
-#include "preconditioner_keeper.h"
+#include "preconditioner_state.h"
 
 #include <abut/dealii/solver_parameters.h>
 
@@ -67,6 +67,12 @@ namespace abut::solve
     /** Build the preconditioner anew if it was kept from another matrix;
      * returns whether it was. Collective. */
     bool refresh();
+
+    /** What the preconditioner was built for. Not collective. */
+    PreconditionerState state() const;
+
+    /** Build that of another solver, see RowSolver::restore(). Collective. */
+    void restore(const PreconditionerState &state);
 
     /** One cycle of the preconditioner of the last prepare(). Collective. */
     void precondition(la::Vector &dst, const la::Vector &src) const;

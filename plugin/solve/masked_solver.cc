@@ -194,6 +194,21 @@ namespace abut::solve
     return control.last_step();
   }
 
+  PreconditionerState MaskedSolver::state() const
+  {
+    return {keeper_, built_mask_.diagonal, {}, built_mask_.held, cut_};
+  }
+
+  void MaskedSolver::restore(const PreconditionerState &state)
+  {
+    if (!state.keeper.is_built())
+      return;
+    build({state.held, state.stiffness});
+    if (!is_direct() && !is_plain_)
+      cut_off(state.cut, built_mask_, false);
+    keeper_.restore(state.keeper);
+  }
+
   LinearReport MaskedSolver::prepare(const Mask &mask)
   {
     LinearReport report;

@@ -4,7 +4,7 @@
 
 #include "direct_solver.h"
 #include "near_null_space.h"
-#include "preconditioner_keeper.h"
+#include "preconditioner_state.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
@@ -136,6 +136,12 @@ namespace abut::solve
 
     /** Make the preconditioner (or factorisation) fit the mask. Collective. */
     LinearReport prepare(const Mask &mask);
+
+    /** What the preconditioner was built for. Not collective. */
+    PreconditionerState state() const;
+
+    /** Build that of another solver, see RowSolver::restore(). Collective. */
+    void restore(const PreconditionerState &state);
 
     /** One V-cycle for the mask given, which must be that of prepare(). */
     ScaledPreconditioner preconditioner(const Mask &mask,

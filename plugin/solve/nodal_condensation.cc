@@ -47,6 +47,16 @@ namespace abut::solve
                                      "point for others."));
   }
 
+  std::vector<PreconditionerState> NodalCondensation::state() const
+  {
+    return {solver_.state()};
+  }
+
+  void NodalCondensation::restore(const std::vector<PreconditionerState> &state)
+  {
+    solver_.restore(state.at(0));
+  }
+
   void NodalCondensation::fill_mask()
   {
     const std::size_t n = solver_.diagonal().size();

@@ -81,6 +81,23 @@ namespace abut::solve
     static bool are_too_many(double n_changed, double n, bool exact,
                              MPI_Comm communicator);
 
+    /** Keep and give up as @p other would. */
+    void restore(const PreconditionerKeeper &other)
+    {
+      const double slow = slow_;
+      const bool keeps = keeps_;
+      *this = other;
+      slow_ = slow;
+      keeps_ = keeps;
+    }
+
+    /** What to keep of it with a preconditioner, by an archive of boost's. */
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &is_built_ &is_kept_ &is_slow_;
+      archive &speed_when_built_ &iterations_when_built_;
+    }
+
   private:
     double slow_;
     bool keeps_ = true;

@@ -4,6 +4,7 @@
 
 #include "near_null_space.h"
 #include "point_operator.h"
+#include "preconditioner_state.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
@@ -41,6 +42,19 @@ namespace abut::solve
      * Collective. */
     virtual void renew(const la::Matrix &stiffness, const PointOperator &rows,
                        const std::vector<double> &row_stiffness) = 0;
+
+    /** What its preconditioners were built for, for restore(); empty: it keeps
+     * none. Not collective. */
+    virtual std::vector<PreconditionerState> state() const
+    {
+      return {};
+    }
+
+    /** Build the preconditioners that a solver with the same matrix and rows
+     * had when this was its state(). Call after reinit(). Collective. */
+    virtual void restore(const std::vector<PreconditionerState> &)
+    {
+    }
 
     /** Solve with relative tolerance request.linear_tolerance for the
      * residual on the free unknowns, but not below

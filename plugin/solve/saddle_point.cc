@@ -143,6 +143,16 @@ namespace abut::solve
     floating_.reinit(stiffness, rows, space_);
   }
 
+  std::vector<PreconditionerState> SaddlePoint::state() const
+  {
+    return {leading_.state()};
+  }
+
+  void SaddlePoint::restore(const std::vector<PreconditionerState> &state)
+  {
+    leading_.restore(state.at(0));
+  }
+
   SaddlePoint::System SaddlePoint::assemble(const la::Vector &residual,
                                             const abut_request &request) const
   {

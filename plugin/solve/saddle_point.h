@@ -33,6 +33,10 @@ namespace abut::solve
     void renew(const la::Matrix &stiffness, const PointOperator &rows,
                const std::vector<double> &row_stiffness) override;
 
+    std::vector<PreconditionerState> state() const override;
+
+    void restore(const std::vector<PreconditionerState> &state) override;
+
     LinearReport solve(const la::Vector &residual, const abut_request &request,
                        double smallest_residual,
                        la::Vector &increment) override;

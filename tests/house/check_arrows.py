@@ -8,7 +8,7 @@ import re
 import sys
 import tempfile
 
-BELOW_SCENES = "input report mesh physics adapt pictures"
+BELOW_SCENES = "input restart report mesh physics adapt pictures"
 
 # A room (or a single file) and what it may include. The longest name that fits
 # a file is its room.
@@ -27,11 +27,13 @@ ROOMS = [
     ("shim", "solve"),
     ("module", "shim"),
     ("app/input", ""),
-    ("app/report", "app/input"),
+    ("app/restart", "app/input"),
+    ("app/report", "app/input app/restart"),
     ("app/mesh", "app/input"),
     ("app/physics", "app/input"),
-    ("app/adapt", "app/input app/report app/physics"),
-    ("app/pictures", "app/input app/report app/mesh app/physics"),
+    ("app/adapt", "app/input app/restart app/report app/physics"),
+    ("app/pictures", "app/input app/restart app/report app/mesh "
+                     "app/physics"),
     ("app/scenes", " ".join("app/" + room for room in BELOW_SCENES.split())
      + " solve shim"),
     *((f"app/scenes/{kind}", "app/scenes solve shim " + " ".join(
@@ -43,7 +45,8 @@ ROOMS = [
      "app/scenes/search"),
     ("app/chart", "app/input app/report app/pictures app/scenes shim"),
     ("app/atlas", "app/input app/report app/pictures"),
-    ("app/command", "app/input app/report app/scenes app/chart app/atlas"),
+    ("app/command", "app/input app/restart app/report app/scenes app/chart "
+                    "app/atlas"),
 ]
 
 

@@ -216,6 +216,16 @@ namespace abut
      * HistoryError, and nothing changes, for anything else. */
     virtual void load(std::istream &stream);
 
+    /** Write into a stream of each rank, binary, what its preconditioner was
+     * built for, so that a run that goes on from save() with the same matrix
+     * and ranks does so bit by bit. Not collective. */
+    virtual void save_preconditioner(std::ostream &stream) const;
+
+    /** Build that preconditioner with the next solve(), unless that has other
+     * rows. Call before detect() and, with load(), after it. Throws
+     * HistoryError for streams of anything else. Collective. */
+    virtual void load_preconditioner(std::istream &stream);
+
     /** Add the couplings that add() needs: those of all rows, in contact or
      * not. Rows on single unknowns, as those of a membrane's obstacle, need
      * none. The pattern must take rows of other ranks, and be distributed

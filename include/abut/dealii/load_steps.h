@@ -114,6 +114,12 @@ namespace abut
       return n_rejected_;
     }
 
+    /** What to keep of it in a checkpoint, with an archive of boost's. */
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &reached_ &length_ &n_good_ &n_accepted_ &n_rejected_;
+    }
+
   private:
     double full_length() const
     {

@@ -32,6 +32,12 @@ namespace abut::app
     double final_tolerance = 0.; ///< that no system is solved below
     double norm = 0.;            ///< |u_h|
     double contact_force = 0.;   ///< unit of its own
+
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &residual &law &change &last_increment &last_tolerance;
+      archive &final_tolerance &norm &contact_force;
+    }
   };
 
   /** Relative errors of the quantity asked for. */
@@ -43,6 +49,11 @@ namespace abut::app
 
     /** The first two do not see each other, linear solves disturb both. */
     double total() const;
+
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &discretisation &contact &algebraic;
+    }
   };
 
   /** Judges a sequence of meshes by three errors, each of which is only made
@@ -108,6 +119,12 @@ namespace abut::app
     double calibration() const
     {
       return calibration_;
+    }
+
+    /** What a checkpoint keeps. */
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &meshes_ &measured_ &calibration_ &errors_;
     }
 
   private:

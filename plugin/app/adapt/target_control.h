@@ -81,6 +81,23 @@ namespace abut::app
      * where @p exact_error, relative, is known. */
     void report(Report &report, std::optional<double> exact_error) const;
 
+    /** What a checkpoint keeps, but for start(). */
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      abut_strategy_options &o = method_.options;
+      archive &o.gap_tolerance &o.pressure_tolerance &o.barrier_end;
+      archive &o.penalty &o.final_linear_tolerance;
+      archive &steps_ &same_mesh_ &n_meshes_ &n_tightened_;
+      if (target_)
+        archive &*target_;
+    }
+
+    /** Bring start() back. */
+    void restore_start(const la::Vector &start)
+    {
+      start_ = start;
+    }
+
   private:
     const RefinementParameters &parameters_;
     MethodParameters method_;

@@ -43,6 +43,8 @@ Solve the scene and write its results.
   --set "Section/Name=value"  override a parameter of the file; may be repeated
   --output DIR                folder of the results
                               (default: output/<name of the scene file>)
+  --resume                    go on from the last checkpoint in that folder, of
+                              the same scene, on any number of ranks
   --quiet                     print warnings and errors only
   --explain                   say at the end what could be left out, at the
                               target error if there is one
@@ -51,7 +53,8 @@ Results: summary.json (the figures of the run), levels.csv (a row per mesh
 level or outer step), and what the section Output of the scene asks for.
 
 Exit code: 0 solved, 2 wrong input, 3 no answer to rely on (what there is was
-written), 1 internal error.
+written), 4 stopped by SIGTERM or SIGINT after a checkpoint was written (go on
+with --resume), 1 internal error.
 )"},
         {"check", R"(abut check SCENE.prm [--set "Section/Name=value"]...
 
@@ -141,6 +144,8 @@ Print the commands, or explain one.
           result.output = value_of(words, i);
         else if (words[i] == "--quiet")
           result.quiet = true;
+        else if (words[i] == "--resume" && result.command == Command::run)
+          result.resume = true;
         else if (words[i] == "--explain" && result.command == Command::run)
           result.explain = true;
         else if (words[i] == "--plan" && result.command == Command::chart)

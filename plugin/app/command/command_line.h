@@ -29,6 +29,7 @@ namespace abut::app
     std::string output; /**< empty: output/<name of the file> */
     std::string report; /**< page of the atlas; empty: in its output */
     bool quiet = false;
+    bool resume = false;  /**< go on from the latest checkpoint */
     bool explain = false; /**< say what could be left out */
     bool plan = false;    /**< of a chart: stop before the first run */
   };

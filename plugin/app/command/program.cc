@@ -5,6 +5,8 @@
 #include "app/chart/chart.h"
 #include "app/input/collective.h"
 #include "app/input/output_folder.h"
+#include "app/restart/restart.h"
+#include "app/restart/run_lock.h"
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/loaded_scene.h"
 #include "command_line.h"
@@ -15,6 +17,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
 
@@ -76,17 +79,54 @@ namespace abut::app
       return options;
     }
 
-    ExitCode run_scene(LoadedScene &loaded, const RunOptions &options,
+    /** Null for scenes that write no checkpoints. */
+    std::unique_ptr<Restart> make_restart(const LoadedScene &loaded,
+                                          const RunOptions &options,
+                                          const bool resumes)
+    {
+      const CheckpointParameters *parameters = loaded.scene->checkpoints();
+      if (parameters == nullptr && resumes)
+        throw InputError("Scene", std::string("scenes of kind '")
+                                      + loaded.kind()
+                                      + "' write no checkpoints: run it "
+                                        "without --resume.");
+      if (parameters == nullptr)
+        return nullptr;
+      RunIdentity identity;
+      collective(options.communicator, [&] { identity = loaded.identity(); });
+      return std::make_unique<Restart>(options.output_folder,
+                                       options.communicator, *parameters,
+                                       identity, resumes);
+    }
+
+    ExitCode say_stopped(const RunOptions &options, const bool quiet)
+    {
+      if (is_root(options.communicator) && !quiet)
+        std::cout << "\n  stopped; 'abut run ... --resume' goes on from the "
+                     "checkpoint in "
+                  << options.output_folder.string() << std::endl;
+      return ExitCode::stopped;
+    }
+
+    ExitCode run_scene(LoadedScene &loaded, RunOptions options,
                        const CommandLine &line)
     {
       MPI_Comm communicator = options.communicator;
       prepare_output(communicator, options.output_folder);
+      const RunLock lock(options.output_folder, communicator);
+      const std::unique_ptr<Restart> restart =
+          make_restart(loaded, options, line.resume);
+      options.restart = restart.get();
       Report report(communicator, line.quiet);
       loaded.describe(report);
       const Outcome outcome = loaded.scene->run(options, report);
+      if (outcome == Outcome::stopped)
+        return say_stopped(options, line.quiet);
       report.set("converged", outcome == Outcome::converged);
       report.finish();
       collective(communicator, [&] { report.write(options.output_folder); });
+      if (restart)
+        restart->finish();
       report.print_summary();
       if (line.explain)
         report.explain();

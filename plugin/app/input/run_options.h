@@ -9,6 +9,8 @@
 
 namespace abut::app
 {
+  class Restart;
+
   /** What a scene is told about the run beside its parameters. */
   struct RunOptions
   {
@@ -18,6 +20,9 @@ namespace abut::app
     std::filesystem::path output_folder;
     /** `set Pictures` of section `Output`. */
     bool pictures = false;
+    /** Checkpoints of the run; null for kinds of scenes that write none, and
+     * for check(). */
+    Restart *restart = nullptr;
 
     /** A file named in the scene: relative names are relative to the folder of
      * the scene file, else to the working directory. */

@@ -3,34 +3,19 @@
 #include "field_output.h"
 
 #include "app/input/collective.h"
+#include "app/restart/disk.h"
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_out_faces.h>
 
-#include <fstream>
-#include <stdexcept>
+#include <sstream>
 
 namespace abut::app
 {
   namespace
   {
-    /** A file that is either the old or the new one, whenever the run ends. */
-    void replace_file(const std::filesystem::path &path,
-                      const std::string &content)
-    {
-      std::filesystem::path next = path;
-      next += ".new";
-      std::ofstream out(next, std::ios::binary);
-      out << content << std::flush;
-      if (!out)
-        throw std::runtime_error("the file '" + next.string()
-                                 + "' cannot be written");
-      out.close();
-      std::filesystem::rename(next, path);
-    }
-
     /** Faces of this rank's cells at the boundaries of given ids. */
     template <int dim> class FaceOutput : public dealii::DataOutFaces<dim>
     {
@@ -135,7 +120,7 @@ namespace abut::app
                    return;
                  std::ostringstream pvd;
                  dealii::DataOutBase::write_pvd_record(pvd, records);
-                 replace_file(folder / (name + ".pvd"), pvd.str());
+                 replace_on_disk(folder / (name + ".pvd"), pvd.str());
                });
   }
 

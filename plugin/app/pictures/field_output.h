@@ -54,6 +54,12 @@ namespace abut::app
      * system is an exception on all ranks. */
     template <int dim> void write(double time, const Fields<dim> &fields);
 
+    /** What a checkpoint keeps: the list of files. */
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &records;
+    }
+
   private:
     /** Fill in the fields and the flags of the output. */
     template <int dim, typename Output>

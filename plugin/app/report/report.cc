@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include "app/input/short_number.h"
+#include "app/restart/disk.h"
 #include "json.h"
 #include "peak_memory.h"
 #include "processor_time.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <limits>
@@ -186,13 +186,26 @@ namespace abut::app
         .count();
   }
 
+  double Report::used_processor_seconds() const
+  {
+    return processor_seconds() - processor_start;
+  }
+
+  void Report::count_from(const double seconds, const double processor)
+  {
+    using Clock = std::chrono::steady_clock;
+    start = Clock::now()
+            - std::chrono::duration_cast<Clock::duration>(
+                std::chrono::duration<double>(seconds));
+    processor_start = processor_seconds() - processor;
+  }
+
   void Report::finish()
   {
     namespace MPI = dealii::Utilities::MPI;
     set("ranks", MPI::n_mpi_processes(communicator));
     set("wall_seconds", MPI::max(elapsed(), communicator));
-    set("processor_seconds",
-        MPI::sum(processor_seconds() - processor_start, communicator));
+    set("processor_seconds", MPI::sum(used_processor_seconds(), communicator));
     const double memory = peak_memory();
     set("peak_memory_mb", MPI::max(memory, communicator));
     set("peak_memory_mb_on_rank",
@@ -271,18 +284,14 @@ namespace abut::app
   {
     if (!root)
       return;
-    std::ofstream summary(folder / "summary.json");
-    write_json(summary);
-    AssertThrow(summary.flush(),
-                dealii::ExcMessage("cannot write "
-                                   + (folder / "summary.json").string()));
-    if (columns.empty())
-      return;
-    std::ofstream table(folder / "levels.csv");
+    std::ostringstream table;
     write_csv(table);
-    AssertThrow(
-        table.flush(),
-        dealii::ExcMessage("cannot write " + (folder / "levels.csv").string()));
+    if (!columns.empty())
+      replace_on_disk(folder / "levels.csv", table.str());
+    // Last: who finds it finds all of the results.
+    std::ostringstream summary;
+    write_json(summary);
+    replace_on_disk(folder / "summary.json", summary.str());
   }
 
   double Report::wall_seconds() const

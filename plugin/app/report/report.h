@@ -120,6 +120,16 @@ namespace abut::app
     /** The table as CSV. */
     void write_csv(std::ostream &out) const;
 
+    /** What a checkpoint keeps: all but the names of columns. Times and costs
+     * go on from where they were. */
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      double seconds = elapsed(), processor = used_processor_seconds();
+      archive &seconds &processor &times &values &rows &warnings;
+      archive &model_lines &left_out;
+      count_from(seconds, processor);
+    }
+
     const MPI_Comm communicator;
 
   private:
@@ -129,11 +139,19 @@ namespace abut::app
       bool on;
       std::string why;
       std::vector<std::string> cost;
+
+      template <class Archive> void serialize(Archive &archive, unsigned int)
+      {
+        archive &what &on &why &cost;
+      }
     };
 
     /** Seconds and MiB of an ingredient's sections. */
     std::pair<double, double> cost_of(const ModelLine &line) const;
     double wall_seconds() const;
+    double used_processor_seconds() const;
+    /** Let the clocks show these times now. */
+    void count_from(double seconds, double processor);
     void print_model(std::ostream &out) const;
     void print_cost(std::ostream &out) const;
 

@@ -25,6 +25,12 @@ namespace abut::app
       double memory_mb = 0; /**< by which it raised the process' peak, MiB */
       long calls = 0;
       unsigned int depth = 0; /**< number of sections around it */
+
+      template <class Archive> void serialize(Archive &archive, unsigned int)
+      {
+        archive &name &seconds &processor_seconds &memory_mb &calls;
+        archive &depth;
+      }
     };
 
     /** Times the section from construction to destruction. */
@@ -59,6 +65,12 @@ namespace abut::app
     double seconds(const std::string &name) const
     {
       return section(name).seconds;
+    }
+
+    /** What a checkpoint keeps; to be loaded outside of all sections. */
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &all;
     }
 
   private:

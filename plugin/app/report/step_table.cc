@@ -2,11 +2,12 @@
 #include "step_table.h"
 
 #include "app/input/collective.h"
+#include "app/restart/disk.h"
 
 #include <deal.II/base/mpi.h>
 
-#include <fstream>
 #include <iomanip>
+#include <sstream>
 
 namespace abut::app
 {
@@ -41,7 +42,7 @@ namespace abut::app
                  if (dealii::Utilities::MPI::this_mpi_process(communicator)
                      != 0)
                    return;
-                 std::ofstream out(folder / "steps.csv");
+                 std::ostringstream out;
                  for (std::size_t i = 0; i < columns.size(); ++i)
                    out << (i > 0 ? "," : "") << columns[i];
                  out << '\n' << std::setprecision(17);
@@ -51,8 +52,7 @@ namespace abut::app
                      out << (i > 0 ? "," : "") << row[i];
                    out << '\n';
                  }
-                 if (!out)
-                   throw std::runtime_error("Cannot write steps.csv.");
+                 replace_on_disk(folder / "steps.csv", out.str());
                });
   }
 } // namespace abut::app

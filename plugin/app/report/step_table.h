@@ -26,6 +26,12 @@ namespace abut::app
     void write(MPI_Comm communicator,
                const std::filesystem::path &folder) const;
 
+    /** What a checkpoint keeps. */
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &rows;
+    }
+
   private:
     std::vector<std::vector<double>> rows;
   };

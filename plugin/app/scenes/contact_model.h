@@ -138,6 +138,13 @@ namespace abut::app
     /** @name What it leaves behind @{ */
     virtual void write_fields() = 0;
 
+    /** What a checkpoint keeps of the model beside what is in the state of the
+     * run, as bytes of the archive; not collective. */
+    virtual std::string save_state() const = 0;
+
+    /** Go on from what save_state() returned; not collective. */
+    virtual void load_state(const std::string &bytes) = 0;
+
     /** Files and figures of the end that need the time's sections closed. */
     virtual void finish()
     {

@@ -8,6 +8,7 @@
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/mesh/memory_check.h"
+#include "app/restart/restart.h"
 #include "diagnosis.h"
 
 #include <deal.II/distributed/grid_refinement.h>
@@ -41,7 +42,10 @@ namespace abut::app
   template <int dim>
   ContactRun<dim>::ContactRun(ContactRunState<dim> &state,
                               ContactModel<dim> &model)
-      : state(state), model(model), report(state.report)
+      : state(state),
+        model(model),
+        report(state.report),
+        mesh_history(model.triangulation)
   {
   }
 
@@ -114,6 +118,8 @@ namespace abut::app
       contact_is_ready = true;
     }
     model.set_contact(state.contact, state.present.time);
+    if (resumed)
+      load_contact();
   }
 
   template <int dim> NewtonParameters ContactRun<dim>::newton_parameters() const
@@ -179,6 +185,7 @@ namespace abut::app
     if (state.control.is_on())
       state.control.note_step(model.problem().energy_norm(increment),
                               cost.tolerance);
+    stop_if_asked();
   }
 
   template <int dim> bool ContactRun<dim>::is_balanced(std::string &why)
@@ -333,6 +340,7 @@ namespace abut::app
       if (state.settings.all_levels)
         model.write_fields();
       refine();
+      pass();
     }
     return false;
   }
@@ -489,15 +497,45 @@ namespace abut::app
     report.progress(model.line_of(present) + state.control.progress());
   }
 
-  template <int dim> Outcome ContactRun<dim>::run()
+  template <int dim> void ContactRun<dim>::begin()
   {
     model.declare_tables();
-    prepare();
-    if (model.has_contact())
-      diagnose_penalty(report, state.settings.method);
+    if (state.options.restart != nullptr && state.options.restart->is_resumed())
+      restore();
+    else
+    {
+      prepare();
+      if (model.has_contact())
+        diagnose_penalty(report, state.settings.method);
+    }
+    mark();
+  }
+
+  template <int dim> bool ContactRun<dim>::take_load_steps()
+  {
     bool converged = true;
     while (converged && !target_is_missed && !state.load_steps.is_finished())
+    {
       converged = take_load_step();
+      if (converged && !state.load_steps.is_finished())
+        pass();
+    }
+    return converged;
+  }
+
+  template <int dim> Outcome ContactRun<dim>::run()
+  {
+    begin();
+    bool converged = false;
+    try
+    {
+      converged = take_load_steps();
+    }
+    catch (const Stopped &)
+    {
+      section.reset();
+      return Outcome::stopped;
+    }
     steps.write(state.communicator, state.options.output_folder);
     model.finish();
     if (state.options.pictures && !state.results.empty())

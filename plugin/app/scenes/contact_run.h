@@ -3,6 +3,7 @@
 #define ABUT_APP_CONTACT_RUN_H
 
 #include "app/report/step_table.h"
+#include "app/restart/saved_mesh.h"
 #include "contact_model.h"
 
 #include <abut/dealii/contact_solver.h>
@@ -29,6 +30,10 @@ namespace abut::app
 
     /** Solve; results into the report and the output folder. */
     Outcome run();
+
+    /** Where the run stands between two solves, without meshes, fields, and
+     * the report: for checkpoints. */
+    template <class Archive> void serialize(Archive &archive, unsigned int);
 
   private:
     void prepare();
@@ -57,6 +62,43 @@ namespace abut::app
     void set_refine_flags();
     void refine();
     bool take_load_step();
+    void begin();
+    bool take_load_steps();
+
+    // Checkpoints, in contact_run_restart.cc
+    /** The run has been asked to stop, and has written a checkpoint. */
+    struct Stopped
+    {
+    };
+    /** What a rank writes into a checkpoint. */
+    struct Checkpoint
+    {
+      std::string run, report;
+      bool has_pressure = false;  ///< beside the displacement
+      bool has_start = false;     ///< of the target
+      bool has_contact = false;   ///< a history of it
+      std::string contact;        ///< the history, on rank 0
+      std::string preconditioner; ///< of these ranks
+      MeshPart mesh;
+
+      template <class Archive> void serialize(Archive &archive, unsigned int)
+      {
+        archive &run &report &has_pressure &has_start &has_contact;
+        archive &contact &preconditioner &mesh;
+      }
+    };
+    /** Note where the run stands: from here it can go on later. */
+    void mark();
+    /** The same at the end of a mesh or load step, with a checkpoint if one is
+     * due. */
+    void pass();
+    void write_checkpoint();
+    /** Within a solve: go back to the mark if someone asks the run to stop. */
+    void stop_if_asked();
+    /** Go on from a checkpoint, instead of prepare(). */
+    void restore();
+    void load_contact();
+    void load_preconditioner(const Checkpoint &from);
 
     // Results
     double counted_seconds() const;
@@ -76,6 +118,12 @@ namespace abut::app
     bool target_is_missed = false;
     StepTable steps;
     double counted_before = 0.;
+
+    MeshHistory<dim> mesh_history;
+    Checkpoint marked; ///< without the mesh
+    la::Vector marked_u, marked_pressure;
+    /** What the first solve after a restart begins with. */
+    std::optional<Checkpoint> resumed;
   };
 } // namespace abut::app
 

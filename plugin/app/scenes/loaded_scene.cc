@@ -2,6 +2,7 @@
 #include "loaded_scene.h"
 
 #include "app/input/input_error.h"
+#include "app/restart/disk.h"
 #include "common_parameters.h"
 
 #include <deal.II/base/exceptions.h>
@@ -12,6 +13,21 @@
 
 namespace abut::app
 {
+  namespace
+  {
+    /** Checksum of the file that @p value may be the name of, else empty. */
+    std::string content_of(const RunOptions &options, const std::string &value)
+    {
+      std::error_code error;
+      const auto folder = options.scene_file.parent_path();
+      for (const std::filesystem::path &file :
+           {folder / value, std::filesystem::path(value)})
+        if (!value.empty() && std::filesystem::is_regular_file(file, error))
+          return checksum(read_from_disk(file));
+      return "";
+    }
+  } // namespace
+
   LoadedScene::LoadedScene(ParameterFile values)
       : file(std::move(values)),
         scene_kind(app::scene_kind(file)),
@@ -59,6 +75,29 @@ namespace abut::app
       report.set("title", title);
     if (dimension > 0)
       report.set("dimension", dimension);
+  }
+
+  RunIdentity LoadedScene::identity() const
+  {
+    RunOptions options;
+    options.scene_file = file.path();
+    RunIdentity result = program_identity();
+    for (const DeclaredParameter &parameter : declared_parameters(prm))
+    {
+      // How often checkpoints are written changes no result.
+      if (parameter.path.rfind("Checkpoint/", 0) == 0)
+        continue;
+      std::vector<std::string> section =
+          dealii::Utilities::split_string_list(parameter.path, '/');
+      const std::string name = section.back();
+      section.pop_back();
+      const std::string value = prm.get(section, name);
+      result[parameter.path] = value;
+      const std::string content = content_of(options, value);
+      if (!content.empty())
+        result["content of " + parameter.path] = content;
+    }
+    return result;
   }
 
   const char *LoadedScene::kind() const

@@ -2,6 +2,7 @@
 #ifndef ABUT_APP_LOADED_SCENE_H
 #define ABUT_APP_LOADED_SCENE_H
 
+#include "app/restart/run_identity.h"
 #include "scene.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -24,6 +25,10 @@ namespace abut::app
 
     /** Write what is known before the solve. */
     void describe(Report &report) const;
+
+    /** What a run must have in common with one that it goes on with: program,
+     * parameters, and content of the files that these name. */
+    RunIdentity identity() const;
 
     /** Name of the kind of the scene. */
     const char *kind() const;

@@ -9,6 +9,7 @@
 #include "app/input/parameters.h"
 #include "app/input/run_options.h"
 #include "app/report/report.h"
+#include "app/restart/checkpoint_parameters.h"
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -21,7 +22,8 @@ namespace abut::app
   enum class Outcome
   {
     converged,
-    unusable /**< exit code 3; the report's warnings say why */
+    unusable, /**< exit code 3; the report's warnings say why */
+    stopped   /**< exit code 4: asked to, after a checkpoint */
   };
 
   /** A kind of scene. One object serves one run:
@@ -48,6 +50,13 @@ namespace abut::app
      * (an expression, two values that contradict each other). Called inside
      * collective(), so that it must not communicate. */
     virtual void parse(dealii::ParameterHandler &prm) = 0;
+
+    /** How often the run writes checkpoints; null for kinds of scenes that
+     * cannot go on from one. After parse(). */
+    virtual const CheckpointParameters *checkpoints() const
+    {
+      return nullptr;
+    }
 
     /** Check what can be found out without solving: files, mesh, data that
      * contradict each other; report sizes. run() must check the same itself.

@@ -3,6 +3,7 @@
 
 #include "app/adapt/estimator.h"
 #include "app/mesh/memory_check.h"
+#include "app/restart/archive.h"
 #include "app/scenes/automatic_law.h"
 #include "membrane_report.h"
 
@@ -199,6 +200,17 @@ namespace abut::app
     if (run.present.estimate)
       fields.cells = {{"squared_error_estimate", &run.squared_estimate}};
     series.write(run.present.level, fields);
+  }
+
+  template <int dim> std::string MembraneModel<dim>::save_state() const
+  {
+    return to_bytes(series);
+  }
+
+  template <int dim>
+  void MembraneModel<dim>::load_state(const std::string &bytes)
+  {
+    from_bytes(bytes, series);
   }
 
   template <int dim> void MembraneModel<dim>::finish()

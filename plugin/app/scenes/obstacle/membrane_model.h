@@ -66,6 +66,8 @@ namespace abut::app
     std::string line_of(const ContactResult &result) const override;
 
     void write_fields() override;
+    std::string save_state() const override;
+    void load_state(const std::string &bytes) override;
     void finish() override;
     void draw() override;
     void report_check() override;

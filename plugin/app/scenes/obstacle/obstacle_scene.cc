@@ -15,15 +15,22 @@ namespace abut::app
       void declare(dealii::ParameterHandler &prm) const override
       {
         ObstacleParameters::declare(prm);
+        CheckpointParameters::declare(prm);
         ContactAssembler<dim>::declare_parameters(prm);
       }
 
       void parse(dealii::ParameterHandler &prm) override
       {
         parameters.parse(prm);
+        checkpoint.parse(prm);
         method.parse_parameters(prm);
         require_law_without_stress(method);
         solver.parse_parameters(prm);
+      }
+
+      const CheckpointParameters *checkpoints() const override
+      {
+        return &checkpoint;
       }
 
       void check(const RunOptions &options, Report &report) override
@@ -54,6 +61,7 @@ namespace abut::app
       }
 
       ObstacleParameters parameters;
+      CheckpointParameters checkpoint;
       MethodParameters method;
       SolverParameters solver;
     };

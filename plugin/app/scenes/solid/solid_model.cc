@@ -6,6 +6,7 @@
 #include "app/input/short_number.h"
 #include "app/physics/contact_traction.h"
 #include "app/physics/elastic_normal_stress.h"
+#include "app/restart/archive.h"
 #include "solid_report.h"
 
 #include <algorithm>
@@ -114,6 +115,19 @@ namespace abut::app
     contact.set_pairs(pairs->pairs());
     contact.set_normal_stress(std::make_shared<ElasticNormalStress<dim>>(
         elasticity.mapping, data.materials));
+  }
+
+  template <int dim> std::string SolidModel<dim>::save_state() const
+  {
+    return to_bytes(std::make_pair(to_bytes(output), has_warned));
+  }
+
+  template <int dim> void SolidModel<dim>::load_state(const std::string &bytes)
+  {
+    std::pair<std::string, bool> parts;
+    from_bytes(bytes, parts);
+    from_bytes(parts.first, output);
+    has_warned = parts.second;
   }
 
   template <int dim> void SolidModel<dim>::look_at_rows()

@@ -72,6 +72,8 @@ namespace abut::app
     {
       output.write_fields();
     }
+    std::string save_state() const override;
+    void load_state(const std::string &bytes) override;
     void draw() override
     {
       output.draw();

@@ -36,6 +36,12 @@ namespace abut::app
     /** Pictures of the present solution. Collective. */
     void draw() const;
 
+    /** What a checkpoint keeps. */
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &series &contact_series;
+    }
+
   private:
     double time() const;
     void write_contact(const la::Vector &displacement);

@@ -22,12 +22,14 @@ namespace abut::app
       void declare(dealii::ParameterHandler &prm) const override
       {
         SolidParameters::declare(prm, counts);
+        CheckpointParameters::declare(prm);
         ContactAssembler<dim>::declare_parameters(prm);
       }
 
       void parse(dealii::ParameterHandler &prm) override
       {
         parameters.parse(prm, counts);
+        checkpoint.parse(prm);
         method.parse_parameters(prm);
         solver.parse_parameters(prm);
         search.parse_parameters(prm);
@@ -35,6 +37,11 @@ namespace abut::app
                                                  parameters.pairs.end(),
                                                  [](const auto &pair)
                                                  { return pair.tied; }));
+      }
+
+      const CheckpointParameters *checkpoints() const override
+      {
+        return &checkpoint;
       }
 
       void check(const RunOptions &options, Report &report) override
@@ -65,6 +72,7 @@ namespace abut::app
 
       SolidCounts counts;
       SolidParameters parameters;
+      CheckpointParameters checkpoint;
       MethodParameters method;
       SolverParameters solver;
       SearchParameters search;

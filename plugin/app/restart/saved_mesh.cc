@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "saved_mesh.h"
+
+#include <deal.II/distributed/solution_transfer.h>
+#include <deal.II/dofs/dof_tools.h>
+
+namespace abut::app
+{
+  namespace
+  {
+    template <int dim>
+    using Transfer =
+        dealii::parallel::distributed::SolutionTransfer<dim, la::Vector>;
+
+    const char *const mesh_name = "mesh";
+
+    template <int dim>
+    std::vector<la::Vector>
+    empty_fields(const unsigned int n,
+                 const dealii::DoFHandler<dim> &dof_handler)
+    {
+      return std::vector<la::Vector>(
+          n, la::Vector(dof_handler.locally_owned_dofs(),
+                        dof_handler.get_communicator()));
+    }
+
+    template <int dim>
+    std::vector<la::Vector>
+    with_ghosts(const std::vector<la::Vector> &fields,
+                const dealii::DoFHandler<dim> &dof_handler)
+    {
+      dealii::IndexSet relevant;
+      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+      std::vector<la::Vector> result;
+      for (const la::Vector &field : fields)
+      {
+        result.emplace_back(dof_handler.locally_owned_dofs(), relevant,
+                            dof_handler.get_communicator());
+        result.back() = field;
+      }
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  MeshPart save_mesh(const std::filesystem::path &folder,
+                     typename MeshHistory<dim>::Mesh &mesh,
+                     const MeshHistory<dim> &history,
+                     const dealii::DoFHandler<dim> &dof_handler,
+                     const std::vector<la::Vector> &fields)
+  {
+    const std::vector<la::Vector> ghosted = with_ghosts(fields, dof_handler);
+    std::vector<const la::Vector *> pointers;
+    for (const la::Vector &field : ghosted)
+      pointers.push_back(&field);
+    Transfer<dim> transfer(dof_handler);
+    if (!pointers.empty())
+      transfer.prepare_for_serialization(pointers);
+    mesh.save((folder / mesh_name).string());
+
+    MeshPart part{history.is_known(), history.steps(), {}};
+    for (const la::Vector &field : fields)
+      part.fields.push_back(owned_values(field));
+    return part;
+  }
+
+  template <int dim>
+  std::vector<la::Vector>
+  load_mesh(const std::filesystem::path &folder, const MeshPart *part,
+            const unsigned int n_fields, typename MeshHistory<dim>::Mesh &mesh,
+            MeshHistory<dim> &history,
+            const dealii::DoFHandler<dim> &dof_handler,
+            const std::function<void()> &setup)
+  {
+    if (part != nullptr && part->is_known)
+    {
+      history.replay(part->steps);
+      setup();
+      std::vector<la::Vector> fields = empty_fields(n_fields, dof_handler);
+      for (unsigned int i = 0; i < n_fields; ++i)
+        set_owned_values(part->fields.at(i), fields[i]);
+      return fields;
+    }
+    history.forget();
+    mesh.load((folder / mesh_name).string());
+    setup();
+    std::vector<la::Vector> fields = empty_fields(n_fields, dof_handler);
+    std::vector<la::Vector *> pointers;
+    for (la::Vector &field : fields)
+      pointers.push_back(&field);
+    Transfer<dim> transfer(dof_handler);
+    if (!pointers.empty())
+      transfer.deserialize(pointers);
+    return fields;
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template MeshPart save_mesh<dim>(                                            \
+      const std::filesystem::path &, MeshHistory<dim>::Mesh &,                 \
+      const MeshHistory<dim> &, const dealii::DoFHandler<dim> &,               \
+      const std::vector<la::Vector> &);                                        \
+  template std::vector<la::Vector> load_mesh<dim>(                             \
+      const std::filesystem::path &, const MeshPart *, unsigned int,           \
+      MeshHistory<dim>::Mesh &, MeshHistory<dim> &,                            \
+      const dealii::DoFHandler<dim> &, const std::function<void()> &);
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+} // namespace abut::app

@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs that are killed or stopped, and resumed: the results of a run that was
+left alone; and what is refused."""
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+from block_scene import section
+from program import Program
+
+p = Program()
+sys.path.insert(0, str(p.source / "tests" / "bench"))
+sys.path.insert(0, str(p.source / "tests" / "scenes"))
+import kill_and_resume  # noqa: E402
+
+SECONDS = 120
+OUT = p.folder / "out"
+EVERY = section("Checkpoint", "Every steps = 1")
+BODIES = (p.source / "tests/bench/restart/rolling-press.prm").read_text()
+MEMBRANE = (p.source / "tests/bench/restart/creeping-front.prm").read_text()
+
+
+def words(scene, *more, settings=()):
+    result = ["run", scene, "--output", "out", "--quiet", *more]
+    for setting in settings:
+        result += ["--set", setting]
+    return result
+
+
+def ranked(command, ranks):
+    if ranks == 1:
+        return command
+    # Time for a checkpoint between SIGTERM and SIGKILL.
+    return ["mpirun", "--mca", "odls_base_sigkill_timeout", "60",
+            "--oversubscribe", "-n", str(ranks)] + command
+
+
+def run(scene, *more, settings=(), ranks=1):
+    command = ranked([p.abut, *words(scene, *more, settings=settings)], ranks)
+    return subprocess.run(command, cwd=p.folder, text=True,
+                          capture_output=True, timeout=SECONDS)
+
+
+def checkpoints():
+    """Numbers of the checkpoints in the folder."""
+    return sorted(int(path.suffix[1:]) for path in OUT.glob("checkpoint.*")
+                  if path.suffix[1:].isdigit())
+
+
+def interrupt(scene, number, how, settings=(), ranks=1, more=()):
+    """Send a signal once there is a checkpoint of that number or a later one;
+    returns the process, which has ended."""
+    command = ranked([p.abut, *words(scene, *more, settings=settings)], ranks)
+    process = subprocess.Popen(command, cwd=p.folder, text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    end = time.monotonic() + SECONDS
+    while process.poll() is None and time.monotonic() < end:
+        if checkpoints() and checkpoints()[-1] >= number:
+            break
+        time.sleep(0.002)
+    kill_and_resume.stop(process, how)
+    process.output = process.communicate(timeout=SECONDS)
+    return process
+
+
+def alone(scene, settings=(), ranks=1):
+    """Results of the run that is left alone."""
+    shutil.rmtree(OUT, ignore_errors=True)
+    result = run(scene, settings=settings, ranks=ranks)
+    p.expect(result.returncode == 0, f"{scene}: {result.stderr}")
+    p.expect(not list(OUT.glob("checkpoint*")),
+             "checkpoints are left after the end")
+    expected = kill_and_resume.results(OUT)
+    shutil.rmtree(OUT)
+    return expected
+
+
+def expect_same(expected, what):
+    for line in kill_and_resume.compare(expected, kill_and_resume.results(OUT),
+                                        1e-12, what):
+        p.expect(False, line)
+    shutil.rmtree(OUT)
+
+
+def killed(scene, number, expected, settings=(), ranks=1):
+    what = f"{scene} killed after {number}, {ranks} ranks"
+    process = interrupt(scene, number, signal.SIGKILL, settings, ranks)
+    p.expect(process.returncode != 0, f"{what}: ended before it was killed")
+    result = run(scene, "--resume", settings=settings, ranks=ranks)
+    p.expect(result.returncode == 0, f"{what}: {result.stderr}")
+    expect_same(expected, what)
+
+
+def stopped(scene, number, how, expected, settings=(), ranks=1):
+    """Stopped twice: once after it was resumed, too."""
+    what = f"{scene} {how.name} after {number}, {ranks} ranks"
+    process = interrupt(scene, number, how, settings, ranks)
+    p.expect(process.returncode == 4,
+             f"{what}: exit code {process.returncode} {process.output}")
+    p.expect(len(checkpoints()) == 1, f"{what}: checkpoints {checkpoints()}")
+    process = interrupt(scene, number + 2, how, settings, ranks, ["--resume"])
+    p.expect(process.returncode == 4,
+             f"{what}, again: exit code {process.returncode} {process.output}")
+    result = run(scene, "--resume", settings=settings, ranks=ranks)
+    p.expect(result.returncode == 0, f"{what}: {result.stderr}")
+    expect_same(expected, what)
+
+
+def refused(scene, *texts, settings=()):
+    """--resume ends with one error and changes no file."""
+    before = {path: path.read_bytes() for path in OUT.rglob("*")
+              if path.is_file()}
+    result = run(scene, "--resume", settings=settings)
+    p.expect_error(result, *texts)
+    after = {path: path.read_bytes() for path in OUT.rglob("*")
+             if path.is_file()}
+    p.expect(before == after, f"files changed by a refused --resume: {texts}")
+
+
+def check_refusals(scene, settings):
+    shutil.rmtree(OUT, ignore_errors=True)
+    refused(scene, "no checkpoint", settings=settings)
+    interrupt(scene, 2, signal.SIGTERM, settings)
+    checkpoint = OUT / f"checkpoint.{checkpoints()[-1]}"
+
+    refused(scene, "Method/Complementarity parameter was '1' and is '2'",
+            settings=[*settings, "Method/Complementarity parameter=2"])
+    file = checkpoint / "rank.0"
+    good = file.read_bytes()
+    for bad in (good[:-1], good[:100] + b"x" + good[101:], b""):
+        file.write_bytes(bad)
+        refused(scene, "damaged", checkpoint.name, settings=settings)
+    file.unlink()
+    refused(scene, "damaged", settings=settings)
+    file.write_bytes(good)
+
+    # A run in this folder: another one is refused, with --resume or without.
+    process = subprocess.Popen(
+        [p.abut, *words(scene, "--resume", settings=settings)], cwd=p.folder,
+        stdout=subprocess.DEVNULL)
+    while process.poll() is None and not (OUT / ".abut-lock").exists():
+        time.sleep(0.002)
+    for more in ((), ("--resume",)):
+        p.expect_error(run(scene, *more, settings=settings), "another run",
+                       f"process {process.pid}", "--output")
+    p.expect(process.wait() == 0, "the run that had the folder")
+    p.expect(not (OUT / ".abut-lock").exists(), "the lock is left")
+    shutil.rmtree(OUT)
+
+
+def check_other_ranks(scene, expected, settings=()):
+    interrupt(scene, 3, signal.SIGKILL, settings)
+    result = run(scene, "--resume", settings=settings, ranks=2)
+    p.expect(result.returncode == 0, f"on two ranks: {result.stderr}")
+    for line in kill_and_resume.compare_coarsely(
+            expected, kill_and_resume.results(OUT), 1e-6, "on two ranks"):
+        p.expect(False, line)
+    shutil.rmtree(OUT)
+
+
+def check_new_begin(scene, expected, settings):
+    """Without --resume a run begins anew, whatever is in the folder."""
+    interrupt(scene, 3, signal.SIGKILL, settings)
+    p.expect(len(checkpoints()) > 0, "a checkpoint of the first run")
+    result = run(scene, settings=settings)
+    p.expect(result.returncode == 0, f"begun anew: {result.stderr}")
+    p.expect(not list(OUT.glob("checkpoint*")), "old checkpoint is left")
+    expect_same(expected, "begun anew")
+
+
+bodies = p.write("bodies.prm", BODIES)
+membrane = p.write("membrane.prm", MEMBRANE)
+steps = ["Load steps/Steps=8", "Refinement/Level=3"]
+cycles = ["Refinement/Adaptive cycles=6", "Refinement/Refine fraction=0.4"]
+
+for name, settings in ((bodies, steps), (membrane, cycles)):
+    expected = alone(name, settings)
+    for number in (1, 4, 6):
+        killed(name, number, expected, settings)
+    stopped(name, 2, signal.SIGTERM, expected, settings)
+    stopped(name, 3, signal.SIGINT, expected, settings)
+    check_other_ranks(name, expected, settings)
+    check_refusals(name, settings)
+    check_new_begin(name, expected, settings)
+    # One checkpoint less often: the step in work is lost, no figure.
+    killed(name, 1, expected, [*settings, "Checkpoint/Every steps=3"])
+    expected = alone(name, settings, ranks=2)
+    killed(name, 4, expected, settings, ranks=2)
+    stopped(name, 2, signal.SIGTERM, expected, settings, ranks=2)
+
+# To a target error, and in three dimensions.
+target = ["Refinement/Target error=0.05", "Refinement/Refine fraction=0.4",
+          "Refinement/Level=2"]
+expected = alone(membrane, target)
+killed(membrane, 3, expected, target)
+
+# Files that parameters name count with their content.
+mesh = p.source / "prm/slotted-block.inp"
+shutil.copy(mesh, p.folder)
+slot = p.write("slot.prm", (p.source / "prm/self-contact.prm").read_text()
+               + EVERY)
+few = ["Refinement/Level=2", "Load steps/Steps=6"]
+interrupt(slot, 2, signal.SIGTERM, few)
+p.write(mesh.name, mesh.read_text() + "\n")
+refused(slot, "content of Body 1/Mesh/File was", settings=few)
+shutil.copy(mesh, p.folder)
+p.expect(run(slot, "--resume", settings=few).returncode == 0, "the old mesh")
+
+scene = p.write("search.prm", (p.source / "prm/search-flat.prm").read_text())
+p.expect_error(run(scene, "--resume"), "write no checkpoints")
+p.finish()
