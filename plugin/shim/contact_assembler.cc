@@ -133,6 +133,7 @@ namespace abut
     i.start_displacement = la::Vector();
     i.start_pressure.clear();
     i.reference_matrix = nullptr;
+    i.law_compliance = la::Vector();
     i.report = LinearReport();
   }
 
@@ -374,6 +375,7 @@ namespace abut
   void ContactAssembler<dim>::set_reference_stiffness(const la::Matrix &matrix)
   {
     implementation->reference_matrix = &matrix;
+    implementation->law_compliance = la::Vector();
   }
 
   template <int dim>

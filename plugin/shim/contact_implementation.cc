@@ -357,8 +357,10 @@ namespace abut
   void
   ContactAssembler<dim>::Implementation::take_matrix(const la::Matrix &matrix)
   {
-    row_stiffness =
-        solve::row_stiffness(stiffness_matrix(matrix), coefficients);
+    row_stiffness = solve::row_stiffness(matrix, coefficients);
+    if (law_compliance.size() == 0)
+      law_compliance = solve::compliance(stiffness_matrix(matrix));
+    law_stiffness = solve::row_stiffness(law_compliance, coefficients);
   }
 
   template <int dim>
@@ -409,7 +411,7 @@ namespace abut
   void ContactAssembler<dim>::Implementation::begin(const la::Matrix &matrix,
                                                     const la::Vector &residual)
   {
-    stiffness = row_stiffness;
+    stiffness = law_stiffness;
     if (surfaces != nullptr)
       surfaces->spread_stiffness(stiffness);
     set_scales(matrix, residual);

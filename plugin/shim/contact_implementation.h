@@ -64,7 +64,9 @@ namespace abut
     const double *law_gap();
     void set_scales(const la::Matrix &matrix, const la::Vector &residual);
     double length_scale() const;
-    /** Find the local stiffness of the rows in a new matrix. Collective. */
+    /** Find the local stiffness of the rows in a new matrix, which is that of
+     * the law only if it is the first one: a law must not change from one
+     * linearisation to the next. Collective. */
     void take_matrix(const la::Matrix &matrix);
     /** Length by pressure: inverse mean of the rows' stiffness. */
     double softness() const;
@@ -142,9 +144,13 @@ namespace abut
     shim::ContactHistory::Penalty resumed;    ///< that it may go on with
     la::Vector start_displacement;
     std::vector<double> gap; ///< [rows] at the present displacement
+    /** Of each unknown of this rank, in the matrix that penalties are
+     * multiples of; empty: none yet. */
+    la::Vector law_compliance;
     /** [rows] pressure per length, > 0: of each row in the last matrix taken,
-     * and as the law has it, by patches of surface. */
-    std::vector<double> row_stiffness, stiffness;
+     * for solvers; in that of law_compliance; and the latter as the law has
+     * it, by patches of surface. */
+    std::vector<double> row_stiffness, law_stiffness, stiffness;
     double smallest_residual = 0.;
     double iteration_tolerance = 0.; ///< of linear systems; 0: the method's
     bool has_new_matrix = false;     ///< since the last solve

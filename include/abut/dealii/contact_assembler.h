@@ -277,9 +277,12 @@ namespace abut
     virtual double evaluate(const la::Vector &displacement,
                             la::Vector &forces) const;
 
-    /** Take the stiffness that penalties and scales are multiples of from this
-     * matrix, and not from each one that solve() is given: for tangents with
-     * inertia, or of a material that softens. It must be of the present
+    /** Take the stiffness that penalties are multiples of from this matrix,
+     * and not from the first one that solve() or add() is given after
+     * reinit(), and measure the load by it: as the larger of the residual R
+     * and K u at the start of an iteration, with K this matrix and not the
+     * present one. For tangents with inertia, whose K u is no internal force,
+     * or if the first tangent is not a typical one. It must be of the present
      * unknowns and stay as it is until the next reinit(), which forgets it. Not
      * collective. */
     virtual void set_reference_stiffness(const la::Matrix &matrix);
