@@ -131,7 +131,7 @@ namespace abut
       return {request.state, request.state + coefficients.n_rows()};
     std::vector<std::uint8_t> result(coefficients.n_rows(), ABUT_STATE_OPEN);
     for (std::size_t row = 0; row < start_pressure.size(); ++row)
-      if (coefficients.bilateral()[row] != 0 || start_pressure[row] > 0.)
+      if (coefficients.bilateral()[row] != 0 || start_pressure[row] != 0.)
         result[row] = ABUT_STATE_CLOSED;
     return result;
   }
@@ -161,11 +161,46 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::check_rows(
-      const std::string &function) const
+  void ContactAssembler<dim>::Implementation::check_mesh(
+      const std::string &call) const
   {
-    AssertThrow(view.start != nullptr || n_rows == 0,
-                ExcMessage("Call detect() before " + function + "."));
+    AssertThrow(dof_handler != nullptr,
+                ExcMessage("Call reinit() before " + call + "."));
+    check_unchanged(call);
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::check_unchanged(
+      const std::string &call) const
+  {
+    AssertThrow(dof_handler == nullptr || dof_handler->n_dofs() == n_unknowns,
+                ExcMessage("There are " + std::to_string(dof_handler->n_dofs())
+                           + " unknowns in " + call + ", but there were "
+                           + std::to_string(n_unknowns)
+                           + " in the last reinit(). Call reinit() and "
+                             "detect() after each change of the mesh."));
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::check_rows(
+      const std::string &call) const
+  {
+    check_mesh(call);
+    AssertThrow(has_rows, ExcMessage("Call detect() before " + call
+                                     + ": there are no rows since the last "
+                                       "reinit()."));
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::check_size(
+      const std::string &call, const std::string &what,
+      const global_dof_index size) const
+  {
+    AssertThrow(size == n_unknowns,
+                ExcMessage("The " + what + " given to " + call + " is of "
+                           + std::to_string(size) + " unknowns, but there are "
+                           + std::to_string(n_unknowns)
+                           + ". Make it anew after each change of the mesh."));
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::create_source()
@@ -377,13 +412,21 @@ namespace abut
   }
 
   template <int dim>
-  double ContactAssembler<dim>::Implementation::length_scale() const
+  double ContactAssembler<dim>::Implementation::length_scale(
+      const la::Vector &displacement) const
   {
     if (given_length > 0.)
       return given_length;
-    const double displacement = start_displacement.linfty_norm();
-    if (displacement > 0.)
-      return displacement;
+    const double way = displacement.linfty_norm();
+    return surfaces == nullptr ? way : std::min(way, surfaces->facet_size());
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::Implementation::length_scale() const
+  {
+    const double way = length_scale(start_displacement);
+    if (way > 0.)
+      return way;
     // The harmonic mean of the gaps: parts of an obstacle that are out of
     // reach do not count.
     double sums[2] = {0., 0.};

@@ -29,8 +29,16 @@ namespace abut
     void check_law(const abut_status status) const;
     /** The source of the present rows; throws if there is none. */
     const shim::RowSource &present_source() const;
-    /** Throw if there are no rows for @p function. */
-    void check_rows(const std::string &function) const;
+    /** Throw, with the name of the @p call, unless there was a reinit() and
+     * the unknowns are as many as they were in it. */
+    void check_mesh(const std::string &call) const;
+    /** The same, but without reinit() there is nothing to throw about. */
+    void check_unchanged(const std::string &call) const;
+    /** The same as check_mesh(), and unless there are rows. */
+    void check_rows(const std::string &call) const;
+    /** Throw if @p what is not of the present unknowns. */
+    void check_size(const std::string &call, const std::string &what,
+                    dealii::types::global_dof_index size) const;
     void create_source();
     /** Keep the counts of an exchange that is about to go. */
     void count_messages();
@@ -63,7 +71,10 @@ namespace abut
     /** The gap as the law wants it. */
     const double *law_gap();
     void set_scales(const la::Matrix &matrix, const la::Vector &residual);
+    /** Of the present iteration. Collective. */
     double length_scale() const;
+    /** See ContactAssembler::length_scale(). Collective. */
+    double length_scale(const la::Vector &displacement) const;
     /** Find the local stiffness of the rows in a new matrix, which is that of
      * the law only if it is the first one: a law must not change from one
      * linearisation to the next. Collective. */
@@ -117,6 +128,8 @@ namespace abut
     std::shared_ptr<shim::SurfaceExchange<dim>> exchange;
     CommunicationReport sent_before; ///< on earlier meshes
     bool source_is_outdated = true;
+    bool has_rows = false; ///< since reinit(), by detect()
+    dealii::types::global_dof_index n_unknowns = 0; ///< in reinit()
 
     shim::Handle<abut_points> points; ///< of the last detect()
     int points_dimension = 0;         ///< unknowns of their nodes

@@ -91,6 +91,15 @@ namespace abut::shim
                   const std::vector<double> &pressure,
                   const std::vector<double> &scale) const;
 
+    /** Median of the secondary surfaces, that of the pair of the largest. */
+    double facet_size() const
+    {
+      double size = 0.;
+      for (const Pair &pair : pairs_)
+        size = std::max(size, pair.secondary.everywhere.median);
+      return size;
+    }
+
     /** What find() met, by pair. */
     const std::vector<PairCheck> &checks() const
     {

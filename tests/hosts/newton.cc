@@ -221,7 +221,15 @@ namespace
                && blocks.contact.penetration()
                       <= 1e-4 * method.options.gap_tolerance,
            "length scale: " + result.explanation);
-    expect(blocks.contact.length_scale() == 1e-4, "length scale as it was set");
+    expect(blocks.contact.length_scale(blocks.u) == 1e-4,
+           "length scale as it was set");
+    // Of 8 facets on the side of length 1, or of what has moved less.
+    blocks.contact.set_length_scale(0.);
+    expect(std::abs(blocks.contact.length_scale(blocks.u) - 0.125) <= 1e-14,
+           "length scale of bodies that travel");
+    blocks.u *= 1e-3;
+    expect(blocks.contact.length_scale(blocks.u) == blocks.u.linfty_norm(),
+           "length scale of small displacements");
   }
 
   /** Phases in their order, and an answer that the host refuses. */

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 
 namespace abut::hosts
 {
@@ -34,6 +35,8 @@ namespace abut::hosts
     bool top_is_held = true;
     /** Prescribed at the top. */
     double top = -distance - shortening;
+    /** Prescribed at the surface of the lower block. */
+    std::optional<double> die;
     /** Whether the residual is not a number where a point is shortened to
      * nothing, as that of a body in finite strain is. */
     bool has_limit = false;
@@ -74,8 +77,19 @@ namespace abut::hosts
       pair.primary = {lower_interface};
       pair.reach = 2. * distance;
       contact.set_pairs({pair});
+      reinit_contact();
+    }
+
+    void reinit_contact()
+    {
       contact.reinit(mapping_, dof_handler_, constraints);
-      u.reinit(owned_, MPI_COMM_WORLD);
+    }
+
+    /** New unknowns and constraints on a finer mesh; contact is not told. */
+    void refine()
+    {
+      triangulation_.refine_global(1);
+      setup();
     }
 
     HostProblem problem()
@@ -95,6 +109,13 @@ namespace abut::hosts
     void move_top(const double top)
     {
       options_.top = top;
+      make_constraints();
+    }
+
+    /** The same for the surface of the lower block, a die. */
+    void move_die(const double height)
+    {
+      options_.die = height;
       make_constraints();
     }
 
@@ -170,6 +191,8 @@ namespace abut::hosts
       prescribe(bottom, 1, 0.);
       if (options_.top_is_held)
         prescribe(top, 1, options_.top);
+      if (options_.die)
+        prescribe(lower_interface, 1, *options_.die);
       constraints.close();
     }
 
@@ -187,6 +210,7 @@ namespace abut::hosts
       dealii::SparsityTools::distribute_sparsity_pattern(
           pattern, owned_, MPI_COMM_WORLD, relevant_);
       tangent_.reinit(owned_, owned_, pattern, MPI_COMM_WORLD);
+      u.reinit(owned_, MPI_COMM_WORLD);
     }
 
     void assemble(const la::Vector &at, la::Matrix *matrix,

@@ -287,13 +287,16 @@ namespace abut
      * collective. */
     virtual void set_reference_stiffness(const la::Matrix &matrix);
 
-    /** Length > 0 that tolerances of gaps are a part of, such as the size of a
-     * facet. 0, the default: the largest displacement or, where there is none,
-     * a mean of the gaps. Not collective. */
+    /** Length > 0 that tolerances of gaps are a part of. 0, the default: see
+     * length_scale(); where nothing has moved, a mean of the gaps. Not
+     * collective. */
     virtual void set_length_scale(double length);
 
-    /** The length that was set, or 0. Not collective. */
-    virtual double length_scale() const;
+    /** The length that gaps and depths at @p displacement are measured by:
+     * the one that was set or, without, the largest displacement, but of pairs
+     * not more than a facet, the median of their secondary surfaces: a body
+     * may travel far. */
+    virtual double length_scale(const la::Vector &displacement) const;
 
     /** The unknowns of this rank that may take part in contact: those of all
      * rows of the last detect(), in contact or not, on both sides; hanging

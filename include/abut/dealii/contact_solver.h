@@ -491,9 +491,7 @@ namespace abut
     {
       if (parameters_.max_searches == 0)
         return false;
-      const double length = contact_.length_scale() > 0.
-                                ? contact_.length_scale()
-                                : u.linfty_norm();
+      const double length = contact_.length_scale(u);
       if (length == 0.)
         return false;
       const std::size_t n_missed =

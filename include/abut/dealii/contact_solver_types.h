@@ -91,9 +91,8 @@ namespace abut
     unsigned int relaxation_sweeps = 0;
     /** Searches on the deformed bodies for nodes without a row; 0: none. */
     unsigned int max_searches = 5;
-    /** Depth that counts there, relative to
-     * ContactAssembler::length_scale() or, if that is 0, the largest
-     * displacement. */
+    /** Depth that counts there, relative to ContactAssembler::length_scale().
+     */
     double missed_depth = 1e-3;
   };
 
