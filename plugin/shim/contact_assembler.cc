@@ -7,12 +7,32 @@
 
 #include "solve/inf_sup.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut
 {
   using dealii::ExcMessage;
   using dealii::types::global_dof_index;
+
+  namespace
+  {
+    /** Whether these are the same pairs, but for gaps. */
+    template <int dim>
+    bool differ_in_gaps(const std::vector<ContactPair<dim>> &a,
+                        const std::vector<ContactPair<dim>> &b)
+    {
+      return std::equal(
+          a.begin(), a.end(), b.begin(), b.end(),
+          [](const ContactPair<dim> &x, const ContactPair<dim> &y)
+          {
+            return x.name == y.name && x.secondary == y.secondary
+                   && x.primary == y.primary && x.obstacle == y.obstacle
+                   && x.geometric_gap == y.geometric_gap && x.tied == y.tied
+                   && x.holds_body == y.holds_body && x.reach == y.reach;
+          });
+    }
+  } // namespace
 
   template <int dim>
   ContactAssembler<dim>::ContactAssembler(const MPI_Comm communicator)
@@ -78,8 +98,13 @@ namespace abut
   void
   ContactAssembler<dim>::set_pairs(const std::vector<ContactPair<dim>> &pairs)
   {
-    implementation->pairs = pairs;
-    implementation->source_is_outdated = true;
+    Implementation &i = *implementation;
+    if (i.surfaces != nullptr && !i.source_is_outdated
+        && differ_in_gaps(i.pairs, pairs))
+      i.has_new_gaps = true;
+    else
+      i.source_is_outdated = true;
+    i.pairs = pairs;
   }
 
   template <int dim>
@@ -157,6 +182,9 @@ namespace abut
       i.keep_field();
       i.create_source();
     }
+    else if (i.has_new_gaps)
+      i.surfaces->set_gaps(i.pairs);
+    i.has_new_gaps = false;
     i.has_rows = false;
     i.find_rows(displacement);
     i.has_rows = true;

@@ -233,6 +233,7 @@ namespace abut
           *mapping, *dof_handler, *constraints, obstacle);
     }
     source_is_outdated = false;
+    bodies.reset();
   }
 
   template <int dim>
@@ -263,18 +264,32 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::find_rows(
+  shim::RowSource::Change
+  ContactAssembler<dim>::Implementation::find_points(
       const la::Vector &displacement)
   {
-    rows_mesh = 0;
-    coefficients = solve::PointOperator();
-    view = {};
     if (points == nullptr || points_dimension != source->dimension())
     {
+      coefficients = solve::PointOperator();
       points_dimension = source->dimension();
       points = shim::create_points(context.get(), points_dimension);
     }
-    source->find(displacement, points.get());
+    try
+    {
+      return source->find(displacement, points.get());
+    }
+    catch (...)
+    {
+      // What is left of the points is not what they were made of.
+      coefficients = solve::PointOperator();
+      view = {};
+      throw;
+    }
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::take_points()
+  {
     make_operator();
     // Rows between nodes that cannot move say nothing.
     const std::vector<std::uint8_t> rows = coefficients.rows_with_columns();
@@ -292,13 +307,26 @@ namespace abut
     rows_signature = signature(coefficients);
     if (MPI::logical_or(before != rows_signature, communicator))
       solver.reset();
+    points_mesh = source->mesh_signature();
+    placed_rows = source->placed_rows();
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::find_rows(
+      const la::Vector &displacement)
+  {
+    rows_mesh = 0;
+    const auto change = find_points(displacement);
+    if (change == shim::RowSource::Change::points)
+      take_points();
+    else if (change == shim::RowSource::Change::constants)
+      coefficients.renew_constants(source->nodes());
     if (is_nitsche())
     {
       find_stress();
       solver.reset();
     }
-    rows_mesh = source->mesh_signature();
-    placed_rows = source->placed_rows();
+    rows_mesh = points_mesh;
     find_start();
   }
 
@@ -496,12 +524,14 @@ namespace abut
   }
 
   template <int dim>
-  solve::NearNullSpace
+  const solve::NearNullSpace &
   ContactAssembler<dim>::Implementation::near_null_space() const
   {
-    return surfaces == nullptr
-               ? solve::NearNullSpace()
-               : shim::make_near_null_space(*mapping, *dof_handler);
+    if (!bodies)
+      bodies = surfaces == nullptr
+                   ? solve::NearNullSpace()
+                   : shim::make_near_null_space(*mapping, *dof_handler);
+    return *bodies;
   }
 
   template <int dim>

@@ -12,6 +12,8 @@
 
 #include <abut/dealii/contact_assembler.h>
 
+#include <optional>
+
 namespace abut
 {
   /** The inside of a ContactAssembler: rows, start and strategy of one solve.
@@ -45,6 +47,10 @@ namespace abut
     /** Forget the mesh. */
     void clear_source();
     void find_rows(const la::Vector &displacement);
+    /** Let the source find points. Collective. */
+    shim::RowSource::Change find_points(const la::Vector &displacement);
+    /** Make all that belongs to new points. Collective. */
+    void take_points();
     /** Make the operator of the points. Collective. */
     void make_operator();
     /** Make what has been reached the trial version of the history. */
@@ -85,7 +91,8 @@ namespace abut
     void start_from_present();
     void begin_at(const la::Vector &displacement);
     void begin(const la::Matrix &matrix, const la::Vector &residual);
-    solve::NearNullSpace near_null_space() const;
+    /** Made once for each mesh. Collective. */
+    const solve::NearNullSpace &near_null_space() const;
     void prepare_solver(const la::Matrix &matrix);
     void push_inside(la::Vector &displacement);
     void next();
@@ -128,6 +135,9 @@ namespace abut
     std::shared_ptr<shim::SurfaceExchange<dim>> exchange;
     CommunicationReport sent_before; ///< on earlier meshes
     bool source_is_outdated = true;
+    bool has_new_gaps = false; ///< of pairs that are otherwise the same
+    mutable std::optional<solve::NearNullSpace> bodies;
+    std::uint64_t points_mesh = 0; ///< signature of the points' mesh
     bool has_rows = false; ///< since reinit(), by detect()
     dealii::types::global_dof_index n_unknowns = 0; ///< in reinit()
 

@@ -52,8 +52,13 @@ namespace abut::shim
     {
       return dim;
     }
-    void find(const la::Vector &displacement, abut_points *points) override;
+    Change find(const la::Vector &displacement, abut_points *points) override;
     void filter(const std::vector<std::uint8_t> &keep) override;
+
+    /** Take the gaps of @p pairs, which differ in nothing else from those given
+     * before. */
+    void set_gaps(const std::vector<ContactPair<dim>> &pairs);
+
     const solve::NodeMap &nodes() const override
     {
       return surface_.map;
@@ -161,6 +166,18 @@ namespace abut::shim
       double between_rows = 0., held_inside = 0.; ///< as in PairResult
     };
 
+    /** What the points of a pair depend on that may change from one find() to
+     * the next; positions, supports and settings do not. */
+    struct Origin
+    {
+      double reach, gap; ///< reach 0: a part of each facet's size
+
+      bool operator==(const Origin &other) const
+      {
+        return reach == other.reach && gap == other.gap;
+      }
+    };
+
     /** What is known of a point beside the set that it is in. */
     struct Place
     {
@@ -244,6 +261,7 @@ namespace abut::shim
     bool has_lasting_numbers(const Pair &pair) const;
     void find_pair(std::size_t pair, double motion,
                    std::vector<std::uint8_t> &taken);
+    std::vector<Origin> origins(const std::vector<Direction> &u) const;
     solve::NodeMap append_stress(const NormalStress<dim> &normal_stress,
                                  abut_points *stress) const;
     void make_check(std::size_t pair, unsigned int n_dropped);
@@ -266,6 +284,8 @@ namespace abut::shim
     abut_points *points_ = nullptr; ///< of the last find()
     abut_points_view view_ = {};
     std::vector<Place> places_; ///< [points]
+    /** [pairs] of the present points; empty: they have to be made anew. */
+    std::vector<Origin> origins_;
     std::vector<PairCheck> checks_;
   };
 

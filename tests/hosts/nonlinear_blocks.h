@@ -202,7 +202,7 @@ namespace abut::hosts
       owned_ = dof_handler_.locally_owned_dofs();
       relevant_ = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_);
       sideways_ = dealii::DoFTools::extract_dofs(
-          dof_handler_, dealii::ComponentMask({true, false}));
+          dof_handler_, dealii::ComponentMask(std::vector<bool>{true, false}));
       make_constraints();
       dealii::DynamicSparsityPattern pattern(relevant_);
       dealii::DoFTools::make_sparsity_pattern(dof_handler_, pattern,
