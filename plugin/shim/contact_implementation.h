@@ -23,6 +23,8 @@ namespace abut
     explicit Implementation(const MPI_Comm communicator)
         : communicator(communicator)
     {
+      // Options without a law are those of lagrange.
+      method.options.law = abut_law_find("lagrange");
     }
 
     void check(const abut_status status) const;
