@@ -7,12 +7,32 @@
 
 #include "solve/inf_sup.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut
 {
   using dealii::ExcMessage;
   using dealii::types::global_dof_index;
+
+  namespace
+  {
+    /** Whether these are the same pairs, but for gaps. */
+    template <int dim>
+    bool differ_in_gaps(const std::vector<ContactPair<dim>> &a,
+                        const std::vector<ContactPair<dim>> &b)
+    {
+      return std::equal(
+          a.begin(), a.end(), b.begin(), b.end(),
+          [](const ContactPair<dim> &x, const ContactPair<dim> &y)
+          {
+            return x.name == y.name && x.secondary == y.secondary
+                   && x.primary == y.primary && x.obstacle == y.obstacle
+                   && x.geometric_gap == y.geometric_gap && x.tied == y.tied
+                   && x.holds_body == y.holds_body && x.reach == y.reach;
+          });
+    }
+  } // namespace
 
   template <int dim>
   ContactAssembler<dim>::ContactAssembler(const MPI_Comm communicator)
@@ -78,8 +98,13 @@ namespace abut
   void
   ContactAssembler<dim>::set_pairs(const std::vector<ContactPair<dim>> &pairs)
   {
-    implementation->pairs = pairs;
-    implementation->source_is_outdated = true;
+    Implementation &i = *implementation;
+    if (i.surfaces != nullptr && !i.source_is_outdated
+        && differ_in_gaps(i.pairs, pairs))
+      i.has_new_gaps = true;
+    else
+      i.source_is_outdated = true;
+    i.pairs = pairs;
   }
 
   template <int dim>
@@ -122,6 +147,8 @@ namespace abut
     i.history.leave_ranks();
     i.is_forgotten = true;
     i.rows_mesh = 0;
+    i.has_rows = false;
+    i.n_unknowns = dof_handler.n_dofs();
     i.mapping = &mapping;
     i.dof_handler = &dof_handler;
     i.constraints = &constraints;
@@ -134,6 +161,7 @@ namespace abut
     i.start_displacement = la::Vector();
     i.start_pressure.clear();
     i.reference_matrix = nullptr;
+    i.law_compliance = la::Vector();
     i.report = LinearReport();
   }
 
@@ -141,8 +169,8 @@ namespace abut
   void ContactAssembler<dim>::detect(const la::Vector &displacement)
   {
     Implementation &i = *implementation;
-    AssertThrow(i.dof_handler != nullptr,
-                ExcMessage("Call reinit() before detect()."));
+    i.check_mesh("detect()");
+    i.check_size("detect()", "displacement", displacement.size());
     // The pressures reached so far are the start of the next solve.
     i.record_present();
     if (i.is_started || i.is_restarted)
@@ -155,7 +183,12 @@ namespace abut
       i.keep_field();
       i.create_source();
     }
+    else if (i.has_new_gaps)
+      i.surfaces->set_gaps(i.pairs);
+    i.has_new_gaps = false;
+    i.has_rows = false;
     i.find_rows(displacement);
+    i.has_rows = true;
     i.start_state.clear();
     i.is_restarted = false;
     i.iteration_tolerance = 0.;
@@ -168,6 +201,7 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_rows("linearise()");
+    i.check_size("linearise()", "displacement", displacement.size());
     AssertThrow(!i.is_nitsche(), ExcMessage("Nitsche's method is for linear "
                                             "elastic bodies: do not call "
                                             "linearise() with it."));
@@ -192,6 +226,7 @@ namespace abut
       dealii::DynamicSparsityPattern &pattern) const
   {
     const Implementation &i = *implementation;
+    i.check_rows("add_to_sparsity()");
     std::vector<global_dof_index> columns;
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {
@@ -208,6 +243,10 @@ namespace abut
                                     la::Vector &displacement)
   {
     Implementation &i = *implementation;
+    i.check_rows("relax()");
+    i.check_size("relax()", "matrix", matrix.m());
+    i.check_size("relax()", "residual", residual.size());
+    i.check_size("relax()", "displacement", displacement.size());
     AssertThrow(!i.is_started, ExcMessage("Call relax() between detect() and "
                                           "the first solve()."));
     if (abut_law_needs_open_start(i.method.options.law))
@@ -226,6 +265,9 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_rows("solve()");
+    i.check_size("solve()", "matrix", matrix.m());
+    i.check_size("solve()", "residual", residual.size());
+    i.check_size("solve()", "increment", increment.size());
     i.prepare_solver(matrix);
     AssertThrow(!i.is_started || i.request.action == ABUT_ACTION_SOLVE,
                 ExcMessage("The contact iteration has stopped: call detect() "
@@ -256,6 +298,9 @@ namespace abut
   void ContactAssembler<dim>::add(la::Matrix &matrix, la::Vector &residual)
   {
     Implementation &i = *implementation;
+    i.check_rows("add()");
+    i.check_size("add()", "matrix", matrix.m());
+    i.check_size("add()", "residual", residual.size());
     AssertThrow(abut_law_has_penalty(i.method.options.law)
                     && !abut_law_needs_stress(i.method.options.law),
                 ExcMessage(std::string("The law '") + i.method.options.law->name
@@ -297,6 +342,8 @@ namespace abut
   bool ContactAssembler<dim>::update(const la::Vector &displacement)
   {
     Implementation &i = *implementation;
+    i.check_rows("update()");
+    i.check_size("update()", "displacement", displacement.size());
     AssertThrow(i.is_started,
                 ExcMessage("Call solve() or add() before update()."));
     if (i.request.action == ABUT_ACTION_STOP)
@@ -322,6 +369,7 @@ namespace abut
   {
     const Implementation &i = *implementation;
     i.check_rows("add_contact_forces()");
+    i.check_size("add_contact_forces()", "force", forces.size());
     AssertThrow(!i.is_nitsche(), ExcMessage("The forces of Nitsche's method "
                                             "are not those of its pressures "
                                             "alone."));
@@ -334,6 +382,8 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_rows("solve_linearised()");
+    i.check_size("solve_linearised()", "matrix", matrix.m());
+    i.check_size("solve_linearised()", "residual", residual.size());
     const la::Vector start(i.start_displacement);
     la::Vector end(start);
     const LinearReport cost =
@@ -357,6 +407,9 @@ namespace abut
                                          la::Vector &forces) const
   {
     const Implementation &i = *implementation;
+    i.check_rows("evaluate()");
+    i.check_size("evaluate()", "displacement", displacement.size());
+    i.check_size("evaluate()", "force", forces.size());
     AssertThrow(i.is_started, ExcMessage("Call solve() before evaluate()."));
     forces = 0.;
     add_contact_forces(forces);
@@ -374,7 +427,12 @@ namespace abut
   template <int dim>
   void ContactAssembler<dim>::set_reference_stiffness(const la::Matrix &matrix)
   {
-    implementation->reference_matrix = &matrix;
+    Implementation &i = *implementation;
+    i.check_mesh("set_reference_stiffness()");
+    i.check_size("set_reference_stiffness()", "matrix", matrix.m());
+    i.reference_matrix = &matrix;
+    i.law_compliance = la::Vector();
+    i.has_new_matrix = true;
   }
 
   template <int dim>
@@ -385,9 +443,14 @@ namespace abut
     implementation->given_length = length;
   }
 
-  template <int dim> double ContactAssembler<dim>::length_scale() const
+  template <int dim>
+  double
+  ContactAssembler<dim>::length_scale(const la::Vector &displacement) const
   {
-    return implementation->given_length;
+    const Implementation &i = *implementation;
+    i.check_rows("length_scale()");
+    i.check_size("length_scale()", "displacement", displacement.size());
+    return i.length_scale(displacement);
   }
 
   template <int dim>
@@ -461,8 +524,8 @@ namespace abut
   double ContactAssembler<dim>::inf_sup_constant(const la::Matrix &matrix) const
   {
     const Implementation &i = *implementation;
-    AssertThrow(i.view.start != nullptr || i.n_rows == 0,
-                ExcMessage("Call detect() before inf_sup_constant()."));
+    i.check_rows("inf_sup_constant()");
+    i.check_size("inf_sup_constant()", "matrix", matrix.m());
     return solve::inf_sup_constant(matrix, i.coefficients, i.solver_parameters,
                                    i.near_null_space())
         .constant;

@@ -131,7 +131,7 @@ namespace abut
       return {request.state, request.state + coefficients.n_rows()};
     std::vector<std::uint8_t> result(coefficients.n_rows(), ABUT_STATE_OPEN);
     for (std::size_t row = 0; row < start_pressure.size(); ++row)
-      if (coefficients.bilateral()[row] != 0 || start_pressure[row] > 0.)
+      if (coefficients.bilateral()[row] != 0 || start_pressure[row] != 0.)
         result[row] = ABUT_STATE_CLOSED;
     return result;
   }
@@ -161,11 +161,46 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::check_rows(
-      const std::string &function) const
+  void ContactAssembler<dim>::Implementation::check_mesh(
+      const std::string &call) const
   {
-    AssertThrow(view.start != nullptr || n_rows == 0,
-                ExcMessage("Call detect() before " + function + "."));
+    AssertThrow(dof_handler != nullptr,
+                ExcMessage("Call reinit() before " + call + "."));
+    check_unchanged(call);
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::check_unchanged(
+      const std::string &call) const
+  {
+    AssertThrow(dof_handler == nullptr || dof_handler->n_dofs() == n_unknowns,
+                ExcMessage("There are " + std::to_string(dof_handler->n_dofs())
+                           + " unknowns in " + call + ", but there were "
+                           + std::to_string(n_unknowns)
+                           + " in the last reinit(). Call reinit() and "
+                             "detect() after each change of the mesh."));
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::check_rows(
+      const std::string &call) const
+  {
+    check_mesh(call);
+    AssertThrow(has_rows, ExcMessage("Call detect() before " + call
+                                     + ": there are no rows since the last "
+                                       "reinit()."));
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::check_size(
+      const std::string &call, const std::string &what,
+      const global_dof_index size) const
+  {
+    AssertThrow(size == n_unknowns,
+                ExcMessage("The " + what + " given to " + call + " is of "
+                           + std::to_string(size) + " unknowns, but there are "
+                           + std::to_string(n_unknowns)
+                           + ". Make it anew after each change of the mesh."));
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::create_source()
@@ -198,6 +233,7 @@ namespace abut
           *mapping, *dof_handler, *constraints, obstacle);
     }
     source_is_outdated = false;
+    bodies.reset();
   }
 
   template <int dim>
@@ -228,18 +264,32 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::find_rows(
+  shim::RowSource::Change
+  ContactAssembler<dim>::Implementation::find_points(
       const la::Vector &displacement)
   {
-    rows_mesh = 0;
-    coefficients = solve::PointOperator();
-    view = {};
     if (points == nullptr || points_dimension != source->dimension())
     {
+      coefficients = solve::PointOperator();
       points_dimension = source->dimension();
       points = shim::create_points(context.get(), points_dimension);
     }
-    source->find(displacement, points.get());
+    try
+    {
+      return source->find(displacement, points.get());
+    }
+    catch (...)
+    {
+      // What is left of the points is not what they were made of.
+      coefficients = solve::PointOperator();
+      view = {};
+      throw;
+    }
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::take_points()
+  {
     make_operator();
     // Rows between nodes that cannot move say nothing.
     const std::vector<std::uint8_t> rows = coefficients.rows_with_columns();
@@ -257,13 +307,26 @@ namespace abut
     rows_signature = signature(coefficients);
     if (MPI::logical_or(before != rows_signature, communicator))
       solver.reset();
+    points_mesh = source->mesh_signature();
+    placed_rows = source->placed_rows();
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::find_rows(
+      const la::Vector &displacement)
+  {
+    rows_mesh = 0;
+    const auto change = find_points(displacement);
+    if (change == shim::RowSource::Change::points)
+      take_points();
+    else if (change == shim::RowSource::Change::constants)
+      coefficients.renew_constants(source->nodes());
     if (is_nitsche())
     {
       find_stress();
       solver.reset();
     }
-    rows_mesh = source->mesh_signature();
-    placed_rows = source->placed_rows();
+    rows_mesh = points_mesh;
     find_start();
   }
 
@@ -357,8 +420,10 @@ namespace abut
   void
   ContactAssembler<dim>::Implementation::take_matrix(const la::Matrix &matrix)
   {
-    row_stiffness =
-        solve::row_stiffness(stiffness_matrix(matrix), coefficients);
+    row_stiffness = solve::row_stiffness(matrix, coefficients);
+    if (law_compliance.size() == 0)
+      law_compliance = solve::compliance(stiffness_matrix(matrix));
+    law_stiffness = solve::row_stiffness(law_compliance, coefficients);
   }
 
   template <int dim>
@@ -375,13 +440,21 @@ namespace abut
   }
 
   template <int dim>
-  double ContactAssembler<dim>::Implementation::length_scale() const
+  double ContactAssembler<dim>::Implementation::length_scale(
+      const la::Vector &displacement) const
   {
     if (given_length > 0.)
       return given_length;
-    const double displacement = start_displacement.linfty_norm();
-    if (displacement > 0.)
-      return displacement;
+    const double way = displacement.linfty_norm();
+    return surfaces == nullptr ? way : std::min(way, surfaces->facet_size());
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::Implementation::length_scale() const
+  {
+    const double way = length_scale(start_displacement);
+    if (way > 0.)
+      return way;
     // The harmonic mean of the gaps: parts of an obstacle that are out of
     // reach do not count.
     double sums[2] = {0., 0.};
@@ -409,7 +482,7 @@ namespace abut
   void ContactAssembler<dim>::Implementation::begin(const la::Matrix &matrix,
                                                     const la::Vector &residual)
   {
-    stiffness = row_stiffness;
+    stiffness = law_stiffness;
     if (surfaces != nullptr)
       surfaces->spread_stiffness(stiffness);
     set_scales(matrix, residual);
@@ -451,12 +524,14 @@ namespace abut
   }
 
   template <int dim>
-  solve::NearNullSpace
+  const solve::NearNullSpace &
   ContactAssembler<dim>::Implementation::near_null_space() const
   {
-    return surfaces == nullptr
-               ? solve::NearNullSpace()
-               : shim::make_near_null_space(*mapping, *dof_handler);
+    if (!bodies)
+      bodies = surfaces == nullptr
+                   ? solve::NearNullSpace()
+                   : shim::make_near_null_space(*mapping, *dof_handler);
+    return *bodies;
   }
 
   template <int dim>

@@ -12,6 +12,8 @@
 
 #include <abut/dealii/contact_assembler.h>
 
+#include <optional>
+
 namespace abut
 {
   /** The inside of a ContactAssembler: rows, start and strategy of one solve.
@@ -21,6 +23,7 @@ namespace abut
     explicit Implementation(const MPI_Comm communicator)
         : communicator(communicator)
     {
+      // Options without a law are those of lagrange.
       method.options.law = abut_law_find("lagrange");
     }
 
@@ -30,14 +33,26 @@ namespace abut
     void check_law(const abut_status status) const;
     /** The source of the present rows; throws if there is none. */
     const shim::RowSource &present_source() const;
-    /** Throw if there are no rows for @p function. */
-    void check_rows(const std::string &function) const;
+    /** Throw, with the name of the @p call, unless there was a reinit() and
+     * the unknowns are as many as they were in it. */
+    void check_mesh(const std::string &call) const;
+    /** The same, but without reinit() there is nothing to throw about. */
+    void check_unchanged(const std::string &call) const;
+    /** The same as check_mesh(), and unless there are rows. */
+    void check_rows(const std::string &call) const;
+    /** Throw if @p what is not of the present unknowns. */
+    void check_size(const std::string &call, const std::string &what,
+                    dealii::types::global_dof_index size) const;
     void create_source();
     /** Keep the counts of an exchange that is about to go. */
     void count_messages();
     /** Forget the mesh. */
     void clear_source();
     void find_rows(const la::Vector &displacement);
+    /** Let the source find points. Collective. */
+    shim::RowSource::Change find_points(const la::Vector &displacement);
+    /** Make all that belongs to new points. Collective. */
+    void take_points();
     /** Make the operator of the points. Collective. */
     void make_operator();
     /** Make what has been reached the trial version of the history. */
@@ -64,8 +79,13 @@ namespace abut
     /** The gap as the law wants it. */
     const double *law_gap();
     void set_scales(const la::Matrix &matrix, const la::Vector &residual);
+    /** Of the present iteration. Collective. */
     double length_scale() const;
-    /** Find the local stiffness of the rows in a new matrix. Collective. */
+    /** See ContactAssembler::length_scale(). Collective. */
+    double length_scale(const la::Vector &displacement) const;
+    /** Find the local stiffness of the rows in a new matrix, which is that of
+     * the law only if it is the first one: a law must not change from one
+     * linearisation to the next. Collective. */
     void take_matrix(const la::Matrix &matrix);
     /** Length by pressure: inverse mean of the rows' stiffness. */
     double softness() const;
@@ -73,7 +93,8 @@ namespace abut
     void start_from_present();
     void begin_at(const la::Vector &displacement);
     void begin(const la::Matrix &matrix, const la::Vector &residual);
-    solve::NearNullSpace near_null_space() const;
+    /** Made once for each mesh. Collective. */
+    const solve::NearNullSpace &near_null_space() const;
     void prepare_solver(const la::Matrix &matrix);
     /** Build the preconditioner that was loaded, if there is one. */
     void restore_preconditioner();
@@ -118,6 +139,11 @@ namespace abut
     std::shared_ptr<shim::SurfaceExchange<dim>> exchange;
     CommunicationReport sent_before; ///< on earlier meshes
     bool source_is_outdated = true;
+    bool has_new_gaps = false; ///< of pairs that are otherwise the same
+    mutable std::optional<solve::NearNullSpace> bodies;
+    std::uint64_t points_mesh = 0; ///< signature of the points' mesh
+    bool has_rows = false; ///< since reinit(), by detect()
+    dealii::types::global_dof_index n_unknowns = 0; ///< in reinit()
 
     shim::Handle<abut_points> points; ///< of the last detect()
     int points_dimension = 0;         ///< unknowns of their nodes
@@ -145,9 +171,13 @@ namespace abut
     shim::ContactHistory::Penalty resumed;    ///< that it may go on with
     la::Vector start_displacement;
     std::vector<double> gap; ///< [rows] at the present displacement
+    /** Of each unknown of this rank, in the matrix that penalties are
+     * multiples of; empty: none yet. */
+    la::Vector law_compliance;
     /** [rows] pressure per length, > 0: of each row in the last matrix taken,
-     * and as the law has it, by patches of surface. */
-    std::vector<double> row_stiffness, stiffness;
+     * for solvers; in that of law_compliance; and the latter as the law has
+     * it, by patches of surface. */
+    std::vector<double> row_stiffness, law_stiffness, stiffness;
     double smallest_residual = 0.;
     double iteration_tolerance = 0.; ///< of linear systems; 0: the method's
     bool has_new_matrix = false;     ///< since the last solve

@@ -11,6 +11,7 @@ namespace abut
   template <int dim> double ContactAssembler<dim>::contact_force() const
   {
     const Implementation &i = *implementation;
+    i.check_unchanged("contact_force()");
     double force = 0.;
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
       if (i.surfaces == nullptr)
@@ -24,6 +25,7 @@ namespace abut
   template <int dim> double ContactAssembler<dim>::complementarity() const
   {
     const Implementation &i = *implementation;
+    i.check_unchanged("complementarity()");
     double sums[2] = {0., 0.};
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {
@@ -38,6 +40,7 @@ namespace abut
   template <int dim> double ContactAssembler<dim>::complementarity_error() const
   {
     const Implementation &i = *implementation;
+    i.check_unchanged("complementarity_error()");
     double sum = 0.;
     for (int row = 0; row < i.coefficients.n_rows() && i.is_started; ++row)
     {
@@ -54,6 +57,7 @@ namespace abut
   template <int dim> double ContactAssembler<dim>::penetration() const
   {
     const Implementation &i = *implementation;
+    i.check_unchanged("penetration()");
     double largest = 0.;
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
       largest = std::max(largest, i.coefficients.bilateral()[row] != 0
@@ -65,18 +69,21 @@ namespace abut
   template <int dim> la::Vector ContactAssembler<dim>::pressure() const
   {
     const Implementation &i = *implementation;
+    i.check_unchanged("pressure()");
     return i.present_source().pressure(i.row_pressures().data());
   }
 
   template <int dim> la::Vector ContactAssembler<dim>::gap() const
   {
     const Implementation &i = *implementation;
+    i.check_unchanged("gap()");
     return i.present_source().gap(i.gap.data());
   }
 
   template <int dim> la::Vector ContactAssembler<dim>::status() const
   {
     const Implementation &i = *implementation;
+    i.check_unchanged("status()");
     return i.present_source().status(i.row_states().data());
   }
 
@@ -85,6 +92,8 @@ namespace abut
                                           const double least) const
   {
     const Implementation &i = *implementation;
+    i.check_rows("imbalance()");
+    i.check_size("imbalance()", "residual", residual.size());
     la::Vector contact(residual);
     contact = 0.;
     i.add_forces(contact);
@@ -104,6 +113,7 @@ namespace abut
   std::vector<PairResult<dim>> ContactAssembler<dim>::pair_results() const
   {
     const Implementation &i = *implementation;
+    i.check_unchanged("pair_results()");
     if (i.surfaces == nullptr)
       return {};
     return i.surfaces->results(i.row_pressures().data(), i.gap.data(),
@@ -114,9 +124,11 @@ namespace abut
   std::vector<double>
   ContactAssembler<dim>::transfer_errors(const la::Vector &displacement) const
   {
-    const auto *surfaces = implementation->surfaces;
-    return surfaces == nullptr ? std::vector<double>()
-                               : surfaces->transfer_errors(displacement);
+    const Implementation &i = *implementation;
+    i.check_rows("transfer_errors()");
+    i.check_size("transfer_errors()", "displacement", displacement.size());
+    return i.surfaces == nullptr ? std::vector<double>()
+                                 : i.surfaces->transfer_errors(displacement);
   }
 
   template <int dim>
@@ -124,10 +136,12 @@ namespace abut
   ContactAssembler<dim>::check_penetration(const la::Vector &displacement,
                                            const double tolerance)
   {
-    auto *surfaces = implementation->surfaces;
-    if (surfaces == nullptr)
+    Implementation &i = *implementation;
+    i.check_rows("check_penetration()");
+    i.check_size("check_penetration()", "displacement", displacement.size());
+    if (i.surfaces == nullptr)
       return {};
-    return surfaces->penetrations(displacement, tolerance);
+    return i.surfaces->penetrations(displacement, tolerance);
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

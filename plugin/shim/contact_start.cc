@@ -35,6 +35,9 @@ namespace abut
 
   template <int dim> void ContactAssembler<dim>::Implementation::limit_start()
   {
+    // A law of the user's may pull.
+    if (abut_law_find(method.options.law->name) != method.options.law)
+      return;
     for (int i = 0; i < coefficients.n_rows(); ++i)
       if (coefficients.bilateral()[i] == 0)
         start_pressure[i] = std::max(0., start_pressure[i]);
@@ -145,11 +148,8 @@ namespace abut
   void ContactAssembler<dim>::commit(const la::Vector &displacement)
   {
     Implementation &i = *implementation;
-    AssertThrow(i.dof_handler != nullptr,
-                dealii::ExcMessage("Call reinit() before commit()."));
-    AssertThrow(displacement.size() == i.dof_handler->n_dofs(),
-                dealii::ExcMessage("The displacement given to commit() has "
-                                   "another size than the unknowns."));
+    i.check_mesh("commit()");
+    i.check_size("commit()", "displacement", displacement.size());
     i.record_present();
     i.history.commit();
   }
@@ -171,8 +171,7 @@ namespace abut
   template <int dim> void ContactAssembler<dim>::load(std::istream &stream)
   {
     Implementation &i = *implementation;
-    AssertThrow(i.dof_handler != nullptr,
-                dealii::ExcMessage("Call reinit() before load()."));
+    i.check_mesh("load()");
     if (i.source_is_outdated)
       i.create_source();
     i.history.load(stream, i.source->mesh_signature());

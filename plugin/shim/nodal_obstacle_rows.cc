@@ -167,7 +167,8 @@ namespace abut::shim
   }
 
   template <int dim>
-  void NodalObstacleRows<dim>::find(const la::Vector &, abut_points *points)
+  RowSource::Change NodalObstacleRows<dim>::find(const la::Vector &,
+                                                 abut_points *points)
   {
     const auto lower = evaluate<dim>(obstacle_.lower, candidates_.free,
                                      -INFINITY, communicator_);
@@ -177,6 +178,7 @@ namespace abut::shim
     check_prescribed_values();
     abut_points_clear(points);
     append_points(lower, upper, points);
+    return Change::points;
   }
 
   template <int dim>

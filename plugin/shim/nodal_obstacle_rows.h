@@ -24,7 +24,7 @@ namespace abut::shim
     {
       return 1;
     }
-    void find(const la::Vector &displacement, abut_points *points) override;
+    Change find(const la::Vector &displacement, abut_points *points) override;
     void filter(const std::vector<std::uint8_t> &keep) override;
     const solve::NodeMap &nodes() const override
     {

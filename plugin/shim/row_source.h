@@ -22,13 +22,23 @@ namespace abut::shim
   public:
     virtual ~RowSource() = default;
 
+    /** What is other than in the find() before. */
+    enum class Change
+    {
+      none,
+      constants, ///< prescribed values in nodes() alone
+      points
+    };
+
     /** Unknowns of a node. */
     virtual int dimension() const = 0;
 
     /** Replace @p points, which must outlive their use here, by those for the
-     * bodies displaced by @p displacement (owned entries). Throws on all ranks.
-     * Collective. */
-    virtual void find(const la::Vector &displacement, abut_points *points) = 0;
+     * bodies displaced by @p displacement (owned entries). Points that would be
+     * the same are left as they are, filter() and all. Throws on all ranks; the
+     * next call makes them anew then. Collective. */
+    virtual Change find(const la::Vector &displacement,
+                        abut_points *points) = 0;
 
     /** Keep those rows only; see abut_points_filter(). */
     virtual void filter(const std::vector<std::uint8_t> &keep) = 0;

@@ -95,8 +95,9 @@ namespace abut::shim
     double distance_bound(std::size_t link) const;
 
     /** Bring prescribed values up to those that the host's constraints have
-     * now. Nothing is sent unless one has changed. Collective. */
-    void update_constants(ContactSurface<dim> &surface);
+     * now. Nothing is sent unless one has changed. Returns whether one has.
+     * Collective. */
+    bool update_constants(ContactSurface<dim> &surface);
 
     /** Displacement of each node of the gathered surface, from the owned
      * unknowns: what constraints make of it. Collective. */

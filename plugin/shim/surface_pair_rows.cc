@@ -421,18 +421,54 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::find(const la::Vector &displacement,
-                                  abut_points *points)
+  std::vector<typename SurfacePairRows<dim>::Origin>
+  SurfacePairRows<dim>::origins(const std::vector<Direction> &u) const
   {
+    const abut_search_options &search = settings_.search.detection.search;
+    std::vector<Origin> result;
+    for (const Pair &pair : pairs_)
+    {
+      // Obstacles move and are functions that anything may have changed.
+      if (pair.data.obstacle)
+        return {};
+      const double smallest = std::min(pair.secondary.everywhere.smallest,
+                                       pair.primary.everywhere.smallest);
+      const double reach = std::max(
+          {search.reach, pair.data.reach, 1.5 * motion(pair, u)});
+      result.push_back(
+          {reach <= search.relative_reach * smallest ? 0. : reach,
+           pair.data.gap});
+    }
+    return result;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::set_gaps(const std::vector<ContactPair<dim>> &pairs)
+  {
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      pairs_[p].data.gap = pairs[p].gap;
+  }
+
+  template <int dim>
+  RowSource::Change
+  SurfacePairRows<dim>::find(const la::Vector &displacement,
+                             abut_points *points)
+  {
+    const bool has_new_constants = exchange_->update_constants(surface_);
+    const std::vector<Direction> u = displacements_in_reach(displacement);
+    std::vector<Origin> wanted = origins(u);
+    if (!wanted.empty() && wanted == origins_ && points == points_)
+      return has_new_constants ? Change::constants : Change::none;
+    origins_.clear();
     points_ = points;
     places_.clear();
     checks_.clear();
     check(context_, abut_points_clear(points_));
-    exchange_->update_constants(surface_);
-    const std::vector<Direction> u = displacements_in_reach(displacement);
     std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       find_pair(p, motion(pairs_[p], u), taken);
+    origins_ = std::move(wanted);
+    return Change::points;
   }
 
   template <int dim>

@@ -52,8 +52,13 @@ namespace abut::shim
     {
       return dim;
     }
-    void find(const la::Vector &displacement, abut_points *points) override;
+    Change find(const la::Vector &displacement, abut_points *points) override;
     void filter(const std::vector<std::uint8_t> &keep) override;
+
+    /** Take the gaps of @p pairs, which differ in nothing else from those given
+     * before. */
+    void set_gaps(const std::vector<ContactPair<dim>> &pairs);
+
     const solve::NodeMap &nodes() const override
     {
       return surface_.map;
@@ -90,6 +95,15 @@ namespace abut::shim
     first_contact(const std::vector<double> &gap,
                   const std::vector<double> &pressure,
                   const std::vector<double> &scale) const;
+
+    /** Median of the secondary surfaces, that of the pair of the largest. */
+    double facet_size() const
+    {
+      double size = 0.;
+      for (const Pair &pair : pairs_)
+        size = std::max(size, pair.secondary.everywhere.median);
+      return size;
+    }
 
     /** What find() met, by pair. */
     const std::vector<PairCheck> &checks() const
@@ -150,6 +164,18 @@ namespace abut::shim
        * 1 because of another pair, 2 because of supports. */
       std::vector<std::uint8_t> dropped;
       double between_rows = 0., held_inside = 0.; ///< as in PairResult
+    };
+
+    /** What the points of a pair depend on that may change from one find() to
+     * the next; positions, supports and settings do not. */
+    struct Origin
+    {
+      double reach, gap; ///< reach 0: a part of each facet's size
+
+      bool operator==(const Origin &other) const
+      {
+        return reach == other.reach && gap == other.gap;
+      }
     };
 
     /** What is known of a point beside the set that it is in. */
@@ -235,6 +261,7 @@ namespace abut::shim
     bool has_lasting_numbers(const Pair &pair) const;
     void find_pair(std::size_t pair, double motion,
                    std::vector<std::uint8_t> &taken);
+    std::vector<Origin> origins(const std::vector<Direction> &u) const;
     solve::NodeMap append_stress(const NormalStress<dim> &normal_stress,
                                  abut_points *stress) const;
     void make_check(std::size_t pair, unsigned int n_dropped);
@@ -257,6 +284,8 @@ namespace abut::shim
     abut_points *points_ = nullptr; ///< of the last find()
     abut_points_view view_ = {};
     std::vector<Place> places_; ///< [points]
+    /** [pairs] of the present points; empty: they have to be made anew. */
+    std::vector<Origin> origins_;
     std::vector<PairCheck> checks_;
   };
 

@@ -30,6 +30,7 @@ namespace abut::shim
 
   template <int dim> void SurfacePairRows<dim>::gather()
   {
+    origins_.clear();
     std::vector<typename SurfaceExchange<dim>::Link> links;
     for (const Pair &pair : pairs_)
       links.push_back({pair.data.name, pair.data.secondary, pair.data.primary,

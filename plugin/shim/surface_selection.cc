@@ -344,7 +344,7 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfaceExchange<dim>::update_constants(ContactSurface<dim> &surface)
+  bool SurfaceExchange<dim>::update_constants(ContactSurface<dim> &surface)
   {
     bool has_new = false;
     for (auto &[dof, record] : described_)
@@ -358,7 +358,7 @@ namespace abut::shim
         record.lines[d].constant = value;
       }
     if (!MPI::logical_or(has_new, post_.communicator()))
-      return;
+      return false;
     const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
     std::vector<double> values(owned.n_elements(), 0.);
     for (const auto &line : constraints_.get_lines())
@@ -372,6 +372,7 @@ namespace abut::shim
         surface.map.set_constant(n, d, value);
         nodes_.at(surface.nodes[n].dof[0]).lines[d].constant = value;
       }
+    return true;
   }
 
   template <int dim>
@@ -408,7 +409,7 @@ namespace abut::shim
 #define ABUT_INSTANTIATE(dim)                                                  \
   template ContactSurface<dim> SurfaceExchange<dim>::gather(                   \
       abut_context *, std::vector<Link> &, const abut_search_options &);       \
-  template void SurfaceExchange<dim>::update_constants(ContactSurface<dim> &); \
+  template bool SurfaceExchange<dim>::update_constants(ContactSurface<dim> &); \
   template std::vector<dealii::Tensor<1, dim>>                                 \
   SurfaceExchange<dim>::displacements(const ContactSurface<dim> &,             \
                                       const la::Vector &);                     \

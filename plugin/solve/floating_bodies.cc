@@ -104,8 +104,9 @@ namespace abut::solve
       std::vector<std::uint8_t> is_coupled_;
     };
 
-    /** Eigenvectors of a symmetric positive semidefinite n x n matrix with
-     * eigenvalues up to @p bound. */
+    /** Eigenvectors of a symmetric n x n matrix with eigenvalues that are no
+     * more than @p bound away from 0. Less than that is no round-off but a
+     * material that softens, which resists, if badly. */
     std::vector<std::vector<double>>
     null_space(const unsigned int n, const double *values, const double bound)
     {
@@ -115,7 +116,7 @@ namespace abut::solve
           matrix(i, j) = 0.5 * (values[i * n + j] + values[j * n + i]);
       dealii::Vector<double> eigenvalues;
       dealii::FullMatrix<double> eigenvectors;
-      matrix.compute_eigenvalues_symmetric(-1e3 * n, bound, 0., eigenvalues,
+      matrix.compute_eigenvalues_symmetric(-bound, bound, 0., eigenvalues,
                                            eigenvectors);
       std::vector<std::vector<double>> result(eigenvalues.size());
       for (unsigned int k = 0; k < eigenvalues.size(); ++k)

@@ -75,7 +75,6 @@ namespace abut::solve
       {
         const double sign =
             abut_point_sign(points_.kind[i], row - points_.component_start[i]);
-        double gap = points_.gap[row];
         line.clear();
         for (auto e = points_.start[i]; e < points_.start[i + 1]; ++e)
           for (int d = 0; d < dim; ++d)
@@ -86,17 +85,44 @@ namespace abut::solve
             if (factor == 0.)
               continue;
             const auto node = static_cast<std::size_t>(points_.node[e]);
-            gap += factor * nodes.constant(node, d);
             nodes.for_each_term(
                 node, d,
                 [&](const global_dof_index unknown, const double term)
                 { line.add(unknown, factor * term); });
           }
         line.write(columns, coefficient_);
-        initial_gap_.push_back(gap);
+        initial_gap_.push_back(initial_gap(i, row, nodes));
         start_.push_back(static_cast<std::int64_t>(columns.size()));
       }
     return columns;
+  }
+
+  double PointOperator::initial_gap(const int point, const int row,
+                                    const NodeMap &nodes) const
+  {
+    const int dim = points_.dimension;
+    const double sign = abut_point_sign(points_.kind[point],
+                                        row - points_.component_start[point]);
+    double gap = points_.gap[row];
+    for (auto e = points_.start[point]; e < points_.start[point + 1]; ++e)
+      for (int d = 0; d < dim; ++d)
+      {
+        const double factor = sign
+                              * points_.frame[row * std::size_t(dim) + d]
+                              * points_.coefficient[e];
+        if (factor != 0.)
+          gap += factor
+                 * nodes.constant(static_cast<std::size_t>(points_.node[e]), d);
+      }
+    return gap;
+  }
+
+  void PointOperator::renew_constants(const NodeMap &nodes)
+  {
+    for (int i = 0; i < points_.n_points; ++i)
+      for (int row = points_.component_start[i];
+           row < points_.component_start[i + 1]; ++row)
+        initial_gap_[row] = initial_gap(i, row, nodes);
   }
 
   PointOperator::PointOperator(const dealii::IndexSet &owned,

@@ -53,6 +53,9 @@ namespace abut::solve
       return n_owned_ + static_cast<int>(partitioner_->n_ghost_indices());
     }
 
+    /** Take other constants of the same nodes. */
+    void renew_constants(const NodeMap &nodes);
+
     /** First entry of @p row; end(row) is past its last one. */
     std::int64_t begin(const int row) const
     {
@@ -167,6 +170,7 @@ namespace abut::solve
                      la::Vector &vector) const;
 
     std::vector<dealii::types::global_dof_index> expand(const NodeMap &nodes);
+    double initial_gap(int point, int row, const NodeMap &nodes) const;
 
     abut_points_view points_ = {};
     int n_owned_ = 0;

@@ -12,6 +12,13 @@ namespace abut::solve
    * two sides of a pair act in series. Collective. */
   std::vector<double> row_stiffness(const la::Matrix &stiffness,
                                     const PointOperator &rows);
+
+  /** 1 / K_jj of each unknown of this rank. */
+  la::Vector compliance(const la::Matrix &stiffness);
+
+  /** The same of such a vector, which may be kept for other rows. */
+  std::vector<double> row_stiffness(const la::Vector &compliance,
+                                    const PointOperator &rows);
 } // namespace abut::solve
 
 #endif

@@ -2,214 +2,18 @@
 // ContactSolver with a nonlinear material: two blocks of different material and
 // mesh, held sideways, pressed together. Strain and stress are uniform in each,
 // and follow from one scalar equation. What cannot be solved is told apart.
-#include "patch.h"
+#include "nonlinear_blocks.h"
 
-#include <abut/dealii/contact_solver.h>
 #include <abut/dealii/load_steps.h>
 
 #include <functional>
 
 using namespace abut;
+using hosts::Blocks;
+using hosts::exact_pressure;
 
 namespace
 {
-  /** stress = (lambda + c tr^2) tr I + 2 mu strain. */
-  struct Stiffening
-  {
-    double lambda, mu, c;
-
-    /** With the strain e along one axis alone. */
-    double uniaxial(const double e) const
-    {
-      return (lambda + 2. * mu) * e + c * e * e * e;
-    }
-  };
-
-  constexpr Stiffening materials[] = {{3., 2., 60.}, {1., 4., 20.}};
-  constexpr double distance = 0.05, shortening = 0.2;
-
-  /** The pressure at which both blocks are as short as they have to be. */
-  double exact_pressure()
-  {
-    double low = 0., high = shortening;
-    for (int i = 0; i < 100; ++i)
-    {
-      const double e = 0.5 * (low + high);
-      (materials[0].uniaxial(e) < materials[1].uniaxial(shortening - e)
-           ? low
-           : high) = e;
-    }
-    return materials[0].uniaxial(low);
-  }
-
-  class Blocks
-  {
-  public:
-    explicit Blocks(const bool held = true)
-        : triangulation_(MPI_COMM_WORLD),
-          fe_(dealii::FE_Q<2>(1), 2),
-          mapping_(1),
-          dof_handler_(triangulation_),
-          contact(MPI_COMM_WORLD)
-    {
-      make_mesh();
-      setup(held);
-      ContactPair<2> pair;
-      pair.name = "interface";
-      pair.secondary = {hosts::upper_interface};
-      pair.primary = {hosts::lower_interface};
-      pair.reach = 2. * distance;
-      contact.set_pairs({pair});
-      contact.reinit(mapping_, dof_handler_, constraints);
-      u.reinit(owned_, MPI_COMM_WORLD);
-    }
-
-    HostProblem problem()
-    {
-      HostProblem problem;
-      problem.residual = [this](const la::Vector &at, la::Vector &residual)
-      { assemble(at, nullptr, &residual); };
-      problem.tangent = [this](const la::Vector &at) -> const la::Matrix &
-      {
-        assemble(at, &tangent_, nullptr);
-        return tangent_;
-      };
-      return problem;
-    }
-
-    dealii::AffineConstraints<double> constraints;
-    la::Vector u;
-
-  private:
-    void make_mesh()
-    {
-      dealii::Triangulation<2> lower, upper, both;
-      const auto block = [](dealii::Triangulation<2> &mesh,
-                            const unsigned int n, const double from)
-      {
-        dealii::GridGenerator::subdivided_hyper_rectangle(
-            mesh, {n, n}, dealii::Point<2>(0., from),
-            dealii::Point<2>(1., from + 1.));
-      };
-      block(lower, 3, -1. - distance);
-      block(upper, 4, 0.);
-      for (const auto &cell : upper.active_cell_iterators())
-        cell->set_material_id(1);
-      dealii::GridGenerator::merge_triangulations(lower, upper, both);
-      for (const auto &face : both.active_face_iterators())
-        if (face->at_boundary())
-        {
-          const double y = face->center()[1];
-          face->set_boundary_id(y < -0.999 - distance ? hosts::bottom
-                                : std::abs(y + distance) < 1e-9
-                                    ? hosts::lower_interface
-                                : std::abs(y) < 1e-9 ? hosts::upper_interface
-                                : y > 0.999          ? hosts::top
-                                                     : hosts::free_side);
-        }
-      triangulation_.copy_triangulation(both);
-      triangulation_.refine_global(1);
-    }
-
-    void prescribe(const dealii::types::boundary_id side, const unsigned int c,
-                   const double value)
-    {
-      dealii::ComponentMask mask(2, false);
-      mask.set(c, true);
-      dealii::VectorTools::interpolate_boundary_values(
-          mapping_, dof_handler_, side,
-          dealii::Functions::ConstantFunction<2>(value, 2), constraints, mask);
-    }
-
-    void setup(const bool held)
-    {
-      dof_handler_.distribute_dofs(fe_);
-      owned_ = dof_handler_.locally_owned_dofs();
-      relevant_ = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_);
-      constraints.reinit(relevant_);
-      prescribe(hosts::free_side, 0, 0.);
-      prescribe(hosts::bottom, 1, 0.);
-      if (held)
-        prescribe(hosts::top, 1, -distance - shortening);
-      constraints.close();
-      dealii::DynamicSparsityPattern pattern(relevant_);
-      dealii::DoFTools::make_sparsity_pattern(dof_handler_, pattern,
-                                              constraints, false);
-      dealii::SparsityTools::distribute_sparsity_pattern(
-          pattern, owned_, MPI_COMM_WORLD, relevant_);
-      tangent_.reinit(owned_, owned_, pattern, MPI_COMM_WORLD);
-    }
-
-    void assemble(const la::Vector &at, la::Matrix *matrix,
-                  la::Vector *residual)
-    {
-      const dealii::QGauss<2> quadrature(2);
-      dealii::FEValues<2> values(mapping_, fe_, quadrature,
-                                 dealii::update_gradients
-                                     | dealii::update_JxW_values);
-      const dealii::FEValuesExtractors::Vector displacement(0);
-      const unsigned int n = fe_.n_dofs_per_cell();
-      dealii::FullMatrix<double> k(n, n);
-      dealii::Vector<double> r(n);
-      std::vector<dealii::types::global_dof_index> dofs(n);
-      std::vector<dealii::SymmetricTensor<2, 2>> strain(quadrature.size());
-      la::Vector ghosted(owned_, relevant_, MPI_COMM_WORLD);
-      ghosted = at;
-      if (matrix != nullptr)
-        *matrix = 0.;
-      for (const auto &cell : dof_handler_.active_cell_iterators())
-        if (cell->is_locally_owned())
-        {
-          const Stiffening &m = materials[cell->material_id()];
-          values.reinit(cell);
-          values[displacement].get_function_symmetric_gradients(ghosted,
-                                                                strain);
-          k = 0.;
-          r = 0.;
-          for (unsigned int q = 0; q < quadrature.size(); ++q)
-          {
-            const double t = trace(strain[q]);
-            for (unsigned int i = 0; i < n; ++i)
-            {
-              const auto e = values[displacement].symmetric_gradient(i, q);
-              r(i) += ((m.lambda + m.c * t * t) * t * trace(e)
-                       + 2. * m.mu * (strain[q] * e))
-                      * values.JxW(q);
-              for (unsigned int j = 0; j < n; ++j)
-              {
-                const auto f = values[displacement].symmetric_gradient(j, q);
-                k(i, j) += ((m.lambda + 3. * m.c * t * t) * trace(e) * trace(f)
-                            + 2. * m.mu * (e * f))
-                           * values.JxW(q);
-              }
-            }
-          }
-          cell->get_dof_indices(dofs);
-          if (matrix != nullptr)
-            constraints.distribute_local_to_global(k, dofs, *matrix);
-          if (residual != nullptr)
-            constraints.distribute_local_to_global(r, dofs, *residual);
-        }
-      if (matrix != nullptr)
-        matrix->compress(dealii::VectorOperation::add);
-      if (residual != nullptr)
-      {
-        residual->compress(dealii::VectorOperation::add);
-        constraints.set_zero(*residual);
-      }
-    }
-
-    dealii::parallel::distributed::Triangulation<2> triangulation_;
-    const dealii::FESystem<2> fe_;
-    const dealii::MappingQ<2> mapping_;
-    dealii::DoFHandler<2> dof_handler_;
-    dealii::IndexSet owned_, relevant_;
-    la::Matrix tangent_;
-
-  public:
-    ContactAssembler<2> contact;
-  };
-
   bool good = true;
 
   void expect(const bool holds, const std::string &what)
@@ -373,7 +177,8 @@ namespace
   }
 
   /** Depth by pressure of a penalty is the inverse of the stiffness that it is
-   * a multiple of: a matrix twice as stiff halves it. */
+   * a multiple of: a matrix twice as stiff halves it.
+   * @param factor on the tangent at u = 0 as reference; 0: none is named */
   double softness_of_penalty(const double factor)
   {
     Blocks blocks;
@@ -384,7 +189,8 @@ namespace
     la::Matrix reference;
     reference.copy_from(blocks.problem().tangent(blocks.u));
     reference *= factor;
-    blocks.contact.set_reference_stiffness(reference);
+    if (factor > 0.)
+      blocks.contact.set_reference_stiffness(reference);
     const NewtonResult result =
         ContactSolver<2>(blocks.contact, blocks.constraints, blocks.problem())
             .solve(blocks.u);
@@ -395,9 +201,12 @@ namespace
 
   void check_scales()
   {
-    expect(std::abs(softness_of_penalty(1.) / softness_of_penalty(2.) - 2.)
-               <= 1e-6,
+    const double soft = softness_of_penalty(1.);
+    expect(std::abs(soft / softness_of_penalty(2.) - 2.) <= 1e-6,
            "reference stiffness");
+    // The tangent at the end is several times as stiff as that at the start.
+    expect(std::abs(softness_of_penalty(0.) / soft - 1.) <= 1e-6,
+           "a penalty is that of the first linearisation");
 
     // Gaps are closed to a part of the length.
     Blocks blocks;
@@ -412,7 +221,15 @@ namespace
                && blocks.contact.penetration()
                       <= 1e-4 * method.options.gap_tolerance,
            "length scale: " + result.explanation);
-    expect(blocks.contact.length_scale() == 1e-4, "length scale as it was set");
+    expect(blocks.contact.length_scale(blocks.u) == 1e-4,
+           "length scale as it was set");
+    // Of 8 facets on the side of length 1, or of what has moved less.
+    blocks.contact.set_length_scale(0.);
+    expect(std::abs(blocks.contact.length_scale(blocks.u) - 0.125) <= 1e-14,
+           "length scale of bodies that travel");
+    blocks.u *= 1e-3;
+    expect(blocks.contact.length_scale(blocks.u) == blocks.u.linfty_norm(),
+           "length scale of small displacements");
   }
 
   /** Phases in their order, and an answer that the host refuses. */
@@ -437,6 +254,36 @@ namespace
            "an answer that is refused: " + result.explanation);
     expect(phases == "dsce", "phases: " + phases);
     expect(n_stepped == result.n_systems && n_stepped > 1, "events of systems");
+  }
+
+  /** Two load steps of a material that cannot be shortened to nothing: values
+   * prescribed at the top, two cells wide each time, come with the increment.
+   */
+  void check_prescribed_values()
+  {
+    hosts::BlocksOptions options;
+    options.has_limit = true;
+    options.top = -hosts::distance;
+    Blocks blocks(options);
+    ContactSolver<2> solver(blocks.contact, blocks.constraints,
+                            blocks.problem());
+    for (const double part : {0.5, 1.})
+    {
+      blocks.move_top(-hosts::distance - part * hosts::shortening);
+      const NewtonResult result = solver.solve(blocks.u);
+      expect(result.converged() && result.n_steps <= 6,
+             "prescribed values: " + result.explanation);
+    }
+    la::Vector there(blocks.u);
+    blocks.constraints.distribute(there);
+    there -= blocks.u;
+    expect(there.linfty_norm() <= 1e-15, "prescribed values in the answer");
+    expect(
+        std::abs(std::abs(blocks.contact.pair_results()[0].secondary_force[1])
+                     / exact_pressure()
+                 - 1.)
+            <= 1e-5,
+        "prescribed values: force");
   }
 
   /** Times in eighths: two steps asked for, the first fails twice. */
@@ -517,7 +364,9 @@ namespace
     expect(result.reason == NewtonReason::contact,
            "one system for each contact problem: " + result.explanation);
 
-    Blocks floating(false);
+    hosts::BlocksOptions unheld;
+    unheld.top_is_held = false;
+    Blocks floating(unheld);
     result = ContactSolver<2>(floating.contact, floating.constraints,
                               floating.problem())
                  .solve(floating.u);
@@ -539,6 +388,7 @@ main(int argc, char **argv)
   check_own_loop();
   check_scales();
   check_events();
+  check_prescribed_values();
   check_load_steps();
   check_failures();
   return good ? 0 : 1;

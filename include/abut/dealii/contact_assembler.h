@@ -127,8 +127,10 @@ namespace abut
      * components of the finite element, FESystem(FE_Q(degree), dim) of degree
      * 1 or 2. Where pairs overlap, the first one has the node. The geometry is
      * that of the undeformed bodies, so that gaps are linear in the
-     * displacement. Takes effect at detect(); replaces an obstacle. Not
-     * collective. */
+     * displacement. Takes effect at detect(); replaces an obstacle. In load
+     * steps call it freely: pairs that differ from the present ones in their
+     * gaps alone keep what was found for them. Obstacles that move need no call
+     * at all. Not collective. */
     virtual void set_pairs(const std::vector<ContactPair<dim>> &pairs);
 
     /** Whether the bodies of pairs are rotated about the axis x = 0 (2D):
@@ -287,20 +289,26 @@ namespace abut
     virtual double evaluate(const la::Vector &displacement,
                             la::Vector &forces) const;
 
-    /** Take the stiffness that penalties and scales are multiples of from this
-     * matrix, and not from each one that solve() is given: for tangents with
-     * inertia, or of a material that softens. It must be of the present
+    /** Take the stiffness that penalties are multiples of from this matrix,
+     * and not from the first one that solve() or add() is given after
+     * reinit(), and measure the load by it: as the larger of the residual R
+     * and K u at the start of an iteration, with K this matrix and not the
+     * present one. For tangents with inertia, whose K u is no internal force,
+     * or if the first tangent is not a typical one. It must be of the present
      * unknowns and stay as it is until the next reinit(), which forgets it. Not
      * collective. */
     virtual void set_reference_stiffness(const la::Matrix &matrix);
 
-    /** Length > 0 that tolerances of gaps are a part of, such as the size of a
-     * facet. 0, the default: the largest displacement or, where there is none,
-     * a mean of the gaps. Not collective. */
+    /** Length > 0 that tolerances of gaps are a part of. 0, the default: see
+     * length_scale(); where nothing has moved, a mean of the gaps. Not
+     * collective. */
     virtual void set_length_scale(double length);
 
-    /** The length that was set, or 0. Not collective. */
-    virtual double length_scale() const;
+    /** The length that gaps and depths at @p displacement are measured by:
+     * the one that was set or, without, the largest displacement, but of pairs
+     * not more than a facet, the median of their secondary surfaces: a body
+     * may travel far. */
+    virtual double length_scale(const la::Vector &displacement) const;
 
     /** The unknowns of this rank that may take part in contact: those of all
      * rows of the last detect(), in contact or not, on both sides; hanging

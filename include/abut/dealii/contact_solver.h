@@ -23,7 +23,13 @@
  * by the energy norm of its error: after a full step d the error is about
  *     |d|_K |r after| / |r before|,    |d|_K^2 = d . K d,
  * and has to be less than the tolerance times |u|_K, which means the same on
- * any mesh.
+ * any mesh. Where d . K d is not positive, as in a material that softens or in
+ * a snap through, energies say nothing: there it is the forces that are not
+ * balanced which have to be less than the tolerance times the forces.
+ *
+ * Prescribed values that have changed since the last solve are not put into u
+ * at once, which would fold the first layer of cells: they are a part of the
+ * first linearised increment, K du = -R with du = the change there.
  *
  * Everything is in this header, so that programs that load Abut at run time
  * can use it as well as those that link it.
@@ -31,133 +37,16 @@
 
 #include <abut/dealii/contact_assembler.h>
 #include <abut/dealii/contact_loop.h>
+#include <abut/dealii/contact_solver_types.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <string>
 #include <utility>
 
 namespace abut
 {
-  /** What ContactSolver needs from the host. The functions are called on all
-   * ranks. For `nitsche`, whose bodies must be linear elastic, give the
-   * ContactAssembler the stress, see ContactAssembler::set_normal_stress(). */
-  struct HostProblem
-  {
-    /** Internal minus external forces at u, without contact. u satisfies the
-     * constraints and has no ghosts; rows that the constraints eliminate are
-     * zero. What the material has to remember (plastic strain) must be that of
-     * the last load step: u may be a trial. */
-    std::function<void(const la::Vector &u, la::Vector &residual)> residual;
-
-    /** Its derivative by u, whose rows and columns that the constraints
-     * eliminate are diagonal. The matrix must stay as it is until the next
-     * call. */
-    std::function<const la::Matrix &(const la::Vector &u)> tangent;
-
-    /** Whether the tangent is the same for all u and until the next reinit():
-     * it is asked for once for each solve() then, and preconditioners are
-     * kept. */
-    bool linear = false;
-
-    /** Of a linear problem: whether the residual costs no more than a product
-     * with the tangent. It is then asked for before each linear system, which
-     * leaves the least round-off, and not only once. */
-    bool residual_is_cheap = false;
-
-    /** Called after each linear system with its cost; may be empty. */
-    std::function<void(const LinearReport &cost)> monitor;
-  };
-
-  /** What ContactSolver is about to do. */
-  enum class SolvePhase
-  {
-    detect, /**< find the rows, and a start */
-    solve,  /**< linearisations and their contact problems */
-    check,  /**< look whether the answer may be used */
-    end     /**< return */
-  };
-
-  /** What a program may see of ContactSolver at work, and have a say in. All
-   * may be empty; all are called on all ranks, and may throw there. */
-  struct SolverEvents
-  {
-    /** A phase begins: for clocks. */
-    std::function<void(SolvePhase phase)> phase;
-
-    /** There was a linear system, which moved the displacement; the assembler
-     * has had its update(). */
-    std::function<void(const LinearReport &cost, const la::Vector &increment)>
-        stepped;
-
-    /** Look at a converged answer: a text that is not empty says why it must
-     * not be used. @p search counts calls of detect() so far, from 1. */
-    std::function<std::string(const la::Vector &u, unsigned int search)> refuse;
-
-    /** So many nodes have penetrated without a row. */
-    std::function<void(std::size_t n_nodes)> missed;
-  };
-
-  /** Settings of ContactSolver; all are free of units. */
-  struct NewtonParameters
-  {
-    /** Error in the energy norm relative to the displacement, > 0. Of linear
-     * problems the tolerances of the method decide alone. */
-    double tolerance = 1e-6;
-    /** Relative tolerance of linear systems, > 0; 0: chosen for each step. */
-    double linear_tolerance = 0.;
-    /** Linearisations after which it is given up, > 0. */
-    unsigned int max_steps = 50;
-    /** Times that a step may be halved. */
-    unsigned int max_halvings = 8;
-    /** Sweeps of ContactAssembler::relax() after each detect(); 0: none.
-     * `barrier` needs at least 1. */
-    unsigned int relaxation_sweeps = 0;
-    /** Searches on the deformed bodies for nodes without a row; 0: none. */
-    unsigned int max_searches = 5;
-    /** Depth that counts there, relative to
-     * ContactAssembler::length_scale() or, if that is 0, the largest
-     * displacement. */
-    double missed_depth = 1e-3;
-  };
-
-  /** Why ContactSolver stopped. */
-  enum class NewtonReason
-  {
-    converged,    /**< the estimated error is below the tolerance */
-    contact,      /**< the contact of a linearisation found no end */
-    linear_solve, /**< a linear system could not be solved */
-    line_search,  /**< no step lowers the residual */
-    step_limit,   /**< max_steps reached */
-    missed_nodes, /**< nodes penetrate without a row after all searches */
-    refused,      /**< by SolverEvents::refuse */
-    not_finite    /**< the host's residual is not a number */
-  };
-
-  /** What ContactSolver::solve() found and what it cost. The same on all
-   * ranks. */
-  struct NewtonResult
-  {
-    NewtonReason reason = NewtonReason::converged; /**< why it stopped */
-    std::string explanation;      /**< in words, with what to try */
-    unsigned int n_steps = 0;     /**< linearisations */
-    unsigned int n_systems = 0;   /**< linear systems */
-    unsigned int n_residuals = 0; /**< calls of HostProblem::residual */
-    unsigned int n_searches = 0;  /**< calls of detect() */
-    double residual = 0.; /**< norm of the forces that are not balanced */
-    double error = 0.;    /**< estimated, in the energy norm, relative; of a
-                               linear problem 0 */
-    LinearReport linear;  /**< cost of the linear systems */
-
-    /** Whether there is an answer. */
-    bool converged() const
-    {
-      return reason == NewtonReason::converged;
-    }
-  };
-
   /** See the head of this file. Keeps references to the assembler and the
    * constraints and a copy of the rest; cheap to make. */
   template <int dim> class ContactSolver
@@ -180,21 +69,24 @@ namespace abut
     }
 
     /** Solve from the displacement @p u and from the pressures of the last
-     * solve or of ContactAssembler::set_pressure(). Puts the prescribed values
-     * into @p u first. Where it does not converge, @p u is the last iterate
+     * solve or of ContactAssembler::set_pressure(). Prescribed values come into
+     * @p u at once if the problem is linear, else with the first increment.
+     * Where it does not converge, @p u is the last iterate
      * and the result says why; exceptions are those of detect() and of the
      * host's functions. Collective. */
     NewtonResult solve(la::Vector &u)
     {
       result_ = NewtonResult();
-      constraints_.distribute(u);
       allocate(u);
+      if (problem_.linear)
+        constraints_.distribute(u);
       try
       {
         do
         {
           enter(SolvePhase::detect);
-          contact_.detect(u);
+          find_goal(u);
+          contact_.detect(goal_);
           ++result_.n_searches;
           relax(u);
           enter(SolvePhase::solve);
@@ -215,9 +107,18 @@ namespace abut
   private:
     void allocate(const la::Vector &u)
     {
-      for (la::Vector *vector :
-           {&residual_, &increment_, &step_, &product_, &forces_, &trial_})
+      for (la::Vector *vector : {&residual_, &increment_, &step_, &product_,
+                                 &forces_, &trial_, &goal_, &change_})
         vector->reinit(u, true);
+    }
+
+    /** @p u with the prescribed values of now: all that contact asks of it, as
+     * the free unknowns are the same. */
+    void find_goal(const la::Vector &u)
+    {
+      goal_ = u;
+      if (!problem_.linear)
+        constraints_.distribute(goal_);
     }
 
     void enter(const SolvePhase phase) const
@@ -252,9 +153,48 @@ namespace abut
       if (parameters_.relaxation_sweeps == 0)
         return;
       find_residual(u);
+      if (problem_.linear)
+      {
+        contact_.relax(problem_.tangent(u), residual_,
+                       parameters_.relaxation_sweeps, u);
+        constraints_.distribute(u);
+        return;
+      }
+      add_prescribed_change(u);
+      trial_ = goal_;
       contact_.relax(problem_.tangent(u), residual_,
-                     parameters_.relaxation_sweeps, u);
-      constraints_.distribute(u);
+                     parameters_.relaxation_sweeps, trial_);
+      constraints_.distribute(trial_);
+      trial_ -= goal_;
+      u += trial_;
+    }
+
+    /** Make residual_, which is that at @p u, the one of the linear model in
+     * which only the prescribed values have moved, to goal_. The tangent has no
+     * columns of theirs: they are a difference quotient of the host's residual,
+     * over a way that no material minds. */
+    void add_prescribed_change(const la::Vector &u)
+    {
+      constexpr double way = 1e-6, round_off = 1e-14;
+      find_goal(u);
+      change_ = 0.;
+      step_ = goal_;
+      step_ -= u;
+      const double length = step_.linfty_norm();
+      const double largest = std::max(goal_.linfty_norm(), u.linfty_norm());
+      has_change_ = length > round_off * largest;
+      if (!has_change_)
+        return;
+      const double part = std::min(1., way * largest / length);
+      trial_ = u;
+      trial_.add(part, step_);
+      product_ = residual_;
+      find_residual(trial_);
+      change_ = residual_;
+      change_ -= product_;
+      change_ *= 1. / part;
+      residual_ = product_;
+      residual_ += change_;
     }
 
     /** false: stopped without an answer. */
@@ -276,13 +216,17 @@ namespace abut
     /** Newton's method. */
     bool solve_nonlinear(la::Vector &u)
     {
+      result_.explanation.clear();
       find_residual(u);
       set_linear_tolerance(1e-2);
       for (unsigned int step = 0; step < parameters_.max_steps; ++step)
       {
         const la::Matrix &tangent = problem_.tangent(u);
         ++result_.n_steps;
-        contact_.linearise(u, linear_tolerance_);
+        add_prescribed_change(u);
+        if (!std::isfinite(residual_.l2_norm()))
+          return stop_not_finite();
+        contact_.linearise(goal_, linear_tolerance_);
         trial_ = u;
         if (!solve_linearised(tangent, trial_) || !move(tangent, u))
           return false;
@@ -295,7 +239,8 @@ namespace abut
                       + " linearisations, the estimated relative error is "
                       + short_number(result_.error)
                       + ". Use smaller load steps, or check that the tangent "
-                        "is the derivative of the residual.");
+                        "is the derivative of the residual."
+                      + about_negative_steps());
     }
 
     /** Forces of the linearisation whose residual_ is that at step_. */
@@ -367,13 +312,83 @@ namespace abut
       return product_.l2_norm();
     }
 
-    /** Norm by the energy of the free unknowns. */
-    double energy_norm(const la::Matrix &tangent, const la::Vector &u)
+    /** A displacement of the free unknowns and the forces K v of it. */
+    struct Energy
     {
+      double norm = 0.;  ///< root of |v . K v|
+      double force = 0.; ///< |K v|
+      /** Whether v . K v is more than what cancels: of a positive definite
+       * matrix of condition k the cosine of v and K v is at least 2 / sqrt(k).
+       */
+      bool is_positive = true;
+    };
+
+    Energy energy(const la::Matrix &tangent, const la::Vector &u)
+    {
+      constexpr double least_cosine = 1e-7;
       increment_ = u;
       constraints_.set_zero(increment_);
       tangent.vmult(product_, increment_);
-      return std::sqrt(std::max(0., product_ * increment_));
+      const double product = product_ * increment_;
+      Energy result;
+      result.norm = std::sqrt(std::abs(product));
+      result.force = product_.l2_norm();
+      result.is_positive =
+          product >= least_cosine * result.force * increment_.l2_norm();
+      return result;
+    }
+
+    /** What a step is measured by. */
+    struct Scales
+    {
+      double before = 0.; ///< forces out of balance in the linear model
+      double length = 0.; ///< of the step, in the energy norm
+      double energy = 0.; ///< energy norm of the displacement
+      double force = 0.;
+      bool is_positive = true; ///< whether energies say anything
+      /** Forces out of balance, and what prescribed values change of them:
+       * their squares and product, before the step. */
+      double squares[3] = {0., 0., 0.};
+    };
+
+    Scales measure(const la::Matrix &tangent, const la::Vector &u)
+    {
+      Scales scales;
+      scales.before = imbalance();
+      if (has_change_)
+      {
+        product_ -= change_;
+        scales.squares[0] = product_ * product_;
+        scales.squares[1] = product_ * change_;
+        scales.squares[2] = change_ * change_;
+      }
+      const Energy step = energy(tangent, step_), end = energy(tangent, trial_),
+                   start = energy(tangent, u);
+      scales.length = step.norm;
+      scales.energy = std::max(end.norm, start.norm);
+      scales.force =
+          std::max({scales.before, forces_.l2_norm(), end.force, start.force});
+      scales.is_positive = step.is_positive;
+      return scales;
+    }
+
+    /** Forces out of balance that this part of a step has to lower: those with
+     * this part of the change of prescribed values, or without it. */
+    double imbalance_to_lower(const Scales &scales, const double part) const
+    {
+      if (!has_change_)
+        return scales.before;
+      const double *s = scales.squares;
+      return std::sqrt(
+          std::max({0., s[0], s[0] + part * (2. * s[1] + part * s[2])}));
+    }
+
+    /** Whether the step is so short that its residual is but round-off. */
+    bool is_at_end(const Scales &scales) const
+    {
+      return scales.is_positive
+                 ? scales.length <= parameters_.tolerance * scales.energy
+                 : result_.residual <= parameters_.tolerance * scales.force;
     }
 
     /** Go from @p u towards trial_ as far as the residual falls, estimate the
@@ -385,49 +400,90 @@ namespace abut
       constraints_.set_zero(forces_);
       step_ = trial_;
       step_ -= u;
-      const double before = imbalance();
-      const double length = energy_norm(tangent, step_);
-      const double scale =
-          std::max(energy_norm(tangent, trial_), energy_norm(tangent, u));
-      const double limit = parameters_.tolerance * scale;
+      const Scales scales = measure(tangent, u);
+      result_.n_negative_steps += !scales.is_positive;
 
       double part = 1.;
       for (unsigned int halving = 0;; ++halving)
       {
         find_residual(trial_);
         result_.residual = imbalance();
-        if (result_.residual <= (1. - 1e-3 * part) * before || length <= limit)
+        if (result_.residual
+                <= (1. - 1e-3 * part) * imbalance_to_lower(scales, part)
+            || is_at_end(scales))
           break;
         if (halving == parameters_.max_halvings)
-          return give_up(before);
+          return give_up(scales.before);
         part /= 2.;
         trial_ = u;
         trial_.add(part, step_);
       }
       u = trial_;
-      const double ratio =
-          before > 0. ? std::min(1., result_.residual / before) : 0.;
-      const double error = (1. - part) * length + part * length * ratio;
-      result_.error = scale > 0. ? error / scale : 0.;
-      // No more than the end of the iteration needs.
-      const double enough = error > 0. ? 0.1 * limit / error : 1.;
-      set_linear_tolerance(std::min(1e-2, std::max(0.1 * ratio, enough)));
+      estimate(scales, part);
       return true;
+    }
+
+    /** The error after this part of a step, and the linear tolerance that the
+     * next one deserves. */
+    void estimate(const Scales &scales, const double part)
+    {
+      const double ratio = scales.before > 0.
+                               ? std::min(1., result_.residual / scales.before)
+                               : 0.;
+      if (scales.is_positive)
+      {
+        const double error =
+            (1. - part) * scales.length + part * scales.length * ratio;
+        result_.error = scales.energy > 0. ? error / scales.energy : 0.;
+      }
+      else
+      {
+        result_.error = 1. - part + result_.residual / scales.force;
+        if (result_.error <= parameters_.tolerance)
+          result_.explanation =
+              "Forces balance, but the tangent is not positive along the last "
+              "step: the equilibrium may be unstable.";
+      }
+      if (has_change_ && part < 1.) // prescribed values are not there yet
+        result_.error = std::max(result_.error, 1. - part);
+      // No more than the end of the iteration needs.
+      const double enough =
+          result_.error > 0. ? 0.1 * parameters_.tolerance / result_.error : 1.;
+      set_linear_tolerance(std::min(1e-2, std::max(0.1 * ratio, enough)));
+    }
+
+    bool stop_not_finite()
+    {
+      return stop(NewtonReason::not_finite,
+                  "The residual is not a number, even after "
+                      + std::to_string(parameters_.max_halvings)
+                      + " halvings of the step. Use smaller load steps.");
+    }
+
+    /** A sentence, if there were any. */
+    std::string about_negative_steps() const
+    {
+      if (result_.n_negative_steps == 0)
+        return "";
+      return " The tangent K was not positive (d . K d <= 0) along "
+             + std::to_string(result_.n_negative_steps) + " of "
+             + std::to_string(result_.n_steps)
+             + " steps d, as where a material softens or a body snaps through: "
+               "there may be no equilibrium near. Prescribe displacements "
+               "instead of forces, or use smaller load steps.";
     }
 
     bool give_up(const double before)
     {
       if (!std::isfinite(result_.residual))
-        return stop(NewtonReason::not_finite,
-                    "The residual is not a number, even after "
-                        + std::to_string(parameters_.max_halvings)
-                        + " halvings of the step. Use smaller load steps.");
+        return stop_not_finite();
       return stop(NewtonReason::line_search,
                   "No step lowers the residual, " + short_number(before)
                       + " before and " + short_number(result_.residual)
                       + " after the shortest one tried. Check that the tangent "
                         "is the derivative of the residual, and use smaller "
-                        "load steps.");
+                        "load steps."
+                      + about_negative_steps());
     }
 
     /** Whether to search again on the deformed bodies. */
@@ -435,9 +491,7 @@ namespace abut
     {
       if (parameters_.max_searches == 0)
         return false;
-      const double length = contact_.length_scale() > 0.
-                                ? contact_.length_scale()
-                                : u.linfty_norm();
+      const double length = contact_.length_scale(u);
       if (length == 0.)
         return false;
       const std::size_t n_missed =
@@ -470,6 +524,9 @@ namespace abut
     const SolverEvents events_;
     NewtonResult result_;
     la::Vector residual_, increment_, step_, product_, forces_, trial_;
+    la::Vector goal_;   ///< present displacement with prescribed values
+    la::Vector change_; ///< of the residual by prescribed values, linearised
+    bool has_change_ = false; ///< whether they differ from the present ones
     double linear_tolerance_ = 1e-2;
   };
 } // namespace abut

@@ -4,6 +4,7 @@
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/mesh/nearest_node.h"
+#include "app/physics/deformation.h"
 #include "app/physics/volumetric_locking.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
@@ -19,7 +20,7 @@ namespace abut::app
 
   namespace
   {
-    /** Part of the largest displacement. */
+    /** Part of what bodies are deformed by. */
     constexpr double suspicious_penetration = 0.1;
 
     /** Part of a pressure that goes astray. */
@@ -161,14 +162,34 @@ namespace abut::app
   }
 
   template <int dim>
-  std::pair<double, double> SolidReport<dim>::report_pairs() const
+  bool SolidReport<dim>::is_suspicious(const double depth,
+                                       const double way) const
+  {
+    // Far from its place, a body's gaps have the round-off of its way.
+    constexpr double round_off = 1e-9;
+    return depth > suspicious_penetration * way
+           && depth > round_off * u.linfty_norm();
+  }
+
+  template <int dim>
+  std::string SolidReport<dim>::compared(const double depth,
+                                         const double way) const
+  {
+    return short_number(depth, 3) + ", where "
+           + (way < u.linfty_norm() ? "bodies are deformed by no more than "
+                                    : "nothing moves by more than ")
+           + short_number(way, 3);
+  }
+
+  template <int dim>
+  std::pair<double, double>
+  SolidReport<dim>::report_pairs(const double way) const
   {
     const auto vector = [](const auto &tensor)
     { return std::vector<double>(tensor.begin_raw(), tensor.end_raw()); };
     unsigned int number = 0;
     double force_imbalance = 0., moment_imbalance = 0.;
     const std::vector<PairCheck> checks = contact.pair_checks();
-    const double way = u.linfty_norm();
     for (const PairResult<dim> &pair : contact.pair_results())
     {
       const std::string key = "pair_" + std::to_string(++number);
@@ -188,11 +209,9 @@ namespace abut::app
                                const std::string &where,
                                const std::string &remedy)
       {
-        if (way > 0. && depth > suspicious_penetration * way)
+        if (is_suspicious(depth, way))
           report.warn(coded(failure, pair.name + ": " + where + " by up to "
-                                         + short_number(depth, 3)
-                                         + ", where nothing moves by more than "
-                                         + short_number(way, 3) + ": "
+                                         + compared(depth, way) + ": "
                                          + remedy));
       };
       warn_of(pair.between_rows, ABUT_FAILURE_COARSE_SECONDARY,
@@ -213,8 +232,8 @@ namespace abut::app
 
   template <int dim> void SolidReport<dim>::report_contact() const
   {
-    const double way = u.linfty_norm();
-    const auto [force_imbalance, moment_imbalance] = report_pairs();
+    const double way = deformation(elasticity.dof_handler, bodies.size(), u);
+    const auto [force_imbalance, moment_imbalance] = report_pairs(way);
     if ((method.discretisation
          && !discretisation_info(*method.discretisation).is_weighted)
         || abut_law_needs_stress(method.options.law))
@@ -227,15 +246,14 @@ namespace abut::app
     report.set("contact_force", contact.contact_force());
     report.set("max_penetration", contact.penetration());
     report.set("max_complementarity", contact.complementarity());
-    if (way > 0. && contact.penetration() > suspicious_penetration * way)
-      report.warn(coded(
-          ABUT_FAILURE_PENALTY,
-          "The bodies penetrate each other by "
-              + short_number(contact.penetration(), 3)
-              + ", where nothing moves by more than " + short_number(way, 3)
-              + ": the contact is far too soft. Use a larger "
-                "Method/Penalty, or the method augmented lagrangian or "
-                "lagrange."));
+    if (is_suspicious(contact.penetration(), way))
+      report.warn(
+          coded(ABUT_FAILURE_PENALTY,
+                "The bodies penetrate each other by "
+                    + compared(contact.penetration(), way)
+                    + ": the contact is far too soft. Use a larger "
+                      "Method/Penalty, or the method augmented lagrangian or "
+                      "lagrange."));
   }
 
   template <int dim>

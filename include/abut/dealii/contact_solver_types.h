@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_DEALII_CONTACT_SOLVER_TYPES_H
+#define ABUT_DEALII_CONTACT_SOLVER_TYPES_H
+
+/** @file
+ * What goes into a ContactSolver and what comes out.
+ */
+
+#include <abut/dealii/contact_assembler.h>
+
+#include <functional>
+#include <string>
+
+namespace abut
+{
+  /** What ContactSolver needs from the host. The functions are called on all
+   * ranks. For `nitsche`, whose bodies must be linear elastic, give the
+   * ContactAssembler the stress, see ContactAssembler::set_normal_stress(). */
+  struct HostProblem
+  {
+    /** Internal minus external forces at u, without contact. u has no ghosts
+     * and satisfies the constraints, but for prescribed values of a nonlinear
+     * problem that are on their way from those of the last load step: take them
+     * from u. Rows that the constraints eliminate are zero. What the material
+     * has to remember (plastic strain) must be that of the last load step: u
+     * may be a trial. */
+    std::function<void(const la::Vector &u, la::Vector &residual)> residual;
+
+    /** Its derivative by u, whose rows and columns that the constraints
+     * eliminate are diagonal. The matrix must stay as it is until the next
+     * call. */
+    std::function<const la::Matrix &(const la::Vector &u)> tangent;
+
+    /** Whether the tangent is the same for all u and until the next reinit():
+     * it is asked for once for each solve() then, and preconditioners are
+     * kept. */
+    bool linear = false;
+
+    /** Of a linear problem: whether the residual costs no more than a product
+     * with the tangent. It is then asked for before each linear system, which
+     * leaves the least round-off, and not only once. */
+    bool residual_is_cheap = false;
+
+    /** Called after each linear system with its cost; may be empty. */
+    std::function<void(const LinearReport &cost)> monitor;
+  };
+
+  /** What ContactSolver is about to do. */
+  enum class SolvePhase
+  {
+    detect, /**< find the rows, and a start */
+    solve,  /**< linearisations and their contact problems */
+    check,  /**< look whether the answer may be used */
+    end     /**< return */
+  };
+
+  /** What a program may see of ContactSolver at work, and have a say in. All
+   * may be empty; all are called on all ranks, and may throw there. */
+  struct SolverEvents
+  {
+    /** A phase begins: for clocks. */
+    std::function<void(SolvePhase phase)> phase;
+
+    /** There was a linear system, which moved the displacement; the assembler
+     * has had its update(). */
+    std::function<void(const LinearReport &cost, const la::Vector &increment)>
+        stepped;
+
+    /** Look at a converged answer: a text that is not empty says why it must
+     * not be used. @p search counts calls of detect() so far, from 1. */
+    std::function<std::string(const la::Vector &u, unsigned int search)> refuse;
+
+    /** So many nodes have penetrated without a row. */
+    std::function<void(std::size_t n_nodes)> missed;
+  };
+
+  /** Settings of ContactSolver; all are free of units. */
+  struct NewtonParameters
+  {
+    /** Error in the energy norm relative to the displacement, > 0. Of linear
+     * problems the tolerances of the method decide alone. */
+    double tolerance = 1e-6;
+    /** Relative tolerance of linear systems, > 0; 0: chosen for each step. */
+    double linear_tolerance = 0.;
+    /** Linearisations after which it is given up, > 0. */
+    unsigned int max_steps = 50;
+    /** Times that a step may be halved. */
+    unsigned int max_halvings = 8;
+    /** Sweeps of ContactAssembler::relax() after each detect(); 0: none.
+     * `barrier` needs at least 1. */
+    unsigned int relaxation_sweeps = 0;
+    /** Searches on the deformed bodies for nodes without a row; 0: none. */
+    unsigned int max_searches = 5;
+    /** Depth that counts there, relative to ContactAssembler::length_scale().
+     */
+    double missed_depth = 1e-3;
+  };
+
+  /** Why ContactSolver stopped. */
+  enum class NewtonReason
+  {
+    converged,    /**< the estimated error is below the tolerance */
+    contact,      /**< the contact of a linearisation found no end */
+    linear_solve, /**< a linear system could not be solved */
+    line_search,  /**< no step lowers the residual */
+    step_limit,   /**< max_steps reached */
+    missed_nodes, /**< nodes penetrate without a row after all searches */
+    refused,      /**< by SolverEvents::refuse */
+    not_finite    /**< the host's residual is not a number */
+  };
+
+  /** What ContactSolver::solve() found and what it cost. The same on all
+   * ranks. */
+  struct NewtonResult
+  {
+    NewtonReason reason = NewtonReason::converged; /**< why it stopped */
+    std::string explanation;      /**< in words, with what to try */
+    unsigned int n_steps = 0;     /**< linearisations */
+    unsigned int n_systems = 0;   /**< linear systems */
+    unsigned int n_residuals = 0; /**< calls of HostProblem::residual */
+    unsigned int n_searches = 0;  /**< calls of detect() */
+    double residual = 0.; /**< norm of the forces that are not balanced */
+    double error = 0.;    /**< estimated, in the energy norm, relative; of a
+                               linear problem 0; after a step of no positive
+                               energy the forces that are not balanced as a part
+                               of the forces */
+    /** Steps d with d . K d not positive: the tangent was indefinite there.
+     * Where the last one is, an equilibrium that was found may be unstable, and
+     * explanation says so. */
+    unsigned int n_negative_steps = 0;
+    LinearReport linear; /**< cost of the linear systems */
+
+    /** Whether there is an answer. */
+    bool converged() const
+    {
+      return reason == NewtonReason::converged;
+    }
+  };
+} // namespace abut
+
+#endif
