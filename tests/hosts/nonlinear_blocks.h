@@ -33,6 +33,7 @@ namespace abut::hosts
   {
     std::array<Stiffening, 2> materials = stiffening;
     bool top_is_held = true;
+    bool tied = false; ///< at the distance that they have
     /** Prescribed at the top. */
     double top = -distance - shortening;
     /** Prescribed at the surface of the lower block. */
@@ -76,6 +77,7 @@ namespace abut::hosts
       pair.secondary = {upper_interface};
       pair.primary = {lower_interface};
       pair.reach = 2. * distance;
+      pair.tied = options_.tied;
       contact.set_pairs({pair});
       reinit_contact();
     }

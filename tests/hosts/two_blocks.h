@@ -263,7 +263,8 @@ namespace abut::hosts
         residual -= load_;
         constraints_.set_zero(residual);
       };
-      if (run_.method.options.law->outer == ABUT_OUTER_BARRIER)
+      const abut_law *law = run_.method.options.law;
+      if (law != nullptr && law->outer == ABUT_OUTER_BARRIER)
       {
         find_residual();
         contact_.relax(stiffness_, residual, 1, u);
