@@ -17,12 +17,11 @@ namespace abut::app
   {
     if (!is_known_)
       return;
-    std::vector<bool> refine, coarsen;
-    mesh_.save_refine_flags(refine);
-    mesh_.save_coarsen_flags(coarsen);
-    std::string flags(refine.size(), '0');
-    for (std::size_t i = 0; i < flags.size(); ++i)
-      flags[i] = refine[i] ? '1' : coarsen[i] ? '2' : '0';
+    std::string flags;
+    for (const auto &cell : mesh_.active_cell_iterators())
+      flags += cell->refine_flag_set()    ? '1'
+               : cell->coarsen_flag_set() ? '2'
+                                          : '0';
     steps_.push_back(std::move(flags));
   }
 
@@ -42,14 +41,17 @@ namespace abut::app
       AssertThrow(flags.size() == mesh_.n_active_cells(),
                   dealii::ExcMessage("The mesh of the checkpoint has not "
                                      "begun as the scene's mesh does."));
-      std::vector<bool> refine(flags.size()), coarsen(flags.size());
-      for (std::size_t i = 0; i < flags.size(); ++i)
+      std::size_t i = 0;
+      for (const auto &cell : mesh_.active_cell_iterators())
       {
-        refine[i] = flags[i] == '1';
-        coarsen[i] = flags[i] == '2';
+        const char flag = flags[i++];
+        cell->clear_refine_flag();
+        cell->clear_coarsen_flag();
+        if (flag == '1')
+          cell->set_refine_flag();
+        else if (flag == '2')
+          cell->set_coarsen_flag();
       }
-      mesh_.load_refine_flags(refine);
-      mesh_.load_coarsen_flags(coarsen);
       mesh_.execute_coarsening_and_refinement();
     }
   }
