@@ -150,8 +150,9 @@ namespace
     const auto first = make_solver();
     solve(*first);
     const auto state = first->state();
-    for (int i = 0; i < blocks.rows.n_points; ++i)
-      if (blocks.rows.id[i] == 0)
+    // Few enough for the preconditioner to be kept.
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      for (int i = 0; i < blocks.rows.n_points; i += 20)
         blocks.set_open(i);
     const auto other = make_solver(), fresh = make_solver();
     other->restore(state);
