@@ -228,7 +228,8 @@ extern "C"
    *   warm start of it if some pressure is positive
    * @param state [n] starting set, or NULL for the one that p and g call for
    * Arrays are copied. O(n). A rank whose arguments are wrong makes all
-   * others return FAILED_ELSEWHERE. UNSUPPORTED for bilateral rows under an interior law. */
+   * others return FAILED_ELSEWHERE. UNSUPPORTED for bilateral rows under an
+   * interior law. */
   ABUT_API abut_status abut_strategy_start(
       abut_strategy *strategy, int32_t n, const int64_t *id,
       const double *weight, const double *stiffness, const uint8_t *bilateral,

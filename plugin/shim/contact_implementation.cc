@@ -264,8 +264,7 @@ namespace abut
   }
 
   template <int dim>
-  shim::RowSource::Change
-  ContactAssembler<dim>::Implementation::find_points(
+  shim::RowSource::Change ContactAssembler<dim>::Implementation::find_points(
       const la::Vector &displacement)
   {
     if (points == nullptr || points_dimension != source->dimension())
@@ -287,8 +286,7 @@ namespace abut
     }
   }
 
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::take_points()
+  template <int dim> void ContactAssembler<dim>::Implementation::take_points()
   {
     make_operator();
     // Rows between nodes that cannot move say nothing.

@@ -142,7 +142,7 @@ namespace abut
     bool has_new_gaps = false; ///< of pairs that are otherwise the same
     mutable std::optional<solve::NearNullSpace> bodies;
     std::uint64_t points_mesh = 0; ///< signature of the points' mesh
-    bool has_rows = false; ///< since reinit(), by detect()
+    bool has_rows = false;         ///< since reinit(), by detect()
     dealii::types::global_dof_index n_unknowns = 0; ///< in reinit()
 
     shim::Handle<abut_points> points; ///< of the last detect()

@@ -433,26 +433,25 @@ namespace abut::shim
         return {};
       const double smallest = std::min(pair.secondary.everywhere.smallest,
                                        pair.primary.everywhere.smallest);
-      const double reach = std::max(
-          {search.reach, pair.data.reach, 1.5 * motion(pair, u)});
-      result.push_back(
-          {reach <= search.relative_reach * smallest ? 0. : reach,
-           pair.data.gap});
+      const double reach =
+          std::max({search.reach, pair.data.reach, 1.5 * motion(pair, u)});
+      result.push_back({reach <= search.relative_reach * smallest ? 0. : reach,
+                        pair.data.gap});
     }
     return result;
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::set_gaps(const std::vector<ContactPair<dim>> &pairs)
+  void
+  SurfacePairRows<dim>::set_gaps(const std::vector<ContactPair<dim>> &pairs)
   {
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       pairs_[p].data.gap = pairs[p].gap;
   }
 
   template <int dim>
-  RowSource::Change
-  SurfacePairRows<dim>::find(const la::Vector &displacement,
-                             abut_points *points)
+  RowSource::Change SurfacePairRows<dim>::find(const la::Vector &displacement,
+                                               abut_points *points)
   {
     const bool has_new_constants = exchange_->update_constants(surface_);
     const std::vector<Direction> u = displacements_in_reach(displacement);

@@ -107,8 +107,7 @@ namespace abut::solve
     for (auto e = points_.start[point]; e < points_.start[point + 1]; ++e)
       for (int d = 0; d < dim; ++d)
       {
-        const double factor = sign
-                              * points_.frame[row * std::size_t(dim) + d]
+        const double factor = sign * points_.frame[row * std::size_t(dim) + d]
                               * points_.coefficient[e];
         if (factor != 0.)
           gap += factor

@@ -17,10 +17,10 @@ namespace abut::app
   enum class ExitCode
   {
     success = 0,
-    internal_error = 1, /**< a fault of the program or of the machine */
-    bad_input = 2,      /**< command line or scene file */
+    internal_error = 1,  /**< a fault of the program or of the machine */
+    bad_input = 2,       /**< command line or scene file */
     unusable_answer = 3, /**< the run ended without an answer to rely on */
-    stopped = 4 /**< by a signal, after a checkpoint to go on from */
+    stopped = 4          /**< by a signal, after a checkpoint to go on from */
   };
 
   /** Something the user wrote is wrong: a parameter's value, a file that it
