@@ -33,8 +33,9 @@ def words(scene, *more, settings=()):
 def ranked(command, ranks):
     if ranks == 1:
         return command
-    # Time for a checkpoint between SIGTERM and SIGKILL.
-    return ["mpirun", "--mca", "odls_base_sigkill_timeout", "60",
+    # Time for a checkpoint between SIGTERM and SIGKILL. mpirun waits all of it,
+    # twice, after a rank has ended with a code of its own.
+    return ["mpirun", "--mca", "odls_base_sigkill_timeout", "3",
             "--oversubscribe", "-n", str(ranks)] + command
 
 
@@ -192,6 +193,7 @@ for name, settings in ((bodies, steps), (membrane, cycles)):
     killed(name, 1, expected, [*settings, "Checkpoint/Every steps=3"])
     expected = alone(name, settings, ranks=2)
     killed(name, 4, expected, settings, ranks=2)
+    stopped(name, 2, signal.SIGTERM, expected, settings, ranks=2)
 
 # To a target error, and in three dimensions.
 target = ["Refinement/Target error=0.05", "Refinement/Refine fraction=0.4",
