@@ -121,8 +121,9 @@ extern "C"
                                             const double *place,
                                             const abut_history_past *past);
 
-  /** All entries of a version, ascending; valid until the next change. Fills as
-   * much as entries->struct_size says. */
+  /** All entries of a version, ascending; valid until the next change, places
+   * NULL if no entry was given with places. Fills as much as
+   * entries->struct_size says. */
   ABUT_API abut_status abut_history_view_sized(const abut_history *history,
                                                abut_history_version version,
                                                abut_history_entries *entries);

@@ -42,7 +42,8 @@ namespace abut::shim
       parcel.write(entries.state[i]);
       parcel.write_value(entries.pressure[i]);
       for (int d = 0; d < 3; ++d)
-        parcel.write_value(entries.place[3 * i + d]);
+        parcel.write_value(entries.place == nullptr ? 0.
+                                                    : entries.place[3 * i + d]);
     }
 
     Entry read_entry(Parcel &parcel)

@@ -42,9 +42,23 @@ abut_status
 abut_entry_set_reserve(abut_context *context, abut_entry_set *set, int64_t n)
 {
   abut_array *arrays[] = {&set->id, &set->pressure, &set->state, &set->place};
+  const int n_arrays = set->has_places ? 4 : 3;
   abut_status status = ABUT_SUCCESS;
-  for (int i = 0; i < 4 && status == ABUT_SUCCESS; ++i)
+  for (int i = 0; i < n_arrays && status == ABUT_SUCCESS; ++i)
     status = abut_array_reserve(context, arrays[i], set->n, n);
+  return status;
+}
+
+abut_status
+abut_entry_set_reserve_places(abut_context *context, abut_entry_set *set,
+                              int64_t n)
+{
+  if (set->has_places)
+    return ABUT_SUCCESS;
+  const abut_status status = abut_array_reserve(context, &set->place, 0, n);
+  if (status == ABUT_SUCCESS && set->n > 0)
+    memset(set->place.data, 0, (size_t)set->n * 3 * sizeof(double));
+  set->has_places = status == ABUT_SUCCESS;
   return status;
 }
 
@@ -57,7 +71,7 @@ ids(const abut_entry_set *set)
 static const double *
 place_of(const abut_entry_set *set, int64_t i)
 {
-  return (const double *)set->place.data + 3 * i;
+  return set->has_places ? (const double *)set->place.data + 3 * i : nowhere;
 }
 
 void
@@ -68,7 +82,8 @@ abut_entry_set_append(abut_entry_set *set, int64_t id, double pressure,
   ((int64_t *)set->id.data)[i] = id;
   ((double *)set->pressure.data)[i] = pressure;
   ((uint8_t *)set->state.data)[i] = state;
-  memcpy((double *)set->place.data + 3 * i, place, 3 * sizeof(double));
+  if (set->has_places)
+    memcpy((double *)set->place.data + 3 * i, place, 3 * sizeof(double));
 }
 
 abut_status
@@ -76,6 +91,7 @@ abut_entry_set_copy(abut_context *context, const abut_entry_set *a,
                     abut_entry_set *b)
 {
   b->n = 0;
+  b->has_places = a->has_places;
   const abut_status status = abut_entry_set_reserve(context, b, a->n);
   if (status != ABUT_SUCCESS)
     return status;
@@ -87,7 +103,8 @@ abut_entry_set_copy(abut_context *context, const abut_entry_set *a,
   memcpy(b->id.data, a->id.data, n * sizeof(int64_t));
   memcpy(b->pressure.data, a->pressure.data, n * sizeof(double));
   memcpy(b->state.data, a->state.data, n);
-  memcpy(b->place.data, a->place.data, 3 * n * sizeof(double));
+  if (a->has_places)
+    memcpy(b->place.data, a->place.data, 3 * n * sizeof(double));
   return ABUT_SUCCESS;
 }
 
@@ -133,6 +150,7 @@ abut_history_clear(abut_history *history)
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
   history->committed.n = history->trial.n = 0;
+  history->committed.has_places = history->trial.has_places = 0;
   history->committed.problem = history->trial.problem = no_problem();
   return ABUT_SUCCESS;
 }
@@ -143,6 +161,7 @@ abut_history_begin_step(abut_history *history)
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
   history->trial.n = 0;
+  history->trial.has_places = 0;
   return ABUT_SUCCESS;
 }
 
@@ -224,6 +243,10 @@ insert(abut_history *history, const abut_history_entries *entries)
   abut_entry_set *trial = &history->trial;
   const int64_t n = trial->n + entries->n;
   abut_status status = ABUT_SUCCESS;
+  if (entries->place != NULL)
+    status = abut_entry_set_reserve_places(history->context, trial, n);
+  if (status != ABUT_SUCCESS)
+    return status;
   if (trial->n == 0 || ids(trial)[trial->n - 1] < entries->id[0])
   {
     status = abut_entry_set_reserve(history->context, trial, n);
@@ -232,6 +255,7 @@ insert(abut_history *history, const abut_history_entries *entries)
     return status;
   }
   history->spare.n = 0;
+  history->spare.has_places = trial->has_places;
   status = abut_entry_set_reserve(history->context, &history->spare, n);
   if (status != ABUT_SUCCESS)
     return status;
@@ -387,9 +411,10 @@ abut_history_view_sized(const abut_history *history,
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
                      "abut_history_view",
                      "entries is NULL, or the version is wrong");
-  const abut_history_entries view = {sizeof(view),    set->n,
-                                     set->id.data,    set->pressure.data,
-                                     set->state.data, set->place.data};
+  const abut_history_entries view = {
+      sizeof(view),    set->n,
+      set->id.data,    set->pressure.data,
+      set->state.data, set->has_places ? set->place.data : NULL};
   const char *fault = abut_sized_write(entries, sizeof(view), &view);
   return fault == NULL ? ABUT_SUCCESS
                        : abut_fail(history->context, ABUT_INVALID_ARGUMENT,

@@ -15,7 +15,8 @@ typedef struct abut_entry_set
   abut_array id;       /* int64_t */
   abut_array pressure; /* double */
   abut_array state;    /* uint8_t */
-  abut_array place;    /* 3 doubles */
+  abut_array place;    /* 3 doubles; unless has_places: none */
+  int has_places;      /* points of nodes are found without */
   abut_history_problem problem;
 } abut_entry_set;
 
@@ -29,11 +30,15 @@ struct abut_history
 abut_status abut_entry_set_reserve(abut_context *context, abut_entry_set *set,
                                    int64_t n);
 
+/* Make room for the places of n entries, which are (0, 0, 0) until then. */
+abut_status abut_entry_set_reserve_places(abut_context *context,
+                                          abut_entry_set *set, int64_t n);
+
 /* Make b what a is. */
 abut_status abut_entry_set_copy(abut_context *context, const abut_entry_set *a,
                                 abut_entry_set *b);
 
-/* Append an entry. There must be room. */
+/* Append an entry; without places its own is not kept. There must be room. */
 void abut_entry_set_append(abut_entry_set *set, int64_t id, double pressure,
                            uint8_t state, const double *place);
 

@@ -99,12 +99,15 @@ abut_history_pack(const abut_history *history, abut_history_version version,
     size_t element;
   } arrays[] = {{set->id.data, 8},
                 {set->pressure.data, 8},
-                {set->place.data, 24},
+                {set->has_places ? set->place.data : NULL, 24},
                 {set->state.data, 1}};
   for (int i = 0; i < 4 && set->n > 0; ++i)
   {
     const size_t size = (size_t)set->n * arrays[i].element;
-    memcpy(at, arrays[i].data, size);
+    if (arrays[i].data == NULL)
+      memset(at, 0, size);
+    else
+      memcpy(at, arrays[i].data, size);
     at += size;
   }
   h.sum = sum_of(h, body, needed - sizeof(head));
@@ -138,6 +141,17 @@ fault_of(const head *h, const void *body, size_t bytes)
   return NULL;
 }
 
+/* Whether any of n entries of a body has a place but (0, 0, 0). */
+static int
+have_places(const char *body, int64_t n)
+{
+  const char *places = body + 16 * (size_t)n;
+  for (size_t i = 0; i < 24 * (size_t)n; ++i)
+    if (places[i] != 0)
+      return 1;
+  return 0;
+}
+
 /* Entries of a body into a set, whose room is enough. */
 static void
 read_entries(const char *body, int64_t n, abut_entry_set *set)
@@ -147,7 +161,8 @@ read_entries(const char *body, int64_t n, abut_entry_set *set)
     return;
   memcpy(set->id.data, body, 8 * size);
   memcpy(set->pressure.data, body + 8 * size, 8 * size);
-  memcpy(set->place.data, body + 16 * size, 24 * size);
+  if (set->has_places)
+    memcpy(set->place.data, body + 16 * size, 24 * size);
   memcpy(set->state.data, body + 40 * size, size);
 }
 
@@ -188,15 +203,19 @@ abut_history_unpack(abut_history *history, const void *buffer, size_t bytes)
   /* Into the spare set first, so that nothing changes if it fails. */
   abut_entry_set *spare = &history->spare;
   spare->n = 0;
+  spare->has_places = have_places(body, h.n);
   abut_status status = abut_entry_set_reserve(context, spare, h.n);
   if (status == ABUT_SUCCESS)
     status = abut_entry_set_reserve(context, &history->committed, h.n);
+  if (status == ABUT_SUCCESS && spare->has_places)
+    status = abut_entry_set_reserve_places(context, &history->committed, h.n);
   if (status != ABUT_SUCCESS)
     return status;
   read_entries(body, h.n, spare);
-  const abut_history_entries entries = {sizeof(entries),   h.n,
-                                        spare->id.data,    spare->pressure.data,
-                                        spare->state.data, spare->place.data};
+  const abut_history_entries entries = {
+      sizeof(entries),   h.n,
+      spare->id.data,    spare->pressure.data,
+      spare->state.data, spare->has_places ? spare->place.data : NULL};
   status = abut_entries_check(context, call, &entries);
   if (status != ABUT_SUCCESS)
     return ABUT_INVALID_ARGUMENT;
