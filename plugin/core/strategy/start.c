@@ -68,21 +68,43 @@ check_inputs(abut_strategy *s, const inputs *in)
   return status;
 }
 
-/* Room for all arrays in three blocks. */
+/* Room for the arrays that the law uses in three blocks; others are NULL. */
 static abut_status
 place_arrays(abut_strategy *s, int32_t n)
 {
-  double **numbers[] = {
-      &s->gap,        &s->pressure,   &s->slack,     &s->reference,
-      &s->compliance, &s->scale,      &s->weight,    &s->stiffness,
-      &s->residual,   &s->d_pressure, &s->d_gap,     &s->dp,
-      &s->dg,         &s->dz,         &s->trial_gap, &s->trial_pressure,
-      &s->trial_scale};
+  const abut_law *law = s->options.law;
+  const bool has_slack = abut_law_is_interior(law),
+             has_compliance = abut_law_has_penalty(law),
+             has_reference = abut_law_updates_multipliers(law);
+  struct
+  {
+    double **at;
+    bool is_used;
+  } numbers[] = {{&s->gap, true},
+                 {&s->pressure, true},
+                 {&s->slack, has_slack},
+                 {&s->reference, has_reference},
+                 {&s->compliance, has_compliance},
+                 {&s->scale, true},
+                 {&s->weight, true},
+                 {&s->stiffness, true},
+                 {&s->residual, true},
+                 {&s->d_pressure, true},
+                 {&s->d_gap, true},
+                 {&s->dp, true},
+                 {&s->dg, true},
+                 {&s->dz, has_slack},
+                 {&s->trial_gap, true},
+                 {&s->trial_pressure, true},
+                 {&s->trial_scale, true}};
   uint8_t **bytes[] = {&s->state, &s->trial_state, &s->bilateral};
   const int64_t n_numbers = sizeof(numbers) / sizeof(numbers[0]);
   const int64_t n_bytes = sizeof(bytes) / sizeof(bytes[0]);
+  int64_t n_used = 0;
+  for (int64_t k = 0; k < n_numbers; ++k)
+    n_used += numbers[k].is_used;
   abut_status status =
-      abut_array_reserve(s->context, &s->numbers, 0, n_numbers * n);
+      abut_array_reserve(s->context, &s->numbers, 0, n_used * n);
   if (status == ABUT_SUCCESS)
     status = abut_array_reserve(s->context, &s->bytes, 0, n_bytes * n);
   if (status == ABUT_SUCCESS)
@@ -92,11 +114,23 @@ place_arrays(abut_strategy *s, int32_t n)
   s->n = n;
   s->id = s->ids.data;
   /* Without rows there are no blocks to point into. */
+  double *next = n > 0 ? s->numbers.data : NULL;
   for (int64_t k = 0; k < n_numbers; ++k)
-    *numbers[k] = n > 0 ? (double *)s->numbers.data + k * n : NULL;
+  {
+    *numbers[k].at = numbers[k].is_used ? next : NULL;
+    if (numbers[k].is_used && n > 0)
+      next += n;
+  }
   for (int64_t k = 0; k < n_bytes; ++k)
     *bytes[k] = n > 0 ? (uint8_t *)s->bytes.data + k * n : NULL;
   return ABUT_SUCCESS;
+}
+
+static void
+clear(double *values, int32_t n)
+{
+  for (int32_t i = 0; i < n && values != NULL; ++i)
+    values[i] = 0;
 }
 
 static void
@@ -112,9 +146,11 @@ copy_inputs(abut_strategy *s, const inputs *in)
     s->pressure[i] = in->pressure != NULL ? in->pressure[i] : 0;
     s->bilateral[i] = in->bilateral != NULL && in->bilateral[i] != 0;
     s->scale[i] = complementarity * in->stiffness[i];
-    s->slack[i] = s->compliance[i] = 0;
-    s->dp[i] = s->dg[i] = s->dz[i] = 0;
+    s->dp[i] = s->dg[i] = 0;
   }
+  clear(s->slack, in->n);
+  clear(s->compliance, in->n);
+  clear(s->dz, in->n);
 }
 
 static abut_status
@@ -177,12 +213,12 @@ reset(abut_strategy *s)
 static abut_status
 first_reference(abut_strategy *s)
 {
+  if (!abut_law_updates_multipliers(s->options.law))
+    return ABUT_SUCCESS;
   for (int32_t i = 0; i < s->n; ++i)
     s->reference[i] =
         s->bilateral[i] != 0 ? s->pressure[i] : fmax(s->pressure[i], 0);
-  return abut_law_updates_multipliers(s->options.law)
-             ? abut_multiplier_project(s, s->reference)
-             : ABUT_SUCCESS;
+  return abut_multiplier_project(s, s->reference);
 }
 
 abut_status

@@ -37,10 +37,11 @@ struct abut_strategy
 
   int32_t n; /* rows on this rank; all arrays below have n entries */
   abut_array numbers, bytes, ids; /* owners of the arrays below */
+  /* slack, reference and compliance are NULL unless the law uses them */
   double *gap, *pressure, *slack, *reference, *compliance, *scale;
   double *weight, *stiffness;
   double *residual, *d_pressure, *d_gap;
-  double *dp, *dg, *dz; /* changes */
+  double *dp, *dg, *dz; /* changes; dz NULL as slack */
   double *trial_gap, *trial_pressure, *trial_scale;
   uint8_t *state, *trial_state, *bilateral;
   int64_t *id;
