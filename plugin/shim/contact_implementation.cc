@@ -421,7 +421,6 @@ namespace abut
     row_stiffness = solve::row_stiffness(matrix, coefficients);
     if (law_compliance.size() == 0)
       law_compliance = solve::compliance(stiffness_matrix(matrix));
-    law_stiffness = solve::row_stiffness(law_compliance, coefficients);
   }
 
   template <int dim>
@@ -480,7 +479,7 @@ namespace abut
   void ContactAssembler<dim>::Implementation::begin(const la::Matrix &matrix,
                                                     const la::Vector &residual)
   {
-    stiffness = law_stiffness;
+    stiffness = solve::row_stiffness(law_compliance, coefficients);
     if (surfaces != nullptr)
       surfaces->spread_stiffness(stiffness);
     set_scales(matrix, residual);

@@ -175,9 +175,9 @@ namespace abut
      * multiples of; empty: none yet. */
     la::Vector law_compliance;
     /** [rows] pressure per length, > 0: of each row in the last matrix taken,
-     * for solvers; in that of law_compliance; and the latter as the law has
-     * it, by patches of surface. */
-    std::vector<double> row_stiffness, law_stiffness, stiffness;
+     * for solvers; and in that of law_compliance, as the law has it, by patches
+     * of surface. */
+    std::vector<double> row_stiffness, stiffness;
     double smallest_residual = 0.;
     double iteration_tolerance = 0.; ///< of linear systems; 0: the method's
     bool has_new_matrix = false;     ///< since the last solve

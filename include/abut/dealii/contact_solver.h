@@ -85,8 +85,7 @@ namespace abut
         do
         {
           enter(SolvePhase::detect);
-          find_goal(u);
-          contact_.detect(goal_);
+          contact_.detect(goal(u));
           ++result_.n_searches;
           relax(u);
           enter(SolvePhase::solve);
@@ -105,20 +104,27 @@ namespace abut
     }
 
   private:
+    /** A linear problem has u in it from the start, and needs no more than
+     * its forces. */
     void allocate(const la::Vector &u)
     {
-      for (la::Vector *vector : {&residual_, &increment_, &step_, &product_,
-                                 &forces_, &trial_, &goal_, &change_})
+      residual_.reinit(u, true);
+      if (problem_.linear)
+        return;
+      for (la::Vector *vector : {&increment_, &step_, &product_, &forces_,
+                                 &trial_, &goal_, &change_})
         vector->reinit(u, true);
     }
 
     /** @p u with the prescribed values of now: all that contact asks of it, as
      * the free unknowns are the same. */
-    void find_goal(const la::Vector &u)
+    const la::Vector &goal(const la::Vector &u)
     {
+      if (problem_.linear)
+        return u;
       goal_ = u;
-      if (!problem_.linear)
-        constraints_.distribute(goal_);
+      constraints_.distribute(goal_);
+      return goal_;
     }
 
     void enter(const SolvePhase phase) const
@@ -176,9 +182,8 @@ namespace abut
     void add_prescribed_change(const la::Vector &u)
     {
       constexpr double way = 1e-6, round_off = 1e-14;
-      find_goal(u);
       change_ = 0.;
-      step_ = goal_;
+      step_ = goal(u);
       step_ -= u;
       const double length = step_.linfty_norm();
       const double largest = std::max(goal_.linfty_norm(), u.linfty_norm());
@@ -268,13 +273,15 @@ namespace abut
      * solution. */
     bool solve_linearised(const la::Matrix &tangent, la::Vector &u)
     {
-      step_ = u;
+      const bool is_direct = problem_.linear && problem_.residual_is_cheap;
+      if (!is_direct)
+        step_ = u;
       bool is_first = true;
       iterate_contact<dim>(
           contact_, tangent, u,
           [&](const la::Vector &present, la::Vector &forces)
           {
-            if (problem_.linear && problem_.residual_is_cheap)
+            if (is_direct)
             {
               find_residual(present);
               forces = residual_;
