@@ -2,68 +2,41 @@
 #include "obstacle_scene.h"
 
 #include "app/scenes/common_parameters.h"
-#include "app/scenes/contact_run.h"
+#include "app/scenes/contact_scene.h"
 #include "membrane_model.h"
 
 namespace abut::app
 {
   namespace
   {
-    template <int dim> class ObstacleScene : public Scene
+    template <int dim> class ObstacleScene : public ContactScene<dim>
     {
-    public:
-      void declare(dealii::ParameterHandler &prm) const override
+      void declare_model(dealii::ParameterHandler &prm) const override
       {
         ObstacleParameters::declare(prm);
-        CheckpointParameters::declare(prm);
-        ContactAssembler<dim>::declare_parameters(prm);
       }
 
-      void parse(dealii::ParameterHandler &prm) override
+      void parse_model(dealii::ParameterHandler &prm) override
       {
         parameters.parse(prm);
-        checkpoint.parse(prm);
-        method.parse_parameters(prm);
-        require_law_without_stress(method);
-        solver.parse_parameters(prm);
+        require_law_without_stress(this->method);
       }
 
-      const CheckpointParameters *checkpoints() const override
-      {
-        return &checkpoint;
-      }
-
-      void check(const RunOptions &options, Report &report) override
-      {
-        with_run(options, report, [](auto &run) { run.check(); });
-      }
-
-      Outcome run(const RunOptions &options, Report &report) override
-      {
-        Outcome outcome = Outcome::unusable;
-        with_run(options, report, [&](auto &run) { outcome = run.run(); });
-        return outcome;
-      }
-
-    private:
-      template <typename Action>
-      void with_run(const RunOptions &options, Report &report,
-                    const Action &action)
+      ContactRunSettings settings() const override
       {
         LoadStepOptions one_step;
         one_step.cut_back = false;
-        ContactRunState<dim> state({parameters.refinement, method, solver,
-                                    one_step, parameters.all_levels},
-                                   options, report);
-        MembraneModel<dim> model(parameters, state);
-        ContactRun<dim> run(state, model);
-        action(run);
+        return {parameters.refinement, this->method, this->solver, one_step,
+                parameters.all_levels};
+      }
+
+      std::unique_ptr<ContactModel<dim>>
+      create_model(ContactRunState<dim> &state) const override
+      {
+        return std::make_unique<MembraneModel<dim>>(parameters, state);
       }
 
       ObstacleParameters parameters;
-      CheckpointParameters checkpoint;
-      MethodParameters method;
-      SolverParameters solver;
     };
   } // namespace
 

@@ -2,7 +2,7 @@
 #include "solid_scene.h"
 
 #include "app/scenes/automatic_law.h"
-#include "app/scenes/contact_run.h"
+#include "app/scenes/contact_scene.h"
 #include "solid_model.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace abut::app
 {
   namespace
   {
-    template <int dim> class SolidScene : public Scene
+    template <int dim> class SolidScene : public ContactScene<dim>
     {
     public:
       void count(const ParameterFile &file) override
@@ -19,62 +19,36 @@ namespace abut::app
         counts = SolidCounts::read(file);
       }
 
-      void declare(dealii::ParameterHandler &prm) const override
+    private:
+      void declare_model(dealii::ParameterHandler &prm) const override
       {
         SolidParameters::declare(prm, counts);
-        CheckpointParameters::declare(prm);
-        ContactAssembler<dim>::declare_parameters(prm);
       }
 
-      void parse(dealii::ParameterHandler &prm) override
+      void parse_model(dealii::ParameterHandler &prm) override
       {
         parameters.parse(prm, counts);
-        checkpoint.parse(prm);
-        method.parse_parameters(prm);
-        solver.parse_parameters(prm);
         search.parse_parameters(prm);
-        choose_law_of_bodies(method, std::any_of(parameters.pairs.begin(),
-                                                 parameters.pairs.end(),
-                                                 [](const auto &pair)
-                                                 { return pair.tied; }));
+        choose_law_of_bodies(this->method, std::any_of(parameters.pairs.begin(),
+                                                       parameters.pairs.end(),
+                                                       [](const auto &pair)
+                                                       { return pair.tied; }));
       }
 
-      const CheckpointParameters *checkpoints() const override
+      ContactRunSettings settings() const override
       {
-        return &checkpoint;
+        return {parameters.refinement, this->method, this->solver,
+                parameters.load_steps, parameters.all_levels};
       }
 
-      void check(const RunOptions &options, Report &report) override
+      std::unique_ptr<ContactModel<dim>>
+      create_model(ContactRunState<dim> &state) const override
       {
-        with_run(options, report, [](auto &run) { run.check(); });
-      }
-
-      Outcome run(const RunOptions &options, Report &report) override
-      {
-        Outcome outcome = Outcome::unusable;
-        with_run(options, report, [&](auto &run) { outcome = run.run(); });
-        return outcome;
-      }
-
-    private:
-      template <typename Action>
-      void with_run(const RunOptions &options, Report &report,
-                    const Action &action)
-      {
-        ContactRunState<dim> state({parameters.refinement, method, solver,
-                                    parameters.load_steps,
-                                    parameters.all_levels},
-                                   options, report);
-        SolidModel<dim> model(parameters, state, search);
-        ContactRun<dim> run(state, model);
-        action(run);
+        return std::make_unique<SolidModel<dim>>(parameters, state, search);
       }
 
       SolidCounts counts;
       SolidParameters parameters;
-      CheckpointParameters checkpoint;
-      MethodParameters method;
-      SolverParameters solver;
       SearchParameters search;
     };
   } // namespace
