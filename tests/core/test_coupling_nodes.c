@@ -550,84 +550,6 @@ test_memory(void **state)
   }
 }
 
-/* Memory that fails after a number of allocations. */
-static void *
-scarce_allocate(void *user, size_t bytes, size_t alignment)
-{
-  int *left = user;
-  return (*left)-- > 0 ? aligned_alloc(alignment, (bytes + alignment - 1)
-                                                      / alignment * alignment)
-                       : NULL;
-}
-
-static void
-scarce_release(void *user, void *memory, size_t bytes)
-{
-  (void)user;
-  (void)bytes;
-  free(memory);
-}
-
-/* Build a coupling of surfaces that exist with so many allocations left. */
-static abut_status
-build_with(int n, const scene_mesh *s, const scene_mesh *m,
-           const abut_coupling_options *o)
-{
-  int left = 1 << 20;
-  abut_context_options memory = abut_context_defaults();
-  abut_context *scarce = NULL;
-  abut_surface *secondary = NULL, *primary = NULL;
-  abut_coupling *coupling = NULL;
-  abut_points *points = NULL;
-  memory.user = &left;
-  memory.allocate = scarce_allocate;
-  memory.release = scarce_release;
-  require(abut_context_create(&memory, &scarce));
-  const abut_surface_data a = scene_data(s), b = scene_data(m);
-  require(abut_surface_create(scarce, &a, &secondary));
-  require(abut_surface_create(scarce, &b, &primary));
-  left = n;
-  abut_status status =
-      abut_coupling_create(scarce, secondary, primary, o, &coupling);
-  assert_int_equal(coupling != NULL, status == ABUT_SUCCESS);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_create(scarce, 3, &points);
-  const abut_coupling_target target = abut_coupling_target_defaults(points);
-  if (status == ABUT_SUCCESS)
-    status = abut_coupling_build(coupling, NULL, 0., &target);
-  require(abut_points_destroy(&points));
-  require(abut_coupling_destroy(&coupling));
-  require(abut_surface_destroy(&secondary));
-  require(abut_surface_destroy(&primary));
-  require(abut_context_destroy(&scarce));
-  return status;
-}
-
-/* Whichever allocation fails, the call says so and everything can be
- * destroyed. */
-static void
-test_out_of_memory(void **state)
-{
-  (void)state;
-  for (int k = 0; k < ABUT_DISCRETISATION_N; ++k)
-  {
-    const abut_coupling_options o = mortar_options((abut_discretisation)k, 0);
-    scene_mesh s, m;
-    make_sheets(2, &s, &m);
-    int n = 0;
-    abut_status status = ABUT_OUT_OF_MEMORY;
-    while (n < 1000 && (status = build_with(n, &s, &m, &o)) != ABUT_SUCCESS)
-    {
-      assert_int_equal(status, ABUT_OUT_OF_MEMORY);
-      ++n;
-    }
-    assert_int_equal(status, ABUT_SUCCESS);
-    assert_true(n > 20);
-    scene_free(&s);
-    scene_free(&m);
-  }
-}
-
 static abut_status
 create(const couple *c, const abut_coupling_options *o)
 {
@@ -891,7 +813,6 @@ main(void)
       cmocka_unit_test_setup_teardown(test_order, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_own_facets, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_memory, set_up, tear_down),
-      cmocka_unit_test_setup_teardown(test_out_of_memory, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_options, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_node_arguments, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_target, set_up, tear_down),

@@ -176,6 +176,78 @@ older_requests_and_progress(void **unused)
   require(abut_strategy_destroy(&s));
 }
 
+/* A law p = 2 g + 3 at p = 0, g = 0 that is not held: dp = 3 + 2 dg. Trial and
+ * test are the last fields of the result. */
+static void
+older_callers_condense(void **unused)
+{
+  (void)unused;
+  const double p = 0, c = -3, a = 1, b = -2, dg = 5;
+  const abut_condense_points given = {.struct_size = sizeof(given),
+                                      .n = 1,
+                                      .pressure = &p,
+                                      .residual = &c,
+                                      .d_pressure = &a,
+                                      .d_gap = &b};
+  uint8_t held;
+  double value, force, spring, wrong = 77, dp = 0;
+  const abut_condensed places = {.struct_size = sizeof(places),
+                                 .held = &held,
+                                 .value = &value,
+                                 .force = &force,
+                                 .spring = &spring,
+                                 .trial = &wrong, /* must not be read */
+                                 .test = &wrong};
+  abut_condensed *old =
+      resized(&places, sizeof(places), offsetof(abut_condensed, trial));
+  abut_condense_points *newer =
+      resized(&given, sizeof(given), sizeof(given) + 16);
+  require(abut_condense(newer, old));
+  require(abut_condense_recover(newer, &dg, &dp));
+  assert_int_equal(held, 0);
+  assert_true(force == 3 && spring == -2 && wrong == 77 && dp == 13);
+  ((unsigned char *)newer)[sizeof(given) + 3] = 1;
+  assert_int_equal(abut_condense(newer, old), ABUT_INVALID_ARGUMENT);
+  old->struct_size = 1;
+  assert_int_equal(abut_condense(&given, old), ABUT_INVALID_ARGUMENT);
+  free(newer);
+  free(old);
+}
+
+static void
+older_callers_remember(void **unused)
+{
+  (void)unused;
+  abut_history *h = NULL;
+  require(abut_history_create(context, &h));
+  const int64_t id = 4;
+  const double pressure = 2, far[3] = {NAN, NAN, NAN};
+  const uint8_t state = 1;
+  const abut_history_entries entries = {
+      sizeof(entries), 1, &id, &pressure, &state, far /* must not be read */};
+  abut_history_entries *old =
+      resized(&entries, sizeof(entries), offsetof(abut_history_entries, place));
+  require(abut_history_set(h, old));
+  uint8_t found = 77;
+  double p = 0;
+  const abut_history_past past = {sizeof(past), &p, NULL, &found};
+  abut_history_past *old_past =
+      resized(&past, sizeof(past), offsetof(abut_history_past, found));
+  require(abut_history_get(h, ABUT_HISTORY_TRIAL, 1, &id, old_past));
+  assert_true(p == 2 && found == 77);
+  old->struct_size = 8;
+  assert_int_equal(abut_history_set(h, old), ABUT_INVALID_ARGUMENT);
+  assert_non_null(strstr(abut_context_message(context), "abut_history_set: "));
+  assert_non_null(strstr(abut_context_message(context), "of no version"));
+  old_past->struct_size = 8;
+  assert_int_equal(abut_history_get(h, ABUT_HISTORY_TRIAL, 1, &id, old_past),
+                   ABUT_INVALID_ARGUMENT);
+  assert_non_null(strstr(abut_context_message(context), "of no version"));
+  free(old);
+  free(old_past);
+  require(abut_history_destroy(&h));
+}
+
 static void
 the_library_tells_its_version(void **unused)
 {
@@ -205,6 +277,9 @@ main(void)
       cmocka_unit_test_setup_teardown(newer_results_have_zeros_at_their_ends,
                                       set_up, tear_down),
       cmocka_unit_test_setup_teardown(older_requests_and_progress, set_up,
+                                      tear_down),
+      cmocka_unit_test(older_callers_condense),
+      cmocka_unit_test_setup_teardown(older_callers_remember, set_up,
                                       tear_down),
       cmocka_unit_test(the_library_tells_its_version),
   };

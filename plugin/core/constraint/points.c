@@ -427,9 +427,8 @@ abut_points_filter(abut_points *points, const uint8_t *keep)
   return ABUT_SUCCESS;
 }
 
-/* All nodes must be in range. */
-static abut_status
-check_nodes(const abut_points *p, const char *call, int32_t n_nodes)
+abut_status
+abut_points_check_nodes(const abut_points *p, const char *call, int32_t n_nodes)
 {
   const int64_t n = n_entries_of(p);
   const int32_t *node = p->node.data;
@@ -456,7 +455,7 @@ abut_points_renumber(abut_points *points, int32_t n_nodes,
   if (n > 0 && number == NULL)
     return abut_fail(points->context, ABUT_INVALID_ARGUMENT, call,
                      "number is NULL");
-  const abut_status status = check_nodes(points, call, n_nodes);
+  const abut_status status = abut_points_check_nodes(points, call, n_nodes);
   if (status != ABUT_SUCCESS)
     return status;
   int32_t *node = points->node.data;
@@ -497,87 +496,4 @@ abut_points_get_sized(const abut_points *points, abut_points_view *view)
       p->node.data,
       p->coefficient.data};
   return abut_give(p->context, "abut_points_get", view, sizeof(made), &made);
-}
-
-/* Arguments shared by gap and force. */
-static abut_status
-check_product(const abut_points *p, const char *call, int32_t n_nodes,
-              const void *per_node, const void *per_component)
-{
-  if (n_nodes < 0 || (n_entries_of(p) > 0 && per_node == NULL)
-      || (p->n_components > 0 && per_component == NULL))
-    return abut_fail(p->context, ABUT_INVALID_ARGUMENT, call,
-                     "an array is NULL or a size negative");
-  return check_nodes(p, call, n_nodes);
-}
-
-abut_status
-abut_points_gap(const abut_points *points, int32_t n_nodes,
-                const double *displacement, double *value)
-{
-  static const char call[] = "abut_points_gap";
-  if (points == NULL)
-    return ABUT_INVALID_ARGUMENT;
-  const abut_status status =
-      check_product(points, call, n_nodes, displacement, value);
-  if (status != ABUT_SUCCESS)
-    return status;
-  const int32_t dim = points->dimension;
-  const double *initial = points->gap.data;
-  double probe = 0;
-  int32_t row = 0;
-  for (int32_t i = 0; i < points->n_points; ++i)
-  {
-    const abut_point p = point_of(points, i);
-    for (int32_t a = 0; a < p.n_components; ++a, ++row)
-    {
-      const double sign = abut_point_sign(p.kind, a), *f = p.frame + a * dim;
-      double sum = initial[row];
-      for (int32_t l = 0; l < p.n_nodes; ++l)
-        for (int32_t d = 0; d < dim; ++d)
-          sum += sign * f[d] * p.coefficient[l]
-                 * displacement[(int64_t)dim * p.node[l] + d];
-      value[row] = sum;
-      probe += sum * 0.0;
-    }
-  }
-  return probe == 0 ? ABUT_SUCCESS
-                    : abut_fail(points->context, ABUT_NOT_FINITE, call,
-                                "a displacement is not finite");
-}
-
-abut_status
-abut_points_add_force(const abut_points *points, int32_t n_nodes,
-                      const double *pressure, double *force)
-{
-  static const char call[] = "abut_points_add_force";
-  if (points == NULL)
-    return ABUT_INVALID_ARGUMENT;
-  const abut_status status =
-      check_product(points, call, n_nodes, force, pressure);
-  if (status != ABUT_SUCCESS)
-    return status;
-  const int32_t dim = points->dimension;
-  double probe = 0;
-  for (int32_t row = 0; row < points->n_components; ++row)
-    probe += pressure[row] * 0.0;
-  if (!(probe == 0))
-    return abut_fail(points->context, ABUT_NOT_FINITE, call,
-                     "a pressure is not finite");
-  int32_t row = 0;
-  for (int32_t i = 0; i < points->n_points; ++i)
-  {
-    const abut_point p = point_of(points, i);
-    for (int32_t a = 0; a < p.n_components; ++a, ++row)
-    {
-      const double *f = p.frame + a * dim,
-                   factor =
-                       p.weight * pressure[row] * abut_point_sign(p.kind, a);
-      for (int32_t l = 0; l < p.n_nodes; ++l)
-        for (int32_t d = 0; d < dim; ++d)
-          force[(int64_t)dim * p.node[l] + d] +=
-              factor * p.coefficient[l] * f[d];
-    }
-  }
-  return ABUT_SUCCESS;
 }

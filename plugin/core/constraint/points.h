@@ -14,4 +14,8 @@ int32_t abut_points_dimension(const abut_points *points);
 /* Keep the first n points: takes back what was appended after them. */
 void abut_points_truncate(abut_points *points, int32_t n);
 
+/* INVALID_ARGUMENT if a stencil has a node that is not below n_nodes. */
+abut_status abut_points_check_nodes(const abut_points *points, const char *call,
+                                    int32_t n_nodes);
+
 #endif

@@ -3,8 +3,6 @@
  * calls append, and what is looked up is found by bisection. */
 #include "history/history.h"
 
-#include "base/sized.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -271,19 +269,19 @@ abut_history_set(abut_history *history, const abut_history_entries *entries)
 {
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
+  static const char call[] = "abut_history_set";
   abut_context *context = history->context;
   abut_history_entries given = {.struct_size = sizeof(given)};
-  const char *fault = entries == NULL
-                          ? "entries is NULL"
-                          : abut_sized_read(&given, sizeof(given), entries);
-  if (fault == NULL
-      && (given.n < 0
-          || (given.n > 0 && (given.id == NULL || given.pressure == NULL))))
-    fault = "id or pressure is NULL, or n is negative";
-  if (fault != NULL)
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_history_set", fault);
-  const abut_status status =
-      abut_entries_check(context, "abut_history_set", &given);
+  if (entries == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "entries is NULL");
+  abut_status status = abut_take(context, call, &given, sizeof(given), entries);
+  if (status != ABUT_SUCCESS)
+    return status;
+  if (given.n < 0
+      || (given.n > 0 && (given.id == NULL || given.pressure == NULL)))
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "id or pressure is NULL, or n is negative");
+  status = abut_entries_check(context, call, &given);
   return status == ABUT_SUCCESS && given.n > 0 ? insert(history, &given)
                                                : status;
 }
@@ -312,14 +310,16 @@ version_of(const abut_history *history, abut_history_version version)
                                            : NULL;
 }
 
-/* The places for answers that a caller gave; what is wrong, or NULL. */
-static const char *
-take_past(const abut_history_past *past, abut_history_past *taken)
+/* The places for answers that a caller gave. */
+static abut_status
+take_past(const abut_history *history, const char *call,
+          const abut_history_past *past, abut_history_past *taken)
 {
-  memset(taken, 0, sizeof(*taken));
-  taken->struct_size = sizeof(*taken);
-  return past == NULL ? "past is NULL"
-                      : abut_sized_read(taken, sizeof(*taken), past);
+  *taken = (abut_history_past){.struct_size = sizeof(*taken)};
+  return past == NULL
+             ? abut_fail(history->context, ABUT_INVALID_ARGUMENT, call,
+                         "past is NULL")
+             : abut_take(history->context, call, taken, sizeof(*taken), past);
 }
 
 /* Give out entry i of a set as the k-th answer; i < 0: none. */
@@ -339,15 +339,17 @@ abut_status
 abut_history_get(const abut_history *history, abut_history_version version,
                  int64_t n, const int64_t *id, const abut_history_past *past)
 {
+  static const char call[] = "abut_history_get";
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
   const abut_entry_set *set = version_of(history, version);
   abut_history_past taken;
-  if (set == NULL || n < 0 || (n > 0 && id == NULL)
-      || take_past(past, &taken) != NULL)
-    return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
-                     "abut_history_get",
+  if (set == NULL || n < 0 || (n > 0 && id == NULL))
+    return abut_fail(history->context, ABUT_INVALID_ARGUMENT, call,
                      "an argument is NULL, or a size or the version is wrong");
+  const abut_status status = take_past(history, call, past, &taken);
+  if (status != ABUT_SUCCESS)
+    return status;
   for (int64_t k = 0; k < n; ++k)
   {
     const int64_t i = lower_bound(set, id[k]);
@@ -370,16 +372,18 @@ abut_history_nearest(const abut_history *history, abut_history_version version,
                      int64_t n, const int64_t *first_id, const int64_t *end_id,
                      const double *place, const abut_history_past *past)
 {
+  static const char call[] = "abut_history_nearest";
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
   const abut_entry_set *set = version_of(history, version);
   abut_history_past taken;
   if (set == NULL || n < 0
-      || (n > 0 && (first_id == NULL || end_id == NULL || place == NULL))
-      || take_past(past, &taken) != NULL)
-    return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
-                     "abut_history_nearest",
+      || (n > 0 && (first_id == NULL || end_id == NULL || place == NULL)))
+    return abut_fail(history->context, ABUT_INVALID_ARGUMENT, call,
                      "an argument is NULL, or a size or the version is wrong");
+  const abut_status status = take_past(history, call, past, &taken);
+  if (status != ABUT_SUCCESS)
+    return status;
   for (int64_t k = 0; k < n; ++k)
   {
     int64_t best = -1;
@@ -415,10 +419,8 @@ abut_history_view_sized(const abut_history *history,
       sizeof(view),    set->n,
       set->id.data,    set->pressure.data,
       set->state.data, set->has_places ? set->place.data : NULL};
-  const char *fault = abut_sized_write(entries, sizeof(view), &view);
-  return fault == NULL ? ABUT_SUCCESS
-                       : abut_fail(history->context, ABUT_INVALID_ARGUMENT,
-                                   "abut_history_view", fault);
+  return abut_give(history->context, "abut_history_view", entries, sizeof(view),
+                   &view);
 }
 
 abut_status
@@ -427,18 +429,19 @@ abut_history_set_problem(abut_history *history, abut_history_version version,
 {
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
+  static const char call[] = "abut_history_set_problem";
   abut_history_problem taken = no_problem();
-  const char *fault =
-      version_of(history, version) == NULL ? "the version is wrong"
-      : problem == NULL                    ? "problem is NULL"
-                        : abut_sized_read(&taken, sizeof(taken), problem);
-  if (fault == NULL
-      && (memchr(taken.law, 0, sizeof(taken.law)) == NULL
-          || !isfinite(taken.first_penalty) || !isfinite(taken.penalty)))
-    fault = "the law has no end, or a penalty is not finite";
-  if (fault != NULL)
-    return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
-                     "abut_history_set_problem", fault);
+  if (version_of(history, version) == NULL || problem == NULL)
+    return abut_fail(history->context, ABUT_INVALID_ARGUMENT, call,
+                     "problem is NULL, or the version is wrong");
+  const abut_status status =
+      abut_take(history->context, call, &taken, sizeof(taken), problem);
+  if (status != ABUT_SUCCESS)
+    return status;
+  if (memchr(taken.law, 0, sizeof(taken.law)) == NULL
+      || !isfinite(taken.first_penalty) || !isfinite(taken.penalty))
+    return abut_fail(history->context, ABUT_INVALID_ARGUMENT, call,
+                     "the law has no end, or a penalty is not finite");
   abut_entry_set *set =
       version == ABUT_HISTORY_COMMITTED ? &history->committed : &history->trial;
   set->problem = taken;
@@ -459,11 +462,8 @@ abut_history_get_problem_sized(const abut_history *history,
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
                      "abut_history_get_problem",
                      "problem is NULL, or the version is wrong");
-  const char *fault =
-      abut_sized_write(problem, sizeof(set->problem), &set->problem);
-  return fault == NULL ? ABUT_SUCCESS
-                       : abut_fail(history->context, ABUT_INVALID_ARGUMENT,
-                                   "abut_history_get_problem", fault);
+  return abut_give(history->context, "abut_history_get_problem", problem,
+                   sizeof(set->problem), &set->problem);
 }
 
 abut_status

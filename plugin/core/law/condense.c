@@ -2,6 +2,7 @@
 /* Elimination of a point's pressures; abut/condense.h has the equations. Points
  * of one component are two divisions each, others two small factorisations. */
 #include "base/dense_lu.h"
+#include "base/sized.h"
 
 #include <abut/condense.h>
 #include <stdbool.h>
@@ -233,10 +234,12 @@ recover_block(const block *at, const double *dg, double *dp)
   return true;
 }
 
+/* What a caller gave, of this version; there is no context to say why not. */
 static abut_status
-check_points(const abut_condense_points *points)
+take_points(const abut_condense_points *given, abut_condense_points *points)
 {
-  if (points == NULL || points->struct_size != sizeof(abut_condense_points)
+  *points = (abut_condense_points){.struct_size = sizeof(*points)};
+  if (given == NULL || abut_sized_read(points, sizeof(*points), given) != NULL
       || points->n < 0)
     return ABUT_INVALID_ARGUMENT;
   if (points->n > 0
@@ -247,6 +250,17 @@ check_points(const abut_condense_points *points)
     if (points->n_components[i] < 1 || points->n_components[i] > MAX_K)
       return ABUT_INVALID_ARGUMENT;
   return ABUT_SUCCESS;
+}
+
+static abut_status
+take_result(const abut_condensed *given, int32_t n, abut_condensed *result)
+{
+  *result = (abut_condensed){.struct_size = sizeof(*result)};
+  if (given == NULL || abut_sized_read(result, sizeof(*result), given) != NULL)
+    return ABUT_INVALID_ARGUMENT;
+  const bool complete = result->held != NULL && result->value != NULL
+                        && result->force != NULL && result->spring != NULL;
+  return n == 0 || complete ? ABUT_SUCCESS : ABUT_INVALID_ARGUMENT;
 }
 
 static place
@@ -270,24 +284,22 @@ finite_sum(const abut_condensed *out, int32_t k, place at)
 abut_status
 abut_condense(const abut_condense_points *points, const abut_condensed *result)
 {
-  const abut_status status = check_points(points);
+  abut_condense_points from;
+  abut_condensed to;
+  abut_status status = take_points(points, &from);
+  if (status == ABUT_SUCCESS)
+    status = take_result(result, from.n, &to);
   if (status != ABUT_SUCCESS)
     return status;
-  if (result == NULL || result->struct_size != sizeof(abut_condensed))
-    return ABUT_INVALID_ARGUMENT;
-  if (points->n > 0
-      && (result->held == NULL || result->value == NULL || result->force == NULL
-          || result->spring == NULL))
-    return ABUT_INVALID_ARGUMENT;
   place at = {0, 0};
   bool regular = true;
   double finite = 0;
-  for (int32_t i = 0; i < points->n; ++i)
+  for (int32_t i = 0; i < from.n; ++i)
   {
-    const int32_t k = components(points, i);
-    regular &= k == 1 ? condense_number(points, i, at, result)
-                      : condense_block(points, i, k, at, result);
-    finite += finite_sum(result, k, at);
+    const int32_t k = components(&from, i);
+    regular &= k == 1 ? condense_number(&from, i, at, &to)
+                      : condense_block(&from, i, k, at, &to);
+    finite += finite_sum(&to, k, at);
     at = next_place(at, k);
   }
   if (!regular)
@@ -299,29 +311,29 @@ abut_status
 abut_condense_recover(const abut_condense_points *points,
                       const double *gap_change, double *pressure_change)
 {
-  const abut_status status = check_points(points);
+  abut_condense_points from;
+  const abut_status status = take_points(points, &from);
   if (status != ABUT_SUCCESS)
     return status;
-  if (points->n > 0 && (gap_change == NULL || pressure_change == NULL))
+  if (from.n > 0 && (gap_change == NULL || pressure_change == NULL))
     return ABUT_INVALID_ARGUMENT;
   place at = {0, 0};
   bool regular = true;
   double finite = 0;
-  for (int32_t i = 0; i < points->n; ++i)
+  for (int32_t i = 0; i < from.n; ++i)
   {
-    const int32_t k = components(points, i);
+    const int32_t k = components(&from, i);
     const double *dg = gap_change + at.vector;
     double *dp = pressure_change + at.vector;
     if (k == 1)
     {
-      const double a = points->d_pressure[at.block];
+      const double a = from.d_pressure[at.block];
       if (a != 0)
-        *dp =
-            -(points->residual[at.vector] + points->d_gap[at.block] * *dg) / a;
+        *dp = -(from.residual[at.vector] + from.d_gap[at.block] * *dg) / a;
     }
     else
     {
-      const block here = block_at(points, k, at);
+      const block here = block_at(&from, k, at);
       regular &= recover_block(&here, dg, dp);
     }
     for (int32_t j = 0; j < k; ++j)
