@@ -28,7 +28,10 @@ same keys, each of which is merged over the top ones and run by itself.
               against that of the first
     orders    {key: {"min": a, "max": b}}: log2 of the ratio of consecutive
               cases' values of a summary key, all but the first `skip` of them;
-              "of": v compares |value - v| instead of the value
+              "of": v compares |value - v| instead of the value; "entry": i
+              takes the i-th entry of a list
+    relations {key: {"of": other key, "factor": f, "relative": r}}: a value of
+              summary.json is f times another one
 
 A check is a value (must be equal), a list of values, or an object with some of
 value, relative, absolute, min, max; "relative" and "absolute" without the
@@ -101,6 +104,17 @@ def check_value(name, value, check, faults):
             faults.expect(number and entry <= check["max"],
                           f"{name} is {entry!r}, expected at most "
                           f"{check['max']}")
+
+
+def check_relation(key, relation, summary, faults):
+    """Whether a figure is a multiple of another one."""
+    other = scalar(summary.get(relation["of"]))
+    if not isinstance(other, (int, float)):
+        faults.append(f"{relation['of']} is {other!r}")
+        return
+    check_value(key, summary.get(key), {"value": relation["factor"] * other,
+                                        "relative": relation["relative"]},
+                faults)
 
 
 def number(text):
@@ -232,6 +246,8 @@ def run_once(abut, case, n_ranks, folder):
         faults.expect("summary" not in case, "summary.json was not written")
     for key, check in case.get("summary", {}).items():
         check_value(key, summary.get(key), check, faults)
+    for key, relation in case.get("relations", {}).items():
+        check_relation(key, relation, summary, faults)
     for name, table in case.get("tables", {}).items():
         check_table(output / name, table, faults)
     return faults, summary
@@ -261,7 +277,10 @@ def check_orders(orders, summaries):
     for key, check in orders.items():
         check = dict(check)
         limit, skip = check.pop("of", 0.0), check.pop("skip", 0)
+        entry = check.pop("entry", None)
         values = [scalar(summary.get(key)) for summary in summaries]
+        if entry is not None:
+            values = [value[entry] for value in values]
         if not all(isinstance(v, (int, float)) for v in values):
             faults.append(f"order of {key}: values are {values}")
             continue
