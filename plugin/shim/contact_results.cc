@@ -54,6 +54,24 @@ namespace abut
     return std::sqrt(MPI::sum(sum, i.communicator));
   }
 
+  template <int dim> double ContactAssembler<dim>::allowed_penetration() const
+  {
+    const Implementation &i = *implementation;
+    i.check_unchanged("allowed_penetration()");
+    const abut_law *law = i.method.options.law;
+    if (!i.is_started || !abut_law_has_penalty(law)
+        || abut_law_updates_multipliers(law))
+      return 0.;
+    const double penalty = progress().penalty;
+    double largest = 0.;
+    for (int row = 0; row < i.coefficients.n_rows(); ++row)
+      if (i.coefficients.bilateral()[row] == 0)
+        largest = std::max(largest,
+                           i.row_pressure(row) / (penalty * i.stiffness[row]));
+    return MPI::max(largest, i.communicator)
+           + i.method.options.allowed_penetration * i.length_scale();
+  }
+
   template <int dim> double ContactAssembler<dim>::penetration() const
   {
     const Implementation &i = *implementation;
@@ -148,6 +166,7 @@ namespace abut
   template double ContactAssembler<dim>::contact_force() const;                \
   template double ContactAssembler<dim>::complementarity() const;              \
   template double ContactAssembler<dim>::complementarity_error() const;        \
+  template double ContactAssembler<dim>::allowed_penetration() const;          \
   template double ContactAssembler<dim>::penetration() const;                  \
   template double ContactAssembler<dim>::imbalance(const la::Vector &, double) \
       const;                                                                   \

@@ -198,6 +198,10 @@ namespace abut::shim
           result.penetration = std::max(
               result.penetration, tied ? std::abs(row_gap[i]) : -row_gap[i]);
           result.pressure = std::max(result.pressure, row_pressure[i]);
+          if (!tied)
+            result.least_pressure =
+                std::min(result.least_pressure, row_pressure[i]);
+          result.initial_gap_work += weight * row_pressure[i] * view_.gap[i];
           for_each_secondary(row.point,
                              [&](const Node node, const double c)
                              {
@@ -226,6 +230,9 @@ namespace abut::shim
       result.contact_area = MPI::sum(result.contact_area, communicator_);
       result.penetration = MPI::max(result.penetration, communicator_);
       result.pressure = MPI::max(result.pressure, communicator_);
+      result.least_pressure = MPI::min(result.least_pressure, communicator_);
+      result.initial_gap_work =
+          MPI::sum(result.initial_gap_work, communicator_);
       result.secondary_force = MPI::sum(result.secondary_force, communicator_);
       result.primary_force = MPI::sum(result.primary_force, communicator_);
       result.secondary_moment =

@@ -13,7 +13,8 @@ def decode(array):
     """Numbers of a DataArray: text, or compressed blocks after a header of
     their number, two sizes and the packed sizes."""
     if array.get("format") == "ascii":
-        return [float(word) for word in array.text.split()]
+        kind = float if array.get("type").startswith("Float") else int
+        return [kind(word) for word in array.text.split()]
     text = array.text.strip()
     n_blocks, = struct.unpack("<I", base64.b64decode(text[:8])[:4])
     header = (4 * (3 + n_blocks) + 2) // 3 * 4
@@ -39,6 +40,7 @@ class Piece:
         starts = [0, *cells["offsets"]]
         self.cells = [cells["connectivity"][a:b]
                       for a, b in zip(starts, starts[1:])]
+        self.types = cells["types"]
         self.fields = {a.get("Name"): decode(a)
                        for a in element.findall("PointData/DataArray")}
 

@@ -429,6 +429,12 @@ namespace abut
     /** Cost of all linear solves since the last reinit(). */
     virtual const LinearReport &linear_report() const;
 
+    /** How deep the law itself lets the present pressures press the bodies into
+     * each other, length >= 0: the largest p / eps of laws with a penalty, and
+     * the penetration allowed. 0 for exact and interior laws, and for
+     * multipliers that an outer iteration has brought to their end. */
+    virtual double allowed_penetration() const;
+
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation;

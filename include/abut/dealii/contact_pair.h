@@ -107,6 +107,9 @@ namespace abut
      * the last check_penetration(): what contact would have to move. */
     double held_inside = 0.;
     double pressure = 0.; /**< largest */
+    /** Least where that is below 0, as a law may let surfaces pull, else 0; 0
+     * for ties, whose tractions have any sign. */
+    double least_pressure = 0.;
     /** Resultant contact force on the secondary side. */
     dealii::Tensor<1, dim> secondary_force;
     /** The same on the primary; against an obstacle minus the first. */
@@ -121,6 +124,9 @@ namespace abut
     /** |sum of the moments| / (|force| * diameter of the surface); 0 where
      * there is no force. */
     double moment_imbalance = 0.;
+    /** Work of the contact forces on the gaps that were there before anything
+     * moved: the sum of weight, pressure and gap at displacement 0. */
+    double initial_gap_work = 0.;
   };
 
   /** A point of the secondary that has penetrated without a row. */

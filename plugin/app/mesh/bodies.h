@@ -63,6 +63,13 @@ namespace abut::app
     /** "body 2, boundary 3" for a number of the triangulation. */
     std::string name(BoundaryId number) const;
 
+    /** What the user calls a boundary number of the triangulation in its body.
+     */
+    BoundaryId user_id(const BoundaryId number) const
+    {
+      return origin.at(number).second;
+    }
+
     /** Body that a boundary number of the triangulation belongs to. */
     unsigned int body_of(BoundaryId number) const;
 

@@ -21,6 +21,13 @@ namespace abut::app
   using BoundaryFunctions =
       std::map<dealii::types::boundary_id, const dealii::Function<dim> *>;
 
+  /** Forces at all unknowns, supported ones included; hanging ones by their
+   * parents. */
+  struct NodalForces
+  {
+    la::Vector internal, external;
+  };
+
   /** A problem on a mesh: unknowns, constraints, tangent and load vector. What
    * its forces are is the matter of derived classes. */
   template <int dim> class DiscreteProblem
@@ -38,6 +45,10 @@ namespace abut::app
     /** Internal minus external forces at u, 0 at constrained unknowns.
      * Collective. */
     virtual void residual(const la::Vector &u, la::Vector &result) const = 0;
+
+    /** What the residual consists of, supported unknowns included, for the
+     * loads last assembled. Collective. */
+    virtual NodalForces nodal_forces(const la::Vector &u) const = 0;
 
     /** Its derivative by u, as it is until the next call. Collective. */
     virtual const la::Matrix &tangent(const la::Vector &u) = 0;

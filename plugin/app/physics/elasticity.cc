@@ -387,6 +387,12 @@ namespace abut::app
   }
 
   template <int dim>
+  NodalForces Elasticity<dim>::nodal_forces(const la::Vector &u) const
+  {
+    return {internal_forces(u, this->hanging), external};
+  }
+
+  template <int dim>
   la::Vector Elasticity<dim>::unbalanced_forces(const la::Vector &u) const
   {
     la::Vector result = internal_forces(u, this->hanging);

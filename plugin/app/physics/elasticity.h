@@ -58,6 +58,7 @@ namespace abut::app
 
     void residual(const la::Vector &u, la::Vector &result) const override;
     const la::Matrix &tangent(const la::Vector &u) override;
+    NodalForces nodal_forces(const la::Vector &u) const override;
 
     /** Whether all materials are. */
     bool is_linear() const override;

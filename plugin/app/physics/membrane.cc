@@ -33,8 +33,8 @@ namespace abut::app
   }
 
   template <int dim>
-  void Membrane<dim>::assemble_cells(const MembraneData<dim> &data,
-                                     la::Vector &open)
+  void Membrane<dim>::for_each_cell(const MembraneData<dim> &data,
+                                    const TakeCell &take) const
   {
     const dealii::QGauss<dim> quadrature(this->fe.degree + 1);
     dealii::UpdateFlags flags = dealii::update_values | dealii::update_gradients
@@ -83,15 +83,16 @@ namespace abut::app
           for (unsigned int j = i + 1; j < n; ++j)
             cell_matrix(i, j) = cell_matrix(j, i);
         cell->get_dof_indices(dofs);
-        this->constraints.distribute_local_to_global(
-            cell_matrix, cell_load, dofs, this->stiffness, open);
+        take(cell_matrix, cell_load, dofs);
       }
   }
 
   template <int dim>
-  void Membrane<dim>::assemble_neumann(const MembraneData<dim> &data,
-                                       la::Vector &open)
+  void Membrane<dim>::for_each_flux(const MembraneData<dim> &data,
+                                    const TakeFace &take) const
   {
+    if (data.neumann.empty())
+      return;
     const dealii::QGauss<dim - 1> quadrature(this->fe.degree + 1);
     dealii::FEFaceValues<dim> values(this->mapping, this->fe, quadrature,
                                      dealii::update_values
@@ -118,7 +119,7 @@ namespace abut::app
               cell_load(i) +=
                   flux[q] * values.JxW(q) * values.shape_value(i, q);
           cell->get_dof_indices(dofs);
-          this->constraints.distribute_local_to_global(cell_load, dofs, open);
+          take(cell_load, dofs);
         }
   }
 
@@ -129,14 +130,48 @@ namespace abut::app
     collective(this->communicator,
                [&]
                {
-                 assemble_cells(data, open);
-                 if (!data.neumann.empty())
-                   assemble_neumann(data, open);
+                 for_each_cell(data,
+                               [&](const auto &matrix, const auto &force,
+                                   const Dofs &dofs)
+                               {
+                                 this->constraints.distribute_local_to_global(
+                                     matrix, force, dofs, this->stiffness,
+                                     open);
+                               });
+                 for_each_flux(data,
+                               [&](const auto &force, const Dofs &dofs) {
+                                 this->constraints.distribute_local_to_global(
+                                     force, dofs, open);
+                               });
                });
     this->stiffness.compress(dealii::VectorOperation::add);
     la::Vector closed = this->close_load(open);
     this->load.swap(closed);
     assembled = data;
+  }
+
+  template <int dim>
+  NodalForces Membrane<dim>::nodal_forces(const la::Vector &u) const
+  {
+    const la::Vector ghosted = this->ghosted(u);
+    la::Vector internal = this->open_load();
+    la::Vector external = this->open_load();
+    dealii::Vector<double> values(this->fe.n_dofs_per_cell());
+    dealii::Vector<double> product(values);
+    for_each_cell(
+        assembled,
+        [&](const auto &matrix, const auto &force, const Dofs &dofs)
+        {
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            values(i) = ghosted(dofs[i]);
+          matrix.vmult(product, values);
+          this->hanging.distribute_local_to_global(product, dofs, internal);
+          this->hanging.distribute_local_to_global(force, dofs, external);
+        });
+    for_each_flux(
+        assembled, [&](const auto &force, const Dofs &dofs)
+        { this->hanging.distribute_local_to_global(force, dofs, external); });
+    return {this->close_load(internal), this->close_load(external)};
   }
 
   template <int dim> double Membrane<dim>::energy(const la::Vector &u) const

@@ -36,9 +36,22 @@ namespace abut::app
     /** Energy with the data of the last assemble(). Collective. */
     double energy(const la::Vector &u) const override;
 
+    NodalForces nodal_forces(const la::Vector &u) const override;
+
   private:
-    void assemble_cells(const MembraneData<dim> &data, la::Vector &open);
-    void assemble_neumann(const MembraneData<dim> &data, la::Vector &open);
+    using Dofs = std::vector<dealii::types::global_dof_index>;
+    /** Takes stiffness and load of a cell. */
+    using TakeCell =
+        std::function<void(const dealii::FullMatrix<double> &,
+                           const dealii::Vector<double> &, const Dofs &)>;
+    /** Takes the load of a face. */
+    using TakeFace =
+        std::function<void(const dealii::Vector<double> &, const Dofs &)>;
+
+    void for_each_cell(const MembraneData<dim> &data,
+                       const TakeCell &take) const;
+    void for_each_flux(const MembraneData<dim> &data,
+                       const TakeFace &take) const;
 
     MembraneData<dim> assembled;
   };

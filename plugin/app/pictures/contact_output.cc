@@ -48,9 +48,29 @@ namespace abut::app
       results[q][0] = inputs.solution_values[q][0];
   }
 
+  template <int dim>
+  NumberOfBoundary<dim>::NumberOfBoundary(const std::string &name,
+                                          Number number)
+      : dealii::DataPostprocessorScalar<dim>(name, dealii::update_values),
+        number(std::move(number))
+  {
+  }
+
+  template <int dim>
+  void NumberOfBoundary<dim>::evaluate_vector_field(
+      const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+      std::vector<dealii::Vector<double>> &results) const
+  {
+    const auto face =
+        inputs.template get_cell<dim>()->face(inputs.get_face_number());
+    for (dealii::Vector<double> &result : results)
+      result[0] = number(face->boundary_id());
+  }
+
 #define ABUT_INSTANTIATE(dim)                                                  \
   template class SignedLength<dim>;                                            \
-  template class FirstComponent<dim>;
+  template class FirstComponent<dim>;                                          \
+  template class NumberOfBoundary<dim>;
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -8,6 +8,7 @@
 
 #include <deal.II/numerics/data_postprocessor.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,22 @@ namespace abut::app
     void evaluate_vector_field(
         const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
         std::vector<dealii::Vector<double>> &results) const override;
+  };
+  /** A number by boundary id, such as what its user calls it. For faces. */
+  template <int dim>
+  class NumberOfBoundary : public dealii::DataPostprocessorScalar<dim>
+  {
+  public:
+    using Number = std::function<double(dealii::types::boundary_id)>;
+
+    NumberOfBoundary(const std::string &name, Number number);
+
+    void evaluate_vector_field(
+        const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+        std::vector<dealii::Vector<double>> &results) const override;
+
+  private:
+    const Number number;
   };
 } // namespace abut::app
 

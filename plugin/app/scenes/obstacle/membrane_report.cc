@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run of the scene `obstacle` leaves behind.
 #include "membrane_report.h"
-#include "app/input/collective.h"
+#include "app/pictures/nodal_table.h"
 #include "app/pictures/pictures.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
+#include "app/scenes/nodal_forces.h"
 #include "solve/masked_solver.h"
 
 #include <deal.II/base/timer.h>
-#include <deal.II/dofs/dof_tools.h>
-
-#include <fstream>
-#include <iomanip>
-#include <sstream>
 
 namespace abut::app
 {
@@ -52,34 +48,18 @@ namespace abut::app
   template <int dim> void MembraneReport<dim>::write_nodal_values() const
   {
     SectionTimes::Scope scope(report.times, "output");
-    std::map<dealii::types::global_dof_index, dealii::Point<dim>> points;
-    dealii::DoFTools::map_dofs_to_support_points(membrane.mapping,
-                                                 membrane.dof_handler, points);
-    const la::Vector p = membrane.ghosted_field(contact.pressure());
-    const la::Vector g = membrane.ghosted_field(contact.gap());
-    const la::Vector s = membrane.ghosted_field(contact.status());
-    std::ostringstream mine;
-    mine << std::setprecision(17);
-    for (const auto dof : membrane.dof_handler.locally_owned_dofs())
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        mine << points.at(dof)[d] << ',';
-      mine << u(dof) << ',' << p(dof) << ',' << g(dof) << ',' << s(dof) << '\n';
-    }
-    const auto all = MPI::gather(communicator, mine.str());
-    collective(communicator,
-               [&]
-               {
-                 if (MPI::this_mpi_process(communicator) != 0)
-                   return;
-                 std::ofstream out(run.options.output_folder / "nodal.csv");
-                 out << (dim == 2 ? "x,y," : "x,y,z,")
-                     << "displacement,pressure,gap,status\n";
-                 for (const std::string &part : all)
-                   out << part;
-                 if (!out)
-                   throw std::runtime_error("Cannot write nodal.csv.");
-               });
+    la::Vector displacement(u);
+    membrane.constraints.distribute(displacement);
+    std::vector<NodalColumn> columns = {{"displacement", displacement}};
+    for (const auto &[name, field] :
+         {std::make_pair("pressure", contact.pressure()),
+          std::make_pair("gap", contact.gap()),
+          std::make_pair("status", contact.status())})
+      columns.push_back({name, membrane.ghosted_field(field)});
+    for (NodalColumn &column : force_columns(membrane, run, true))
+      columns.push_back(std::move(column));
+    write_nodal_table(run.options.output_folder / "nodal.csv", membrane.mapping,
+                      membrane.dof_handler, columns);
   }
 
   template <int dim> double MembraneReport<dim>::counted_seconds() const
@@ -219,6 +199,7 @@ namespace abut::app
     report.set("active", last.active);
     report.set("contact_force", last.force);
     report.set("max_penetration", contact.penetration());
+    report.set("allowed_penetration", contact.allowed_penetration());
     report.set("max_complementarity", last.progress.complementarity);
     report.set("energy", last.energy);
     report.set("search_rebuilds", 0);

@@ -67,8 +67,8 @@ namespace abut::app
       prm.declare_entry("All levels", "false", Patterns::Bool(),
                         "Write fields on every level, not only on the last.");
       prm.declare_entry("Nodal values", "false", Patterns::Bool(),
-                        "Write the fields at all nodes of the last level as "
-                        "nodal.csv.");
+                        "Write fields and forces at all nodes of the last "
+                        "level as nodal.csv, with all digits.");
       prm.declare_entry("Linear solves for comparison", "0",
                         Patterns::Integer(0),
                         "Solve the problem without obstacle (assembly, ML, CG "

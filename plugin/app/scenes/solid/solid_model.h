@@ -74,6 +74,11 @@ namespace abut::app
     }
     std::string save_state() const override;
     void load_state(const std::string &bytes) override;
+    void finish() override
+    {
+      if (parameters.nodal_values && !run.results.empty())
+        output.write_nodal_values();
+    }
     void draw() override
     {
       output.draw();

@@ -5,6 +5,7 @@
 #include "app/pictures/body_pictures.h"
 #include "app/pictures/contact_output.h"
 #include "app/pictures/pictures.h"
+#include "app/scenes/nodal_forces.h"
 #include "solid_model.h"
 
 #include <deal.II/base/mpi.h>
@@ -83,6 +84,12 @@ namespace abut::app
     const SignedLength<dim> pressures("pressure", -1.);
     const FirstComponent<dim> gaps("gap");
     const FirstComponent<dim> states("status");
+    const NumberOfBoundary<dim> numbers_of_bodies(
+        "body", [this](const dealii::types::boundary_id id)
+        { return model.bodies.body_of(id) + 1.; });
+    const NumberOfBoundary<dim> ids("boundary_id",
+                                    [this](const dealii::types::boundary_id id)
+                                    { return model.bodies.user_id(id); });
     Fields<dim> fields{model.elasticity.mapping,
                        model.elasticity.dof_handler,
                        {{"displacement", &displacement},
@@ -90,7 +97,9 @@ namespace abut::app
                        {}};
     fields.derived = {{&contact_values.traction, &pressures},
                       {&contact_values.gap, &gaps},
-                      {&contact_values.status, &states}};
+                      {&contact_values.status, &states},
+                      {&displacement, &numbers_of_bodies},
+                      {&displacement, &ids}};
     fields.faces = model.pairs->surfaces();
     contact_series.write(time(), fields);
     if constexpr (dim == 2)
@@ -127,6 +136,25 @@ namespace abut::app
                            {fields.traction, &fields.gap, &fields.status})});
     }
     return curves;
+  }
+
+  template <int dim> void SolidOutput<dim>::write_nodal_values() const
+  {
+    SectionTimes::Scope scope(model.run.report.times, "output");
+    const Elasticity<dim> &elasticity = model.elasticity;
+    const bool has_contact = !model.pairs->empty();
+    std::vector<NodalColumn> columns = {
+        {"displacement", elasticity.ghosted(model.run.u)}};
+    for (NodalColumn &column :
+         force_columns(elasticity, model.run, has_contact))
+      columns.push_back(std::move(column));
+    if (has_contact)
+      for (const auto &[name, field] :
+           {std::make_pair("gap", model.run.contact.gap()),
+            std::make_pair("status", model.run.contact.status())})
+        columns.push_back({name, elasticity.ghosted_field(field), true});
+    write_nodal_table(model.run.options.output_folder / "nodal.csv",
+                      elasticity.mapping, elasticity.dof_handler, columns);
   }
 
   template <int dim> void SolidOutput<dim>::draw() const

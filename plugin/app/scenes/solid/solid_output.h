@@ -36,6 +36,10 @@ namespace abut::app
     /** Pictures of the present solution. Collective. */
     void draw() const;
 
+    /** Displacement and forces at all nodes of the present mesh as nodal.csv.
+     * Collective. */
+    void write_nodal_values() const;
+
     /** What a checkpoint keeps. */
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {

@@ -83,6 +83,9 @@ namespace abut::app
                         "stays where it is under refinement, or falls to 0 if "
                         "there are too many pressures. Costs a few dozen "
                         "linear solves.");
+      prm.declare_entry("Nodal values", "false", Patterns::Bool(),
+                        "Write displacement and forces at all nodes of the "
+                        "last level as nodal.csv, with all digits.");
       prm.declare_entry("Points", "", Patterns::Anything(),
                         "Where displacements are wanted: the summary gets "
                         "those of the nodes nearest to the points `1: 0, 0; 2: "
@@ -158,6 +161,7 @@ namespace abut::app
     fields = prm.get_bool("Fields");
     all_levels = prm.get_bool("All levels");
     inf_sup = prm.get_bool("Inf-sup constant");
+    nodal_values = prm.get_bool("Nodal values");
     points = prm.get("Points");
     prm.leave_subsection();
   }

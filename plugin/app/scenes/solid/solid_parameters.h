@@ -46,6 +46,7 @@ namespace abut::app
     bool fields = true;
     bool all_levels = false;
     bool inf_sup = false;
+    bool nodal_values = false;
     std::string points;
 
     static void declare(dealii::ParameterHandler &prm,

@@ -199,7 +199,10 @@ namespace abut::app
       report.set(key + "_contact_area", pair.contact_area);
       report.set(key + "_force", vector(pair.secondary_force));
       report.set(key + "_moment", vector(pair.secondary_moment));
+      report.set(key + "_primary_force", vector(pair.primary_force));
+      report.set(key + "_initial_gap_work", pair.initial_gap_work);
       report.set(key + "_pressure", pair.pressure);
+      report.set(key + "_least_pressure", pair.least_pressure);
       report.set(key + "_penetration", pair.penetration);
       const double facet = checks.at(number - 1).facet_size;
       if (facet > 0.)
@@ -245,6 +248,7 @@ namespace abut::app
     report.set("discretisation", discretisation_name(method.discretisation));
     report.set("contact_force", contact.contact_force());
     report.set("max_penetration", contact.penetration());
+    report.set("allowed_penetration", contact.allowed_penetration());
     report.set("max_complementarity", contact.complementarity());
     if (is_suspicious(contact.penetration(), way))
       report.warn(

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "nodal_forces.h"
+
+namespace abut::app
+{
+  template <int dim>
+  std::vector<NodalColumn> force_columns(const DiscreteProblem<dim> &problem,
+                                         const ContactRunState<dim> &run,
+                                         const bool has_contact)
+  {
+    const NodalForces forces = problem.nodal_forces(run.u);
+    la::Vector reaction(forces.internal);
+    reaction.add(-1., forces.external);
+    la::Vector free(reaction);
+    problem.constraints.set_zero(free);
+    reaction.add(-1., free);
+
+    la::Vector contact = problem.vector();
+    if (has_contact && abut_law_needs_stress(run.method.options.law))
+      contact = free;
+    else if (has_contact)
+      run.contact.add_contact_forces(contact);
+    problem.constraints.set_zero(contact);
+    return {{"load", forces.external},
+            {"contact", contact},
+            {"reaction", reaction}};
+  }
+
+  template std::vector<NodalColumn>
+  force_columns(const DiscreteProblem<2> &, const ContactRunState<2> &, bool);
+  template std::vector<NodalColumn>
+  force_columns(const DiscreteProblem<3> &, const ContactRunState<3> &, bool);
+} // namespace abut::app

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_NODAL_FORCES_H
+#define ABUT_APP_NODAL_FORCES_H
+
+/** @file
+ * The forces at the nodes by where they come from, as columns of a table.
+ */
+
+#include "app/pictures/nodal_table.h"
+#include "contact_run_state.h"
+
+#include "app/physics/discrete_problem.h"
+
+#include <vector>
+
+namespace abut::app
+{
+  /** Columns `load`, `contact` and `reaction`: forces on the body at the
+   * present displacement of @p run, hanging nodes by their parents, so that the
+   * sums are those of the bodies. Where a support holds a direction what
+   * contact presses there is part of the reaction. Laws that need the stress
+   * have no forces of their own: theirs are what is left of balance at free
+   * nodes. @p has_contact: whether there are rows at all. Collective. */
+  template <int dim>
+  std::vector<NodalColumn> force_columns(const DiscreteProblem<dim> &problem,
+                                         const ContactRunState<dim> &run,
+                                         bool has_contact);
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Lagrange elements of degree 1 and 2 on lines, quadrilaterals and
+hexahedra. Nodes are in lexicographic order, x fastest."""
+import functools
+import itertools
+import math
+
+from vectors import add, invert, norm, sub
+
+
+def _basis(degree, s):
+    """Values and derivatives of the shape functions on [0, 1]."""
+    if degree == 1:
+        return (1 - s, s), (-1., 1.)
+    return ((1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)), (
+        4 * s - 3, 4 - 8 * s, 4 * s - 1)
+
+
+@functools.lru_cache(maxsize=None)
+def shapes(dim, degree, point):
+    """Values and gradients of the shape functions at a point of the unit
+    cell."""
+    line = [_basis(degree, s) for s in point]
+    values, gradients = [], []
+    for index in itertools.product(range(degree + 1), repeat=dim):
+        index = index[::-1]
+        value = 1.
+        for d in range(dim):
+            value *= line[d][0][index[d]]
+        values.append(value)
+        gradients.append(tuple(
+            math.prod(line[e][1 if e == d else 0][index[e]]
+                      for e in range(dim)) for d in range(dim)))
+    return tuple(values), tuple(gradients)
+
+
+@functools.lru_cache(maxsize=None)
+def gauss(dim, n):
+    """Points and weights on the unit cell."""
+    line = {1: [(.5, 1.)],
+            2: [(.5 - math.sqrt(1 / 12), .5), (.5 + math.sqrt(1 / 12), .5)],
+            3: [(.5 - math.sqrt(.15), 5 / 18), (.5, 4 / 9),
+                (.5 + math.sqrt(.15), 5 / 18)]}[n]
+    return tuple((tuple(p[0] for p in points),
+                  math.prod(p[1] for p in points))
+                 for points in itertools.product(line, repeat=dim))
+
+
+def interpolate(values, nodes):
+    """Sum of shape values times vectors at the nodes."""
+    return tuple(sum(v * node[d] for v, node in zip(values, nodes))
+                 for d in range(len(nodes[0])))
+
+
+def corners(dim, degree):
+    """Numbers of the corner nodes, lexicographic."""
+    n = degree + 1
+    return [sum(degree * bit * n**d for d, bit in enumerate(bits[::-1]))
+            for bits in itertools.product((0, 1), repeat=dim)]
+
+
+def in_order(dim, degree, points):
+    """Numbers of the points in the order of the nodes: the first 2^dim are the
+    corners as VTK walks around them, the others are known by their place."""
+    ring = [0, 1, 3, 2] if dim > 1 else [0, 1]
+    if dim == 3:
+        ring += [4 + i for i in ring]
+    if degree == 1:
+        return ring
+    at_corner = [points[i] for i in ring]
+    left = set(range(2**dim, 3**dim))
+    result = []
+    for index in itertools.product(range(3), repeat=dim):
+        place = tuple(i / 2 for i in index[::-1])
+        if all(s in (0., 1.) for s in place):
+            result.append(ring[sum(int(s) << d for d, s in enumerate(place))])
+            continue
+        near = interpolate(shapes(dim, 1, place)[0], at_corner)
+        best = min(left, key=lambda i: norm(sub(points[i], near)))
+        left.remove(best)
+        result.append(best)
+    return result
+
+
+def contains(dim, degree, nodes, point):
+    """Whether a point is inside a cell of the given nodes: Newton's method
+    for its place in the unit cell."""
+    place = (0.5,) * dim
+    for _ in range(20):
+        values, gradients = shapes.__wrapped__(dim, degree, place)
+        defect = sub(point, interpolate(values, nodes))
+        jacobian = [[sum(g[j] * node[i] for g, node in zip(gradients, nodes))
+                     for j in range(dim)] for i in range(dim)]
+        inverse, _ = invert(jacobian)
+        if inverse is None:
+            return False
+        step = tuple(sum(a * b for a, b in zip(row, defect))
+                     for row in inverse)
+        place = add(place, step)
+        if max(abs(s - 0.5) for s in place) > 5:
+            return False
+        if max(abs(s) for s in step) < 1e-10:
+            break
+    return all(-1e-9 <= s <= 1 + 1e-9 for s in place)

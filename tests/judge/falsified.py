@@ -1,0 +1,438 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Test of the judge: true outputs of small scenes pass, and each of many
+falsified copies of them is found.
+
+    falsified.py --abut build/release/abut
+"""
+import argparse
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree
+
+import judge
+from run_files import vtu
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+
+BLOCKS = """
+set Scene = solid
+set Dimension = {dim}
+subsection Solid
+  set Bodies = 2
+  set Pairs = 1
+  set Degree = {degree}
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = {below} : true
+  end
+  set Young modulus = 70
+  set Support = {floor}
+end
+subsection Body 2
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = {above} : true
+  end
+  set Young modulus = 210
+  set Support = {walls}
+  set Pressure = {top}: 1
+end
+subsection Pair 1
+  set Secondary = 2: {bottom}
+  set Primary = 1: {top}
+end
+subsection Refinement
+  set Level = 0
+end
+"""
+
+SCENES = {
+    "blocks": BLOCKS.format(
+        dim=2, degree=1, below="6, 3 : 0, 0 : 3, 1", floor="2: 0, 0",
+        above="5, 3 : 0.5, 1 : 2.5, 2", walls="0: 0, free", top=3, bottom=2),
+    "quadratic": BLOCKS.format(
+        dim=2, degree=2, below="4, 2 : 0, 0 : 3, 1", floor="2: 0, 0",
+        above="3, 2 : 0.5, 1 : 2.5, 2", walls="0: 0, free", top=3, bottom=2),
+    "cubes": BLOCKS.format(
+        dim=3, degree=1, below="3, 3, 2 : 0, 0, 0 : 1.5, 1.5, 1",
+        floor="4: 0, 0, 0", above="2, 2, 2 : 0.2, 0.3, 1 : 1.2, 1.3, 2",
+        walls="0: 0, free, free; 2: free, 0, free", top=5, bottom=4),
+    "disc": """
+set Scene = solid
+set Dimension = 2
+subsection Solid
+  set Obstacles = 1
+  set Pairs = 1
+  set Plane = axisymmetric
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 8, 6 : 0, -1 : 1, 0 : true
+  end
+  set Support = 0: 0, free; 2: 0, 0
+  set Body force = 0, -0.01
+end
+subsection Obstacle 1
+  set Kind = sphere
+  set Centre = 0, 1
+  set Radius = 1
+  set Motion = 0, -0.05*t
+end
+subsection Pair 1
+  set Secondary = 1: 3
+  set Obstacle = 1
+end
+subsection Refinement
+  set Level = 0
+end
+""",
+    "membrane": """
+set Scene = obstacle
+set Dimension = 2
+subsection Mesh
+  set Generator = hyper_cube
+  set Arguments = -1 : 1 : false
+end
+subsection Membrane
+  set Load = -4
+end
+subsection Contact
+  set Obstacle = -0.3 - 0.2*x^2
+end
+subsection Refinement
+  set Level = 3
+end
+""",
+}
+
+
+class Copy:
+    """The files of a run, to be falsified."""
+
+    def __init__(self, folder, scene):
+        self.folder, self.scene = folder, scene
+
+    def summary(self, change):
+        path = self.folder / "summary.json"
+        data = json.loads(path.read_text(encoding="utf-8"))
+        change(data)
+        path.write_text(json.dumps(data), encoding="utf-8")
+
+    def table(self, name, change):
+        """Change the rows of a table, dicts of numbers."""
+        path = self.folder / name
+        with open(path, newline="", encoding="utf-8") as file:
+            reader = csv.DictReader(file)
+            names = reader.fieldnames
+            rows = [{k: float(v) if v else "" for k, v in row.items()}
+                    for row in reader]
+        rows = change(rows) or rows
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, names)
+            writer.writeheader()
+            writer.writerows(rows)
+
+    def nodes(self, change):
+        self.table("nodal.csv", change)
+
+    def fields(self, series, name, change):
+        """Change a field of the last file: list of values, points, width."""
+        path = self.last(series)
+        tree = xml.etree.ElementTree.parse(path)
+        for piece in tree.iter("Piece"):
+            points = vtu.decode(piece.find("Points/DataArray"))
+            places = list(zip(points[::3], points[1::3], points[2::3]))
+            for array in piece.findall("PointData/DataArray"):
+                if array.get("Name") != name:
+                    continue
+                values = list(vtu.decode(array))
+                change(values, places, len(values) // len(places))
+                array.set("format", "ascii")
+                array.text = " ".join(map(repr, values))
+        tree.write(path)
+
+    def cells(self, series, keep):
+        """Drop the cells that a function of the piece and the number of the
+        cell does not keep."""
+        path = self.last(series)
+        tree = xml.etree.ElementTree.parse(path)
+        for element in tree.iter("Piece"):
+            piece = vtu.Piece(element)
+            left = [c for c in range(len(piece.cells)) if keep(piece, c)]
+            offsets, n = [], 0
+            for c in left:
+                n += len(piece.cells[c])
+                offsets.append(n)
+            new = {"connectivity": [i for c in left for i in piece.cells[c]],
+                   "offsets": offsets, "types": [piece.types[c] for c in left]}
+            for array in element.findall("Cells/DataArray"):
+                array.set("format", "ascii")
+                array.text = " ".join(map(str, new[array.get("Name")]))
+            element.set("NumberOfCells", str(len(left)))
+        tree.write(path)
+
+    def last(self, series):
+        return sorted(self.folder.glob(f"{series}_*.vtu"))[-1]
+
+    def edit(self, old, new):
+        text = self.scene.read_text(encoding="utf-8")
+        assert old in text
+        self.scene.write_text(text.replace(old, new), encoding="utf-8")
+
+
+def scale(column, factor, where=lambda row: True):
+    """Multiply columns whose name begins so."""
+    def change(rows):
+        for row in rows:
+            if where(row):
+                for name in row:
+                    if name.startswith(column) and row[name] != "":
+                        row[name] *= factor
+    return change
+
+
+def first(condition, **values):
+    """Set columns of the first row that fulfils a condition."""
+    def change(rows):
+        row = next(row for row in rows if condition(row))
+        row.update({k: v(row) for k, v in values.items()})
+    return change
+
+
+def all_displacements(copy, change):
+    """A change of single vectors, u(place, u), in all files."""
+    def of_rows(rows):
+        for row in rows:
+            names = [n for n in row if n.startswith("displacement")]
+            place = [row[a] for a in "xyz" if a in row]
+            new = change(place, [row[n] for n in names])
+            row.update(zip(names, new))
+
+    def of_field(values, places, width):
+        for i, place in enumerate(places):
+            values[width * i:width * (i + 1)] = change(
+                place, values[width * i:width * (i + 1)])
+    copy.nodes(of_rows)
+    for series in ("fields", "contact"):
+        if list(copy.folder.glob(f"{series}_*.vtu")):
+            copy.fields(series, "displacement", of_field)
+
+
+def shift_at(where, by):
+    """A displacement with one node shifted."""
+    def change(place, u):
+        near = all(abs(a - b) < 1e-5 for a, b in zip(place, where))
+        return [v + d for v, d in zip(u, by + [0.])] if near else u
+    return change
+
+
+def poke(index, value):
+    def change(values, places, width):
+        values[index] = value(values[index])
+    return change
+
+
+def negate_largest(values, places, width):
+    i = max(range(len(values)), key=lambda k: abs(values[k]))
+    values[i] = -values[i]
+
+
+def truncate(name, part):
+    def change(copy):
+        path = (copy.folder / name if "." in name else copy.last(name))
+        data = path.read_bytes()
+        path.write_bytes(data[:int(part * len(data))])
+    return change
+
+
+def key(name, change):
+    def of(copy):
+        copy.summary(lambda s: s.update({name: change(s[name])}))
+    return of
+
+
+def opposite(name):
+    return key(name, lambda v: [-x for x in v])
+
+
+def energy(copy):
+    copy.summary(lambda s: s.update(energy=s["energy"] * 1.01))
+    copy.table("levels.csv", scale("energy", 1.01))
+
+
+def swap_sides(copy):
+    def change(values, places, width):
+        values[:] = [3. - v for v in values]
+    copy.fields("contact", "body", change)
+
+
+def forgotten_load(copy):
+    """Loads put among the reactions: all sums stay as they were."""
+    def change(rows):
+        for row in rows:
+            for a in "xyz":
+                if f"load_{a}" in row:
+                    row[f"reaction_{a}"] += row[f"load_{a}"]
+                    row[f"load_{a}"] = 0.
+    copy.nodes(change)
+
+
+def moved_reaction(rows):
+    held = [row for row in rows if row["reaction_y"] != 0]
+    a, b = held[0], held[-1]
+    for name in ("reaction_x", "reaction_y"):
+        a[name], b[name] = b[name], a[name]
+    a["reaction_y"] += 0.01
+    b["reaction_y"] -= 0.01
+
+
+def closed(row):
+    return row.get("status", 0) > 0.5
+
+
+# Name, scene, falsification.
+FALSIFICATIONS = [
+    ("sign of one pressure in the fields", "blocks",
+     lambda c: c.fields("contact", "pressure", negate_largest)),
+    ("least pressure below 0", "blocks",
+     key("pair_1_least_pressure", lambda v: -0.01)),
+    ("node shifted in the fields", "blocks",
+     lambda c: c.fields("fields", "displacement",
+                        poke(4, lambda v: v + 1e-3))),
+    ("node shifted on the contact surface", "cubes",
+     lambda c: c.fields("contact", "displacement",
+                        poke(5, lambda v: v - 1e-3))),
+    ("node of nodal.csv shifted", "quadratic",
+     lambda c: c.nodes(first(lambda r: r["displacement_y"] != 0,
+                             displacement_y=lambda r: 0.))),
+    ("node pressed into the other body in all files", "blocks",
+     lambda c: all_displacements(c, shift_at((1.3, 1.), [0., -0.2]))),
+    ("inner node shifted in all files", "blocks",
+     lambda c: all_displacements(c, shift_at((1.5, 2 / 3), [0.01, 0.]))),
+    ("displacements scaled in all files", "cubes",
+     lambda c: all_displacements(c, lambda x, u: [1.01 * v for v in u])),
+    ("contact force scaled in the summary", "blocks",
+     key("contact_force", lambda v: 1.001 * v)),
+    ("force of one side scaled", "blocks",
+     key("pair_1_force", lambda v: [1.001 * x for x in v])),
+    ("sides of the force swapped", "disc", opposite("pair_1_force")),
+    ("force of both sides scaled", "cubes", lambda c: (
+        key("pair_1_force", lambda v: [1.01 * x for x in v])(c),
+        key("pair_1_primary_force", lambda v: [1.01 * x for x in v])(c))),
+    ("nodal contact forces scaled", "blocks",
+     lambda c: c.nodes(scale("contact", 1.001))),
+    ("contact force of one node gone", "quadratic",
+     lambda c: c.nodes(first(lambda r: r["contact_y"] != 0,
+                             contact_y=lambda r: 0.))),
+    ("bodies swapped on the contact surfaces", "blocks", swap_sides),
+    ("body dropped from the fields", "blocks",
+     lambda c: c.cells("fields", lambda piece, i: piece.fields["body"][
+         piece.cells[i][0]] < 1.5)),
+    ("body dropped from nodal.csv", "cubes",
+     lambda c: c.nodes(lambda rows: [r for r in rows if r["body"] < 1.5])),
+    ("facet dropped from the contact surface", "cubes",
+     lambda c: c.cells("contact", lambda piece, i: piece.fields["body"][
+         piece.cells[i][0]] < 1.5)),
+    ("loads forgotten", "blocks", lambda c: c.nodes(scale("load", 0.))),
+    ("loads forgotten, sums kept", "cubes", forgotten_load),
+    ("weight forgotten, sums kept", "disc", forgotten_load),
+    ("another load in the scene", "disc",
+     lambda c: c.edit("Body force = 0, -0.01", "Body force = 0, -0.02")),
+    ("sign of the reactions", "disc",
+     lambda c: c.nodes(scale("reaction", -1.))),
+    ("reaction moved along the support", "blocks",
+     lambda c: c.nodes(moved_reaction)),
+    ("energy scaled in all tables", "blocks", energy),
+    ("energy scaled in the summary", "disc",
+     key("energy", lambda v: 1.001 * v)),
+    ("softer material in the scene", "blocks",
+     lambda c: c.edit("Young modulus = 70", "Young modulus = 60")),
+    ("obstacle deeper in the scene", "disc",
+     lambda c: c.edit("-0.05*t", "-0.25*t")),
+    ("force across a gap", "disc",
+     lambda c: c.nodes(first(lambda r: closed(r) and r["contact_y"] < 0,
+                             gap=lambda r: 0.1))),
+    ("work of the initial gaps doubled", "disc",
+     key("pair_1_initial_gap_work", lambda v: 2 * v)),
+    ("part of a file of fields missing", "blocks", truncate("fields", 0.5)),
+    ("part of nodal.csv missing", "cubes", truncate("nodal.csv", 0.7)),
+    ("summary broken off", "disc", truncate("summary.json", 0.5)),
+    ("a value that is no number", "blocks",
+     lambda c: c.fields("fields", "displacement",
+                        poke(7, lambda v: float("nan")))),
+    ("sign of one pressure of the membrane", "membrane",
+     lambda c: c.nodes(first(closed, pressure=lambda r: -r["pressure"]))),
+    ("membrane below the obstacle in all files", "membrane",
+     lambda c: all_displacements(c, shift_at((0., 0.), [-0.1]))),
+    ("gap of the membrane shifted", "membrane",
+     lambda c: c.nodes(first(closed, gap=lambda r: r["gap"] + 1e-4))),
+    ("pressures of the membrane scaled", "membrane", lambda c: (
+        c.nodes(scale("pressure", 1.01)),
+        c.fields("fields", "pressure", lambda v, x, w: v.__setitem__(
+            slice(None), [1.01 * p for p in v])))),
+    ("obstacle of the membrane higher in the scene", "membrane",
+     lambda c: c.edit("-0.3 - 0.2*x^2", "-0.25 - 0.2*x^2")),
+    ("load of the membrane forgotten", "membrane",
+     lambda c: c.nodes(scale("load", 0.))),
+    ("tension of the membrane in the scene", "membrane",
+     lambda c: c.edit("set Load = -4", "set Load = -4\n"
+                      "  set Conductivity = 1.1")),
+]
+
+
+def run(abut, folder, name):
+    """A true output."""
+    scene = folder / f"{name}.prm"
+    scene.write_text(SCENES[name], encoding="utf-8")
+    words = [abut, "run", scene, "--output", folder / name, "--set",
+             "Output/Nodal values=true", "--set", "Output/Pictures=false"]
+    done = subprocess.run(words, capture_output=True, text=True,
+                          env=dict(os.environ, OMP_NUM_THREADS="1"))
+    if done.returncode != 0:
+        raise SystemExit(f"{name}: exit code {done.returncode}\n{done.stderr}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--abut", type=pathlib.Path,
+                        default=ROOT / "build/release/abut")
+    abut = parser.parse_args().abut.resolve()
+    faults = 0
+    with tempfile.TemporaryDirectory(prefix="abut-judge-") as name:
+        folder = pathlib.Path(name)
+        for scene in SCENES:
+            run(abut, folder, scene)
+            code, findings, reason = judge.verdict(folder / scene,
+                                                   folder / f"{scene}.prm")
+            if code != 0:
+                faults += 1
+                print(f"FAILED true output of {scene}: {reason}")
+                findings.print()
+            else:
+                print(f"ok     {scene}: {len(findings.rows)} checks")
+        for what, scene, falsify in FALSIFICATIONS:
+            copy = Copy(folder / "copy", folder / "copy.prm")
+            shutil.rmtree(copy.folder, ignore_errors=True)
+            shutil.copytree(folder / scene, copy.folder)
+            shutil.copy(folder / f"{scene}.prm", copy.scene)
+            falsify(copy)
+            code, findings, reason = judge.verdict(copy.folder, copy.scene)
+            by = reason or "; ".join(row[0] for row in findings.wrong)
+            faults += code != 1
+            print(f"{'found ' if code == 1 else 'FAILED'} {what} ({scene}): "
+                  f"{by or 'nothing was found'}")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A scene file as the judge reads it: values by section and name."""
+import re
+
+
+class Scene:
+    """Values of a .prm file, by `Section/Name`."""
+
+    def __init__(self, path, overrides=()):
+        self.path = path
+        self.values = {}
+        self._read(path.read_text(encoding="utf-8"))
+        for text in overrides:
+            name, _, value = text.partition("=")
+            self.values[self._key(name)] = value.strip()
+
+    @staticmethod
+    def _key(name):
+        return "/".join(part.strip() for part in name.split("/"))
+
+    def _read(self, text):
+        sections = []
+        text = "\n".join(line.split("#")[0] for line in text.split("\n"))
+        for line in re.sub(r"\\\s*\n", " ", text).split("\n"):
+            words = line.split(None, 1)
+            if not words:
+                continue
+            if words[0] == "subsection":
+                sections.append(words[1].strip())
+            elif words[0] == "end":
+                sections.pop()
+            elif words[0] == "set":
+                name, _, value = words[1].partition("=")
+                self.values["/".join([*sections, name.strip()])] = value.strip()
+
+    def get(self, name, default=""):
+        return self.values.get(name, default)
+
+    def number(self, name, default):
+        return float(self.get(name, str(default)))
+
+    def flag(self, name, default=False):
+        return self.get(name, "true" if default else "false").lower() in (
+            "true", "yes", "on")
+
+    def text(self):
+        """The scene as a file that abut reads."""
+        lines = []
+        for name, value in self.values.items():
+            *sections, last = name.split("/")
+            lines += [f"subsection {section}" for section in sections]
+            lines.append(f"set {last} = {value}")
+            lines += ["end"] * len(sections)
+        return "\n".join(lines) + "\n"

@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Judge every scene of prm/ and every case of tests/scenes, cut to at most 2000
+unknowns.
+
+    scenes.py --abut build/release/abut [--jobs 2] [--only PART_OF_NAME]
+"""
+import argparse
+import json
+import multiprocessing
+import pathlib
+import shutil
+import sys
+import tempfile
+
+import judge
+from runs import QUIET, ROOT, base_scenes, find_level, run, small, words_of
+from scene import Scene
+
+SECONDS = 120
+# Too small to say much, but all of them must be tried.
+LEAST_JUDGED = 80
+
+
+class Case:
+    """A scene with what is set on the command line."""
+
+    def __init__(self, name, path, overrides=(), replace=(), ranks=1):
+        self.name, self.path, self.ranks = name, path, ranks
+        self.overrides, self.replace = dict(overrides), dict(replace)
+
+    def key(self, level):
+        """What makes two runs the same."""
+        return json.dumps([str(self.path), level, self.ranks, self.replace,
+                           {k: v for k, v in self.overrides.items()
+                            if not k.startswith(("Refinement/Level",
+                                                 "Refinement/Coarsest",
+                                                 "Output/"))}], sort_keys=True)
+
+
+def words(value):
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def cases():
+    """All of them."""
+    result = [Case(name, path) for name, path in base_scenes().items()]
+    for path in sorted((ROOT / "tests/scenes").glob("*.json")):
+        expectation = json.loads(path.read_text(encoding="utf-8"))
+        for number, own in enumerate(expectation.pop("cases", [{}])):
+            case = {**expectation, **own}
+            values = {**expectation.get("set", {}), **own.get("set", {})}
+            if case.get("exit", 0) != 0 or "scene" not in case:
+                continue
+            scene = ROOT / case["scene"]
+            if Scene(scene).get("Scene", "obstacle") in judge.JUDGES:
+                result.append(Case(
+                    f"{path.stem} {number + 1}", scene,
+                    {k: words(v) for k, v in values.items()},
+                    case.get("replace", ()),
+                    min(2, max(case.get("ranks", [1])))))
+    return result
+
+
+class Trial:
+    """Runs and judges a case; on the same level each run once."""
+
+    def __init__(self, abut):
+        self.abut = abut
+
+    def level(self, case):
+        return find_level(self.abut, case.path, case.overrides)
+
+    def __call__(self, case_and_level):
+        case, level = case_and_level
+        with tempfile.TemporaryDirectory(prefix="abut-judge-") as folder:
+            folder = pathlib.Path(folder)
+            for path in case.path.parent.iterdir():
+                if path.is_file() and path.suffix != ".prm":
+                    shutil.copy(path, folder)
+            text = case.path.read_text(encoding="utf-8")
+            for old, new in case.replace.items():
+                text = text.replace(old, new)
+            scene = folder / "scene.prm"
+            scene.write_text(text, encoding="utf-8")
+            cycles = min(2, int(case.overrides.get(
+                "Refinement/Adaptive cycles", Scene(scene).get(
+                    "Refinement/Adaptive cycles", "0"))))
+            overrides = {**case.overrides, **small(level), **QUIET,
+                         "Refinement/Adaptive cycles": cycles}
+            code, _, errors = run(
+                words_of(self.abut, scene, case.ranks, overrides.items()),
+                SECONDS, folder)
+            if code != 0:
+                return case.name, level, code, [], errors[-300:]
+            verdict, findings, reason = judge.verdict(
+                folder / "out", scene,
+                [f"{k}={v}" for k, v in overrides.items()])
+            return (case.name, level, ["right", "WRONG", "cannot"][verdict],
+                    [f"{row[0]} {row[1]:.4g} > {row[2]:.4g}"
+                     for row in findings.wrong], reason)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--abut", type=pathlib.Path,
+                        default=ROOT / "build/release/abut")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--only", default="")
+    options = parser.parse_args()
+    trial = Trial(options.abut.resolve())
+    chosen = [case for case in cases() if options.only in case.name]
+    n_right = faults = 0
+    with multiprocessing.Pool(options.jobs) as pool:
+        runs = {}
+        for case, level in zip(chosen, pool.map(trial.level, chosen)):
+            runs.setdefault(case.key(level), (case, level))
+        for name, level, kind, wrong, reason in pool.imap(trial,
+                                                          runs.values()):
+            n_right += kind == "right"
+            # a mesh this small may have no answer, but must not crash
+            faults += kind == "WRONG" or kind not in ("right", "cannot", 2, 3)
+            print(f"{kind!s:6} {name}, level {level}: "
+                  f"{'; '.join(wrong) or ' '.join(reason.split())}",
+                  flush=True)
+    print(f"{n_right} of {len(runs)} runs judged right")
+    if not options.only and n_right < LEAST_JUDGED:
+        print(f"FAILED fewer than {LEAST_JUDGED} could be judged")
+        faults += 1
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

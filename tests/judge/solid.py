@@ -1,0 +1,553 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Judges elastic bodies in contact."""
+import math
+
+from elements import corners, gauss, interpolate, shapes
+from formula import Formula, split
+from obstacles import Obstacle
+from run_files import Fields, last_row, read_nodes
+from surfaces import Facet, Tree, Volume, set_chords
+from thresholds import ADHESIVE, THRESHOLDS
+from tolerances import of_balance, of_energy, of_gaps
+from vectors import add, cross, dot, invert, norm, scale, sub
+from verdict import CannotJudge, Wrong
+
+# More cells than this are not integrated again: minutes.
+MOST_CELLS = 20000
+
+
+class Pair:
+    """What the scene says about a pair."""
+
+    def __init__(self, scene, number, time):
+        section = f"Pair {number}"
+        self.number = number
+        self.secondary = self._surface(scene.get(f"{section}/Secondary"))
+        self.primary = self._surface(scene.get(f"{section}/Primary"))
+        self.obstacle = int(scene.get(f"{section}/Obstacle", "0"))
+        self.tied = scene.flag(f"{section}/Tied")
+        self.mesh_gap = scene.flag(f"{section}/Mesh gap", True)
+        gap = scene.get(f"{section}/Initial gap", "0") or "0"
+        self.gap = Formula(gap)((0., 0., 0.), time)
+
+    @staticmethod
+    def _surface(text):
+        """Boundary ids by body; `*` is None."""
+        result = {}
+        for part in split(text, ";"):
+            body, _, ids = part.partition(":")
+            result[int(body)] = (None if ids.strip() == "*" else
+                                 {int(i) for i in split(ids, ",")})
+        return result
+
+    @staticmethod
+    def facets(surface, facets):
+        return [f for f in facets if f.body in surface and (
+            surface[f.body] is None or f.boundary in surface[f.body])]
+
+
+class SolidJudge:
+    """All checks of a run of the scene `solid`."""
+
+    def __init__(self, folder, scene, summary, findings):
+        self.folder, self.scene = folder, scene
+        self.summary, self.findings = summary, findings
+        self.dim = int(scene.get("Dimension", "2"))
+        self.degree = int(scene.get("Solid/Degree", "1"))
+        self.plane = scene.get("Solid/Plane", "strain")
+        self.time = summary["time"]
+        self.nodes = read_nodes(folder, self.dim, self.degree)
+        self.n_bodies = int(scene.get("Solid/Bodies", "1"))
+        self.u = self.nodes.vector("displacement")
+        self.largest = max(norm(u) for u in self.u)
+        self.load = self.nodes.vector("load")
+        self.contact = self.nodes.vector("contact")
+        self.reaction = self.nodes.vector("reaction")
+        n_pairs = int(scene.get("Solid/Pairs", "0"))
+        self.pairs = [Pair(scene, i + 1, self.time) for i in range(n_pairs)]
+        self.method = summary.get("method") or ""
+        self.discretisation = summary.get("discretisation") or "auto"
+        self.by_stress = self.method == "nitsche"
+
+    def judge(self):
+        self.fields = Fields(self.folder, "fields", self.nodes)
+        self.files_agree()
+        self.balance()
+        self.loads()
+        self.energies()
+        if not self.pairs:
+            return
+        self.read_surfaces()
+        self.volume = None
+        for pair in self.pairs:
+            self.penetration(pair)
+            self.tension(pair)
+            self.sides(pair)
+        self.pair_forces()
+        self.complementarity()
+        self.initial_gaps()
+
+    # Files
+
+    def files_agree(self):
+        check = self.findings.require
+        s, nodes = self.summary, self.nodes
+        check("nodes of nodal.csv", len(nodes) * self.dim == s["dofs"],
+              f"summary.json has {s['dofs']} unknowns")
+        check("cells of the fields", len(self.fields.cells) == s["cells"],
+              f"summary.json has {s['cells']}")
+        bodies = set(range(1, self.n_bodies + 1))
+        check("bodies in all files", set(nodes.body) == bodies
+              and {c.body for c in self.fields.cells} == bodies,
+              f"the scene has {self.n_bodies}")
+        self.agree("displacement", self.fields.worst)
+        row = last_row(self.folder, "levels.csv")
+        for key in ("energy", "contact_force"):
+            if s.get(key) is None:
+                continue
+            limit = THRESHOLDS["tables"]
+            self.findings.check(f"{key} of levels.csv",
+                                abs(float(row[key]) - s[key]),
+                                limit.value * abs(s[key]), limit.reason)
+
+    def agree(self, name, difference):
+        limit = THRESHOLDS["agreement"]
+        self.findings.check(f"{name} of fields and nodal.csv", difference,
+                            limit.value * self.largest, limit.reason)
+
+    # Forces and energies
+
+    def balance(self):
+        limit = of_balance(self.scene, self.summary)
+        if limit is None:
+            self.findings.leave("balance of forces",
+                                "the target error sets the tolerances")
+            return
+        # what is turned about its axis has no resultant of radial forces
+        radial = self.plane == "axisymmetric"
+        for body in range(1, self.n_bodies + 1):
+            force = (0.,) * self.dim
+            moment = (0.,) * (1 if self.dim == 2 else 3)
+            size = arm = 0.
+            for i, of in enumerate(self.nodes.body):
+                if of != body:
+                    continue
+                for part in (self.load[i], self.contact[i], self.reaction[i]):
+                    force = add(force, part)
+                    moment = add(moment, cross(self.nodes.place[i], part))
+                    size += norm(part)
+                    arm += norm(part) * norm(self.nodes.place[i])
+            left = norm(force[1:]) if radial else norm(force)
+            self.findings.check(f"balance of forces on body {body}", left,
+                                limit.value * size, limit.reason)
+            if not radial:
+                self.findings.check(f"balance of moments on body {body}",
+                                    norm(moment), limit.value * arm,
+                                    limit.reason)
+            given = self.summary.get(f"reaction_{body}")
+            if given:
+                mine = self.total(self.reaction, body)
+                self.findings.check(
+                    f"reaction_{body} of summary.json",
+                    norm(sub(given, mine)), limit.value * size,
+                    "the sum of its nodes")
+
+    def total(self, forces, body):
+        result = (0.,) * self.dim
+        for force, of in zip(forces, self.nodes.body):
+            if of == body:
+                result = add(result, force)
+        return result
+
+    def measure(self, x):
+        return 2 * math.pi * x[0] if self.plane == "axisymmetric" else 1.
+
+    def body_force(self, body):
+        """Force per volume as formulas, or None."""
+        parts = []
+        text = self.scene.get(f"Body {body}/Body force")
+        if text:
+            parts.append((1., [Formula(p) for p in split(
+                text, ";" if ";" in text else ",")]))
+        density = self.scene.number(f"Body {body}/Density", 0.)
+        gravity = self.scene.get("Solid/Gravity")
+        if density and gravity:
+            parts.append((density, [Formula(p) for p in split(
+                gravity, ";" if ";" in gravity else ",")]))
+        return parts
+
+    def loads(self):
+        """That the loads of the scene are there."""
+        for body in range(1, self.n_bodies + 1):
+            total = sum(norm(f) for f, of in zip(self.load, self.nodes.body)
+                        if of == body)
+            surface = False
+            for name in ("Traction", "Pressure"):
+                for part in split(self.scene.get(f"Body {body}/{name}"), ";"):
+                    formulas = split(part.partition(":")[2], ",")
+                    surface = surface or not all(
+                        Formula(f).is_zero() for f in formulas)
+            volume = self.body_force(body)
+            # a formula may be 0 all over the surface at this time
+            if surface and not any("t" in self.scene.get(
+                    f"Body {body}/{name}") or "(" in self.scene.get(
+                        f"Body {body}/{name}")
+                    for name in ("Traction", "Pressure")):
+                self.findings.require(f"loads on body {body}", total > 0,
+                                      "the scene has some")
+            if volume and not surface:
+                self.volume_load(body, volume, total)
+
+    def volume_load(self, body, parts, size):
+        mine = (0.,) * self.dim
+        for cell in self.fields.cells:
+            if cell.body != body:
+                continue
+            points = [self.nodes.place[i] for i in cell.nodes]
+            for place, weight in gauss(self.dim, self.degree + 1):
+                x, _, dx = self.at(cell, points, place)
+                dx *= weight * self.measure(x)
+                for factor, formulas in parts:
+                    mine = add(mine, tuple(f(x, self.time) for f in formulas),
+                               factor * dx)
+        limit = THRESHOLDS["stored energy"]
+        self.findings.check(f"volume load on body {body}",
+                            norm(sub(mine, self.total(self.load, body))),
+                            limit.value * max(size, norm(mine)), limit.reason)
+
+    def at(self, cell, points, place):
+        """Position, gradients of the shape functions and volume element."""
+        values, gradients = shapes(self.dim, cell.degree, place)
+        x = interpolate(values, points)
+        jacobian = [[sum(g[j] * p[i] for g, p in zip(gradients, points))
+                     for j in range(self.dim)] for i in range(self.dim)]
+        inverse, determinant = invert(jacobian)
+        if inverse is None:
+            raise Wrong(f"a cell at {x} has no volume")
+        slopes = [tuple(sum(inverse[j][d] * g[j] for j in range(self.dim))
+                        for d in range(self.dim)) for g in gradients]
+        return x, slopes, abs(determinant)
+
+    def stored_energy(self):
+        """By the judge's own integration of the displacements."""
+        total = 0.
+        material = {}
+        for body in range(1, self.n_bodies + 1):
+            young = self.scene.number(f"Body {body}/Young modulus", 1.)
+            ratio = self.scene.number(f"Body {body}/Poisson ratio", 0.3)
+            mu = young / (2 * (1 + ratio))
+            lame = young * ratio / ((1 + ratio) * (1 - 2 * ratio))
+            if self.plane == "stress" and self.dim == 2:
+                lame = 2 * lame * mu / (lame + 2 * mu)
+            material[body] = lame, mu
+        for cell in self.fields.cells:
+            points = [self.nodes.place[i] for i in cell.nodes]
+            values = [self.u[i] for i in cell.nodes]
+            lame, mu = material[cell.body]
+            for place, weight in gauss(self.dim, self.degree + 1):
+                x, slopes, dx = self.at(cell, points, place)
+                strain = [[sum(g[j] * v[i] for g, v in zip(slopes, values))
+                           for j in range(self.dim)] for i in range(self.dim)]
+                trace = sum(strain[i][i] for i in range(self.dim))
+                square = sum((strain[i][j] + strain[j][i])**2 / 4
+                             for i in range(self.dim) for j in range(self.dim))
+                if self.plane == "axisymmetric" and self.dim == 2:
+                    hoop = interpolate(shapes(self.dim, cell.degree, place)[0],
+                                       values)[0] / x[0]
+                    trace += hoop
+                    square += hoop**2
+                total += ((lame * trace**2 / 2 + mu * square)
+                          * dx * weight * self.measure(x))
+        return total
+
+    def works(self, forces):
+        """Work of forces on the displacements, and of the magnitudes."""
+        each = [dot(f, u) for f, u in zip(forces, self.u)]
+        sizes = [sum(abs(a * b) for a, b in zip(f, u))
+                 for f, u in zip(forces, self.u)]
+        return math.fsum(each), math.fsum(sizes)
+
+    def energies(self):
+        load, load_size = self.works(self.load)
+        reaction, reaction_size = self.works(self.reaction)
+        contact, contact_size = self.works(self.contact)
+        self.work_size = load_size + reaction_size + contact_size
+        stored = self.summary["energy"] + load
+        limit = of_energy(self.scene, self.summary)
+        if limit is None:
+            self.findings.leave("works", "the target error sets the tolerances")
+            return
+        self.findings.check(
+            "twice the energy is the work of all forces",
+            abs(2 * stored - load - reaction - contact),
+            limit.value * max(self.work_size, abs(stored)), limit.reason)
+        if len(self.fields.cells) > MOST_CELLS:
+            self.findings.leave("stored energy", "too many cells")
+            return
+        mine = self.stored_energy()
+        limit = THRESHOLDS["stored energy"]
+        self.findings.check("stored energy, integrated again",
+                            abs(stored - mine), limit.value * mine
+                            + 1e-12 * self.work_size, limit.reason)
+
+    # Surfaces
+
+    def read_surfaces(self):
+        surfaces = Fields(self.folder, "contact", self.nodes)
+        self.agree("displacement on contact surfaces", surfaces.worst)
+        behind = {}
+        for cell in self.fields.cells:
+            points = [self.nodes.place[i] for i in cell.nodes]
+            middle = scale(tuple(map(sum, zip(*points))), 1 / len(points))
+            for face in self.faces(cell):
+                behind[face] = middle
+        self.facets, self.surface_values = [], surfaces.values
+        for number, cell in zip(surfaces.numbers, surfaces.cells):
+            ends = frozenset(cell.nodes[i] for i in corners(cell.dim,
+                                                            cell.degree))
+            if ends not in behind:
+                raise Wrong("a contact facet belongs to no cell")
+            if number is None:
+                raise CannotJudge("contact.pvd has no field boundary_id")
+            self.facets.append(Facet(cell, number, self.nodes, self.u,
+                                     behind[ends]))
+        set_chords(self.facets)
+        known = set()
+        for pair in self.pairs:
+            for surface in (pair.secondary, pair.primary):
+                mine = Pair.facets(surface, self.facets)
+                known.update(map(id, mine))
+                if surface and not mine:
+                    raise Wrong(f"contact.pvd lacks a side of pair "
+                                f"{pair.number}")
+        self.findings.require("facets of all pairs",
+                              len(known) == len(self.facets),
+                              "all facets of contact.pvd belong to a pair")
+
+    def faces(self, cell):
+        corner = [cell.nodes[i] for i in corners(cell.dim, cell.degree)]
+        for d in range(cell.dim):
+            for side in (0, 1):
+                yield frozenset(node for i, node in enumerate(corner)
+                                if (i >> d & 1) == side)
+
+    def part_of_facet(self, pair):
+        nodes = self.discretisation in ("nodes", "node to segment") or (
+            self.discretisation == "auto" and pair.obstacle
+            and not self.by_stress)
+        return THRESHOLDS["penetration, nodes" if nodes else
+                          "penetration, weighted"]
+
+    def inside(self, x, bodies):
+        if self.volume is None:
+            self.volume = Volume(self.fields.cells, self.nodes, self.u)
+        return self.volume.body_at(x, bodies) is not None
+
+    def penetration(self, pair):
+        if pair.tied:
+            self.findings.leave(f"penetration of pair {pair.number}",
+                                "it is tied")
+            return
+        try:
+            found = list(self.into_obstacle(pair) if pair.obstacle else
+                         self.into_surface(pair))
+        except ValueError as error:
+            self.findings.leave(f"penetration of pair {pair.number}",
+                                str(error))
+            return
+        depth, limit = max(found, key=lambda e: e[0] - e[1],
+                           default=(0., 0.))
+        self.findings.check(f"penetration of pair {pair.number}", depth, limit,
+                            self.part_of_facet(pair).reason)
+
+    def limit(self, pair, secondary, *others):
+        law = of_gaps(self.scene, self.summary,
+                      min(secondary.size, self.largest))
+        return (law + sum(f.chord for f in (secondary, *others))
+                + self.part_of_facet(pair).value * secondary.size
+                + 1e-9 * self.nodes.extent)
+
+    def into_obstacle(self, pair):
+        """Depths of samples of the surface, and of the obstacle."""
+        obstacle = Obstacle(self.scene, pair.obstacle, self.dim, self.time)
+        facets = Pair.facets(pair.secondary, self.facets)
+        for facet in facets:
+            for place in facet.samples():
+                depth = -(obstacle.distance(facet.at(place)) + pair.gap)
+                if not pair.mesh_gap:
+                    depth += obstacle.distance(facet.at(place, False))
+                if depth > 0:
+                    yield depth, self.limit(pair, facet)
+        if not pair.mesh_gap:
+            return
+        tree = Tree([p for f in facets for p in f.pieces(True)])
+        bodies = set(pair.secondary)
+        for x in obstacle.surface_points():
+            distance, _, _, facet = tree.nearest(x)
+            limit = self.limit(pair, facet)
+            if distance - pair.gap > limit and self.inside(x, bodies):
+                yield distance - pair.gap, limit
+
+    def into_surface(self, pair):
+        """Depths of samples of either surface inside the other."""
+        secondary = Pair.facets(pair.secondary, self.facets)
+        primary = Pair.facets(pair.primary, self.facets)
+        for mine, other, is_secondary in ((secondary, primary, True),
+                                          (primary, secondary, False)):
+            tree = Tree([p for f in other for p in f.pieces(True)])
+            before = None if pair.mesh_gap else Tree(
+                [p for f in other for p in f.pieces(False)])
+            bodies = {f.body for f in other}
+            for facet in mine:
+                for place in facet.samples():
+                    depth, partner = self.depth(tree, facet, place, True)
+                    if before is not None and partner is not None:
+                        depth -= self.depth(before, facet, place, False)[0]
+                    if partner is None or depth <= pair.gap:
+                        continue
+                    sides = ((facet, partner) if is_secondary else
+                             (partner, facet))
+                    limit = self.limit(pair, *sides)
+                    depth -= pair.gap
+                    if depth > limit and before is None:
+                        # the nearest surface may be the far side of a body
+                        x = add(facet.at(place), facet.normal_at(place),
+                                0.1 * depth)
+                        if not self.inside(x, bodies):
+                            continue
+                    yield depth, limit
+
+    @staticmethod
+    def depth(tree, facet, place, deformed):
+        """How far a sample is behind the nearest piece that faces it."""
+        x = facet.at(place, deformed)
+        distance, y, normal, partner = tree.nearest(
+            x, facet.normal_at(place, deformed))
+        if partner is None:
+            return 0., None
+        along = dot(sub(x, y), normal)
+        if abs(along) < 0.7 * distance:
+            return 0., None
+        return -along, partner
+
+    def tension(self, pair):
+        if pair.tied or self.method in ADHESIVE:
+            self.findings.leave(f"tension of pair {pair.number}",
+                                "it is tied" if pair.tied else
+                                "its law is adhesive")
+            return
+        limit = THRESHOLDS["tension"]
+        key = f"pair_{pair.number}"
+        largest = self.summary[f"{key}_pressure"]
+        self.findings.check(f"tension of pair {pair.number}",
+                            -self.summary[f"{key}_least_pressure"],
+                            limit.value * abs(largest), limit.reason)
+        if self.degree > 1 or self.by_stress:
+            self.findings.leave(
+                f"tension of pair {pair.number} in the fields",
+                "nodal forces of quadratic facets have both signs"
+                if self.degree > 1 else "nodal forces are residuals")
+            return
+        wanted = set(map(id, Pair.facets(pair.secondary, self.facets)))
+        values = [v for facet, own in zip(self.facets,
+                                          self.surface_values["pressure"])
+                  if id(facet) in wanted for v in own]
+        self.findings.check(f"tension of pair {pair.number} in the fields",
+                            -min(values), limit.value * max(map(abs, values)),
+                            limit.reason)
+
+    def sides(self, pair):
+        key = f"pair_{pair.number}"
+        limit = THRESHOLDS["sides"]
+        a = self.summary[f"{key}_force"]
+        b = self.summary[f"{key}_primary_force"]
+        size = norm(a) + norm(b)
+        self.findings.check(f"forces on both sides of pair {pair.number}",
+                            norm(add(a, b)), limit.value * size, limit.reason)
+
+    def touching(self):
+        """Nodes of contact facets."""
+        return {i for facet in self.facets for i in facet.nodes}
+
+    def pair_forces(self):
+        """Resultants of the pairs and sums of the nodes, where no support is in
+        between."""
+        if self.by_stress:
+            self.findings.leave("resultants of pairs",
+                                "nitsche has no nodal forces of its own")
+            return
+        mine, size = {}, 0.
+        for pair in self.pairs:
+            sides = [(pair.secondary, "force")]
+            if not pair.obstacle:
+                sides.append((pair.primary, "primary_force"))
+            for surface, word in sides:
+                if len(surface) > 1:
+                    self.findings.leave("resultants of pairs",
+                                        "a side has several bodies")
+                    return
+                body, = surface
+                force = self.summary[f"pair_{pair.number}_{word}"]
+                size += norm(force)
+                mine[body] = add(mine.get(body, (0.,) * self.dim), force)
+        limit = THRESHOLDS["sides"]
+        touching = self.touching()
+        for body, force in mine.items():
+            total = self.total(self.contact, body)
+            held = [any(self.reaction[i][d] != 0 for i in touching
+                        if self.nodes.body[i] == body)
+                    for d in range(self.dim)]
+            for d in range(self.dim):
+                if held[d]:
+                    self.findings.leave(
+                        f"resultant {'xyz'[d]} of pairs on body {body}",
+                        "supports hold some of its contact nodes")
+                else:
+                    self.findings.check(
+                        f"resultant {'xyz'[d]} of pairs on body {body}",
+                        abs(force[d] - total[d]), limit.value * size,
+                        "the sum of its nodes")
+
+    def complementarity(self):
+        gaps, states = self.nodes.columns["gap"], self.nodes.columns["status"]
+        force = work = 0.
+        for contact, gap, state in zip(self.contact, gaps, states):
+            if state >= 0:
+                force += norm(contact)
+                work += norm(contact) * abs(gap)
+        sizes = sorted(f.size for pair in self.pairs
+                       for f in Pair.facets(pair.secondary, self.facets))
+        limit = THRESHOLDS["complementarity"]
+        size = sizes[len(sizes) // 2]
+        law = of_gaps(self.scene, self.summary, min(size, self.largest))
+        self.findings.check("mean gap under pressure",
+                            work / force if force > 0 else 0.,
+                            limit.value * size + law,
+                            limit.reason)
+
+    def initial_gaps(self):
+        """The work of contact is that on the initial gaps, but for what the law
+        leaves open."""
+        name = "work of contact is that of the initial gaps"
+        limit = of_energy(self.scene, self.summary)
+        if limit is None:
+            return
+        moved = any(r != 0 and u != 0 for i in self.touching()
+                    for r, u in zip(self.reaction[i], self.u[i]))
+        if moved or self.by_stress:
+            self.findings.leave(name, "nitsche has no nodal forces of its own"
+                                if self.by_stress else
+                                "supports move some contact nodes")
+            return
+        given = math.fsum(self.summary[f"pair_{pair.number}_initial_gap_work"]
+                          for pair in self.pairs)
+        contact, _ = self.works(self.contact)
+        law = self.summary["max_complementarity"] * self.magnitude()
+        self.findings.check(name, abs(contact + given),
+                            limit.value * max(self.work_size, abs(given))
+                            + law * (1 + 1e-6), limit.reason)
+
+    def magnitude(self):
+        """Sum of the magnitudes of all rows' forces, ties by their nodes."""
+        return max(self.summary["contact_force"],
+                   math.fsum(norm(f) for f in self.contact))

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the judge holds a run to: one table, with the reason of each number."""
+from typing import NamedTuple
+
+
+class Threshold(NamedTuple):
+    value: float
+    reason: str
+
+
+THRESHOLDS = {
+    "penetration, weighted": Threshold(
+        0.05, "of a facet, beside what the law allows and the chord heights: "
+        "mortar and quadrature points see the whole facet, what is left is "
+        "the difference of two polygons"),
+    "penetration, nodes": Threshold(
+        0.2, "of a facet, likewise: rows at nodes see nothing between them"),
+    "tension": Threshold(
+        1e-6, "of the largest pressure: contact cannot pull; what is left is "
+        "the tolerance of the linear solver"),
+    "sides": Threshold(
+        1e-8, "of the sum of magnitudes: each force acts on both sides, "
+        "by the same coefficients"),
+    "balance, direct": Threshold(
+        1e-8, "of the sum of magnitudes: contact, loads and reactions of a "
+        "body in equilibrium"),
+    "balance, iterative": Threshold(
+        1e-5, "the same where linear systems are solved iteratively, with the "
+        "default tolerances"),
+    "complementarity": Threshold(
+        1e-3, "of a facet, mean gap under pressure beside what the law allows: "
+        "there is no force across a gap"),
+    "energy": Threshold(
+        1e-6, "of the sum of magnitudes of the works: twice the stored energy "
+        "is the work of loads and supports, minus that on the initial gaps"),
+    "stored energy": Threshold(
+        1e-3, "of the energy that the judge integrates itself: another "
+        "quadrature on curved cells"),
+    "agreement": Threshold(
+        1e-6, "of the largest value: fields are written as 32-bit numbers"),
+    "tables": Threshold(
+        1e-12, "the same number in two files with all digits"),
+    "gap": Threshold(
+        1e-9, "of the largest value: displacement minus obstacle, by the "
+        "judge's own evaluation of the formula"),
+    "weights": Threshold(
+        1e-3, "of the contact force: weight times pressure, with the judge's "
+        "own integrals of the shape functions"),
+}
+
+# Laws that may pull, by the name of the law in summary.json.
+ADHESIVE = {"adhesive"}

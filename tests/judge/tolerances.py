@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the scene itself asks for: limits follow where it asks for less than by
+default."""
+from thresholds import THRESHOLDS, Threshold
+
+
+def of_balance(scene, summary):
+    """Limit of balances of forces, or None where a target error sets the
+    tolerances."""
+    if scene.number("Refinement/Target error", 0.) > 0:
+        return None
+    if not summary.get("linear_iterations"):
+        return THRESHOLDS["balance, direct"]
+    least = THRESHOLDS["balance, iterative"]
+    asked = scene.number("Method/Final linear tolerance", 1e-10) / 1e-10
+    return Threshold(min(1., least.value * max(1., asked)), least.reason)
+
+
+def of_energy(scene, summary):
+    """The same of works: errors of forces times displacements."""
+    balance = of_balance(scene, summary)
+    if balance is None:
+        return None
+    least = THRESHOLDS["energy"]
+    return Threshold(max(least.value, balance.value), least.reason)
+
+
+def of_gaps(scene, summary, length):
+    """Penetration that the law, or the scene, leaves open."""
+    law = summary.get("allowed_penetration") or 0.
+    return law + length * scene.number("Method/Gap tolerance", 1e-6)
