@@ -144,7 +144,9 @@ extern "C"
      * [-1, 1]; default -0.17: within 80 degrees of opposite. */
     double normal_cosine;
     /** Thickness of the primary's body, length: what is deeper than half of it
-     * is on the wrong side. 0 (default): no limit but the reach. */
+     * is on the wrong side. Against an obstacle that of the secondary's: no
+     * point behind the middle of a thin obstacle is pushed back by more. 0
+     * (default): no limit but the reach, or the extent of the surface. */
     double thickness;
     /** Reach (of each primary facet; with an obstacle: of each secondary
      * facet), algorithm and skin. Parts with a gap above the reach, or, but for

@@ -66,7 +66,19 @@ extern "C"
   X(NEGATIVE_WEIGHTS, 32, "dual multipliers of negative weight", "mortar")     \
   X(INTERIOR, 33, "interior method stalls",                                    \
     "lagrange, or a looser tolerance of the gap")                              \
-  X(SINGULAR, 34, "energy converges slowly", "adaptive meshes; smooth data")
+  X(SINGULAR, 34, "energy converges slowly", "adaptive meshes; smooth data")   \
+  X(LARGE_STRAIN, 35, "strains that are not small",                            \
+    "look at the units of loads and stiffness; smaller loads")                 \
+  X(SLIDING, 36, "surfaces slide away from where they met",                    \
+    "smaller motions: contact is that of the undeformed places")               \
+  X(UNSEEN, 37, "obstacle passes between the nodes",                           \
+    "refine the mesh where the obstacle is")                                   \
+  X(UNBALANCED, 38, "forces are not in balance",                               \
+    "the residual is internal minus external forces; look at its sign")        \
+  X(NOT_FINITE, 39, "a number is infinite or none",                            \
+    "look for loads, supports or materials that are not finite")               \
+  X(STEP_LIMIT, 40, "limit of steps",                                          \
+    "allow more steps, start closer to the solution, or another method")
 
   /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
   typedef enum abut_failure

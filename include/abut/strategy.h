@@ -197,11 +197,19 @@ extern "C"
     int32_t
         cycle_length; /**< of the last detected cycle of active sets, or 0 */
     int32_t fallback_steps; /**< steps in which only one row was flipped */
+    /** What the iteration itself has measured that would explain its end: the
+     * penalty at its cap, multipliers whose gaps do not fall, very short steps
+     * of an interior point, a law that further solves do not meet; else NONE.
+     */
+    abut_failure seen;
   } abut_progress;
 
-  /** The known failure behind the end of a strategy with this law, and
-   * CYCLE where it converged only by changing rows one by one; else NONE. NULL
-   * arguments give NONE. */
+  /** The known failure behind the end of a strategy with this law, by what was
+   * measured: what progress->seen says, sets that come back, a penalty of
+   * nitsche below any that is stable, a set that still moves after a dozen of
+   * steps; STEP_LIMIT where a limit was reached and nothing else is known.
+   * CYCLE, too, where it converged only by changing rows one by one; else NONE.
+   * NULL arguments give NONE. */
   ABUT_API abut_failure abut_reason_failure(abut_reason reason,
                                             const abut_law *law,
                                             const abut_progress *progress);

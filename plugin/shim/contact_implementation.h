@@ -107,6 +107,12 @@ namespace abut
     /** Add the forces of the rows' pressures. */
     void add_forces(la::Vector &forces) const;
     std::vector<std::uint8_t> row_states() const;
+    /** Where obstacles are between the nodes. Collective. */
+    std::vector<shim::Unseen> find_unseen(const la::Vector &displacement);
+    void examine_membrane(const la::Vector &displacement,
+                          ContactExamination &result);
+    /** Penetration that the law is meant to have, length. */
+    double soft_on_purpose() const;
     /** How far a row's pressure and a gap are from the law, length. */
     double law_defect(int row, double gap_there) const;
     /** The matrix that stiffness is taken from. */

@@ -121,6 +121,16 @@ namespace abut
   }
 
   template <int dim>
+  double ContactAssembler<dim>::imbalance(const la::Vector &residual) const
+  {
+    const Implementation &i = *implementation;
+    const double tolerance = i.method.options.final_linear_tolerance;
+    if (!i.is_started || (i.is_nitsche() && i.method.nitsche_theta != 0.))
+      return 0.;
+    return imbalance(residual, i.smallest_residual / tolerance);
+  }
+
+  template <int dim>
   std::vector<PairCheck> ContactAssembler<dim>::pair_checks() const
   {
     const auto *surfaces = implementation->surfaces;
@@ -164,6 +174,7 @@ namespace abut
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template double ContactAssembler<dim>::contact_force() const;                \
+  template double ContactAssembler<dim>::imbalance(const la::Vector &) const;  \
   template double ContactAssembler<dim>::complementarity() const;              \
   template double ContactAssembler<dim>::complementarity_error() const;        \
   template double ContactAssembler<dim>::allowed_penetration() const;          \

@@ -63,7 +63,8 @@ namespace abut::shim
       const dealii::DoFHandler<dim> &dof_handler,
       const dealii::AffineConstraints<double> &constraints,
       const Obstacle<dim> &obstacle)
-      : dof_handler_(dof_handler),
+      : mapping_(mapping),
+        dof_handler_(dof_handler),
         constraints_(constraints),
         obstacle_(obstacle),
         communicator_(dof_handler.get_communicator()),

@@ -40,6 +40,8 @@ namespace abut::shim
                                     const std::vector<double> &gap,
                                     unsigned int n_sweeps,
                                     la::Vector &displacement) const override;
+    std::vector<Unseen> unseen(const la::Vector &displacement,
+                               const std::uint8_t *row_state) override;
     void push_inside(const std::vector<double> &gap, std::vector<double> margin,
                      la::Vector &displacement) const override;
 
@@ -72,7 +74,12 @@ namespace abut::shim
     void append_points(const std::vector<double> &lower,
                        const std::vector<double> &upper, abut_points *points);
     la::Vector nodal_vector() const;
+    /** How deep obstacles are in the membrane at @p points with these values.
+     * Not collective. */
+    void find_depth(const std::vector<dealii::Point<dim>> &points,
+                    const std::vector<double> &values, Unseen &found) const;
 
+    const dealii::Mapping<dim> &mapping_;
     const dealii::DoFHandler<dim> &dof_handler_;
     const dealii::AffineConstraints<double> &constraints_;
     const Obstacle<dim> obstacle_;

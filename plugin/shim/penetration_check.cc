@@ -21,13 +21,15 @@ namespace abut::shim
       double depth;
     };
 
-    /** Nodes of @p nodes deeper than @p tolerance in @p facets. Only reads. */
+    /** Nodes of @p nodes deeper than @p tolerance in @p facets, but not than
+     * half of the @p thickness (0: not known) of the body of these, which would
+     * be its other skin. Only reads. */
     template <int dim>
     std::vector<Inside>
     penetrating_nodes(abut_context *context, const SurfaceSide<dim> &nodes,
                       const SurfaceSide<dim> &facets,
                       const SearchParameters &search, const double reach,
-                      const double tolerance)
+                      const double tolerance, const double thickness)
     {
       abut_detection_options options = search.detection;
       options.search.reach = std::max(options.search.reach, reach);
@@ -39,7 +41,8 @@ namespace abut::shim
       check(context, abut_detection_get(detection.get(), &view));
       std::vector<Inside> found;
       for (std::int32_t n = 0; n < view.n_nodes; ++n)
-        if (view.contact[n].facet >= 0 && view.contact[n].gap < -tolerance)
+        if (view.contact[n].facet >= 0 && view.contact[n].gap < -tolerance
+            && !(thickness > 0. && view.contact[n].gap < -0.5 * thickness))
           found.push_back({n, view.contact[n].facet, -view.contact[n].gap});
       return found;
     }
@@ -50,15 +53,16 @@ namespace abut::shim
     everywhere(const std::vector<Penetration<dim>> &mine,
                const MPI_Comm communicator)
     {
-      using Item = std::tuple<std::string, dealii::Point<dim>, double, bool>;
+      using Item =
+          std::tuple<std::string, dealii::Point<dim>, double, bool, bool>;
       std::vector<Item> items;
       for (const auto &found : mine)
         items.emplace_back(found.pair, found.point, found.depth,
-                           found.on_primary);
+                           found.on_primary, found.same_way);
       std::vector<Penetration<dim>> result;
       for (const auto &some : MPI::all_gather(communicator, items))
-        for (const auto &[pair, point, depth, on_primary] : some)
-          result.push_back({pair, point, depth, on_primary});
+        for (const auto &[pair, point, depth, on_primary, same_way] : some)
+          result.push_back({pair, point, depth, on_primary, same_way});
       return result;
     }
 
@@ -150,7 +154,11 @@ namespace abut::shim
       const std::vector<dealii::Point<dim>> &present, const double tolerance,
       std::vector<Penetration<dim>> &missed) const
   {
+    const double *normal = nullptr;
+    check(context_,
+          abut_surface_normals(pair.secondary.surface.get(), &normal));
     std::vector<dealii::Point<dim>> points;
+    std::vector<Direction> outward;
     std::vector<bool> supported;
     for (std::size_t n = 0; n < pair.secondary.node.size(); ++n)
     {
@@ -160,16 +168,21 @@ namespace abut::shim
         continue;
       points.push_back(present[node]);
       supported.push_back(support);
+      outward.emplace_back();
+      for (unsigned int d = 0; d < dim; ++d)
+        outward.back()[d] = normal[n * dim + d];
     }
     std::vector<double> distance;
-    pair.data.obstacle->distance(points, distance);
+    std::vector<Direction> gradient;
+    pair.data.obstacle->distance(points, distance, &gradient);
     for (std::size_t n = 0; n < points.size(); ++n)
     {
       const double depth = -distance[n] - pair.data.gap;
       if (supported[n])
         pair.held_inside = std::max(pair.held_inside, depth);
       else if (depth > tolerance)
-        missed.push_back({pair.data.name, points[n], depth, false});
+        missed.push_back({pair.data.name, points[n], depth, false,
+                          outward[n] * gradient[n] > 0.});
     }
   }
 
@@ -182,18 +195,18 @@ namespace abut::shim
     const double depth = tolerance + pair.data.gap;
     for (const Inside &inside :
          penetrating_nodes(context_, pair.secondary, pair.primary,
-                           settings_.search, reach, depth))
+                           settings_.search, reach, depth, pair.thickness))
     {
       const Node node = pair.secondary.node[inside.node];
       const double found = inside.depth - pair.data.gap;
       if (is_supported(pair, inside.node) && is_owned(node))
         pair.held_inside = std::max(pair.held_inside, found);
       else if (held[node] == 0 && is_owned(node))
-        missed.push_back({pair.data.name, present[node], found, false});
+        missed.push_back({pair.data.name, present[node], found, false, false});
     }
-    for (const Inside &inside :
-         penetrating_nodes(context_, pair.primary, pair.secondary,
-                           settings_.search, reach, pair.data.gap))
+    for (const Inside &inside : penetrating_nodes(
+             context_, pair.primary, pair.secondary, settings_.search, reach,
+             pair.data.gap, pair.own_thickness))
     {
       const Node node = pair.primary.node[inside.node];
       if (!is_owned(node))
@@ -208,7 +221,7 @@ namespace abut::shim
       if (between)
         pair.between_rows = std::max(pair.between_rows, found);
       else if (found > tolerance)
-        missed.push_back({pair.data.name, present[node], found, true});
+        missed.push_back({pair.data.name, present[node], found, true, false});
     }
   }
 

@@ -8,12 +8,24 @@
 #include <abut/dealii/linear_algebra.h>
 #include <abut/points.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace abut::shim
 {
+  /** A facet, or a cell of a membrane, that an obstacle is in. */
+  struct Unseen
+  {
+    std::size_t pair = 0;             ///< 0 of membranes
+    unsigned int cell = 0;            ///< index of the active cell
+    double depth = 0.;                ///< of the deepest sample, length > 0
+    double size = 0.;                 ///< of the facet, length; 0 of membranes
+    bool is_missed = true;            ///< there is no contact at all
+    std::array<double, 3> place = {}; ///< of that sample, where it is now
+  };
+
   /** A way to make contact points from a DoFHandler, and to bring what is known
    * of their components, the rows of the linear systems, back to its unknowns.
    * All else in the assembler deals with points and rows only. */
@@ -79,6 +91,12 @@ namespace abut::shim
                                             const std::vector<double> &gap,
                                             unsigned int n_sweeps,
                                             la::Vector &displacement) const = 0;
+
+    /** Where obstacles are in the deformed surface of this rank, by samples
+     * between its nodes; @p row_state may be null. Throws on all ranks.
+     * Collective. */
+    virtual std::vector<Unseen> unseen(const la::Vector &displacement,
+                                       const std::uint8_t *row_state) = 0;
 
     /** Open every gap to at least @p margin, as far as that can be done by
      * moving the nodes of the rows; @p margin [rows], length > 0, @p gap at

@@ -252,6 +252,12 @@ namespace abut::shim
   }
 
   template <int dim>
+  bool SelfContact<dim>::is_split(const ContactPair<dim> &pair)
+  {
+    return !pair.primary.empty() && *pair.primary.rbegin() >= primary_side;
+  }
+
+  template <int dim>
   double SelfContact<dim>::thickness(const ContactPair<dim> &pair) const
   {
     const auto it = pair.secondary.empty()

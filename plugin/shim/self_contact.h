@@ -45,6 +45,10 @@ namespace abut::shim
     BoundaryId id(const Cell &cell, unsigned int face,
                   BoundaryId of_mesh) const;
 
+    /** Whether a pair, as with_sides() makes it, is a surface that touches
+     * itself. */
+    static bool is_split(const ContactPair<dim> &pair);
+
     /** Thickness of the thinnest part of the body between facets of a pair, as
      * far as it matters; 0: no such part, or two surfaces. */
     double thickness(const ContactPair<dim> &pair) const;

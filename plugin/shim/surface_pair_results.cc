@@ -153,12 +153,16 @@ namespace abut::shim
               + " degrees at a node in the contact zone: normals and gaps "
                 "there are those of a polygon, and so are the pressures. "
                 "Refine the surface, or leave the corner out of the pair."));
-    if (result.n_rows == 0)
-      result.warnings.push_back(
-          pair.data.obstacle
-              ? coded(ABUT_FAILURE_NO_PARTNER,
-                      "no node of the surface is within reach of the obstacle.")
-              : explain_no_rows(number));
+    if (result.n_rows == 0 && pair.data.obstacle)
+    {
+      const std::string side = wrong_side(pair);
+      result.warnings.push_back(coded(
+          side.empty() ? ABUT_FAILURE_NO_PARTNER : ABUT_FAILURE_WRONG_SIDE,
+          "no node of the surface is within reach of the obstacle"
+              + (side.empty() ? "." : ": " + side)));
+    }
+    else if (result.n_rows == 0)
+      result.warnings.push_back(explain_no_rows(number));
     checks_.push_back(result);
     // Rigid obstacles may come nearer in later steps; the reference
     // configuration of bodies stays as it is.
@@ -179,6 +183,9 @@ namespace abut::shim
       results[p].name = pairs_[p].data.name;
       results[p].between_rows = pairs_[p].between_rows;
       results[p].held_inside = pairs_[p].held_inside;
+      results[p].slip = pairs_[p].slip;
+      results[p].gap_error = pairs_[p].gap_error;
+      results[p].missed_depth = pairs_[p].missed_depth;
     }
     for_each_component(
         [&](const Component &row)

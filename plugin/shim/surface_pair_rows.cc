@@ -161,10 +161,7 @@ namespace abut::shim
     options.normal_cosine = settings_.search.detection.normal_cosine;
     options.search = settings_.search.detection.search;
     options.search.reach = std::max(options.search.reach, pair.data.reach);
-    const double found = exchange_->self_contact().thickness(pair.data);
-    options.thickness =
-        found > 0. ? found
-                   : given_thickness(settings_.search, pair.data.primary);
+    options.thickness = pair.thickness;
     abut_coupling *made = nullptr;
     check(context_, pair.data.obstacle
                         ? abut_coupling_create_obstacle(

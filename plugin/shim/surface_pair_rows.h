@@ -83,8 +83,16 @@ namespace abut::shim
                                     const std::vector<double> &gap,
                                     unsigned int n_sweeps,
                                     la::Vector &displacement) const override;
+    std::vector<Unseen> unseen(const la::Vector &displacement,
+                               const std::uint8_t *row_state) override;
     void push_inside(const std::vector<double> &gap, std::vector<double> margin,
                      la::Vector &displacement) const override;
+
+    /** Measure for results() how far closed rows slide, what gaps are off by,
+     * and what unseen() has found. Collective. */
+    void examine(const la::Vector &displacement, const double *row_gap,
+                 const std::uint8_t *row_state,
+                 const std::vector<Unseen> &unseen);
 
     /** States to start from when a pair that must hold a body has no closed
      * row: closed are then the rows with pressure, or those of the smallest
@@ -158,12 +166,18 @@ namespace abut::shim
       abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
       SurfaceSide<dim> secondary, primary;
       Handle<abut_coupling> coupling;
+      /** Of the body that a point must not be pushed through, the primary's or,
+       * at an obstacle, its own; and that of the secondary's body; length, 0:
+       * not known. */
+      double thickness = 0., own_thickness = 0.;
       /** Distances that the facets known here suffice for. */
       double reach = 0., margin = 0.;
       /** [nodes of the secondary] without a multiplier in the present rows:
        * 1 because of another pair, 2 because of supports. */
       std::vector<std::uint8_t> dropped;
-      double between_rows = 0., held_inside = 0.; ///< as in PairResult
+      // As in PairResult.
+      double between_rows = 0., held_inside = 0.;
+      double slip = 0., gap_error = 0., missed_depth = 0.;
     };
 
     /** What the points of a pair depend on that may change from one find() to
@@ -221,9 +235,23 @@ namespace abut::shim
                         double reach, double tolerance,
                         std::vector<Penetration<dim>> &missed);
 
+    /** [pairs][nodes of the whole surface] nonzero: the node has a closed row
+     * of the pair, or none that could be. Collective. */
+    std::vector<std::uint8_t>
+    touching_nodes(const std::uint8_t *row_state) const;
+    void sample_facets(std::size_t pair, const std::vector<Direction> &u,
+                       const std::vector<std::uint8_t> &touching,
+                       const std::vector<std::uint8_t> &touching_facets,
+                       std::vector<Unseen> &found) const;
+    std::string wrong_side(const Pair &pair) const;
+
     void create_pair(const ContactPair<dim> &data);
     void gather();
     void create_sides(Pair &pair);
+    void find_thickness(Pair &pair);
+    double find_thickness(const Pair &pair,
+                          const std::set<dealii::types::boundary_id> &ids,
+                          const SurfaceSide<dim> &side) const;
     Handle<abut_coupling>
     make_coupling(const Pair &pair, abut_discretisation discretisation) const;
     void check_sides(const Pair &pair) const;

@@ -91,12 +91,50 @@ namespace abut::shim
                  });
     for (auto *side : {&pair.secondary, &pair.primary})
       side->everywhere = measure_everywhere(*side, surface_, communicator_);
+    find_thickness(pair);
     run_for_pair(communicator_, data.name,
                  [&]
                  {
                    check_sides(pair);
                    pair.coupling = make_coupling(pair, pair.discretisation);
                  });
+  }
+
+  template <int dim>
+  double SurfacePairRows<dim>::find_thickness(
+      const Pair &pair, const std::set<dealii::types::boundary_id> &ids,
+      const SurfaceSide<dim> &side) const
+  {
+    const double given = given_thickness(settings_.search, ids);
+    if (given > 0.)
+      return given;
+    double found = INFINITY;
+    run_for_pair(communicator_, pair.data.name,
+                 [&]
+                 {
+                   found = found_thickness(context_, side, settings_.search,
+                                           pair.data.reach);
+                 });
+    found = MPI::min(found, communicator_);
+    return std::isfinite(found) ? found : 0.;
+  }
+
+  template <int dim> void SurfacePairRows<dim>::find_thickness(Pair &pair)
+  {
+    const ContactPair<dim> &data = pair.data;
+    if (SelfContact<dim>::is_split(data))
+    {
+      const double found = exchange_->self_contact().thickness(data);
+      pair.thickness =
+          found > 0. ? found : given_thickness(settings_.search, data.primary);
+      return;
+    }
+    if (data.tied)
+      return;
+    pair.own_thickness = find_thickness(pair, data.secondary, pair.secondary);
+    pair.thickness = data.obstacle
+                         ? pair.own_thickness
+                         : find_thickness(pair, data.primary, pair.primary);
   }
 
   template <int dim> void SurfacePairRows<dim>::renew()
@@ -252,6 +290,10 @@ namespace abut::shim
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template void SurfacePairRows<dim>::gather();                                \
+  template void SurfacePairRows<dim>::find_thickness(Pair &);                  \
+  template double SurfacePairRows<dim>::find_thickness(                        \
+      const Pair &, const std::set<dealii::types::boundary_id> &,              \
+      const SurfaceSide<dim> &) const;                                         \
   template std::uint64_t SurfacePairRows<dim>::mesh_signature() const;         \
   template bool SurfacePairRows<dim>::is_owned(Node) const;                    \
   template double SurfacePairRows<dim>::motion(                                \

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "surface_side.h"
 
+#include <abut/self_contact.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -97,6 +99,33 @@ namespace abut::shim
     data.feature_angle = search.feature_angle;
     side.surface = create_surface(context, data);
     return side;
+  }
+
+  template <int dim>
+  double found_thickness(abut_context *context, const SurfaceSide<dim> &side,
+                         const SearchParameters &search, const double reach)
+  {
+    // Length of the mean normal of a surface that has no other side.
+    constexpr double one_sided = 0.7;
+    if (side.n_nodes() == 0)
+      return INFINITY;
+    const double *normal = nullptr;
+    check(context, abut_surface_normals(side.surface.get(), &normal));
+    dealii::Tensor<1, dim> mean;
+    for (int n = 0; n < side.n_nodes(); ++n)
+      for (unsigned int d = 0; d < dim; ++d)
+        mean[d] += normal[n * dim + d] / side.n_nodes();
+    if (mean.norm() > one_sided)
+      return INFINITY;
+    abut_split_options options = abut_split_defaults();
+    options.reach = std::max(search.detection.search.reach, reach);
+    options.relative_reach = search.detection.search.relative_reach;
+    options.normal_cosine = search.detection.normal_cosine;
+    std::vector<std::uint8_t> sides(side.n_facets());
+    abut_split_report report;
+    check(context, abut_surface_split(context, side.surface.get(), &options,
+                                      sides.data(), &report));
+    return report.thickness > 0. ? report.thickness : INFINITY;
   }
 
   namespace
@@ -208,6 +237,8 @@ namespace abut::shim
   template SurfaceSide<dim> make_side(                                         \
       abut_context *, const ContactSurface<dim> &,                             \
       const std::set<dealii::types::boundary_id> &, const SearchParameters &); \
+  template double found_thickness(abut_context *, const SurfaceSide<dim> &,    \
+                                  const SearchParameters &, double);           \
   template SideMeasures measure_everywhere(                                    \
       const SurfaceSide<dim> &, const ContactSurface<dim> &, MPI_Comm);        \
   template void move_side(const abut_context *,                                \

@@ -62,6 +62,14 @@ namespace abut::shim
   double given_thickness(const SearchParameters &search,
                          const std::set<dealii::types::boundary_id> &ids);
 
+  /** The least depth at which facets of a side lie behind each other, as the
+   * two skins of a thin body do, as far as this rank knows it; infinity: none
+   * within reach. Sides whose facets all look one way cost nothing. Not
+   * collective. */
+  template <int dim>
+  double found_thickness(abut_context *context, const SurfaceSide<dim> &side,
+                         const SearchParameters &search, double reach);
+
   /** Measure a side from the facets that ranks have of their own. Collective.
    */
   template <int dim>

@@ -21,11 +21,11 @@ namespace abut::solve
     [[noreturn]] void throw_failure(const int status)
     {
       throw SolverFailure(coded(
-          ABUT_FAILURE_FLOATING_BODY,
+          ABUT_FAILURE_LINEAR_SOLVER,
           "The direct solver failed (Amesos status " + std::to_string(status)
-              + "). The matrix is singular, for example because "
-                "nothing holds a body, or there is too little "
-                "memory: try Solver/Linear solver = iterative."));
+              + "): there is too little memory, or the matrix is singular, as "
+                "where nothing holds a body. Try Solver/Linear solver = "
+                "iterative."));
     }
   } // namespace
 

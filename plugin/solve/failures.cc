@@ -27,7 +27,7 @@ namespace abut::solve
               "matrix that is singular because nothing holds a body.";
     throw SolverFailure(coded(std::isfinite(failure.last_residual)
                                   ? ABUT_FAILURE_LINEAR_SOLVER
-                                  : ABUT_FAILURE_FLOATING_BODY,
+                                  : ABUT_FAILURE_NOT_FINITE,
                               text.str()));
   }
 
@@ -37,8 +37,10 @@ namespace abut::solve
       return;
     std::ostringstream text;
     text << "The direct solver left a residual of " << after << " of " << before
-         << ". The matrix is singular or nearly so, for example because "
-            "nothing holds a body: give it supports.";
-    throw SolverFailure(coded(ABUT_FAILURE_FLOATING_BODY, text.str()));
+         << ". The matrix is singular or nearly so: look for a body that "
+            "nothing "
+            "holds, and for materials or penalties of very different "
+            "stiffness.";
+    throw SolverFailure(coded(ABUT_FAILURE_LINEAR_SOLVER, text.str()));
   }
 } // namespace abut::solve

@@ -242,6 +242,22 @@ namespace abut::solve
   void FloatingBodies::check(const PointOperator &rows,
                              const std::vector<std::uint8_t> &resists) const
   {
+    check(rows, resists, "rows in contact",
+          "tie it, or begin with the bodies in contact: a smaller initial gap, "
+          "or a prescribed displacement in place of a force");
+  }
+
+  void FloatingBodies::check_all(const PointOperator &rows) const
+  {
+    check(rows, std::vector<std::uint8_t>(rows.n_rows(), 1),
+          "contact rows, open or not", "or tie it");
+  }
+
+  void FloatingBodies::check(const PointOperator &rows,
+                             const std::vector<std::uint8_t> &resists,
+                             const std::string &which,
+                             const std::string &or_else) const
+  {
     const unsigned int n = static_cast<unsigned int>(motions_.size());
     if (n == 0)
       return;
@@ -271,10 +287,10 @@ namespace abut::solve
            << (free.size() > 2 ? "s" : "") << " meet";
     text << (free.size() > 1 ? "" : ", which meets")
          << " no resistance from supports or from the " << sums[n * n + 1]
-         << " rows in contact. Support the body in that direction (contact "
-            "without friction holds it along the normal only), tie it, or "
-            "begin with the bodies in contact: a smaller initial gap, or a "
-            "prescribed displacement in place of a force.";
+         << ' ' << which
+         << ". Support the body in that direction (contact without friction "
+            "holds it along the normal only), "
+         << or_else << '.';
     throw SolverFailure(coded(ABUT_FAILURE_FLOATING_BODY, text.str()));
   }
 } // namespace abut::solve

@@ -30,6 +30,10 @@ namespace abut::solve
     void check(const PointOperator &rows,
                const std::vector<std::uint8_t> &resists) const;
 
+    /** The same if all rows resisted: what is free then no set of rows holds.
+     */
+    void check_all(const PointOperator &rows) const;
+
   private:
     /** A motion of one body: coefficients of its translations and rotations
      * about its centre. */
@@ -39,6 +43,9 @@ namespace abut::solve
       std::vector<double> coefficient;
     };
 
+    void check(const PointOperator &rows,
+               const std::vector<std::uint8_t> &resists,
+               const std::string &which, const std::string &or_else) const;
     std::string describe(const std::vector<double> &combination) const;
 
     NearNullSpace space_;

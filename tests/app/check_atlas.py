@@ -27,7 +27,7 @@ result = p.call("atlas", failures / "penalty-small.prm", "--output", "atlas")
 p.expect(result.returncode == 0, "penalty-small:\n" + result.stdout)
 text = (p.folder / "atlas/failures.md").read_text()
 for words in ("## ABUT-F06: penalty too small", "**Cure.**",
-              "warning: ABUT-F06: The bodies penetrate", "`max_penetration`"):
+              "warning: ABUT-F06: Pair 1: the bodies penetrate", "`max_penetration`"):
     p.expect(words in text, f"'{words}' is not on the page:\n{text}")
 
 # The warning is in the summary with its code.

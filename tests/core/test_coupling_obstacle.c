@@ -206,6 +206,62 @@ test_surface(void **state)
   scene_free(&s);
 }
 
+/* A thin plate that has come in by four fifths of its thickness, and by nine
+ * tenths: its far side is the nearer one, and the gap is that of the near one.
+ * Where the surface has a skin behind it, within the way that the plate would
+ * push it, nothing is taken for the near side of anything. */
+static void
+test_thin(void **state)
+{
+  (void)state;
+  const double p[5] = {0., 0., 1., 1., 0.}, angles[3] = {0.2, 0.5, -0.3},
+               shift[3] = {1., 2., 3.};
+  for (int turned = 0; turned < 2; ++turned)
+    for (int k = 0; k < ABUT_DISCRETISATION_N; ++k)
+      for (int step = 0; step < 3; ++step)
+      {
+        const double way = step == 1 ? 0.009 : 0.008;
+        abut_obstacle_shape shape = abut_obstacle_shape_defaults();
+        shape.kind = ABUT_OBSTACLE_BOX;
+        shape.size[0] = shape.size[1] = 10.;
+        shape.size[2] = 0.01;
+        shape.point[2] = way - 0.005;
+        abut_obstacle *plate = make(&shape);
+        abut_coupling_options o = abut_coupling_defaults();
+        o.discretisation = (abut_discretisation)k;
+        o.thickness = step == 2 ? 0.007 : 0.;
+        scene_mesh s =
+            scene_patch(ABUT_FACET_QUAD4, 3, 3, scene_plane, p, true);
+        double x[12] = {0., 0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1.};
+        int32_t no[1] = {0};
+        scene_mesh frame = {3, 4, 0, ABUT_FACET_QUAD4, x, no};
+        if (turned)
+        {
+          double rotation[9];
+          scene_move(&frame, 1., angles, shift);
+          for (int d = 0; d < 3; ++d)
+            for (int e = 0; e < 3; ++e)
+              rotation[3 * d + e] = x[3 * (e + 1) + d] - x[d];
+          require(abut_obstacle_set_pose(plate, rotation, x));
+          scene_move(&s, 1., angles, shift);
+        }
+        couple c = couple_obstacle(&s, plate, &o);
+        if (step == 2)
+          assert_int_equal(c.view.n_rows, 0);
+        else
+          assert_true(c.view.n_rows >= 16);
+        for (int32_t j = 0; j < c.view.n_rows; ++j)
+        {
+          near(c.view.gap[j], -way, 1e-12, "gap");
+          for (int d = 0; d < 3; ++d)
+            near(c.view.normal[3 * j + d], x[d] - x[9 + d], 1e-12, "normal");
+        }
+        couple_destroy(&c);
+        scene_free(&s);
+        require(abut_obstacle_destroy(&plate));
+      }
+}
+
 static int
 fails(void *user, int32_t n, const double *x, double *value, double *gradient)
 {
@@ -267,6 +323,7 @@ main(void)
       cmocka_unit_test_setup_teardown(test_deep, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_sphere, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_surface, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_thin, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_failures, set_up, tear_down)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

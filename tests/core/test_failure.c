@@ -31,40 +31,54 @@ codes_are_numbers_in_order(void **state)
   assert_null(abut_failure_get(ABUT_FAILURE_NONE));
 }
 
-static abut_failure
-failure_of(abut_reason reason, const char *law, int32_t fallback_steps)
-{
-  abut_progress progress = {.struct_size = sizeof(progress)};
-  progress.fallback_steps = fallback_steps;
-  return abut_reason_failure(reason, abut_law_find(law), &progress);
-}
-
 static void
-ends_of_strategies_name_their_failure(void **state)
+ends_of_strategies_name_what_was_measured(void **state)
 {
   (void)state;
   static const struct
   {
     abut_reason reason;
     const char *law;
-    int32_t fallback_steps;
-    abut_failure failure;
+    int32_t step, fallback_steps;
+    double penalty;
+    abut_failure seen, failure;
   } cases[] = {
-      {ABUT_REASON_CONVERGED, "lagrange", 0, ABUT_FAILURE_NONE},
-      {ABUT_REASON_CONVERGED, "lagrange", 1, ABUT_FAILURE_CYCLE},
-      {ABUT_REASON_STEP_LIMIT, "lagrange", 0, ABUT_FAILURE_COLD_START},
-      {ABUT_REASON_STEP_LIMIT, "quadratic penalty", 0, ABUT_FAILURE_PENALTY},
-      {ABUT_REASON_STAGNATION, "augmented lagrangian", 0,
-       ABUT_FAILURE_MULTIPLIERS_STALL},
-      {ABUT_REASON_INFEASIBLE, "barrier", 0, ABUT_FAILURE_INFEASIBLE_START},
-      {ABUT_REASON_STEP_LIMIT, "interior point", 0, ABUT_FAILURE_INTERIOR},
-      {ABUT_REASON_STEP_LIMIT, "nitsche", 1, ABUT_FAILURE_NITSCHE},
-      {ABUT_REASON_NOT_FINITE, "penalty", 0, ABUT_FAILURE_FLOATING_BODY},
+      {ABUT_REASON_CONVERGED, "lagrange", 5, 0, 0, 0, ABUT_FAILURE_NONE},
+      {ABUT_REASON_CONVERGED, "lagrange", 5, 1, 0, 0, ABUT_FAILURE_CYCLE},
+      /* A limit is a limit, and no more, unless something else was seen. */
+      {ABUT_REASON_STEP_LIMIT, "lagrange", 1, 0, 0, 0, ABUT_FAILURE_STEP_LIMIT},
+      {ABUT_REASON_STEP_LIMIT, "lagrange", 50, 0, 0, 0,
+       ABUT_FAILURE_COLD_START},
+      {ABUT_REASON_STEP_LIMIT, "lagrange", 50, 3, 0, 0, ABUT_FAILURE_CYCLE},
+      {ABUT_REASON_STEP_LIMIT, "quadratic penalty", 3, 0, 10, 0,
+       ABUT_FAILURE_STEP_LIMIT},
+      {ABUT_REASON_STEP_LIMIT, "quadratic penalty", 30, 0, 1e6,
+       ABUT_FAILURE_PENALTY, ABUT_FAILURE_PENALTY},
+      {ABUT_REASON_STAGNATION, "augmented lagrangian", 9, 0, 20,
+       ABUT_FAILURE_MULTIPLIERS_STALL, ABUT_FAILURE_MULTIPLIERS_STALL},
+      {ABUT_REASON_INFEASIBLE, "barrier", 1, 0, 0, 0,
+       ABUT_FAILURE_INFEASIBLE_START},
+      {ABUT_REASON_STEP_LIMIT, "interior point", 3, 0, 0, 0,
+       ABUT_FAILURE_STEP_LIMIT},
+      {ABUT_REASON_STAGNATION, "interior point", 30, 0, 0,
+       ABUT_FAILURE_INTERIOR, ABUT_FAILURE_INTERIOR},
+      {ABUT_REASON_STEP_LIMIT, "nitsche", 1, 0, 10, 0, ABUT_FAILURE_STEP_LIMIT},
+      {ABUT_REASON_STEP_LIMIT, "nitsche", 60, 1, 0.1, 0, ABUT_FAILURE_NITSCHE},
+      {ABUT_REASON_STEP_LIMIT, "nitsche", 60, 1, 10, 0, ABUT_FAILURE_CYCLE},
+      {ABUT_REASON_NOT_FINITE, "penalty", 1, 0, 50, 0, ABUT_FAILURE_NOT_FINITE},
   };
   for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i)
-    assert_int_equal(
-        failure_of(cases[i].reason, cases[i].law, cases[i].fallback_steps),
-        cases[i].failure);
+  {
+    abut_progress progress = {.struct_size = sizeof(progress)};
+    progress.step = cases[i].step;
+    progress.fallback_steps = cases[i].fallback_steps;
+    progress.penalty = cases[i].penalty;
+    progress.seen = cases[i].seen;
+    assert_int_equal(abut_reason_failure(cases[i].reason,
+                                         abut_law_find(cases[i].law),
+                                         &progress),
+                     cases[i].failure);
+  }
   assert_int_equal(abut_reason_failure(ABUT_REASON_CONVERGED, NULL, NULL),
                    ABUT_FAILURE_NONE);
 }
@@ -74,6 +88,6 @@ main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(codes_are_numbers_in_order),
-      cmocka_unit_test(ends_of_strategies_name_their_failure)};
+      cmocka_unit_test(ends_of_strategies_name_what_was_measured)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

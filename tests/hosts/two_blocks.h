@@ -154,6 +154,8 @@ namespace abut::hosts
     /** The upper block is lifted by separation + tilt times the first
      * coordinate of its own frame; 0 for the patch test. */
     double separation = 0., tilt = 0.;
+    /** The upper block of pressed ones is not held sideways. */
+    bool slides = false;
     /** Lower and upper block. */
     std::array<Material, 2> materials = {{{7., 0.3}, {3., 0.2}}};
     /** The law lets the blocks penetrate: pressures are compared with the mean
@@ -360,6 +362,29 @@ namespace abut::hosts
       return dof_handler_;
     }
 
+    /** The upper block moved along the first axis. */
+    la::Vector sideways(const double way) const
+    {
+      la::Vector u(owned_, communicator_);
+      std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_cell());
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (!cell->is_artificial() && cell->material_id() == 1)
+        {
+          cell->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            if (owned_.is_element(dofs[i])
+                && fe_.system_to_component_index(i).first == 0)
+              u(dofs[i]) = way;
+        }
+      u.compress(dealii::VectorOperation::insert);
+      return u;
+    }
+
+    const la::Vector &load() const
+    {
+      return load_;
+    }
+
     const la::Matrix &stiffness() const
     {
       return stiffness_;
@@ -512,7 +537,8 @@ namespace abut::hosts
             const Point<dim> &x = cell->vertex(v);
             Point<dim> corner;
             corner[dim - 1] = cell->material_id() == 1 ? 1. : -1.;
-            if (x.distance(corner) < 1e-10)
+            if (x.distance(corner) < 1e-10
+                && !(run_.slides && cell->material_id() == 1))
               for (int d = 0; d < dim - 1; ++d)
                 constraints_.add_line(cell->vertex_dof_index(v, d));
           }

@@ -41,6 +41,7 @@
  */
 
 #include <abut/dealii/communication_report.h>
+#include <abut/dealii/contact_examination.h>
 #include <abut/dealii/contact_pair.h>
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/method_parameters.h>
@@ -55,6 +56,7 @@
 #include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/vector.h>
 
 #include <iosfwd>
 #include <memory>
@@ -384,6 +386,11 @@ namespace abut
      * for nitsche with theta other than 0, which is no balance of forces. */
     virtual double imbalance(const la::Vector &residual, double least) const;
 
+    /** The same as a part of the load of the last iteration, or of the contact
+     * forces if these are more; 0 where there is no such balance. About 2 where
+     * the residual has the wrong sign. */
+    virtual double imbalance(const la::Vector &residual) const;
+
     /** What detect() met on each pair; empty without pairs. Not collective. */
     virtual std::vector<PairCheck> pair_checks() const;
 
@@ -409,6 +416,38 @@ namespace abut
      * all ranks; empty without pairs. As costly as detect(). */
     virtual std::vector<Penetration<dim>>
     check_penetration(const la::Vector &displacement, double tolerance);
+
+    /** Look at the answer at @p displacement for what the iteration cannot see:
+     * strains that are not small (a warning from 5 %, an error from 50 %, or
+     * from a third in the mean of a body, unless @p allow_large_strain),
+     * surfaces that slide by more than a facet, obstacles that pass between
+     * nodes, penetrations beside what bodies are deformed by, and, if
+     * @p residual is given (of the host, at @p displacement), forces out of
+     * balance, as after a residual of wrong sign. Whatever contradicts itself
+     * by more than a tenth is an error. Measures go into pair_results(), too.
+     * To be called after convergence and check_penetration(), once per load
+     * step; obstacles are asked for their distance at points of the facets near
+     * them, of a membrane in all its cells. Throws ObstacleError for
+     * formulas without a value there. Where nothing can touch it only looks at
+     * strains. Collective. */
+    virtual ContactExamination examine(const la::Vector &displacement,
+                                       const la::Vector *residual = nullptr,
+                                       bool allow_large_strain = false);
+
+    /** How deep obstacles are in what has no contact, by active cell of this
+     * rank: the depth at facets without contact, or of a membrane in cells
+     * without. Error estimates that only look at nodes know nothing of it. 0
+     * elsewhere. Resizes @p depth; returns the largest on all ranks. See
+     * examine(). Collective. */
+    virtual double missed_depth(const la::Vector &displacement,
+                                dealii::Vector<float> &depth);
+
+    /** Look for rigid motions that neither @p matrix nor any row resists, be
+     * it open or closed: then there is no answer, however small the load steps.
+     * Throws SolverFailure, which names body and motion. Call after detect();
+     * as many products with @p matrix as bodies have rigid motions. Does
+     * nothing for membranes. Collective. */
+    virtual void check_supports(const la::Matrix &matrix) const;
 
     /** Discrete inf-sup constant of the pressures of all present rows against
      * the displacements of @p matrix, dimensionless:

@@ -100,12 +100,25 @@ namespace abut
                                    opening in any direction */
     /** How deep nodes of the primary are in the secondary between rows that
      * hold it, length >= 0, by the last check_penetration(): what the
-     * discretisation does not see. Large where the secondary is coarser. */
+     * discretisation does not see. Large where the secondary is coarser. Of
+     * an obstacle in facets between their nodes, by the last examine(). */
     double between_rows = 0.;
     /** How deep nodes of the secondary are in the other side that supports
      * hold along the normal and that have no row therefore, length >= 0, by
      * the last check_penetration(): what contact would have to move. */
     double held_inside = 0.;
+    /** Largest tangential motion of the two sides of a closed row against each
+     * other, of bodies, or of the body at an obstacle, length >= 0, by the last
+     * examine(). */
+    double slip = 0.;
+    /** Against obstacles: largest difference of the gap of a closed row from
+     * the distance of its node where it is now, length >= 0, by the last
+     * examine(): what is lost by gaps that are linear in the displacement. */
+    double gap_error = 0.;
+    /** Against obstacles: how deep they are in deformed facets without any
+     * contact, length >= 0, by the last examine(); @ref between_rows has all
+     * facets. */
+    double missed_depth = 0.;
     double pressure = 0.; /**< largest */
     /** Least where that is below 0, as a law may let surfaces pull, else 0; 0
      * for ties, whose tractions have any sign. */
@@ -137,6 +150,9 @@ namespace abut
     double depth = 0.;        /**< length > 0 */
     bool on_primary = false;  /**< found by a node of the primary surface that
                                    is in a facet without rows */
+    bool same_way = false;    /**< the outward normals of surface and obstacle
+                                   point the same way there: nothing can touch
+                                   from this side */
   };
 
   /** Contact pairs that cannot be solved as they are: the message names the

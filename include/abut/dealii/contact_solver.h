@@ -44,6 +44,7 @@
 #include <cstdio>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace abut
 {
@@ -133,10 +134,12 @@ namespace abut
         events_.phase(phase);
     }
 
-    bool stop(const NewtonReason reason, const std::string &explanation)
+    bool stop(const NewtonReason reason, const std::string &explanation,
+              const abut_failure failure = ABUT_FAILURE_NONE)
     {
       result_.reason = reason;
       result_.explanation = explanation;
+      result_.failure = failure;
       return false;
     }
 
@@ -215,7 +218,27 @@ namespace abut
       ++result_.n_steps;
       if (!problem_.residual_is_cheap)
         find_residual(u);
-      return solve_linearised(tangent, u);
+      return solve_linearised(tangent, u) && is_balanced(u);
+    }
+
+    /** Whether the host's forces at the end of a linear problem are what its
+     * matrix says. */
+    bool is_balanced(const la::Vector &u)
+    {
+      if (parameters_.useless_imbalance == 0.)
+        return true;
+      find_residual(u);
+      const double part = contact_.imbalance(residual_);
+      if (part <= parameters_.useless_imbalance)
+        return true;
+      return stop(NewtonReason::unbalanced,
+                  "The residual at the answer is " + short_number(part)
+                      + " of the load: it is not what the tangent is the "
+                        "derivative of. The residual is internal minus "
+                        "external forces; look at its sign, whether the "
+                        "problem is linear, and whether a large penalty has "
+                        "cost the linear system its digits.",
+                  ABUT_FAILURE_UNBALANCED);
     }
 
     /** Newton's method. */
@@ -298,7 +321,8 @@ namespace abut
         return stop(NewtonReason::contact,
                     "The contact iteration ended without an answer after "
                         + std::to_string(contact_.progress().step)
-                        + " steps: " + contact_.explanation());
+                        + " steps: " + contact_.explanation(),
+                    contact_.failure());
       return true;
     }
 
@@ -464,7 +488,8 @@ namespace abut
       return stop(NewtonReason::not_finite,
                   "The residual is not a number, even after "
                       + std::to_string(parameters_.max_halvings)
-                      + " halvings of the step. Use smaller load steps.");
+                      + " halvings of the step. Use smaller load steps.",
+                  ABUT_FAILURE_NOT_FINITE);
     }
 
     /** A sentence, if there were any. */
@@ -501,20 +526,46 @@ namespace abut
       const double length = contact_.length_scale(u);
       if (length == 0.)
         return false;
-      const std::size_t n_missed =
-          contact_.check_penetration(u, parameters_.missed_depth * length)
-              .size();
-      if (n_missed == 0)
+      const std::vector<Penetration<dim>> missed =
+          contact_.check_penetration(u, parameters_.missed_depth * length);
+      if (missed.empty())
         return false;
       if (events_.missed)
-        events_.missed(n_missed);
+        events_.missed(missed.size());
       if (result_.n_searches < parameters_.max_searches)
         return true;
+      return stop_missing(missed);
+    }
+
+    bool stop_missing(const std::vector<Penetration<dim>> &missed)
+    {
+      double depth = 0.;
+      std::size_t n_same_way = 0;
+      for (const Penetration<dim> &node : missed)
+      {
+        depth = std::max(depth, node.depth);
+        n_same_way += node.same_way;
+      }
+      const std::string seen =
+          "Nodes keep on penetrating without a constraint after "
+          + std::to_string(result_.n_searches) + " searches, "
+          + std::to_string(missed.size()) + " of them by up to "
+          + short_number(depth);
+      if (2 * n_same_way <= missed.size())
+        return stop(NewtonReason::missed_nodes,
+                    seen
+                        + ": use smaller load steps, or a larger reach of the "
+                          "pair.",
+                    ABUT_FAILURE_NO_PARTNER);
       return stop(NewtonReason::missed_nodes,
-                  "Nodes keep on penetrating without a constraint after "
-                      + std::to_string(result_.n_searches)
-                      + " searches: use smaller load steps, or a larger reach "
-                        "of the pair.");
+                  seen + ". At " + std::to_string(n_same_way)
+                      + " the outward normals of the surface and of the "
+                        "obstacle point the same way: its material is where "
+                        "the body is, or nodes have come out of it on its far "
+                        "side. Turn the obstacle (Normal, the sign of a "
+                        "distance, Axis or Hollow), or take the side of the "
+                        "body that faces it.",
+                  ABUT_FAILURE_WRONG_SIDE);
     }
 
     static std::string short_number(const double value)

@@ -94,6 +94,9 @@ namespace abut
     /** Depth that counts there, relative to ContactAssembler::length_scale().
      */
     double missed_depth = 1e-3;
+    /** Residual at the answer of a linear problem that is too much for it, as
+     * a part of the load; 0: not asked for. */
+    double useless_imbalance = 0.1;
   };
 
   /** Why ContactSolver stopped. */
@@ -106,7 +109,9 @@ namespace abut
     step_limit,   /**< max_steps reached */
     missed_nodes, /**< nodes penetrate without a row after all searches */
     refused,      /**< by SolverEvents::refuse */
-    not_finite    /**< the host's residual is not a number */
+    not_finite,   /**< the host's residual is not a number */
+    unbalanced    /**< the residual of a linear problem is far from 0 in the
+                       end: it does not belong to the tangent */
   };
 
   /** What ContactSolver::solve() found and what it cost. The same on all
@@ -114,7 +119,10 @@ namespace abut
   struct NewtonResult
   {
     NewtonReason reason = NewtonReason::converged; /**< why it stopped */
-    std::string explanation;      /**< in words, with what to try */
+    std::string explanation; /**< in words, with what to try */
+    /** The known failure that was seen, or NONE; its code is not in the
+     * explanation. */
+    abut_failure failure = ABUT_FAILURE_NONE;
     unsigned int n_steps = 0;     /**< linearisations */
     unsigned int n_systems = 0;   /**< linear systems */
     unsigned int n_residuals = 0; /**< calls of HostProblem::residual */

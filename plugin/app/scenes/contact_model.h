@@ -85,6 +85,13 @@ namespace abut::app
     /** The parameter that a message about contact belongs to. */
     virtual std::string parameter_of(const std::string &message) const = 0;
 
+    /** The parameter that a message about a body without support belongs to.
+     */
+    virtual std::string support_of(const std::string &) const
+    {
+      return "";
+    }
+
     /** There are new rows. */
     virtual void look_at_rows()
     {
@@ -112,6 +119,18 @@ namespace abut::app
     /** @name Its results @{ */
     /** Estimate the error in the energy norm; @p squared by cell. */
     virtual double estimate(dealii::Vector<float> &squared) const = 0;
+
+    /** Stiffness k of a cell, such that a penetration by d into a facet of
+     * size h costs k d^2 h^(dim - 2). Not collective. */
+    virtual double stiffness_of(
+        const typename dealii::Triangulation<dim>::active_cell_iterator &cell)
+        const = 0;
+
+    /** Whether strains may be large although they are computed as small. */
+    virtual bool allows_large_strain() const
+    {
+      return false;
+    }
 
     /** Energy norm of the solution. */
     virtual double solution_norm() const = 0;

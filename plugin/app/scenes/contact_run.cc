@@ -10,6 +10,7 @@
 #include "app/mesh/memory_check.h"
 #include "app/restart/restart.h"
 #include "diagnosis.h"
+#include "name_parameter.h"
 
 #include <deal.II/distributed/grid_refinement.h>
 
@@ -19,24 +20,9 @@ namespace abut::app
 {
   namespace
   {
-    /** Do what may find that contact cannot be, and say by which parameter. */
-    template <int dim>
-    void name_parameter(const ContactModel<dim> &model,
-                        const std::function<void()> &action)
-    {
-      try
-      {
-        action();
-      }
-      catch (const ContactError &error)
-      {
-        throw InputError(model.parameter_of(error.what()), error.what());
-      }
-      catch (const ObstacleError &error)
-      {
-        throw InputError(model.parameter_of(error.what()), error.what());
-      }
-    }
+    /** Level of the smallest cells that a mesh may have: one less than p4est
+     * can number, as neighbours are refined along. */
+    template <int dim> constexpr int deepest_level = dim == 2 ? 28 : 17;
   } // namespace
 
   template <int dim>
@@ -89,9 +75,27 @@ namespace abut::app
       model.problem().constraints.distribute(state.u);
       begin_contact();
       name_parameter(model, [&] { state.contact.detect(state.u); });
+      const std::string why = free_motion();
+      if (!why.empty())
+        throw InputError(model.support_of(why), why);
     }
     model.report_check();
     report.set("dofs", model.problem().dof_handler.n_dofs());
+  }
+
+  template <int dim> std::string ContactRun<dim>::free_motion()
+  {
+    if (!model.has_contact() || !model.problem().is_linear())
+      return "";
+    try
+    {
+      state.contact.check_supports(model.problem().tangent(state.u));
+    }
+    catch (const SolverFailure &failure)
+    {
+      return failure.what();
+    }
+    return "";
   }
 
   template <int dim> void ContactRun<dim>::set_parameters()
@@ -125,6 +129,7 @@ namespace abut::app
   template <int dim> NewtonParameters ContactRun<dim>::newton_parameters() const
   {
     NewtonParameters parameters;
+    parameters.useless_imbalance = 0.; // refuse() knows better what it is
     const unsigned int sweeps = state.settings.refinement.relaxation_sweeps;
     if (abut_law_needs_open_start(state.method.options.law))
       parameters.relaxation_sweeps = std::max(1u, sweeps);
@@ -232,15 +237,8 @@ namespace abut::app
     case NewtonReason::linear_solve:
       return diagnose_solver_failure(result.explanation,
                                      state.contact.progress().penalty);
-    case NewtonReason::missed_nodes:
-      return coded(
-          ABUT_FAILURE_NO_PARTNER,
-          "Nodes keep on penetrating without a constraint after "
-              + std::to_string(result.n_searches)
-              + " searches: use smaller load steps (Load steps/Steps), or a "
-                "larger Reach of the pair.");
     default:
-      return result.explanation;
+      return coded(result.failure, result.explanation);
     }
   }
 
@@ -323,7 +321,7 @@ namespace abut::app
     }
     if (!state.is_last_mesh())
       return {};
-    target_is_missed = true;
+    missed_target = state.control.failure();
     return true;
   }
 
@@ -337,6 +335,16 @@ namespace abut::app
         return *met;
       if (state.is_last_mesh())
         return true;
+      set_refine_flags();
+      if (is_too_fine())
+      {
+        missed_target =
+            "Cells of level " + std::to_string(deepest_level<dim>)
+            + " cannot be refined any more: the error estimate does "
+              "not fall where they are. Look for data that jumps, or "
+              "ask for less.";
+        return true;
+      }
       if (state.settings.all_levels)
         model.write_fields();
       refine();
@@ -365,9 +373,18 @@ namespace abut::app
     model.flag_more_cells();
   }
 
+  template <int dim> bool ContactRun<dim>::is_too_fine()
+  {
+    bool found = false;
+    for (const auto &cell : model.triangulation.active_cell_iterators())
+      found = found
+              || (cell->is_locally_owned() && cell->refine_flag_set()
+                  && cell->level() >= deepest_level<dim>);
+    return dealii::Utilities::MPI::logical_or(found, state.communicator);
+  }
+
   template <int dim> void ContactRun<dim>::refine()
   {
-    set_refine_flags();
     DiscreteProblem<dim> &problem = model.problem();
     if (state.control.is_on())
       check_memory_of_flags(model.triangulation, problem.fe.degree,
@@ -402,12 +419,22 @@ namespace abut::app
       load_steps.accept();
       return true;
     }
-    const bool goes_on = load_steps.reject();
+    // What no row can hold no load step holds either.
+    const std::string why =
+        failure.rfind(abut_failure_get(ABUT_FAILURE_FLOATING_BODY)->code, 0)
+                == 0
+            ? free_motion()
+            : "";
+    if (!why.empty())
+      failure = why;
+    const bool goes_on = load_steps.reject() && why.empty();
     if (goes_on)
       report.progress("load step cut back to time "
-                      + short_number(load_steps.target(), 6) + ": " + failure);
+                      + short_number(load_steps.target(), 6) + ": "
+                      + (failure == told ? "for the same reason" : failure));
     else
       report.warn(failure);
+    told = failure;
     if (!goes_on && model.reports_failures())
     {
       model.write_fields();
@@ -431,72 +458,6 @@ namespace abut::app
     return goes_on;
   }
 
-  template <int dim> double ContactRun<dim>::counted_seconds() const
-  {
-    return report.times.seconds("assembly") + report.times.seconds("transfer")
-           + report.times.seconds(model.rows_section())
-           + report.times.seconds("solve");
-  }
-
-  template <int dim> void ContactRun<dim>::judge()
-  {
-    SectionTimes::Scope scope(report.times, "error estimate");
-    MeshEvidence evidence;
-    evidence.residual = *state.present.estimate;
-    if (state.control.start().size() > 0)
-    {
-      la::Vector change(state.u);
-      change -= state.control.start();
-      evidence.change = model.problem().energy_norm(change);
-    }
-    evidence.norm = model.solution_norm();
-    if (model.has_contact())
-    {
-      // Nitsche's method is consistent: its gaps are the mesh's error.
-      if (!abut_law_needs_stress(state.method.options.law))
-        evidence.law = state.contact.complementarity_error();
-      evidence.contact_force = state.contact.contact_force();
-    }
-    state.present.error_parts = state.control.judge(evidence);
-  }
-
-  template <int dim> void ContactRun<dim>::finish_result()
-  {
-    ContactResult &present = state.present;
-    const ContactAssembler<dim> &contact = state.contact;
-    if (state.settings.refinement.is_adaptive(state.mesh_number))
-    {
-      SectionTimes::Scope scope(report.times, "error estimate");
-      present.estimate = model.estimate(state.squared_estimate);
-    }
-    if (state.control.is_on() && state.load_steps.n_accepted() == 0)
-      judge();
-    const double counted = counted_seconds();
-    present.seconds = counted - counted_before;
-    counted_before = counted;
-    SectionTimes::Scope scope(report.times, "results");
-    present.cells = model.triangulation.n_global_active_cells();
-    present.dofs = model.problem().dof_handler.n_dofs();
-    present.energy = model.problem().energy(state.u);
-    if (model.has_contact())
-    {
-      present.progress = contact.progress();
-      present.rows = contact.n_rows();
-      present.active = contact.n_active();
-      present.force = contact.contact_force();
-      present.penetration = contact.penetration();
-    }
-    present.errors = model.errors();
-    std::map<std::string, double> row = result_row(present);
-    model.add_to_row(present, row);
-    report.add_row(row);
-    state.results.push_back(present);
-    report.add("nonlinear_iterations", present.steps);
-    report.add("linear_iterations", present.linear.n_iterations);
-    report.add("matvecs", present.linear.n_matvecs);
-    report.progress(model.line_of(present) + state.control.progress());
-  }
-
   template <int dim> void ContactRun<dim>::begin()
   {
     model.declare_tables();
@@ -514,9 +475,10 @@ namespace abut::app
   template <int dim> bool ContactRun<dim>::take_load_steps()
   {
     bool converged = true;
-    while (converged && !target_is_missed && !state.load_steps.is_finished())
+    while (converged && missed_target.empty()
+           && !state.load_steps.is_finished())
     {
-      converged = take_load_step();
+      converged = take_load_step() && examine();
       if (converged && !state.load_steps.is_finished())
         pass();
     }
@@ -540,9 +502,11 @@ namespace abut::app
     model.finish();
     if (state.options.pictures && !state.results.empty())
       model.draw();
-    if (target_is_missed)
-      report.warn(state.control.failure());
-    converged = converged && !target_is_missed;
+    if (!missed_target.empty())
+      report.warn(missed_target);
+    for (const ContactFinding &finding : examination.findings)
+      report.warn(finding.text);
+    converged = converged && missed_target.empty();
     model.report_result(converged);
     model.report_model();
     return converged ? Outcome::converged : Outcome::unusable;

@@ -43,6 +43,8 @@ namespace abut::app
     /** Of the method on the present mesh; forgets preconditioners. */
     void set_parameters();
     void begin_contact();
+    /** A rigid motion that nothing can hold, in words; or empty. */
+    std::string free_motion();
     NewtonParameters newton_parameters() const;
     HostProblem host_problem();
     SolverEvents solver_events();
@@ -60,6 +62,9 @@ namespace abut::app
      * up; no answer: another mesh is needed. */
     std::optional<bool> follow_target();
     void set_refine_flags();
+    /** Whether the mesh to come has cells that p4est cannot make. Collective.
+     */
+    bool is_too_fine();
     void refine();
     bool take_load_step();
     void begin();
@@ -102,6 +107,10 @@ namespace abut::app
 
     // Results
     double counted_seconds() const;
+    /** Add to the estimate what obstacles do between nodes. */
+    void add_missed_contact();
+    /** Look at the answer of the last mesh; whether it may be used. */
+    bool examine();
     void judge();
     void finish_result();
 
@@ -115,7 +124,9 @@ namespace abut::app
     bool contact_is_ready = false; ///< for the present mesh
     la::Vector pressure;           ///< owned; start of the next solve, or empty
     std::string failure;           ///< why the last solve has no answer
-    bool target_is_missed = false;
+    std::string told;              ///< of these, the last one
+    std::string missed_target;     ///< why, or empty
+    ContactExamination examination; ///< of the last load step
     StepTable steps;
     double counted_before = 0.;
 

@@ -21,6 +21,9 @@ namespace abut::app
      * corners of bodies some 1.4. */
     constexpr double slow_order = 1.25;
 
+    /** Order below which there is none. */
+    constexpr double least_order = 0.2;
+
     /** Part of the energy that the last mesh may still miss unsaid. */
     constexpr double visible_energy = 1e-3;
 
@@ -127,18 +130,25 @@ namespace abut::app
       return;
     report.set("energy_order", order);
     const double missing = std::abs(last / energies[n - 1])
-                           / (std::exp2(std::max(order, 0.1)) - 1);
-    if (order < slow_order && missing > visible_energy)
-      report.warn(coded(
-          ABUT_FAILURE_SINGULAR,
-          "The energy converges with order " + short_number(order, 2)
-              + " in the size of the cells, where smooth data gives 2; the "
-                "last "
-                "mesh misses some "
-              + short_number(100. * missing, 2)
-              + " % of it. Look for data that jumps, such as the steps of an "
-                "obstacle or the edge of a punch; Refinement/Adaptive cycles "
-                "refines there alone."));
+                           / (std::exp2(std::max(order, least_order)) - 1);
+    if (order >= slow_order || missing <= visible_energy)
+      return;
+    // What is missing follows from the order if that is one.
+    const std::string seen =
+        order > least_order
+            ? "The energy converges with order " + short_number(order, 2)
+                  + " in the size of the cells, where smooth data gives 2; the "
+                    "last mesh misses some "
+                  + short_number(100. * missing, 2) + " % of it."
+            : "The energy does not settle: the last mesh changed it by "
+                  + short_number(100. * std::abs(last / energies[n - 1]), 2)
+                  + " %, no less than the one before.";
+    report.warn(coded(
+        ABUT_FAILURE_SINGULAR,
+        seen
+            + " Look for data that jumps, such as the steps of an obstacle or "
+              "the edge of a punch; Refinement/Adaptive cycles refines there "
+              "alone."));
   }
 
   void diagnose_condition(Report &report, const double condition,

@@ -161,6 +161,8 @@ struct abut_coupling
   /* Obstacles: points asked for, in the order in which the answers are taken.
    */
   abut_array asked, distance, gradient; /* double */
+  abut_array asked_normal;  /* double, [3 n_asked] of the surface there */
+  abut_array walkers, walk; /* of coupling_far_side.c */
   int64_t n_asked, n_answered;
 
   abut_array shares;  /* abut_coupling_share */
@@ -288,6 +290,9 @@ abut_status abut_coupling_add_points(abut_coupling *c,
 /* Ask for the distances of all points of the build; then the share of a node.
  */
 abut_status abut_coupling_measure_obstacle(abut_coupling *c);
+
+/* Correct the answers of points behind the middle of a thin obstacle. */
+abut_status abut_coupling_leave_far_side(abut_coupling *c);
 abut_status abut_coupling_add_node_obstacle(abut_coupling *c, int32_t node);
 
 /* Create a coupling with a surface or with an obstacle, the other is NULL. */

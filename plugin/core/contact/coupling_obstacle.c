@@ -8,16 +8,21 @@
 
 #include <string.h>
 
-/* Append a point, dimension numbers of x. */
+/* Append a point, dimension numbers of x and of the surface's normal. */
 static abut_status
-ask(abut_coupling *c, const double *x)
+ask(abut_coupling *c, const double *x, const double *normal)
 {
   const int64_t dim = c->view.dimension, n = c->n_asked;
-  const abut_status status =
+  abut_status status =
       abut_array_reserve(c->context, &c->asked, n * dim, (n + 1) * dim);
+  if (status == ABUT_SUCCESS)
+    status =
+        abut_array_reserve(c->context, &c->asked_normal, 3 * n, 3 * (n + 1));
   if (status != ABUT_SUCCESS)
     return status;
   memcpy((double *)c->asked.data + n * dim, x, sizeof(double) * (size_t)dim);
+  for (int d = 0; d < 3; ++d)
+    ((double *)c->asked_normal.data)[3 * n + d] = d < dim ? normal[d] : 0.;
   ++c->n_asked;
   return ABUT_SUCCESS;
 }
@@ -34,9 +39,9 @@ ask_facet(abut_coupling *c, int32_t f)
   for (int32_t q = 0; q < c->n_points && status == ABUT_SUCCESS; ++q)
   {
     axpy3(mean, 1. / c->n_points, points[q].position, mean);
-    status = ask(c, points[q].position);
+    status = ask(c, points[q].position, facet.normal);
   }
-  return status == ABUT_SUCCESS ? ask(c, mean) : status;
+  return status == ABUT_SUCCESS ? ask(c, mean, facet.normal) : status;
 }
 
 abut_status
@@ -45,11 +50,12 @@ abut_coupling_measure_obstacle(abut_coupling *c)
   const int32_t dim = c->view.dimension, *order = c->facet_order.data;
   const uint8_t *purpose = c->purpose.data;
   const abut_surface_view *v = &c->secondary->view;
-  abut_status status = ABUT_SUCCESS;
+  const double *normal = NULL;
+  abut_status status = abut_surface_normals(c->secondary, &normal);
   c->n_asked = c->n_answered = 0;
   if (c->method->detects_nodes)
-    for (int32_t i = 0; i < v->n_nodes && status == ABUT_SUCCESS; ++i)
-      status = ask(c, v->position + (int64_t)dim * i);
+    for (int64_t i = 0; i < v->n_nodes && status == ABUT_SUCCESS; ++i)
+      status = ask(c, v->position + dim * i, normal + dim * i);
   c->n_answered = c->n_asked;
   for (int32_t i = 0; i < v->n_facets && status == ABUT_SUCCESS; ++i)
     if (purpose[order[i]] & ABUT_COUPLING_FOR_ROWS)
@@ -61,8 +67,10 @@ abut_coupling_measure_obstacle(abut_coupling *c)
         abut_array_reserve(c->context, &c->gradient, 0, c->n_asked * dim + 1);
   if (status != ABUT_SUCCESS || c->n_asked == 0)
     return status;
-  return abut_obstacle_distance(c->obstacle, (int32_t)c->n_asked, c->asked.data,
-                                c->distance.data, c->gradient.data, NULL);
+  status =
+      abut_obstacle_distance(c->obstacle, (int32_t)c->n_asked, c->asked.data,
+                             c->distance.data, c->gradient.data, NULL);
+  return status == ABUT_SUCCESS ? abut_coupling_leave_far_side(c) : status;
 }
 
 /* Answer number i: signed distance and normal. */

@@ -17,6 +17,10 @@ enum
  * to the length scale, do not contradict a state. */
 static const double pressure_noise = 1e-10, gap_noise = 1e-12;
 
+/* Penalty, as a multiple of the stiffness, above which springs leave too few
+ * digits for the rest of the matrix. */
+static const double stiff = 1e10;
+
 /* What the rows of all ranks say after a step. */
 typedef struct findings
 {
@@ -328,6 +332,11 @@ finish(abut_strategy *s, const findings *found, abut_reason reason)
   abut_text_add(&text, "the contact law is violated by a length of ");
   abut_text_add_number(&text, found->defect);
   abut_text_add(&text, " which further solves do not lower");
+  /* A law of the user's own may not be met for reasons of its own. */
+  if (abut_law_solves_once(s->options.law)
+      && abut_law_find(s->options.law->name) == s->options.law)
+    s->progress.seen = s->progress.penalty > stiff ? ABUT_FAILURE_PENALTY
+                                                   : ABUT_FAILURE_LINEAR_SOLVER;
   return abut_strategy_stop(s, ABUT_REASON_STAGNATION);
 }
 

@@ -202,6 +202,8 @@ moved(abut_strategy *s)
       && interior->imbalance <= imbalance_end)
     return abut_strategy_stop(s, ABUT_REASON_CONVERGED);
   interior->n_short = interior->alpha < short_step ? interior->n_short + 1 : 0;
+  if (interior->n_short > 0)
+    s->progress.seen = ABUT_FAILURE_INTERIOR;
   if (interior->n_short >= MAX_SHORT)
     return give_up(s, ABUT_REASON_STAGNATION,
                    "interior point: the steps have become very short");

@@ -120,6 +120,8 @@ abut_multiplier_settled(abut_strategy *s, abut_verdict *verdict)
                     && gap_error > wanted_rate * last->gap_error;
   const bool stagnant = !first && merit > stagnant_rate * last->merit;
   last->n_stagnant = stagnant ? last->n_stagnant + 1 : 0;
+  s->progress.seen =
+      slow || stagnant ? ABUT_FAILURE_MULTIPLIERS_STALL : ABUT_FAILURE_NONE;
   last->gap_error = gap_error;
   last->merit = merit;
   apply(s, change);

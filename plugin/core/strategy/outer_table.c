@@ -6,15 +6,12 @@
 #include <stddef.h>
 
 static const abut_outer_entry table[] = {
-    [ABUT_OUTER_NONE] = {&abut_method_active_set, NULL, ABUT_FAILURE_NONE, 0},
-    [ABUT_OUTER_PENALTY] = {&abut_method_active_set, abut_penalty_settled,
-                            ABUT_FAILURE_PENALTY, 1},
+    [ABUT_OUTER_NONE] = {&abut_method_active_set, NULL, 0},
+    [ABUT_OUTER_PENALTY] = {&abut_method_active_set, abut_penalty_settled, 1},
     [ABUT_OUTER_MULTIPLIER] = {&abut_method_active_set, abut_multiplier_settled,
-                               ABUT_FAILURE_MULTIPLIERS_STALL, 20},
-    [ABUT_OUTER_BARRIER] = {&abut_method_barrier, NULL, ABUT_FAILURE_INTERIOR,
-                            0},
-    [ABUT_OUTER_PRIMAL_DUAL] = {&abut_method_interior_point, NULL,
-                                ABUT_FAILURE_INTERIOR, 0}};
+                               20},
+    [ABUT_OUTER_BARRIER] = {&abut_method_barrier, NULL, 0},
+    [ABUT_OUTER_PRIMAL_DUAL] = {&abut_method_interior_point, NULL, 0}};
 
 const abut_outer_entry *
 abut_outer_get(abut_outer outer)

@@ -12,8 +12,6 @@ typedef struct abut_outer_entry
   const abut_method *method;
   /* The set has settled: what next. NULL: that was all. */
   abut_status (*settled)(abut_strategy *s, abut_verdict *verdict);
-  /* What a limit of steps is a sign of; NONE: it depends on the law. */
-  abut_failure at_limit;
   /* eps / stiffness of the first solve, if none is asked for; 0: the law's. */
   double first_penalty;
 } abut_outer_entry;

@@ -30,6 +30,7 @@ abut_penalty_settled(abut_strategy *s, abut_verdict *verdict)
   abut_text_add_number(&text, penetration);
   abut_text_add(&text, " above the gap tolerance ");
   abut_text_add_number(&text, options->gap_tolerance);
+  s->progress.seen = ABUT_FAILURE_PENALTY;
   verdict->reason = ABUT_REASON_STEP_LIMIT;
   return ABUT_SUCCESS;
 }

@@ -28,31 +28,30 @@ abut_reason_text(abut_reason reason)
     return "the barrier needs a start with all gaps open: move the bodies "
            "apart, or use 'interior point', which needs none";
   case ABUT_REASON_NOT_FINITE:
-    return "a gap or an increment is NaN or infinite: the linear system is "
-           "probably singular, look for a body without support";
+    return "a gap or an increment is NaN or infinite: look for data that are "
+           "not finite, and for a linear system that is singular";
   }
   return "unknown reason";
 }
 
+/* Steps on one mesh after which a set that still moves has come a long way;
+ * least eps of nitsche beside its default of 10 that can be stable. */
+static const int32_t many_steps = 12;
+static const double least_stable = 1;
+
 static abut_failure
 failure_at_limit(const abut_law *law, const abut_progress *progress)
 {
-  const abut_outer_entry *outer = abut_outer_get(law->outer);
-  if (outer != NULL && outer->at_limit != ABUT_FAILURE_NONE)
-    return outer->at_limit;
-  if (abut_law_needs_stress(law))
+  if (progress->seen != ABUT_FAILURE_NONE)
+    return progress->seen;
+  if (abut_law_needs_stress(law) && progress->penalty > 0
+      && progress->penalty < least_stable)
     return ABUT_FAILURE_NITSCHE;
-  return progress->fallback_steps > 0 ? ABUT_FAILURE_CYCLE
-                                      : ABUT_FAILURE_COLD_START;
-}
-
-static abut_failure
-failure_to_contract(const abut_law *law, const abut_progress *progress)
-{
-  if (abut_law_solves_once(law))
-    return progress->penalty > 0 ? ABUT_FAILURE_PENALTY
-                                 : ABUT_FAILURE_LINEAR_SOLVER;
-  return failure_at_limit(law, progress);
+  if (progress->fallback_steps > 0)
+    return ABUT_FAILURE_CYCLE;
+  return abut_law_solves_once(law) && progress->step > many_steps
+             ? ABUT_FAILURE_COLD_START
+             : ABUT_FAILURE_STEP_LIMIT;
 }
 
 abut_failure
@@ -71,13 +70,12 @@ abut_reason_failure(abut_reason reason, const abut_law *law,
     return progress->fallback_steps > 0 ? ABUT_FAILURE_CYCLE
                                         : ABUT_FAILURE_NONE;
   case ABUT_REASON_STEP_LIMIT:
-    return failure_at_limit(law, progress);
   case ABUT_REASON_STAGNATION:
-    return failure_to_contract(law, progress);
+    return failure_at_limit(law, progress);
   case ABUT_REASON_INFEASIBLE:
     return ABUT_FAILURE_INFEASIBLE_START;
   case ABUT_REASON_NOT_FINITE:
-    return ABUT_FAILURE_FLOATING_BODY;
+    return ABUT_FAILURE_NOT_FINITE;
   }
   return ABUT_FAILURE_NONE;
 }

@@ -57,6 +57,12 @@ namespace abut::app
     }
 
     double estimate(dealii::Vector<float> &squared) const override;
+    double stiffness_of(
+        const typename dealii::Triangulation<dim>::active_cell_iterator &cell)
+        const override
+    {
+      return conductivity->value(cell->center());
+    }
     double solution_norm() const override;
     std::optional<ErrorNorms> errors() const override;
     bool has_exact_solution() const override

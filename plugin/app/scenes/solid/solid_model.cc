@@ -130,6 +130,16 @@ namespace abut::app
     has_warned = parts.second;
   }
 
+  template <int dim>
+  std::string SolidModel<dim>::support_of(const std::string &message) const
+  {
+    for (unsigned int body = bodies.size(); body > 0; --body)
+      if (message.find("body " + std::to_string(body) + " can")
+          != std::string::npos)
+        return bodies[body - 1].parameter("Support");
+    return "";
+  }
+
   template <int dim> void SolidModel<dim>::look_at_rows()
   {
     if (has_warned || !run.is_last_mesh())
@@ -208,10 +218,13 @@ namespace abut::app
       input.contact_traction = &fields.traction;
       input.secondary = pairs->secondary();
       input.pressure = &fields.pressure;
-      // With a target, what the law leaves open is an error of its own.
+      // With a target, what the law leaves open is an error of its own; what a
+      // user's own law leaves open is none.
       const bool exact_law = abut_law_is_exact(run.method.options.law)
                              || abut_law_needs_stress(run.method.options.law);
-      input.gap = run.control.is_on() && !exact_law ? nullptr : &fields.gap;
+      const bool is_error =
+          run.method.user_law == nullptr && (exact_law || !run.control.is_on());
+      input.gap = is_error ? &fields.gap : nullptr;
     }
     return estimate_elastic_error(input, squared);
   }

@@ -52,11 +52,22 @@ namespace abut::app
     {
       return pairs->parameter_of(message);
     }
+    std::string support_of(const std::string &message) const override;
     void look_at_rows() override;
     /** Names a body that nothing holds. */
     std::string refuse() const override;
 
     double estimate(dealii::Vector<float> &squared) const override;
+    double stiffness_of(
+        const typename dealii::Triangulation<dim>::active_cell_iterator &cell)
+        const override
+    {
+      return data.materials.at(cell->material_id())->stiffness();
+    }
+    bool allows_large_strain() const override
+    {
+      return parameters.large_strain;
+    }
     double solution_norm() const override;
     std::optional<ErrorNorms> errors() const override;
     bool has_exact_solution() const override

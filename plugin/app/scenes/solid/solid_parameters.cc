@@ -52,6 +52,11 @@ namespace abut::app
                         "unit of thickness), or a body of revolution about x "
                         "= 0, whose forces are those of the full circle. "
                         "Without meaning in 3D.");
+      prm.declare_entry("Allow large strain", "false", Patterns::Bool(),
+                        "Whether strains from 50 %, or from a third in the "
+                        "mean of a body, are an answer to be used (exit code "
+                        "0) although they are computed as small ones, linear "
+                        "in the displacement.");
       prm.declare_entry("Gravity", "", Patterns::Anything(),
                         "Acceleration: a formula for each component, separated "
                         "by commas. Empty: none.");
@@ -131,6 +136,7 @@ namespace abut::app
     plane = word == "strain"   ? PlaneModel::strain
             : word == "stress" ? PlaneModel::stress
                                : PlaneModel::axisymmetric;
+    large_strain = prm.get_bool("Allow large strain");
     gravity = prm.get("Gravity");
     prm.leave_subsection();
     bodies.resize(counts.bodies);

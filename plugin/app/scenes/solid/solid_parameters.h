@@ -31,6 +31,7 @@ namespace abut::app
   {
     unsigned int degree = 1;
     PlaneModel plane = PlaneModel::strain;
+    bool large_strain = false; ///< allowed
     std::string gravity;
     std::vector<BodyParameters> bodies;
     std::vector<PairParameters> pairs;

@@ -4,7 +4,6 @@
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/mesh/nearest_node.h"
-#include "app/physics/deformation.h"
 #include "app/physics/volumetric_locking.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
@@ -20,9 +19,6 @@ namespace abut::app
 
   namespace
   {
-    /** Part of what bodies are deformed by. */
-    constexpr double suspicious_penetration = 0.1;
-
     /** Part of a pressure that goes astray. */
     constexpr double visible_transfer_error = 1e-3;
 
@@ -162,28 +158,7 @@ namespace abut::app
   }
 
   template <int dim>
-  bool SolidReport<dim>::is_suspicious(const double depth,
-                                       const double way) const
-  {
-    // Far from its place, a body's gaps have the round-off of its way.
-    constexpr double round_off = 1e-9;
-    return depth > suspicious_penetration * way
-           && depth > round_off * u.linfty_norm();
-  }
-
-  template <int dim>
-  std::string SolidReport<dim>::compared(const double depth,
-                                         const double way) const
-  {
-    return short_number(depth, 3) + ", where "
-           + (way < u.linfty_norm() ? "bodies are deformed by no more than "
-                                    : "nothing moves by more than ")
-           + short_number(way, 3);
-  }
-
-  template <int dim>
-  std::pair<double, double>
-  SolidReport<dim>::report_pairs(const double way) const
+  std::pair<double, double> SolidReport<dim>::report_pairs() const
   {
     const auto vector = [](const auto &tensor)
     { return std::vector<double>(tensor.begin_raw(), tensor.end_raw()); };
@@ -208,25 +183,9 @@ namespace abut::app
       if (facet > 0.)
         report.set(key + "_penetration_by_facet", pair.penetration / facet);
       report.set(key + "_between_rows", pair.between_rows);
-      const auto warn_of = [&](const double depth, const abut_failure failure,
-                               const std::string &where,
-                               const std::string &remedy)
-      {
-        if (is_suspicious(depth, way))
-          report.warn(coded(failure, pair.name + ": " + where + " by up to "
-                                         + compared(depth, way) + ": "
-                                         + remedy));
-      };
-      warn_of(pair.between_rows, ABUT_FAILURE_COARSE_SECONDARY,
-              "nodes of the primary surface are inside the secondary, between "
-              "its constraints,",
-              "exchange the two sides, or refine the secondary.");
       report.set(key + "_held_inside", pair.held_inside);
-      warn_of(pair.held_inside, ABUT_FAILURE_HELD_NODES,
-              "supports hold nodes of the secondary surface inside the other "
-              "side",
-              "contact cannot move them. Leave these nodes free along the "
-              "normal, or move what supports them.");
+      report.set(key + "_slip", pair.slip);
+      report.set(key + "_gap_error", pair.gap_error);
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
     }
@@ -235,8 +194,7 @@ namespace abut::app
 
   template <int dim> void SolidReport<dim>::report_contact() const
   {
-    const double way = deformation(elasticity.dof_handler, bodies.size(), u);
-    const auto [force_imbalance, moment_imbalance] = report_pairs(way);
+    const auto [force_imbalance, moment_imbalance] = report_pairs();
     if ((method.discretisation
          && !discretisation_info(*method.discretisation).is_weighted)
         || abut_law_needs_stress(method.options.law))
@@ -250,14 +208,6 @@ namespace abut::app
     report.set("max_penetration", contact.penetration());
     report.set("allowed_penetration", contact.allowed_penetration());
     report.set("max_complementarity", contact.complementarity());
-    if (is_suspicious(contact.penetration(), way))
-      report.warn(
-          coded(ABUT_FAILURE_PENALTY,
-                "The bodies penetrate each other by "
-                    + compared(contact.penetration(), way)
-                    + ": the contact is far too soft. Use a larger "
-                      "Method/Penalty, or the method augmented lagrangian or "
-                      "lagrange."));
   }
 
   template <int dim>

@@ -31,12 +31,8 @@ namespace abut::app
     void report_reactions() const;
     void report_transfer() const;
     void report_numerics() const;
-    /** Whether something is inside something else by more than bodies that
-     * are deformed by @p way should be. */
-    bool is_suspicious(double depth, double way) const;
-    std::string compared(double depth, double way) const;
     /** Returns the largest imbalance of forces and of moments of a pair. */
-    std::pair<double, double> report_pairs(double way) const;
+    std::pair<double, double> report_pairs() const;
     void report_contact() const;
     std::optional<double> relative_error() const;
     /** What single ranks have and had to say. */

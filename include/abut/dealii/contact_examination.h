@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_DEALII_CONTACT_EXAMINATION_H
+#define ABUT_DEALII_CONTACT_EXAMINATION_H
+
+/** @file
+ * What an answer is worth: measures that its iteration knows nothing of.
+ */
+
+#include <abut/failure.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace abut
+{
+  /** Something that was found about an answer. */
+  struct ContactFinding
+  {
+    abut_failure failure = ABUT_FAILURE_NONE; /**< what it is a sign of */
+    /** The answer contradicts itself, or what it was computed with, by so much
+     * that it should not be used. If not, it is a warning. */
+    bool is_error = false;
+    std::string text; /**< with the code in front: what was measured, and what
+                           to do */
+  };
+
+  /** What ContactAssembler::examine() has measured. The same on all ranks. */
+  struct ContactExamination
+  {
+    /** Largest magnitude of a principal small strain at points of quadrature; 0
+     * for scalar fields. */
+    double strain = 0.;
+    /** Mean of that magnitude over the cells of the material id where it is
+     * largest; 0 where @ref strain is too small for that to matter. */
+    double mean_strain = 0.;
+    /** How far bodies are deformed at the most, length: what depths are
+     * compared with. */
+    double deformation = 0.;
+    /** Forces that nothing balances, as a part of all; 0 if not asked for. */
+    double imbalance = 0.;
+    /** How deep obstacles are in facets, or cells of a membrane, that have no
+     * contact, length. */
+    double missed_depth = 0.;
+    std::vector<ContactFinding> findings; /**< errors and warnings */
+
+    /** Whether there is no error among the findings. */
+    bool is_usable() const
+    {
+      return std::none_of(findings.begin(), findings.end(),
+                          [](const ContactFinding &finding)
+                          { return finding.is_error; });
+    }
+  };
+} // namespace abut
+
+#endif

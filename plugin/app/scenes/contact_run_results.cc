@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a run measures of each answer, and whether it may be used.
+#include "contact_run.h"
+
+#include "name_parameter.h"
+
+#include <cmath>
+
+namespace abut::app
+{
+  template <int dim> double ContactRun<dim>::counted_seconds() const
+  {
+    return report.times.seconds("assembly") + report.times.seconds("transfer")
+           + report.times.seconds(model.rows_section())
+           + report.times.seconds("solve");
+  }
+
+  template <int dim> void ContactRun<dim>::judge()
+  {
+    SectionTimes::Scope scope(report.times, "error estimate");
+    MeshEvidence evidence;
+    evidence.residual = *state.present.estimate;
+    if (state.control.start().size() > 0)
+    {
+      la::Vector change(state.u);
+      change -= state.control.start();
+      evidence.change = model.problem().energy_norm(change);
+    }
+    evidence.norm = model.solution_norm();
+    if (model.has_contact())
+    {
+      // Nitsche's method is consistent: its gaps are the mesh's error.
+      // A user's own law is what it is.
+      if (!abut_law_needs_stress(state.method.options.law)
+          && state.method.user_law == nullptr)
+        evidence.law = state.contact.complementarity_error();
+      evidence.contact_force = state.contact.contact_force();
+    }
+    state.present.error_parts = state.control.judge(evidence);
+  }
+
+  template <int dim> void ContactRun<dim>::add_missed_contact()
+  {
+    dealii::Vector<float> depth;
+    double largest = 0.;
+    name_parameter(model, [&]
+                   { largest = state.contact.missed_depth(state.u, depth); });
+    if (largest == 0.)
+      return;
+    double sum = 0.;
+    for (const auto &cell : model.triangulation.active_cell_iterators())
+      if (const double d = depth(cell->active_cell_index()); d > 0.)
+      {
+        const double h = cell->diameter() / std::sqrt(double(dim));
+        const double term =
+            model.stiffness_of(cell) * d * d * std::pow(h, dim - 2);
+        state.squared_estimate(cell->active_cell_index()) += term;
+        sum += term;
+      }
+    const double before = *state.present.estimate;
+    state.present.estimate = std::sqrt(
+        before * before + dealii::Utilities::MPI::sum(sum, state.communicator));
+  }
+
+  template <int dim> bool ContactRun<dim>::examine()
+  {
+    SectionTimes::Scope scope(report.times, "results");
+    if (!model.has_contact())
+    {
+      const DiscreteProblem<dim> &problem = model.problem();
+      state.contact.reinit(problem.mapping, problem.dof_handler,
+                           problem.constraints);
+    }
+    name_parameter(model,
+                   [&]
+                   {
+                     examination = state.contact.examine(
+                         state.u, nullptr, model.allows_large_strain());
+                   });
+    report.set("largest_strain", examination.strain);
+    report.set("deformation", examination.deformation);
+    report.set("missed_depth", examination.missed_depth);
+    return examination.is_usable();
+  }
+
+  template <int dim> void ContactRun<dim>::finish_result()
+  {
+    ContactResult &present = state.present;
+    const ContactAssembler<dim> &contact = state.contact;
+    if (state.settings.refinement.is_adaptive(state.mesh_number))
+    {
+      SectionTimes::Scope scope(report.times, "error estimate");
+      present.estimate = model.estimate(state.squared_estimate);
+      if (model.has_contact())
+        add_missed_contact();
+    }
+    if (state.control.is_on() && state.load_steps.n_accepted() == 0)
+      judge();
+    const double counted = counted_seconds();
+    present.seconds = counted - counted_before;
+    counted_before = counted;
+    SectionTimes::Scope scope(report.times, "results");
+    present.cells = model.triangulation.n_global_active_cells();
+    present.dofs = model.problem().dof_handler.n_dofs();
+    present.energy = model.problem().energy(state.u);
+    if (model.has_contact())
+    {
+      present.progress = contact.progress();
+      present.rows = contact.n_rows();
+      present.active = contact.n_active();
+      present.force = contact.contact_force();
+      present.penetration = contact.penetration();
+    }
+    present.errors = model.errors();
+    std::map<std::string, double> row = result_row(present);
+    model.add_to_row(present, row);
+    report.add_row(row);
+    state.results.push_back(present);
+    report.add("nonlinear_iterations", present.steps);
+    report.add("linear_iterations", present.linear.n_iterations);
+    report.add("matvecs", present.linear.n_matvecs);
+    report.progress(model.line_of(present) + state.control.progress());
+  }
+
+  template double ContactRun<2>::counted_seconds() const;
+  template void ContactRun<2>::judge();
+  template void ContactRun<2>::add_missed_contact();
+  template bool ContactRun<2>::examine();
+  template void ContactRun<2>::finish_result();
+  template double ContactRun<3>::counted_seconds() const;
+  template void ContactRun<3>::judge();
+  template void ContactRun<3>::add_missed_contact();
+  template bool ContactRun<3>::examine();
+  template void ContactRun<3>::finish_result();
+} // namespace abut::app

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What an answer is worth: measures first, then what they are a sign of.
+#include "contact_implementation.h"
+
+#include "deformation.h"
+#include "solve/floating_bodies.h"
+
+#include <abut/dealii/coded.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace abut
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Part of a whole by which an answer may contradict itself. */
+    constexpr double useless = 0.1;
+
+    /** Strains that small-strain theory is off by visibly, and that it is of
+     * no use for. A body that is a third of its size shorter has such a mean.
+     */
+    constexpr double visible_strain = 0.05, useless_strain = 0.5,
+                     useless_mean_strain = 1. / 3.;
+
+    /** Forces out of balance that are worth a word. */
+    constexpr double visible_imbalance = 1e-2;
+
+    /** Error of gaps that is worth a word, by what bodies are deformed. */
+    constexpr double visible_gap_error = 0.05;
+
+    /** Depth of an obstacle in a facet without contact, in sizes of the facet,
+     * that is no matter of its curvature. */
+    constexpr double missed_part = 0.05;
+
+    /** Depths of this part of a facet are round-off of coordinates. */
+    constexpr double round_off_of_places = 1e-9;
+
+    std::string number(const double value)
+    {
+      std::ostringstream out;
+      out.precision(3);
+      out << value;
+      return out.str();
+    }
+
+    std::string percent(const double part)
+    {
+      return number(100. * part) + " %";
+    }
+
+    /** Collects what is found. */
+    class Findings
+    {
+    public:
+      explicit Findings(ContactExamination &result) : result_(result)
+      {
+      }
+
+      void add(const abut_failure failure, const bool is_error,
+               const std::string &text)
+      {
+        result_.findings.push_back({failure, is_error, coded(failure, text)});
+      }
+
+    private:
+      ContactExamination &result_;
+    };
+
+    void judge_strain(const ContactExamination &seen, const bool allow,
+                      Findings &findings)
+    {
+      if (seen.strain <= visible_strain)
+        return;
+      const bool is_error = !allow
+                            && (seen.strain >= useless_strain
+                                || seen.mean_strain >= useless_mean_strain);
+      findings.add(
+          ABUT_FAILURE_LARGE_STRAIN, is_error,
+          "The largest strain is " + percent(seen.strain)
+              + (seen.mean_strain > 0.
+                     ? ", " + percent(seen.mean_strain) + " in the mean"
+                     : std::string())
+              + ", but strains are taken as small ones, linear in the "
+                "displacement. Look at the units of loads and stiffness"
+              + (is_error ? "; if such strains are meant, allow them (Allow "
+                            "large strain)."
+                          : "."));
+    }
+
+    void judge_balance(const double imbalance, Findings &findings)
+    {
+      if (imbalance > visible_imbalance)
+        findings.add(ABUT_FAILURE_UNBALANCED, imbalance > useless,
+                     "Forces are out of balance by " + percent(imbalance)
+                         + " of the load. The residual is internal minus "
+                           "external forces, at the last displacement; look "
+                           "at its sign.");
+    }
+
+    /** Depths on a pair beside what bodies are deformed by. */
+    struct Scale
+    {
+      double way = 0.;   ///< what bodies are deformed by
+      double far = 0.;   ///< what moves at the most
+      double least = 0.; ///< that is no round-off of places
+
+      /** Far from its place, a body's gaps have the round-off of its way. */
+      bool is_more(const double depth, const double part) const
+      {
+        constexpr double round_off = 1e-9;
+        return depth > part * way && depth > round_off * far && depth > least;
+      }
+
+      std::string compared(const double depth) const
+      {
+        if (way == 0.)
+          return number(depth) + " although no body is deformed";
+        return number(depth) + ", where "
+               + (way < far ? "bodies are deformed by no more than "
+                            : "nothing moves by more than ")
+               + number(way);
+      }
+    };
+
+    template <int dim>
+    void judge_sliding(const PairResult<dim> &pair, const PairCheck &check,
+                       const bool is_obstacle, const Scale &scale,
+                       Findings &findings)
+    {
+      const double facet =
+          check.size_ratio > 0.
+              ? check.facet_size / std::min(1., check.size_ratio)
+              : check.facet_size;
+      if (!is_obstacle && pair.slip > facet)
+        findings.add(ABUT_FAILURE_SLIDING, false,
+                     pair.name + ": the surfaces slide on each other by "
+                         + number(pair.slip) + ", more than a facet, "
+                         + number(facet)
+                         + ", but contact is that of the places before: its "
+                           "pressure sits where it was.");
+      if (is_obstacle && scale.is_more(pair.gap_error, visible_gap_error))
+        findings.add(
+            ABUT_FAILURE_SLIDING, scale.is_more(pair.gap_error, useless),
+            pair.name + ": nodes in contact slide by up to " + number(pair.slip)
+                + ", and their distance from the obstacle, which is "
+                  "curved, is off by "
+                + scale.compared(pair.gap_error)
+                + ": gaps are those of the undeformed places.");
+    }
+
+    template <int dim>
+    void judge_depths(const PairResult<dim> &pair, const double soft,
+                      const Scale &scale, Findings &findings)
+    {
+      if (scale.is_more(soft, useless))
+        findings.add(ABUT_FAILURE_PENALTY, true,
+                     pair.name + ": the bodies penetrate each other by "
+                         + scale.compared(soft)
+                         + ": the contact is far too soft. Use a larger "
+                           "Method/Penalty, or the method augmented "
+                           "lagrangian or lagrange.");
+      if (scale.is_more(pair.held_inside, useless))
+        findings.add(ABUT_FAILURE_HELD_NODES, true,
+                     pair.name
+                         + ": supports hold nodes of the secondary surface "
+                           "inside the other side by up to "
+                         + scale.compared(pair.held_inside)
+                         + ": contact cannot move them. Leave these nodes "
+                           "free along the normal, or move what supports "
+                           "them.");
+    }
+
+    template <int dim>
+    void judge_between(const PairResult<dim> &pair, const bool is_obstacle,
+                       const double facet, const Scale &scale,
+                       Findings &findings)
+    {
+      if (!is_obstacle)
+      {
+        if (scale.is_more(pair.between_rows, useless))
+          findings.add(ABUT_FAILURE_COARSE_SECONDARY, true,
+                       pair.name
+                           + ": nodes of the primary surface are inside the "
+                             "secondary, between its constraints, by up to "
+                           + scale.compared(pair.between_rows)
+                           + ": exchange the two sides, or refine the "
+                             "secondary.");
+        return;
+      }
+      const bool missed = pair.missed_depth > missed_part * facet
+                          && scale.is_more(pair.missed_depth, useless);
+      if (missed || scale.is_more(pair.between_rows, useless))
+        findings.add(ABUT_FAILURE_UNSEEN, missed,
+                     pair.name
+                         + ": the obstacle is in the body between nodes, "
+                           "by up to "
+                         + scale.compared(pair.between_rows)
+                         + (missed ? ", and facets that it is in by up to "
+                                         + number(pair.missed_depth)
+                                         + " have no contact at all"
+                                   : std::string())
+                         + ": refine the surface there. Smaller load steps "
+                           "do not help.");
+    }
+
+    /** The deepest of all ranks, missed ones before others. */
+    struct Deepest
+    {
+      double missed = 0., any = 0.;
+
+      Deepest(const std::vector<shim::Unseen> &unseen,
+              const MPI_Comm communicator)
+      {
+        for (const shim::Unseen &found : unseen)
+        {
+          any = std::max(any, found.depth);
+          if (found.is_missed)
+            missed = std::max(missed, found.depth);
+        }
+        missed = MPI::max(missed, communicator);
+        any = MPI::max(any, communicator);
+      }
+    };
+  } // namespace
+
+  template <int dim>
+  std::vector<shim::Unseen> ContactAssembler<dim>::Implementation::find_unseen(
+      const la::Vector &displacement)
+  {
+    const std::vector<std::uint8_t> states = row_states();
+    return source->unseen(displacement, states.data());
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::Implementation::soft_on_purpose() const
+  {
+    // A user's own law is as soft as it is meant to be.
+    if (method.user_law != nullptr)
+      return INFINITY;
+    return abut_law_has_penalty(method.options.law)
+               ? method.options.allowed_penetration
+                     * method.options.length_scale
+               : 0.;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::examine_membrane(
+      const la::Vector &displacement, ContactExamination &result)
+  {
+    const Deepest deepest(find_unseen(displacement), communicator);
+    result.deformation = displacement.linfty_norm();
+    result.missed_depth = deepest.missed;
+    double cell = 0.;
+    for (const auto &some : dof_handler->active_cell_iterators())
+      cell = std::max(cell, some->diameter());
+    const Scale scale{result.deformation, result.deformation,
+                      round_off_of_places * MPI::max(cell, communicator)};
+    const bool missed = scale.is_more(deepest.missed, missed_part);
+    if (missed || scale.is_more(deepest.any, useless))
+      Findings(result).add(
+          ABUT_FAILURE_UNSEEN, missed,
+          "The obstacle is above the membrane between nodes, by up to "
+              + scale.compared(deepest.any)
+              + (missed
+                     ? ", and cells that it is in by up to "
+                           + number(deepest.missed) + " have no contact at all"
+                     : std::string())
+              + ": refine the mesh there.");
+  }
+
+  template <int dim>
+  ContactExamination
+  ContactAssembler<dim>::examine(const la::Vector &displacement,
+                                 const la::Vector *residual,
+                                 const bool allow_large_strain)
+  {
+    Implementation &i = *implementation;
+    const bool can_touch = !i.pairs.empty() || i.obstacle.lower != nullptr
+                           || i.obstacle.upper != nullptr;
+    if (can_touch)
+      i.check_rows("examine()");
+    else
+      i.check_mesh("examine()");
+    i.check_size("examine()", "displacement", displacement.size());
+    ContactExamination result;
+    Findings findings(result);
+    if (residual != nullptr)
+    {
+      result.imbalance = imbalance(*residual);
+      judge_balance(result.imbalance, findings);
+    }
+    if (can_touch && i.surfaces == nullptr)
+    {
+      i.examine_membrane(displacement, result);
+      return result;
+    }
+    const shim::Strains strain =
+        shim::strains(*i.mapping, *i.dof_handler, displacement, i.axisymmetric);
+    result.strain = strain.largest;
+    result.mean_strain = strain.mean;
+    judge_strain(result, allow_large_strain, findings);
+    if (!can_touch)
+      return result;
+    i.surfaces->examine(displacement, i.gap.data(), i.row_states().data(),
+                        i.find_unseen(displacement));
+    result.deformation =
+        shim::deformation(i.near_null_space(), displacement, i.communicator);
+    const std::vector<PairCheck> checks = pair_checks();
+    const std::vector<PairResult<dim>> pairs = pair_results();
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+    {
+      const bool is_obstacle = i.pairs[p].obstacle != nullptr;
+      const Scale scale{result.deformation, displacement.linfty_norm(),
+                        round_off_of_places * checks[p].facet_size};
+      judge_sliding(pairs[p], checks[p], is_obstacle, scale, findings);
+      judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
+                   findings);
+      judge_between(pairs[p], is_obstacle, checks[p].facet_size, scale,
+                    findings);
+      result.missed_depth =
+          std::max(result.missed_depth, pairs[p].missed_depth);
+    }
+    return result;
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::missed_depth(const la::Vector &displacement,
+                                             dealii::Vector<float> &depth)
+  {
+    Implementation &i = *implementation;
+    i.check_rows("missed_depth()");
+    i.check_size("missed_depth()", "displacement", displacement.size());
+    depth.reinit(i.dof_handler->get_triangulation().n_active_cells());
+    double largest = 0.;
+    for (const shim::Unseen &found : i.find_unseen(displacement))
+      if (found.is_missed)
+      {
+        depth(found.cell) =
+            std::max(depth(found.cell), static_cast<float>(found.depth));
+        largest = std::max(largest, found.depth);
+      }
+    return MPI::max(largest, i.communicator);
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::check_supports(const la::Matrix &matrix) const
+  {
+    const Implementation &i = *implementation;
+    i.check_rows("check_supports()");
+    i.check_size("check_supports()", "matrix", matrix.m());
+    if (i.surfaces == nullptr)
+      return;
+    solve::FloatingBodies floating;
+    floating.reinit(matrix, i.coefficients, i.near_null_space());
+    floating.check_all(i.coefficients);
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template std::vector<shim::Unseen>                                           \
+  ContactAssembler<dim>::Implementation::find_unseen(const la::Vector &);      \
+  template void ContactAssembler<dim>::Implementation::examine_membrane(       \
+      const la::Vector &, ContactExamination &);                               \
+  template void ContactAssembler<dim>::check_supports(const la::Matrix &)      \
+      const;                                                                   \
+  template ContactExamination ContactAssembler<dim>::examine(                  \
+      const la::Vector &, const la::Vector *, bool);                           \
+  template double ContactAssembler<dim>::Implementation::soft_on_purpose()     \
+      const;                                                                   \
+  template double ContactAssembler<dim>::missed_depth(                         \
+      const la::Vector &, dealii::Vector<float> &);
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut

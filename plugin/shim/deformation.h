@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_DEFORMATION_H
+#define ABUT_SHIM_DEFORMATION_H
+
+#include "solve/near_null_space.h"
+
+#include <abut/dealii/linear_algebra.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+
+namespace abut::shim
+{
+  /** How far the nodes of bodies move against each other at the most, as a
+   * length, but no more than anything moves: what penetrations are compared
+   * with. A body may travel far without being deformed. Collective. */
+  double deformation(const solve::NearNullSpace &space, const la::Vector &u,
+                     MPI_Comm communicator);
+
+  /** Strains of a displacement. */
+  struct Strains
+  {
+    double largest = 0.; ///< magnitude of a principal strain, anywhere
+    /** Mean of that magnitude over the cells of a material id, the largest. */
+    double mean = 0.;
+  };
+
+  /** Small strains at points of quadrature of the first dim components.
+   * Cells whose strain is small for sure are not looked at: bodies that are
+   * hardly deformed cost one pass over the unknowns. @p u is owned.
+   * @param axisymmetric the hoop strain u_x / x counts, too
+   * Collective. */
+  template <int dim>
+  Strains strains(const dealii::Mapping<dim> &mapping,
+                  const dealii::DoFHandler<dim> &dof_handler,
+                  const la::Vector &u, bool axisymmetric);
+} // namespace abut::shim
+
+#endif

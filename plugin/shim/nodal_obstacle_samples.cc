@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What an obstacle of a membrane does between the nodes.
+#include "nodal_obstacle_rows.h"
+
+#include "agree.h"
+#include "sampling.h"
+
+#include <deal.II/base/quadrature.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::shim
+{
+  namespace
+  {
+    /** A regular grid of points in the unit cell or face. */
+    template <int dim>
+    dealii::Quadrature<dim> regular_points(const unsigned int per_direction)
+    {
+      std::vector<dealii::Point<1>> line;
+      for (unsigned int k = 0; k < per_direction; ++k)
+        line.emplace_back((k + 0.5) / per_direction);
+      return dealii::Quadrature<dim>(dealii::Quadrature<1>(line));
+    }
+
+    template <int dim>
+    la::Vector with_ghosts(const dealii::DoFHandler<dim> &dof_handler,
+                           const dealii::IndexSet &relevant,
+                           const la::Vector &owned)
+    {
+      la::Vector result(dof_handler.locally_owned_dofs(), relevant,
+                        dof_handler.get_communicator());
+      result = owned;
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  void NodalObstacleRows<dim>::find_depth(
+      const std::vector<dealii::Point<dim>> &points,
+      const std::vector<double> &values, Unseen &found) const
+  {
+    std::vector<double> height(points.size());
+    const auto compare =
+        [&](const dealii::Function<dim> *obstacle, const double sign)
+    {
+      if (obstacle == nullptr)
+        return;
+      obstacle->value_list(points, height);
+      for (std::size_t q = 0; q < points.size(); ++q)
+        if (const double depth = sign * (height[q] - values[q]);
+            depth > found.depth && std::isfinite(depth))
+        {
+          found.depth = depth;
+          for (unsigned int d = 0; d < dim; ++d)
+            found.place[d] = points[q][d];
+        }
+    };
+    compare(obstacle_.lower.get(), 1.);
+    compare(obstacle_.upper.get(), -1.);
+  }
+
+  template <int dim>
+  std::vector<Unseen>
+  NodalObstacleRows<dim>::unseen(const la::Vector &displacement,
+                                 const std::uint8_t *row_state)
+  {
+    dealii::IndexSet relevant;
+    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant);
+    const la::Vector u = with_ghosts(dof_handler_, relevant, displacement);
+    const la::Vector state =
+        with_ghosts(dof_handler_, relevant, status(row_state));
+    const auto touches = [&](const dealii::types::global_dof_index dof)
+    {
+      if (state(dof) > 0.)
+        return true;
+      const auto *parents = constraints_.get_constraint_entries(dof);
+      return parents != nullptr
+             && std::any_of(parents->begin(), parents->end(),
+                            [&](const auto &parent) {
+                              return relevant.is_element(parent.first)
+                                     && state(parent.first) > 0.;
+                            });
+    };
+
+    const bool on_faces = !obstacle_.boundary_ids.empty();
+    const auto &fe = dof_handler_.get_fe();
+    const unsigned int n = samples_per_direction(
+        dof_handler_.get_triangulation().n_global_active_cells(),
+        on_faces ? dim - 1 : dim);
+    const auto flags = dealii::update_values | dealii::update_quadrature_points;
+    dealii::FEValues<dim> in_cell(mapping_, fe, regular_points<dim>(n), flags);
+    dealii::FEFaceValues<dim> on_face(mapping_, fe, regular_points<dim - 1>(n),
+                                      flags);
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    std::vector<double> values;
+    std::vector<Unseen> result;
+    const auto look = [&](const auto &cell,
+                          const dealii::FEValuesBase<dim> &points,
+                          const auto &is_there)
+    {
+      Unseen found;
+      found.cell = cell->active_cell_index();
+      values.resize(points.n_quadrature_points);
+      points.get_function_values(u, values);
+      find_depth(points.get_quadrature_points(), values, found);
+      if (found.depth <= 0.)
+        return;
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (is_there(i) && touches(dofs[i]))
+          found.is_missed = false;
+      result.push_back(found);
+    };
+    run_everywhere<ObstacleError>(
+        communicator_,
+        [&]
+        {
+          for (const auto &cell : dof_handler_.active_cell_iterators())
+          {
+            if (!cell->is_locally_owned())
+              continue;
+            if (!on_faces)
+            {
+              in_cell.reinit(cell);
+              look(cell, in_cell, [](unsigned int) { return true; });
+              continue;
+            }
+            for (const unsigned int f : cell->face_indices())
+              if (cell->face(f)->at_boundary()
+                  && obstacle_.boundary_ids.count(cell->face(f)->boundary_id())
+                         > 0)
+              {
+                on_face.reinit(cell, f);
+                look(cell, on_face,
+                     [&](const unsigned int i)
+                     { return fe.has_support_on_face(i, f); });
+              }
+          }
+        });
+    return result;
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template void NodalObstacleRows<dim>::find_depth(                            \
+      const std::vector<dealii::Point<dim>> &, const std::vector<double> &,    \
+      Unseen &) const;                                                         \
+  template std::vector<Unseen> NodalObstacleRows<dim>::unseen(                 \
+      const la::Vector &, const std::uint8_t *);
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut::shim

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What rows on the undeformed surfaces do not see: the way that bodies slide,
+// and obstacles between the nodes.
+#include "surface_pair_rows.h"
+
+#include "agree.h"
+#include "sampling.h"
+
+#include <abut/dealii/coded.h>
+#include <abut/dealii/rigid_obstacle.h>
+#include <abut/strategy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Shape functions of a facet at the points of a regular grid:
+     * [points][nodes]. */
+    std::vector<std::vector<double>> grid_of_facet(const abut_facet_kind kind,
+                                                   const int dim, const int n)
+    {
+      std::vector<std::vector<double>> result;
+      const auto coordinate = [&](const int k)
+      { return (2. * k + 1.) / n - 1.; };
+      for (int j = 0; j < (dim == 2 ? 1 : n); ++j)
+        for (int i = 0; i < n; ++i)
+        {
+          const double local[2] = {coordinate(i), coordinate(j)};
+          result.emplace_back(abut_facet_n_nodes(kind));
+          abut_facet_shape(kind, local, result.back().data(), nullptr, nullptr);
+        }
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<std::uint8_t>
+  SurfacePairRows<dim>::touching_nodes(const std::uint8_t *row_state) const
+  {
+    const std::size_t n_nodes = surface_.nodes.size();
+    std::vector<std::uint8_t> touching(n_nodes * pairs_.size(), 0);
+    for_each_component(
+        [&](const Component &row)
+        {
+          if (row_state != nullptr && row_state[row.row] != ABUT_STATE_OPEN)
+            for_each_secondary(row.point,
+                               [&](const Node node, double) {
+                                 touching[row.place.pair * n_nodes + node] = 1;
+                               });
+        });
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      for (std::size_t n = 0; n < pairs_[p].dropped.size(); ++n)
+        if (pairs_[p].dropped[n] != 0)
+          touching[p * n_nodes + pairs_[p].secondary.node[n]] = 1;
+    exchange_->merge_marks(surface_, touching);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
+      std::uint8_t *marks = touching.data() + p * n_nodes;
+      for (const Node node : pairs_[p].secondary.node)
+        for (const auto &parent : surface_.parents[node])
+          marks[node] |= marks[parent.index];
+    }
+    return touching;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::sample_facets(
+      const std::size_t number, const std::vector<Direction> &u,
+      const std::vector<std::uint8_t> &touching,
+      const std::vector<std::uint8_t> &touching_facets,
+      std::vector<Unseen> &found) const
+  {
+    const Pair &pair = pairs_[number];
+    const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
+    // Away from all nodes by more than a facet: only a function whose value is
+    // no distance can be in it.
+    const bool is_distance = obstacle.view().kind != ABUT_OBSTACLE_FUNCTION;
+    const auto me = MPI::this_mpi_process(communicator_);
+    const unsigned int n_nodes = surface_.nodes_per_facet();
+    const auto grid = grid_of_facet(
+        surface_.kind, dim,
+        samples_per_direction(pair.secondary.everywhere.n_facets, dim - 1));
+
+    std::vector<dealii::Point<dim>> points;
+    std::vector<double> distance;
+    for (const Node node : pair.secondary.node)
+      points.push_back(surface_.nodes[node].point + u[node]);
+    obstacle.distance(points, distance);
+    std::vector<double> at_node(surface_.nodes.size(), INFINITY);
+    for (std::size_t n = 0; n < points.size(); ++n)
+      at_node[pair.secondary.node[n]] = distance[n];
+
+    for (const std::int32_t f : pair.secondary.facet)
+    {
+      const auto &facet = surface_.facets[f];
+      if (facet.owner != me)
+        continue;
+      double nearest = INFINITY, size = 0.;
+      const auto place_of = [&](const unsigned int a)
+      { return surface_.nodes[facet.node[a]].point + u[facet.node[a]]; };
+      for (unsigned int a = 0; a < n_nodes; ++a)
+      {
+        nearest = std::min(nearest, at_node[facet.node[a]]);
+        size = std::max(size, place_of(a).distance(place_of(0)));
+      }
+      if (is_distance && nearest + pair.data.gap > size)
+        continue;
+      points.assign(grid.size(), dealii::Point<dim>());
+      for (std::size_t q = 0; q < grid.size(); ++q)
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          points[q] += grid[q][a] * dealii::Tensor<1, dim>(place_of(a));
+      obstacle.distance(points, distance);
+
+      Unseen here;
+      here.pair = number;
+      here.size = size;
+      for (std::size_t q = 0; q < points.size(); ++q)
+        if (-distance[q] - pair.data.gap > here.depth)
+        {
+          here.depth = -distance[q] - pair.data.gap;
+          for (unsigned int d = 0; d < dim; ++d)
+            here.place[d] = points[q][d];
+        }
+      if (here.depth <= 0.)
+        continue;
+      here.is_missed = touching_facets[f] == 0;
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        if (touching[number * surface_.nodes.size() + facet.node[a]] != 0)
+          here.is_missed = false;
+      const dealii::CellId id(facet.cell);
+      here.cell = dof_handler_.get_triangulation()
+                      .create_cell_iterator(id)
+                      ->active_cell_index();
+      found.push_back(here);
+    }
+  }
+
+  template <int dim>
+  std::vector<Unseen>
+  SurfacePairRows<dim>::unseen(const la::Vector &displacement,
+                               const std::uint8_t *row_state)
+  {
+    std::vector<Unseen> found;
+    const std::vector<Direction> u = displacements_in_reach(displacement);
+    const std::vector<std::uint8_t> touching = touching_nodes(row_state);
+    run_everywhere<ContactError>(
+        communicator_,
+        [&]
+        {
+          for (std::size_t p = 0; p < pairs_.size(); ++p)
+          {
+            if (!pairs_[p].data.obstacle || !pairs_[p].data.geometric_gap)
+              continue;
+            std::vector<std::uint8_t> facets(surface_.facets.size(), 0);
+            for_each_component(
+                [&](const Component &row)
+                {
+                  if (row.place.pair == p && row.place.facet >= 0
+                      && row_state != nullptr
+                      && row_state[row.row] != ABUT_STATE_OPEN)
+                    facets[row.place.facet] = 1;
+                });
+            sample_facets(p, u, touching, facets, found);
+          }
+        });
+    return found;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::examine(const la::Vector &displacement,
+                                     const double *row_gap,
+                                     const std::uint8_t *row_state,
+                                     const std::vector<Unseen> &unseen)
+  {
+    const std::vector<Direction> u = displacements_in_reach(displacement);
+    std::vector<std::vector<dealii::Point<dim>>> points(pairs_.size());
+    std::vector<std::vector<double>> gaps(pairs_.size());
+    for (Pair &pair : pairs_)
+    {
+      pair.slip = pair.gap_error = pair.missed_depth = 0.;
+      if (pair.data.obstacle)
+        pair.between_rows = 0.;
+    }
+    for_each_component(
+        [&](const Component &row)
+        {
+          Pair &pair = pairs_[row.place.pair];
+          if (pair.data.tied || row_state == nullptr
+              || row_state[row.row] == ABUT_STATE_OPEN)
+            return;
+          Direction motion;
+          const auto add = [&](const Node node, const double c)
+          { motion += c * u[node]; };
+          for_each_secondary(row.point, add);
+          for_each_primary(row.point, add);
+          const Direction tangential =
+              motion - (motion * row.direction) * row.direction;
+          pair.slip = std::max(pair.slip, tangential.norm());
+          // Of weighted rows, gaps are means.
+          if (!pair.data.obstacle || !pair.data.geometric_gap
+              || discretisation_info(pair.discretisation).is_weighted)
+            return;
+          points[row.place.pair].push_back(row.place.position + motion);
+          gaps[row.place.pair].push_back(row_gap[row.row] - pair.data.gap);
+        });
+    run_everywhere<ContactError>(
+        communicator_,
+        [&]
+        {
+          std::vector<double> distance;
+          for (std::size_t p = 0; p < pairs_.size(); ++p)
+          {
+            if (points[p].empty())
+              continue;
+            pairs_[p].data.obstacle->distance(points[p], distance);
+            for (std::size_t i = 0; i < distance.size(); ++i)
+              pairs_[p].gap_error = std::max(
+                  pairs_[p].gap_error, std::abs(distance[i] - gaps[p][i]));
+          }
+        });
+    for (const Unseen &found : unseen)
+    {
+      Pair &pair = pairs_[found.pair];
+      pair.between_rows = std::max(pair.between_rows, found.depth);
+      if (found.is_missed)
+        pair.missed_depth = std::max(pair.missed_depth, found.depth);
+    }
+    for (Pair &pair : pairs_)
+      for (double *value : {&pair.slip, &pair.gap_error, &pair.missed_depth,
+                            &pair.between_rows})
+        *value = MPI::max(*value, communicator_);
+  }
+
+  template <int dim>
+  std::string SurfacePairRows<dim>::wrong_side(const Pair &pair) const
+  {
+    const SurfaceSide<dim> &side = pair.secondary;
+    const double *normal = nullptr;
+    check(context_, abut_surface_normals(side.surface.get(), &normal));
+    std::vector<dealii::Point<dim>> points;
+    std::vector<Direction> normals;
+    for (int n = 0; n < side.n_nodes(); ++n)
+      if (is_owned(side.node[n]))
+      {
+        normals.emplace_back();
+        for (unsigned int d = 0; d < dim; ++d)
+          normals.back()[d] = normal[n * dim + d];
+        points.push_back(surface_.nodes[side.node[n]].point);
+      }
+    // Nodes; those where both normals point the same way; of these, those with
+    // the obstacle's material within a facet behind them, in their body.
+    double count[3] = {double(points.size()), 0., 0.};
+    run_everywhere<ContactError>(
+        communicator_,
+        [&]
+        {
+          std::vector<double> distance;
+          std::vector<Direction> outward;
+          pair.data.obstacle->distance(points, distance, &outward);
+          std::vector<std::uint8_t> same_way(points.size(), 0);
+          for (std::size_t n = 0; n < points.size(); ++n)
+            count[1] += same_way[n] = outward[n] * normals[n] > 0.;
+          // Along the inward normals; thin obstacles are not to be passed by.
+          constexpr int n_steps = 32;
+          std::vector<std::uint8_t> met(points.size(), 0);
+          for (int k = 0; k < n_steps; ++k)
+          {
+            for (std::size_t n = 0; n < points.size(); ++n)
+              points[n] -= side.everywhere.median / n_steps * normals[n];
+            pair.data.obstacle->distance(points, distance);
+            for (std::size_t n = 0; n < points.size(); ++n)
+              met[n] |= same_way[n] != 0 && distance[n] < 0.;
+          }
+          count[2] += double(std::count(met.begin(), met.end(), 1));
+        });
+    MPI::sum(count, communicator_, count);
+    if (count[1] == 0.)
+      return "";
+    std::ostringstream text;
+    text << "the outward normals of the surface and of the obstacle point the "
+            "same way at "
+         << count[1] << " of " << count[0] << " nodes";
+    if (2. * count[2] <= count[0])
+      return text.str() + ".";
+    text << ", and within a facet behind " << count[2]
+         << " of them, where the body is, there is the obstacle's material. "
+            "Turn the obstacle (its Normal, the sign of a distance, Axis or "
+            "Hollow), or take the side of the body that faces it; a thin "
+            "obstacle may have passed through the surface.";
+    throw ContactError("Pair '" + pair.data.name
+                       + "': " + coded(ABUT_FAILURE_WRONG_SIDE, text.str()));
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template std::vector<std::uint8_t> SurfacePairRows<dim>::touching_nodes(     \
+      const std::uint8_t *) const;                                             \
+  template void SurfacePairRows<dim>::sample_facets(                           \
+      std::size_t, const std::vector<Direction> &,                             \
+      const std::vector<std::uint8_t> &, const std::vector<std::uint8_t> &,    \
+      std::vector<Unseen> &) const;                                            \
+  template std::vector<Unseen> SurfacePairRows<dim>::unseen(                   \
+      const la::Vector &, const std::uint8_t *);                               \
+  template void SurfacePairRows<dim>::examine(                                 \
+      const la::Vector &, const double *, const std::uint8_t *,                \
+      const std::vector<Unseen> &);                                            \
+  template std::string SurfacePairRows<dim>::wrong_side(const Pair &) const;
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut::shim

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Answers that converge and are of no use are said to be so: strains that are
+not small, obstacles that are turned round, thin, or smaller than the mesh,
+surfaces that slide, laws that are too soft. Those that are right are not."""
+import json
+import subprocess
+
+from block_scene import block, pair, section, solid
+from program import Program, set_words
+
+p = Program()
+quiet = ("Output/Fields=false", "Output/Pictures=false")
+# A block 2 by 1 with E = 1000 and nu = 0.3 under a plate, facets of 1/4.
+plate = p.source / "prm/rigid-plate.prm"
+modulus = 1000 / (1 - 0.3**2)
+
+
+def run(scene, *settings, command="run"):
+    words = set_words(settings)
+    if command == "run":
+        words += set_words(quiet) + ["--output", "out", "--quiet"]
+    return p.call(command, scene, *words)
+
+
+def expect(result, code, *words, without=()):
+    what = " ".join(map(str, result.args[2:]))
+    p.expect(result.returncode == code,
+             f"{what}: exit code {result.returncode} instead of {code}:\n"
+             + result.stderr)
+    for word in words:
+        p.expect(word in result.stderr, f"{what}: no '{word}':\n{result.stderr}")
+    for word in without:
+        p.expect(word not in result.stderr,
+                 f"{what}: '{word}' in:\n{result.stderr}")
+    file = p.folder / "out/summary.json"
+    return json.loads(file.read_text()) if file.exists() else {}
+
+
+def near(value, expected, tolerance, what):
+    """Relative."""
+    p.expect(value is not None
+             and abs(value - expected) <= tolerance * abs(expected),
+             f"{what}: {value} is not {expected}")
+
+
+def kind(name, **fields):
+    """The plate replaced by another obstacle."""
+    return ["Obstacle 1/Point=", "Obstacle 1/Normal=",
+            f"Obstacle 1/Kind={name}"] + [
+                f"Obstacle 1/{key}={value}" for key, value in fields.items()]
+
+
+# The strain is uniform: what the plate comes down by, of a height of 1.
+for way, code, words in ((0.02, 0, ()), (0.06, 0, ("ABUT-F35", "6 %")),
+                         (0.4, 3, ("ABUT-F35", "40 %", "in the mean")),
+                         (0.9, 3, ("ABUT-F35", "90 %", "Allow large strain"))):
+    motion = f"Obstacle 1/Motion=0, -{way}*t"
+    summary = expect(run(plate, motion, "Load steps/Steps=1"), code, *words,
+                     without=() if words else ("ABUT-F",))
+    near(summary["largest_strain"], way, 1e-9, f"strain {way}")
+    near(summary["contact_force"], 2 * modulus * way, 1e-6, f"force {way}")
+    p.expect(summary["converged"] == (code == 0), f"{way}: converged")
+expect(run(plate, "Obstacle 1/Motion=0, -0.9*t",
+           "Solid/Allow large strain=true"), 0, "ABUT-F35")
+# Without contact, too.
+alone = p.write("alone.prm", "set Scene = solid\nset Dimension = 2\n"
+                + block(1, "2, 2 : 0, 0 : 1, 1 : true", "0: 0, free; 2: free, 0",
+                        more=("Young modulus = 1000", "Poisson ratio = 0",
+                              "Pressure = 3: 600")))
+near(expect(run(alone), 3, "ABUT-F35")["largest_strain"], 0.6, 1e-6,
+     "strain of a block alone")
+
+# A plate that is turned round, in all ways that there are to say so.
+for turned in (["Obstacle 1/Normal=0, 1"], ["Obstacle 1/Hollow=true"],
+               kind("distance", Expression="y - 1"),
+               kind("height", Expression="1")):
+    for command in ("run", "check"):
+        p.expect_error(run(plate, *turned, command=command), "Pair 1",
+                       "ABUT-F23", "same way at 3 of 3 nodes", "Turn the")
+near(expect(run(plate, *kind("distance", Expression="1 - y")), 0,
+            without=("ABUT-F",))["contact_force"], 2 * modulus * 0.01, 1e-6,
+     "the same the right way round")
+
+# A ball of radius 0.2 that comes down by 0.03 in the middle of a facet: its
+# ends, 0.125 away, are 0.125^2 / (2 * 0.2) = 0.039 outside of it.
+ball = kind("sphere", Radius=0.2, Centre="0.375, 1.2", Motion="0, -0.03*t")
+summary = expect(run(plate, *ball), 3, "ABUT-F37", "refine",
+                 without=("use smaller load steps",))
+p.expect(summary["active"] == 0 and summary["contact_force"] == 0,
+         "no node of the coarse mesh meets the ball")
+near(summary["missed_depth"], 0.015, 0.02, "depth of the ball, first step")
+fine = expect(run(plate, *ball, "Refinement/Level=6"), 0, without=("ABUT-F37",))
+adaptive = expect(run(plate, *ball, "Refinement/Adaptive cycles=8"), 0,
+                  without=("ABUT-F37",))
+near(adaptive["contact_force"], fine["contact_force"], 0.05,
+     "force on the ball, found by adaptive meshes")
+
+# A peak of an obstacle between the nodes of a membrane.
+peak = ("-1 + 1.4*exp(-((x - 0.1)^2 + (y - 0.06)^2)/0.002)")
+membrane = p.write("peak.prm", "set Scene = obstacle\nset Dimension = 2\n"
+                   + section("Mesh", "Generator = hyper_cube",
+                             "Arguments = -1 : 1 : false")
+                   + section("Membrane", "Load = -1")
+                   + section("Contact", f"Obstacle = {peak}")
+                   + section("Refinement", "Level = 3"))
+summary = expect(run(membrane), 3, "ABUT-F37", "refine the mesh")
+p.expect(summary["active"] == 0 and summary["missed_depth"] > 0.3,
+         "no node of the coarse mesh is below the peak")
+fine = expect(run(membrane, "Refinement/Level=8"), 0)
+target = expect(run(membrane, "Refinement/Target error=0.1"), 0,
+                without=("ABUT-F37",))
+near(target["contact_force"], fine["contact_force"], 0.15,
+     "force on the peak, found with a target error")
+
+# A plate that is so thin that nodes come out of its far side: the force of a
+# thick one.
+thin = kind("box", Centre="1, 1.005", Size="10, 0.01", Motion="0, -0.008*t")
+for steps in (1, 2):
+    summary = expect(run(plate, *thin, f"Load steps/Steps={steps}"), 0,
+                     without=("ABUT-F",))
+    near(summary["contact_force"], 2 * modulus * 0.008, 1e-6,
+         f"thin plate, {steps} steps")
+# One that has passed right through: refused.
+p.expect_error(run(plate, *kind("box", Centre="1, 1.005", Size="10, 0.01",
+                                Motion="0, -0.03*t"), "Load steps/Steps=1"),
+               "ABUT-F23")
+
+# Two sheets of thickness 0.03, facets 1/4, all of whose sides may touch.
+sheets = p.write("sheets.prm", solid(
+    2, block(1, "8, 1 : 0, 0 : 2, 0.03 : true", "2: 0, 0"),
+    block(2, "8, 1 : 0, 0.03 : 2, 0.06 : true", "0: 0, free",
+          more=("Pressure = 3: 0.001",)),
+    pair("2: *", "1: *"), section("Refinement", "Level = 0")))
+near(expect(run(sheets), 0)["contact_force"], 0.002, 1e-6,
+     "force of two sheets, by their pressure of 0.001 on a length of 2")
+
+# A penalty that lets the bodies through each other, by E / h times 1e-3.
+blocks = p.write("blocks.prm", solid(
+    2, block(1, "3, 3 : 0, 0 : 1, 1 : true", "2: 0, 0"),
+    block(2, "4, 4 : 0, 1 : 1, 2 : true", "3: 0, -0.01"),
+    pair("2: 2", "1: 3"), section("Refinement", "Level = 1")))
+expect(run(blocks, "Method/Enforcement=penalty", "Method/Penalty=1e-3"), 3,
+       "ABUT-F06", "penetrate each other", without=("ABUT-F34",))
+expect(run(blocks, "Method/Enforcement=penalty"), 0, without=("ABUT-F",))
+
+# A block that slides by half its length, four facets.
+slide = "Body 2/Support=3: 0.5*t, -0.01"
+summary = expect(run(blocks, slide), 0, "ABUT-F36", "slide")
+p.expect(summary["pair_1_slip"] > 0.4, f"slip {summary['pair_1_slip']}")
+expect(run(blocks, slide.replace("0.5", "0.05")), 0, without=("ABUT-F36",))
+
+# What a limit of steps is a sign of: nothing but itself.
+for law in ("nitsche", "lagrange", "augmented lagrangian"):
+    expect(run(p.source / "prm/elastic-signorini.prm",
+               f"Method/Enforcement={law}", "Method/Maximum steps=1",
+               "Load steps/Cut back=false"), 3, "ABUT-F40",
+           without=("ABUT-F31", "ABUT-F09", "ABUT-F07"))
+
+# A motion that nothing can hold is found before anything is solved, and told
+# once.
+floating = p.source / "prm/failures/floating-sideways.prm"
+p.expect_error(run(floating, command="check"), "Body 1/Support", "ABUT-F12",
+               "can slide along")
+result = run(floating)
+expect(result, 3, "ABUT-F12")
+p.expect(result.stderr.count("can slide along") == 1,
+         f"told once: {result.stderr}")
+
+# A user's own law is as soft as it is meant to be: no error of the mesh, and
+# no advice. The block and the plate of the example agree at this gap.
+library = p.folder / "soft_law.so"
+example = p.source / "doc/examples/user-law"
+subprocess.run(["cc", "-shared", "-fPIC", f"-I{p.source}/include",
+                example / "soft_law.c", "-o", library, "-lm"], check=True)
+soft = ["Method/Law file=" + str(library)]
+for settings in (["Refinement/Adaptive cycles=3"],
+                 ["Refinement/Target error=0.01"],
+                 # p(0) = 1, so that the law is a hundred times softer
+                 ["Method/Law parameters=touch pressure: 1, clearance: 0.02"]):
+    summary = expect(run(example / "soft-plate.prm", *soft, *settings), 0,
+                     without=("ABUT-F06", "internal error"))
+    if "Law parameters" not in settings[0]:
+        near(summary["contact_force"], 20.616856, 1e-6, f"{settings}: force")
+
+p.finish()
