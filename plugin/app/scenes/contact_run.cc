@@ -369,10 +369,13 @@ namespace abut::app
   {
     set_refine_flags();
     DiscreteProblem<dim> &problem = model.problem();
-    if (state.control.is_on())
-      check_memory_of_flags(model.triangulation, problem.fe.degree,
-                            "Refinement/Target error",
-                            problem.fe.n_components());
+    check_memory_of_flags(
+        model.triangulation, problem.fe.degree,
+        state.control.is_on() ? "Refinement/Target error"
+        : state.settings.refinement.is_adaptive(state.mesh_number)
+            ? "Refinement/Adaptive cycles"
+            : "Refinement/Level",
+        problem.fe.n_components());
     std::vector<la::Vector> fields = {problem.ghosted(state.u)};
     if (model.has_contact())
       fields.push_back(problem.ghosted_field(state.contact.pressure()));
