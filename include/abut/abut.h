@@ -17,6 +17,7 @@
 #include <abut/failure.h>
 #include <abut/history.h>
 #include <abut/law.h>
+#include <abut/limits.h>
 #include <abut/obstacle.h>
 #include <abut/obstacle_surface.h>
 #include <abut/parts.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <abut/dealii/coded.h>
 #include <abut/dealii/method_parameters.h>
+#include <abut/dealii/number_pattern.h>
 
 #include "user_law.h"
 
@@ -17,9 +18,6 @@ namespace abut
   {
     using dealii::ParameterHandler;
     namespace Patterns = dealii::Patterns;
-
-    const double tiny = std::numeric_limits<double>::min();
-    const double huge = std::numeric_limits<double>::max();
 
     const char automatic_word[] = "auto";
 
@@ -117,29 +115,32 @@ namespace abut
                  : "lagrange";
     }
 
+    /** A number of the options: its range is the core's for this field. */
     void declare_number(ParameterHandler &prm, const std::string &name,
-                        const double value, const double smallest,
-                        const double largest, const std::string &text)
+                        const double value, const char *field,
+                        const std::string &text)
     {
+      const abut_limit *limit = abut_strategy_limit(field);
+      AssertThrow(limit != nullptr, dealii::ExcInternalError());
       prm.declare_entry(name, Patterns::Tools::to_string(value),
-                        Patterns::Double(smallest, largest), text);
+                        NumberPattern(*limit), text);
     }
 
     void declare_penalty(ParameterHandler &prm, const abut_strategy_options &d)
     {
-      declare_number(prm, "Penalty", d.penalty, 0, huge,
+      declare_number(prm, "Penalty", d.penalty, "penalty",
                      "Stiffness of the contact as a multiple of the local "
                      "stiffness of the contact surface. 0 takes the method's "
                      "own: penalty 50, augmented lagrangian 20, nitsche "
                      "10, quadratic penalty starts at 1.");
-      prm.declare_entry("Nitsche theta", "0", Patterns::Double(-1, 1),
+      prm.declare_entry("Nitsche theta", "0", NumberPattern::between(-1, 1),
                         "Variant of `nitsche`: 1 is symmetric and needs the "
                         "larger penalties, 0 has the fewest terms, -1 "
                         "converges for all penalties.");
-      declare_number(prm, "Penalty growth", d.penalty_growth, 1, huge,
+      declare_number(prm, "Penalty growth", d.penalty_growth, "penalty_growth",
                      "Factor by which `quadratic penalty` raises the penalty "
                      "in each outer step.");
-      declare_number(prm, "Penalty cap", d.penalty_cap, tiny, huge,
+      declare_number(prm, "Penalty cap", d.penalty_cap, "penalty_cap",
                      "Largest penalty that `quadratic penalty` and `augmented "
                      "lagrangian` grow to, as a multiple of the local "
                      "stiffness.");
@@ -147,11 +148,12 @@ namespace abut
                         d.adaptive_penalty ? "true" : "false", Patterns::Bool(),
                         "Whether `augmented lagrangian` raises the penalty "
                         "where the penetration falls too slowly.");
-      declare_number(prm, "Allowed penetration", d.allowed_penetration, 0, huge,
+      declare_number(prm, "Allowed penetration", d.allowed_penetration,
+                     "allowed_penetration",
                      "Penetration at which `penalty` begins to push, as a "
                      "multiple of the scene's length scale.");
-      declare_number(prm, "Complementarity parameter", d.complementarity, tiny,
-                     huge,
+      declare_number(prm, "Complementarity parameter", d.complementarity,
+                     "complementarity",
                      "Weight of the gap against the pressure when active rows "
                      "are chosen, as a multiple of the local stiffness. The "
                      "result does not depend on it.");
@@ -161,31 +163,32 @@ namespace abut
     {
       const std::string unit = ", as a multiple of the scene's pressure scale "
                                "times its length scale.";
-      declare_number(prm, "Barrier start", d.barrier_start, tiny, huge,
+      declare_number(prm, "Barrier start", d.barrier_start, "barrier_start",
                      "First product of pressure and gap of `barrier` where "
                      "there is no coarser mesh to start from; no later start "
                      "is above it"
                          + unit);
-      declare_number(prm, "Barrier factor", d.barrier_factor, tiny, 1,
+      declare_number(prm, "Barrier factor", d.barrier_factor, "barrier_factor",
                      "Factor of the barrier in each step of the continuation.");
-      declare_number(prm, "Barrier end", d.barrier_end, tiny, huge,
+      declare_number(prm, "Barrier end", d.barrier_end, "barrier_end",
                      "Last product of pressure and gap" + unit);
     }
 
     void declare_stopping(ParameterHandler &prm, const abut_strategy_options &d)
     {
-      declare_number(prm, "Gap tolerance", d.gap_tolerance, tiny, huge,
+      declare_number(prm, "Gap tolerance", d.gap_tolerance, "gap_tolerance",
                      "Largest penetration of a converged solution, as a "
                      "multiple of the scene's length scale.");
-      declare_number(prm, "Pressure tolerance", d.pressure_tolerance, tiny,
-                     huge,
+      declare_number(prm, "Pressure tolerance", d.pressure_tolerance,
+                     "pressure_tolerance",
                      "Largest relative change of the pressure in the last "
                      "outer step.");
-      declare_number(prm, "Linear tolerance", d.linear_tolerance, tiny, 1,
+      declare_number(prm, "Linear tolerance", d.linear_tolerance,
+                     "linear_tolerance",
                      "Relative tolerance of the linear solver while the "
                      "active set still changes.");
       declare_number(prm, "Final linear tolerance", d.final_linear_tolerance,
-                     tiny, 1,
+                     "final_linear_tolerance",
                      "Relative tolerance of the linear solver in the last "
                      "step.");
       prm.declare_entry("Maximum steps", std::to_string(d.max_steps),

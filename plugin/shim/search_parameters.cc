@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <abut/dealii/number_pattern.h>
 #include <abut/dealii/search_parameters.h>
 
 #include <deal.II/base/exceptions.h>
@@ -47,7 +48,7 @@ namespace abut
                         "buckets that follow the sizes of the facets.");
       prm.declare_entry("Bucket size",
                         Patterns::Tools::to_string(d.bucket_size),
-                        Patterns::Double(0, largest_number),
+                        NumberPattern::between(0, largest_number),
                         "Edge of a bucket as a multiple of the median facet "
                         "size; 0 chooses it from the data. `uniform buckets` "
                         "raises a value below the search radius and says so; "
@@ -58,15 +59,15 @@ namespace abut
                         "`adaptive buckets`: most facets in a bucket; 0 "
                         "leaves it to `Bucket size`.");
       prm.declare_entry("Reach", Patterns::Tools::to_string(d.reach),
-                        Patterns::Double(0, largest_number),
+                        NumberPattern::between(0, largest_number),
                         "Length within which a facet is a candidate; the "
                         "larger of this and `Relative reach` counts.");
       prm.declare_entry("Relative reach",
                         Patterns::Tools::to_string(d.relative_reach),
-                        Patterns::Double(0, largest_number),
+                        NumberPattern::between(0, largest_number),
                         "The same as a multiple of the size of the facet.");
       prm.declare_entry("Skin", Patterns::Tools::to_string(d.skin),
-                        Patterns::Double(0, largest_number),
+                        NumberPattern::between(0, largest_number),
                         "Length by which lists of candidates are made too "
                         "long, so that they serve again after small motion; "
                         "0 makes them anew after each motion.");
@@ -75,11 +76,11 @@ namespace abut
     void declare_ranking(ParameterHandler &prm, const abut_detection_options &d)
     {
       prm.declare_entry("Facing angle", degrees(std::acos(-d.normal_cosine)),
-                        Patterns::Double(0, 180),
+                        NumberPattern::between(0, 180),
                         "Degrees within which two surfaces must face each "
                         "other, 0 being exactly opposed.");
       prm.declare_entry("Extension", Patterns::Tools::to_string(d.extension),
-                        Patterns::Double(0, largest_number),
+                        NumberPattern::between(0, largest_number),
                         "How far a node may lie beyond the border of the "
                         "primary surface and still be paired with a facet "
                         "there, as a multiple of the size of the facet.");
@@ -90,7 +91,8 @@ namespace abut
                         "own.");
       prm.declare_entry("Thickness", "", Patterns::Anything(),
                         "Thickness of bodies: one length, or lengths by "
-                        "boundary id, `1: 0.2; *: 1` (* means all others). A "
+                        "boundary id, `1: 0.2; *: 1` (* means all others; an "
+                        "id is meant on each body that has it). A "
                         "node deeper than half of it is on the wrong side and "
                         "not paired. Empty: no limit.");
     }
@@ -153,7 +155,7 @@ namespace abut
     declare_lists(prm, defaults.search);
     declare_ranking(prm, defaults);
     prm.declare_entry("Feature angle", degrees(surface.feature_angle),
-                      Patterns::Double(0.1, 180),
+                      NumberPattern::between(0.1, 180),
                       "Degrees by which the normal turns across an edge of "
                       "the body; nodal normals there are weighted by angle "
                       "instead of area.");

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
+#include <abut/dealii/number_pattern.h>
 #include <abut/dealii/solver_parameters.h>
 
 namespace abut
@@ -16,7 +17,6 @@ namespace abut
 
   void SolverParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
-    using dealii::Patterns::Double;
     using dealii::Patterns::Integer;
     using dealii::Patterns::Selection;
     const SolverParameters standard;
@@ -38,14 +38,15 @@ namespace abut
                       "tenths of a second at most.");
     prm.declare_entry("Aggregation threshold",
                       std::to_string(standard.aggregation_threshold),
-                      Double(0., 1.),
+                      NumberPattern::between(0., 1.),
                       "ML: connections weaker than this fraction are dropped "
                       "when aggregates are formed. Displacements keep all.");
     prm.declare_entry("Smoother sweeps",
                       std::to_string(standard.smoother_sweeps), Integer(1),
                       "ML: degree of the Chebyshev smoother.");
     prm.declare_entry("Saddle point augmentation",
-                      std::to_string(standard.augmentation), Double(0.),
+                      std::to_string(standard.augmentation),
+                      NumberPattern::from(0.),
                       "Saddle-point systems: the leading block is augmented "
                       "by this multiple of the local stiffness on rows in "
                       "contact, which changes the condition number and not "

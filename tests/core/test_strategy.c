@@ -4,6 +4,8 @@
 #include "fixture.h"
 #include "membrane.h"
 
+#include <abut/limits.h>
+#include <math.h>
 #include <string.h>
 
 static const double one = 1, zero = 0;
@@ -110,6 +112,67 @@ options_are_checked(void **unused)
   assert_null(none);
   assert_ok(abut_strategy_destroy(&none));
   assert_int_equal(abut_strategy_destroy(NULL), ABUT_INVALID_ARGUMENT);
+  assert_ok(abut_context_destroy(&context));
+}
+
+/* The table of limits is what the check goes by, open ends included. */
+static void
+limits_are_those_of_the_check(void **unused)
+{
+  (void)unused;
+  abut_context *context = fixture_context();
+  abut_strategy *strategy = NULL;
+  abut_strategy_options options = abut_strategy_defaults();
+  const struct
+  {
+    const char *name;
+    double *number;
+    bool low_open, high_open;
+  } numbers[] = {
+      {"penalty", &options.penalty, false, false},
+      {"penalty_growth", &options.penalty_growth, true, false},
+      {"barrier_factor", &options.barrier_factor, false, true},
+      {"linear_tolerance", &options.linear_tolerance, false, true},
+      {"final_linear_tolerance", &options.final_linear_tolerance, false, true},
+      {"gap_tolerance", &options.gap_tolerance, false, false},
+  };
+  for (size_t i = 0; i < sizeof(numbers) / sizeof(numbers[0]); ++i)
+  {
+    const abut_limit *limit = abut_strategy_limit(numbers[i].name);
+    assert_non_null(limit);
+    assert_string_equal(limit->name, numbers[i].name);
+    assert_int_equal(limit->low_open, numbers[i].low_open);
+    assert_int_equal(limit->high_open, numbers[i].high_open);
+    const double kept = *numbers[i].number;
+    const double tries[] = {limit->low, limit->high,
+                            nextafter(limit->low, -INFINITY),
+                            nextafter(limit->high, INFINITY)};
+    for (int k = 0; k < 4; ++k)
+    {
+      *numbers[i].number = tries[k];
+      const bool legal = k == 0   ? !limit->low_open
+                         : k == 1 ? !limit->high_open
+                                  : false;
+      assert_int_equal(abut_limit_holds(limit, tries[k]), legal);
+      assert_int_equal(abut_strategy_create(context, &options, &strategy),
+                       legal ? ABUT_SUCCESS : ABUT_INVALID_ARGUMENT);
+      assert_ok(abut_strategy_destroy(&strategy));
+    }
+    assert_false(abut_limit_holds(limit, NAN));
+    *numbers[i].number = kept;
+  }
+  assert_null(abut_strategy_limit("no such option"));
+  assert_null(abut_strategy_limit(NULL));
+  options.penalty_growth = 1;
+  assert_int_equal(abut_strategy_create(context, &options, &strategy),
+                   ABUT_INVALID_ARGUMENT);
+  assert_string_equal(abut_context_message(context),
+                      "abut_strategy_create: penalty_growth = 1 is not between "
+                      "1 and 1e300, the first excluded");
+  options = abut_strategy_defaults();
+  options.barrier_end = 1;
+  assert_int_equal(abut_strategy_create(context, &options, &strategy),
+                   ABUT_INVALID_ARGUMENT);
   assert_ok(abut_context_destroy(&context));
 }
 
@@ -690,6 +753,7 @@ main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(laws_have_first_penalties),
       cmocka_unit_test(options_are_checked),
+      cmocka_unit_test(limits_are_those_of_the_check),
       cmocka_unit_test(rows_are_checked),
       cmocka_unit_test(equalities_have_no_interior),
       cmocka_unit_test(calls_have_an_order),

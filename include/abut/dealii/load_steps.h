@@ -39,7 +39,7 @@ namespace abut
     /** Whether a step that fails is tried again with half its length. */
     bool cut_back = true;
     /** Length of a step, as part of the whole time, below which it is given up,
-     * in [0, 1]. */
+     * in (0, 1]. */
     double smallest_step = 1e-3;
   };
 
@@ -99,7 +99,9 @@ namespace abut
       n_good_ = 0;
       length_ *= 0.5;
       return options_.cut_back
-             && length_ >= options_.smallest_step * options_.end_time;
+             // With a smallest step of 0 there would be no end.
+             && length_ >= std::max(options_.smallest_step, 1e-12)
+                               * options_.end_time;
     }
 
     /** Number of steps that succeeded. */

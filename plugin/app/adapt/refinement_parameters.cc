@@ -3,6 +3,8 @@
 
 #include "app/input/input_error.h"
 
+#include <abut/dealii/number_pattern.h>
+
 #include <algorithm>
 
 namespace abut::app
@@ -50,7 +52,7 @@ namespace abut::app
                       "started from the one before. Off: solve on `Level` "
                       "from displacement 0.");
     prm.declare_entry("Coarse level tolerance", "1e-3",
-                      Patterns::Double(0., 1.),
+                      NumberPattern::between(0., 1.),
                       "Linear, gap and pressure tolerance in the end on all "
                       "meshes but the last, whose results are only a start "
                       "(a thousandth of it for the barrier). Meshes whose "
@@ -58,7 +60,7 @@ namespace abut::app
                       "are wanted (an exact solution is given, or `All "
                       "levels`) are solved to `Method/Final linear "
                       "tolerance`.");
-    prm.declare_entry("Relaxation sweeps", "3", Patterns::Integer(0),
+    prm.declare_entry("Relaxation sweeps", "3", Patterns::Integer(0, 1000),
                       "Symmetric projected Gauss-Seidel sweeps that improve "
                       "each start of nested iteration.");
     prm.declare_entry("Renumber", "none",
@@ -66,15 +68,16 @@ namespace abut::app
                       "Order of the unknowns on each mesh: as deal.II makes "
                       "it, or with a small bandwidth. Results do not depend "
                       "on it.");
-    prm.declare_entry("Adaptive cycles", "0", Patterns::Integer(0),
+    prm.declare_entry("Adaptive cycles", "0", Patterns::Integer(0, 1000),
                       "Further meshes, refined where the error estimate is "
                       "large.");
-    prm.declare_entry("Refine fraction", "0.6", Patterns::Double(0., 1.),
+    prm.declare_entry("Refine fraction", "0.6", NumberPattern::between(0., 1.),
                       "Part of the squared error estimate whose cells are "
                       "refined in an adaptive cycle.");
-    prm.declare_entry("Coarsen fraction", "0.02", Patterns::Double(0., 1.),
+    prm.declare_entry("Coarsen fraction", "0.02",
+                      NumberPattern::between(0., 1.),
                       "Part of it whose cells are coarsened.");
-    prm.declare_entry("Target error", "0", Patterns::Double(0., 1.),
+    prm.declare_entry("Target error", "0", NumberPattern::between(0., 1.),
                       "Relative error of `Target quantity` at which to stop, "
                       "for example 1e-2; 0: none. With a target the mesh is "
                       "refined from `Coarsest level` on where the error "

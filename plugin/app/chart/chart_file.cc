@@ -5,6 +5,8 @@
  * scene is loaded with them. */
 #include "chart_file.h"
 
+#include <abut/dealii/number_pattern.h>
+
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
@@ -153,10 +155,10 @@ namespace abut::app
     prm.declare_entry("Repeats", "3", Patterns::Integer(1, 1000),
                       "Timed runs of each setting, of which the median "
                       "counts.");
-    prm.declare_entry("Repeat seconds", "10", Patterns::Double(0.),
+    prm.declare_entry("Repeat seconds", "10", NumberPattern::from(0.),
                       "Fewer repeats of a setting once they have taken "
                       "so many processor seconds.");
-    prm.declare_entry("Time limit", "60", Patterns::Double(1.),
+    prm.declare_entry("Time limit", "60", NumberPattern::from(1.),
                       "Processor seconds, rounded up, after which a run is "
                       "ended and counts as failed; ten times as long on the "
                       "wall. The finer run has ten times as much.");
@@ -178,7 +180,7 @@ namespace abut::app
                       "Right value of the quantity. In its place a section "
                       "`Finer run` may hold settings of the scene for a run "
                       "that is made once and gives it.");
-    prm.declare_entry("Scale", "0", Patterns::Double(0.),
+    prm.declare_entry("Scale", "0", NumberPattern::from(0.),
                       "The error is divided by it. 0: by the size of the "
                       "reference, or not at all.");
     prm.leave_subsection();

@@ -138,7 +138,8 @@ namespace abut::app
                                       "--quiet",  "--output", folder.string()};
     for (const Assignment &assignment : setting.overrides)
     {
-      words.push_back("--set");
+      // A curve need not use what the axis changes.
+      words.push_back("--set-if-used");
       words.push_back(assignment.path + "=" + assignment.value);
     }
     ChildOptions options;

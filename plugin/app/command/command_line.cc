@@ -41,6 +41,8 @@ In parallel: mpirun -n 4 abut run SCENE.prm
 Solve the scene and write its results.
 
   --set "Section/Name=value"  override a parameter of the file; may be repeated
+  --set-if-used "..."         the same, for series of runs: not an error where
+                              the run does not use it; --set counts more
   --output DIR                folder of the results
                               (default: output/<name of the scene file>)
   --resume                    go on from the last checkpoint in that folder, of
@@ -50,7 +52,9 @@ Solve the scene and write its results.
                               target error if there is one
 
 Results: summary.json (the figures of the run), levels.csv (a row per mesh
-level or outer step), and what the section Output of the scene asks for.
+level or outer step), and what the section Output of the scene asks for. Data of
+the problem that change nothing are an error; settings of methods that the run
+does not use are listed at the end, and are an error if --set gave them.
 
 Exit code: 0 solved, 2 wrong input, 3 no answer to rely on (what there is was
 written), 4 stopped by SIGTERM or SIGINT after a checkpoint was written (go on
@@ -59,7 +63,8 @@ with --resume), 1 internal error.
         {"check", R"(abut check SCENE.prm [--set "Section/Name=value"]...
 
 Read the scene, check everything that can be found out without solving, and
-print what would be solved. Exit code 0 when all is well, 2 when not.
+print what would be solved, on the first mesh: unknowns, boundary ids with the
+number of their faces and where they are, pairs. Exit code 0 when all is well, 2 when not.
 )"},
         {"search", R"(abut search SCENE.prm [options]
 
@@ -127,10 +132,18 @@ Print the commands, or explain one.
       return words[++i];
     }
 
+    bool takes_scene(const Command command)
+    {
+      return command == Command::run || command == Command::check
+             || command == Command::search;
+    }
+
     std::vector<std::string> options_of(const Command command)
     {
       if (command == Command::atlas)
         return {"--output", "--report", "--quiet"};
+      if (takes_scene(command))
+        return {"--set", "--set-if-used", "--output", "--quiet"};
       return {"--set", "--output", "--quiet"};
     }
 
@@ -140,7 +153,9 @@ Print the commands, or explain one.
       for (std::size_t i = 1; i < words.size(); ++i)
         if (words[i] == "--set" && result.command != Command::atlas)
           result.overrides.push_back(value_of(words, i));
-        else if (words[i] == "--output" && result.command != Command::check)
+        else if (words[i] == "--set-if-used" && takes_scene(result.command))
+          result.offers.push_back(value_of(words, i));
+        else if (words[i] == "--output")
           result.output = value_of(words, i);
         else if (words[i] == "--quiet")
           result.quiet = true;

@@ -108,6 +108,29 @@ namespace abut::app
       return ExitCode::stopped;
     }
 
+    /** Run the scene. An error that comes when there are results already must
+     * not cost them: they are written with it. */
+    Outcome run_to_end(LoadedScene &loaded, const RunOptions &options,
+                       Report &report)
+    {
+      try
+      {
+        return loaded.scene->run(options, report);
+      }
+      catch (const InputError &error)
+      {
+        // Nothing collective: perhaps not all ranks know.
+        if (report.has_rows())
+        {
+          report.set("converged", false);
+          report.warn("The run ended before its end: "
+                      + std::string(error.what()));
+          report.write(options.output_folder);
+        }
+        throw;
+      }
+    }
+
     ExitCode run_scene(LoadedScene &loaded, RunOptions options,
                        const CommandLine &line)
     {
@@ -119,7 +142,7 @@ namespace abut::app
       options.restart = restart.get();
       Report report(communicator, line.quiet);
       loaded.describe(report);
-      const Outcome outcome = loaded.scene->run(options, report);
+      const Outcome outcome = run_to_end(loaded, options, report);
       if (outcome == Outcome::stopped)
         return say_stopped(options, line.quiet);
       report.set("converged", outcome == Outcome::converged);
@@ -140,6 +163,12 @@ namespace abut::app
     ExitCode check_scene(LoadedScene &loaded, const RunOptions &options,
                          const CommandLine &line)
     {
+      collective(options.communicator,
+                 [&]
+                 {
+                   if (is_root(options.communicator))
+                     check_output_folder(options.output_folder);
+                 });
       Report report(options.communicator, line.quiet);
       loaded.describe(report);
       loaded.scene->check(options, report);
@@ -160,7 +189,7 @@ namespace abut::app
         collective(communicator,
                    [&]
                    {
-                     file.emplace(line.file, line.overrides);
+                     file.emplace(line.file, line.overrides, line.offers);
                      loaded.emplace(*file);
                      if (line.command == Command::search)
                        require_search(*loaded);

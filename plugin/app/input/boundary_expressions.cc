@@ -4,6 +4,8 @@
 
 #include "input_error.h"
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -65,7 +67,7 @@ namespace abut::app
                          "'" + part
                              + "' has no boundary id; write 'id: formula', "
                                "entries separated by ';', or '*: formula'.");
-      Entry entry = {false, {}, nullptr, {}};
+      Entry entry = {false, {}, nullptr, {}, nullptr};
       for (const std::string &word : split_list(part.substr(0, colon), ','))
         if (word == "*")
           entry.others = true;
@@ -80,7 +82,10 @@ namespace abut::app
       if (!entry.others && entry.ids.empty())
         throw InputError(parameter, "'" + part + "' has no boundary id.");
       seen_others = seen_others || entry.others;
-      set_formulas(entry, part.substr(colon + 1), n_components, may_be_free);
+      set_formulas(entry, dealii::Utilities::trim(part.substr(colon + 1)),
+                   n_components, may_be_free);
+      entry.checked =
+          std::make_unique<CheckedExpression<dim>>(*entry.expression);
       entries.push_back(std::move(entry));
     }
   }
@@ -121,8 +126,10 @@ namespace abut::app
                                        const std::set<Id> &without) const
   {
     std::map<Id, BoundaryCondition<dim>> result;
-    const auto set = [&result](const Id id, const Entry &entry) {
-      result[id] = {entry.expression.get(), entry.components};
+    const auto set = [&result](const Id id, const Entry &entry)
+    {
+      result[id] = {entry.expression.get(), entry.components,
+                    entry.checked.get()};
     };
     for (const Entry &entry : entries)
       if (entry.others)
@@ -147,7 +154,7 @@ namespace abut::app
     std::map<Id, const dealii::Function<dim> *> result;
     for (const auto &[id, condition] :
          conditions(triangulation.get_boundary_ids(), without))
-      result[id] = condition.function;
+      result[id] = condition.checked;
     return result;
   }
 
@@ -162,6 +169,14 @@ namespace abut::app
     return std::any_of(entries.begin(), entries.end(),
                        [](const Entry &entry)
                        { return entry.expression->depends_on_time(); });
+  }
+
+  template <int dim> std::set<Id> BoundaryExpressions<dim>::named() const
+  {
+    std::set<Id> ids;
+    for (const Entry &entry : entries)
+      ids.insert(entry.ids.begin(), entry.ids.end());
+    return ids;
   }
 
   std::set<Id> parse_boundary_ids(const std::string &text,

@@ -25,6 +25,8 @@ namespace abut::app
   {
     const Expression<dim> *function;
     dealii::ComponentMask components;
+    /** The function, which throws InputError where it is not finite. */
+    const dealii::Function<dim> *checked = nullptr;
   };
 
   /** A list such as `0: 0; 1, 3: x^2; *: sin(pi*y)`: what stands for an id
@@ -48,7 +50,8 @@ namespace abut::app
                const std::set<dealii::types::boundary_id> &without = {}) const;
 
     /** The functions of conditions() for the ids of a mesh, as deal.II's
-     * interpolate_boundary_values() wants them. */
+     * interpolate_boundary_values() wants them; they throw InputError where
+     * they are not finite. */
     std::map<dealii::types::boundary_id, const dealii::Function<dim> *>
     functions(const dealii::Triangulation<dim> &triangulation,
               const std::set<dealii::types::boundary_id> &without = {}) const;
@@ -58,6 +61,9 @@ namespace abut::app
 
     /** Whether any formula depends on time. */
     bool depends_on_time() const;
+
+    /** Ids that the list names themselves, not by `*`. */
+    std::set<dealii::types::boundary_id> named() const;
 
     bool empty() const
     {
@@ -71,6 +77,7 @@ namespace abut::app
       std::set<dealii::types::boundary_id> ids;
       std::unique_ptr<Expression<dim>> expression;
       dealii::ComponentMask components;
+      std::unique_ptr<CheckedExpression<dim>> checked;
     };
     void set_formulas(Entry &entry, const std::string &text,
                       unsigned int n_components, bool may_be_free) const;

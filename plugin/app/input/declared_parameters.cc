@@ -8,7 +8,6 @@
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 
-#include <cstdlib>
 #include <sstream>
 
 namespace abut::app
@@ -60,6 +59,13 @@ namespace abut::app
         return "true or false";
       if (pattern == "[Anything]")
         return "text";
+      if (pattern.compare(0, 4, "[Map") == 0)
+        return "a list of `name: number`, separated by commas";
+      const std::string number = "[Number";
+      if (pattern.compare(0, number.size(), number) == 0)
+        return "a number"
+               + pattern.substr(number.size(),
+                                pattern.size() - number.size() - 1);
       std::istringstream in(pattern);
       std::string kind, range;
       in >> kind >> range;
@@ -77,10 +83,7 @@ namespace abut::app
           low.find("MAX") == std::string::npos && low != "-2147483648";
       const bool bounded_above =
           high.find("MAX") == std::string::npos && high != "2147483647";
-      if (bounded_below && std::atof(low.c_str()) > 0
-          && std::atof(low.c_str()) < 1e-300)
-        words += bounded_above ? " above 0 and up to " + high : " above 0";
-      else if (bounded_below && bounded_above)
+      if (bounded_below && bounded_above)
         words += " from " + low + " to " + high;
       else if (bounded_below)
         words += " of at least " + low;
@@ -100,8 +103,8 @@ namespace abut::app
         {
           const std::string pattern =
               node.get<std::string>("pattern_description", "");
-          result.push_back({name, *value,
-                            node.get<std::string>("documentation", ""),
+          result.push_back({name, node.get<std::string>("value", *value),
+                            *value, node.get<std::string>("documentation", ""),
                             pattern_words(pattern), selection_words(pattern)});
         }
         else if (!node.get_optional<std::string>("alias"))

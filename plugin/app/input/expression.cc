@@ -54,40 +54,20 @@ namespace abut::app
       return at == std::string::npos ? text : text.substr(at + before.size());
     }
 
-    /** Names in a formula: words that start with a letter or underscore and
-     * are not the exponent of a number. */
-    std::set<std::string> names_in(const std::string &formula)
+    /** What is wrong with a value beyond largest_value. */
+    std::string how_large(const double value)
     {
-      const auto letter = [](char c)
-      { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-      const auto digit = [](char c)
-      { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-      std::set<std::string> names;
-      for (std::size_t i = 0; i < formula.size();)
-      {
-        std::size_t end = i + 1;
-        if (letter(formula[i]))
-        {
-          while (end < formula.size()
-                 && (letter(formula[end]) || digit(formula[end])))
-            ++end;
-          names.insert(formula.substr(i, end - i));
-        }
-        else if (digit(formula[i]) || formula[i] == '.')
-        {
-          while (end < formula.size()
-                 && (digit(formula[end]) || formula[end] == '.'))
-            ++end;
-          // 2e-3, but not the product-less "2exp(x)", which is an error anyway
-          if (end + 1 < formula.size()
-              && (formula[end] == 'e' || formula[end] == 'E')
-              && (digit(formula[end + 1]) || formula[end + 1] == '-'
-                  || formula[end + 1] == '+'))
-            end += 2;
-        }
-        i = end;
-      }
-      return names;
+      return std::isnan(value)      ? "not a number"
+             : std::isfinite(value) ? "too large"
+             : value > 0            ? "infinite"
+                                    : "minus infinity";
+    }
+
+    std::string must_be_finite()
+    {
+      std::ostringstream text;
+      text << "; it must be finite, and at most " << largest_value;
+      return text.str();
     }
 
     template <int dim> std::set<std::string> coordinate_names()
@@ -130,6 +110,40 @@ namespace abut::app
       return parser;
     }
   } // namespace
+
+  std::set<std::string> names_in(const std::string &formula)
+  {
+    const auto letter = [](char c)
+    { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    const auto digit = [](char c)
+    { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < formula.size();)
+    {
+      std::size_t end = i + 1;
+      if (letter(formula[i]))
+      {
+        while (end < formula.size()
+               && (letter(formula[end]) || digit(formula[end])))
+          ++end;
+        names.insert(formula.substr(i, end - i));
+      }
+      else if (digit(formula[i]) || formula[i] == '.')
+      {
+        while (end < formula.size()
+               && (digit(formula[end]) || formula[end] == '.'))
+          ++end;
+        // 2e-3, but not the product-less "2exp(x)", which is an error anyway
+        if (end + 1 < formula.size()
+            && (formula[end] == 'e' || formula[end] == 'E')
+            && (digit(formula[end + 1]) || formula[end + 1] == '-'
+                || formula[end + 1] == '+'))
+          end += 2;
+      }
+      i = end;
+    }
+    return names;
+  }
 
   std::vector<std::string> split_list(const std::string &text,
                                       const char separator)
@@ -194,8 +208,11 @@ namespace abut::app
           || std::any_of(coordinates.begin(), coordinates.end(),
                          [&names](const std::string &coordinate)
                          { return names.count(coordinate) > 0; });
-      components.push_back(
-          {!varies, varies ? 0. : all->value(dealii::Point<dim>(), c)});
+      const double constant = varies ? 0. : all->value(dealii::Point<dim>(), c);
+      if (!(std::abs(constant) <= largest_value))
+        throw InputError(parameter, "'" + text + "' is " + how_large(constant)
+                                        + must_be_finite() + ".");
+      components.push_back({!varies, constant});
       uses_time = uses_time || in_time;
       any_varies = any_varies || varies;
     }
@@ -237,7 +254,7 @@ namespace abut::app
       return result;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      const double step = 1e-5 * std::max(1., std::abs(point[d]));
+      const double step = 1e-5 * std::max(length, std::abs(point[d]));
       dealii::Point<dim> ahead = point;
       dealii::Point<dim> behind = point;
       ahead[d] += step;
@@ -255,6 +272,11 @@ namespace abut::app
       parser->set_time(time);
   }
 
+  template <int dim> void Expression<dim>::set_length(const double half_extent)
+  {
+    length = half_extent;
+  }
+
   template <int dim>
   std::vector<double>
   Expression<dim>::evaluate(const std::vector<dealii::Point<dim>> &points,
@@ -263,7 +285,7 @@ namespace abut::app
     std::vector<double> values(points.size());
     value_list(points, values, component);
     for (std::size_t i = 0; i < points.size(); ++i)
-      check_finite(values[i], points[i], parameter_name);
+      check_finite(values[i], points[i], parameter_name, formula);
     return values;
   }
 
@@ -291,19 +313,19 @@ namespace abut::app
 
   template <int dim>
   void check_finite(const double value, const dealii::Point<dim> &point,
-                    const std::string &parameter)
+                    const std::string &parameter, const std::string &formula)
   {
-    if (std::isfinite(value))
+    if (std::abs(value) <= largest_value)
       return;
     std::ostringstream text;
-    text << "the value at the point (";
+    text << "the value ";
+    if (!formula.empty())
+      text << "of '" << formula << "' ";
+    text << "at the point (";
     for (unsigned int d = 0; d < dim; ++d)
       text << (d > 0 ? ", " : "") << point[d];
-    text << ") is "
-         << (std::isnan(value) ? "not a number"
-             : value > 0       ? "infinite"
-                               : "minus infinity")
-         << "; it must be finite everywhere in the mesh.";
+    text << ") is " << how_large(value) << must_be_finite()
+         << " everywhere in the mesh.";
     throw InputError(parameter, text.str());
   }
 
@@ -318,12 +340,29 @@ namespace abut::app
       check_finite(values[i], points[i], parameter);
   }
 
+  template <int dim>
+  CheckedExpression<dim>::CheckedExpression(const Expression<dim> &expression)
+      : dealii::Function<dim>(expression.n_components), expression(expression)
+  {
+  }
+
+  template <int dim>
+  double CheckedExpression<dim>::value(const dealii::Point<dim> &point,
+                                       const unsigned int component) const
+  {
+    const double result = expression.value(point, component);
+    check_finite(result, point, expression.parameter(), expression.text());
+    return result;
+  }
+
+  template class CheckedExpression<2>;
+  template class CheckedExpression<3>;
   template class Expression<2>;
   template class Expression<3>;
   template void check_finite<2>(double, const dealii::Point<2> &,
-                                const std::string &);
+                                const std::string &, const std::string &);
   template void check_finite<3>(double, const dealii::Point<3> &,
-                                const std::string &);
+                                const std::string &, const std::string &);
   template void checked_values<2>(const dealii::Function<2> &,
                                   const std::vector<dealii::Point<2>> &,
                                   const std::string &, std::vector<double> &);

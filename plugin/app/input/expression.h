@@ -10,6 +10,7 @@
 #include <deal.II/base/function_parser.h>
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,9 @@ namespace abut::app
    * value_list() only fills, since parsed formulas cost about 0.1 us per point
    * and a million points are a noticeable part of a solve.
    *
-   * Gradients are symmetric differences of the formula (relative step 1e-5,
-   * error about 1e-10 times the third derivative); give a formula of the
-   * gradient where more is needed (ExactSolution). */
+   * Gradients are symmetric differences of the formula (with a step of 1e-5
+   * times the length of set_length() or the coordinate, whichever is larger);
+   * give a formula of the gradient where more is needed (ExactSolution). */
   template <int dim> class Expression : public dealii::Function<dim>
   {
   public:
@@ -48,6 +49,10 @@ namespace abut::app
                                     unsigned int component = 0) const override;
 
     void set_time(double time) override;
+
+    /** Size of what the formula is about, half its extent: differences take
+     * steps in proportion to it. 1 until it is set. */
+    void set_length(double half_extent);
 
     /** Values at many points, checked: throws InputError that names parameter
      * and point at the first value that is not finite. Not collective (wrap
@@ -74,6 +79,7 @@ namespace abut::app
     std::string parameter_name;
     std::vector<Component> components;
     bool uses_time;
+    double length = 1.;
     /** Parser of all components; absent when all are constant. */
     std::unique_ptr<dealii::FunctionParser<dim>> parser;
   };
@@ -82,7 +88,23 @@ namespace abut::app
    * at @p point, is infinite or not a number. */
   template <int dim>
   void check_finite(double value, const dealii::Point<dim> &point,
-                    const std::string &parameter);
+                    const std::string &parameter,
+                    const std::string &formula = "");
+
+  /** An Expression whose values are checked by check_finite(), for functions of
+   * deal.II that take a function and would pass such values on. */
+  template <int dim> class CheckedExpression : public dealii::Function<dim>
+  {
+  public:
+    /** @param expression which must live as long as this object */
+    explicit CheckedExpression(const Expression<dim> &expression);
+
+    double value(const dealii::Point<dim> &point,
+                 unsigned int component = 0) const override;
+
+  private:
+    const Expression<dim> &expression;
+  };
 
   /** Fill @p values with those of @p function at @p points and check them by
    * check_finite(). */
@@ -91,6 +113,10 @@ namespace abut::app
                       const std::vector<dealii::Point<dim>> &points,
                       const std::string &parameter,
                       std::vector<double> &values);
+
+  /** Names in a formula: words that start with a letter or underscore and are
+   * not the exponent of a number. */
+  std::set<std::string> names_in(const std::string &formula);
 
   /** Text split at each @p separator outside parentheses, blanks around the
    * parts removed; empty parts are kept, an empty text has none. */

@@ -5,6 +5,8 @@
 #include "input_error.h"
 #include "parameters.h"
 
+#include <abut/dealii/number_pattern.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -39,6 +41,7 @@ namespace abut::app
         const std::size_t white = number("largest grey value", 65535);
         if (image.width == 0 || image.height == 0 || white == 0)
           fail("has width, height or largest grey value 0");
+        require_bytes(image.width * image.height, magic == "P2", white);
         image.pixels.resize(image.width * image.height);
         if (magic == "P2")
           read_text(image, white);
@@ -81,6 +84,24 @@ namespace abut::app
         return value;
       }
 
+      /** Believe a header only as far as the file reaches: what it announces
+       * may be more than the memory. */
+      void require_bytes(const std::size_t n_pixels, const bool is_text,
+                         const std::size_t white)
+      {
+        // A pixel of text is a digit and a blank, the last one a digit.
+        const std::size_t needed = is_text       ? 2 * n_pixels - 1
+                                   : white > 255 ? 2 * n_pixels
+                                                 : n_pixels;
+        const auto here = in.tellg();
+        in.seekg(0, std::ios::end);
+        const std::streamoff left = in.tellg() - here;
+        in.seekg(here);
+        if (left < std::streamoff(needed))
+          fail("is truncated: it has " + std::to_string(left) + " of "
+               + std::to_string(needed) + " bytes of pixels");
+      }
+
       void read_text(GreyImage &image, const std::size_t white)
       {
         for (double &pixel : image.pixels)
@@ -93,9 +114,6 @@ namespace abut::app
         std::vector<unsigned char> bytes(width * image.pixels.size());
         in.read(reinterpret_cast<char *>(bytes.data()),
                 std::streamsize(bytes.size()));
-        if (std::size_t(in.gcount()) != bytes.size())
-          fail("is truncated: it has " + std::to_string(in.gcount()) + " of "
-               + std::to_string(bytes.size()) + " bytes of pixels");
         for (std::size_t i = 0; i < image.pixels.size(); ++i)
         {
           const std::size_t grey =
@@ -141,9 +159,9 @@ namespace abut::app
                       dealii::Patterns::Anything(),
                       "x and y of the centre of the image's upper right "
                       "pixel. Outside, the nearest pixel of the rim holds.");
-    prm.declare_entry("Height map lowest", "0", dealii::Patterns::Double(),
+    prm.declare_entry("Height map lowest", "0", NumberPattern::any(),
                       "Height of black.");
-    prm.declare_entry("Height map highest", "1", dealii::Patterns::Double(),
+    prm.declare_entry("Height map highest", "1", NumberPattern::any(),
                       "Height of white.");
   }
 

@@ -23,6 +23,10 @@ namespace abut::app
     stopped = 4          /**< by a signal, after a checkpoint to go on from */
   };
 
+  /** Largest magnitude of lengths, loads and displacements, whose squares and
+   * products with one another must be finite. */
+  constexpr double largest_value = 1e100;
+
   /** Something the user wrote is wrong: a parameter's value, a file that it
    * names, the command line. The program prints file and line of the
    * parameter, its name and the message, once, and ends with exit code 2.

@@ -4,9 +4,24 @@
 #include "input_error.h"
 
 #include <fstream>
+#include <unistd.h>
 
 namespace abut::app
 {
+  void check_output_folder(const std::filesystem::path &folder)
+  {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    fs::path there = fs::absolute(folder, error);
+    while (!fs::exists(there, error) && there.has_relative_path())
+      there = there.parent_path();
+    if (!fs::is_directory(there, error) || access(there.c_str(), W_OK) != 0)
+      throw InputError("", "cannot make the output folder '" + folder.string()
+                               + "': '" + there.string()
+                               + "' is no folder that can be written to. "
+                                 "Choose another one with --output DIR.");
+  }
+
   void make_output_folder(const std::filesystem::path &folder)
   {
     namespace fs = std::filesystem;

@@ -30,6 +30,9 @@ namespace abut::app
       return result;
     }
 
+    /** How the origin of values from the command line begins. */
+    const std::string set_option = "--set ";
+
     std::string lower_case(std::string word)
     {
       for (char &c : word)
@@ -120,12 +123,15 @@ namespace abut::app
   } // namespace
 
   ParameterFile::ParameterFile(const std::string &file,
-                               const std::vector<std::string> &overrides)
+                               const std::vector<std::string> &overrides,
+                               const std::vector<std::string> &offers)
       : file(file)
   {
     read(file, 0);
+    for (const std::string &argument : offers)
+      override_with("--set-if-used ", argument);
     for (const std::string &argument : overrides)
-      override_with(argument);
+      override_with(set_option, argument);
   }
 
   void ParameterFile::read(const std::string &name, const unsigned int depth)
@@ -194,12 +200,13 @@ namespace abut::app
                                                    "include"}));
   }
 
-  void ParameterFile::override_with(const std::string &argument)
+  void ParameterFile::override_with(const std::string &option,
+                                    const std::string &argument)
   {
     const std::size_t sign = argument.find('=');
     if (sign == std::string::npos)
-      throw InputError("", "--set \"" + argument
-                               + "\": write --set \"Section/Name=value\".");
+      throw InputError("", option + "\"" + argument + "\": write " + option
+                               + "\"Section/Name=value\".");
     std::vector<std::string> words;
     for (const std::string &word :
          Utilities::split_string_list(argument.substr(0, sign), '/'))
@@ -209,7 +216,7 @@ namespace abut::app
       words.pop_back();
     assignments.push_back({join(words, name),
                            Utilities::trim(argument.substr(sign + 1)),
-                           "--set \"" + argument + "\""});
+                           option + "\"" + argument + "\""});
   }
 
   std::string ParameterFile::name() const
@@ -242,6 +249,11 @@ namespace abut::app
       if (assignment.path == path)
         result = assignment.origin;
     return result;
+  }
+
+  bool ParameterFile::is_from_command_line(const std::string &path) const
+  {
+    return origin(path).compare(0, set_option.size(), set_option) == 0;
   }
 
   std::vector<Assignment>
@@ -304,6 +316,10 @@ namespace abut::app
                              + (word == text ? "" : " in '" + text + "'")
                              + " is not a finite number; formulas are not "
                                "possible here.");
+      if (std::abs(value) > largest_value)
+        throw InputError(parameter, "'" + word
+                                        + "' is too large: numbers end "
+                                          "at 1e100.");
       numbers.push_back(value);
     }
     return numbers;

@@ -24,7 +24,8 @@ namespace abut::app
   /** A declared parameter. */
   struct DeclaredParameter
   {
-    std::string path; /**< `Section/Subsection/Name` */
+    std::string path;  /**< `Section/Subsection/Name` */
+    std::string value; /**< present one */
     std::string default_value;
     std::string documentation;
     std::string pattern;              /**< legal values in words */
@@ -48,10 +49,12 @@ namespace abut::app
   {
   public:
     /** Read @p file (subsection, set, end, include, comments, lines continued
-     * by a backslash); then append @p overrides, each `Section/Name=value`.
+     * by a backslash); then append @p offers and @p overrides, each
+     * `Section/Name=value`, of the options `--set-if-used` and `--set`.
      * Throws InputError when file or syntax are wrong. Not collective. */
     ParameterFile(const std::string &file,
-                  const std::vector<std::string> &overrides);
+                  const std::vector<std::string> &overrides,
+                  const std::vector<std::string> &offers = {});
 
     /** The file's path, as given. */
     const std::string &path() const
@@ -69,6 +72,9 @@ namespace abut::app
     /** Where the value of @p path came from: `file:line`, the `--set` option,
      * or the file's name alone when the parameter kept its default. */
     std::string origin(const std::string &path) const;
+
+    /** Whether the value of @p path was given by `--set`. */
+    bool is_from_command_line(const std::string &path) const;
 
     /** @p error with the place of its parameter in front of the message, unless
      * it names none. */
@@ -99,7 +105,7 @@ namespace abut::app
     void read(const std::string &name, unsigned int depth);
     void read_line(const std::string &line, const Place &place,
                    std::vector<std::string> &sections, unsigned int depth);
-    void override_with(const std::string &argument);
+    void override_with(const std::string &option, const std::string &argument);
 
     std::string file;
     std::vector<Assignment> assignments;

@@ -5,6 +5,7 @@
 #include "app/input/input_error.h"
 #include "app/input/parameters.h"
 #include "memory_check.h"
+#include "mesh_checks.h"
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -92,8 +93,9 @@ namespace abut::app
   } // namespace
 
   template <int dim>
-  Bodies<dim>::Bodies(const std::vector<BodyParameters> &parameters)
-      : parameters(parameters)
+  Bodies<dim>::Bodies(const std::vector<BodyParameters> &parameters,
+                      const bool of_revolution)
+      : parameters(parameters), of_revolution(of_revolution)
   {
   }
 
@@ -178,6 +180,9 @@ namespace abut::app
     for (unsigned int body = 0; body < size(); ++body)
     {
       create_mesh(parameters[body].mesh, options, meshes[body]);
+      if constexpr (dim == 2)
+        if (of_revolution)
+          check_axis(parameters[body].mesh, meshes[body]);
       n_cells +=
           meshes[body].n_active_cells()
           * std::pow(

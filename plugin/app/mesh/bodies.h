@@ -30,7 +30,9 @@ namespace abut::app
     using BoundaryId = dealii::types::boundary_id;
     using BoundaryIds = std::set<BoundaryId>;
 
-    explicit Bodies(const std::vector<BodyParameters> &parameters);
+    /** @param of_revolution whether x = 0 is an axis that no body may cross */
+    explicit Bodies(const std::vector<BodyParameters> &parameters,
+                    bool of_revolution = false);
 
     /** Make the coarse mesh of all bodies in the empty @p triangulation and
      * refine each by its own `Refinements`. Throws InputError as
@@ -91,6 +93,7 @@ namespace abut::app
         dealii::parallel::distributed::Triangulation<dim> &triangulation) const;
 
     const std::vector<BodyParameters> &parameters;
+    const bool of_revolution;
     std::vector<std::vector<BoundaryId>> user_ids;
     std::vector<std::pair<unsigned int, BoundaryId>> origin; ///< by number
     std::map<std::pair<unsigned int, BoundaryId>, BoundaryId> numbers;

@@ -3,6 +3,8 @@
 
 #include "app/input/input_error.h"
 
+#include <abut/dealii/number_pattern.h>
+
 namespace abut::app
 {
   void BodyParameters::declare(dealii::ParameterHandler &prm,
@@ -16,11 +18,14 @@ namespace abut::app
     prm.declare_entry("Refinements", "0", Patterns::Integer(0, 30),
                       "Uniform refinements of this body before those of "
                       "`Refinement/Level`.");
-    prm.declare_entry("Young modulus", "1", Patterns::Double(),
+    prm.declare_entry("Young modulus", "1",
+                      NumberPattern::between(1. / largest_value, largest_value),
                       "E, force per area.");
-    prm.declare_entry("Poisson ratio", "0.3", Patterns::Double(),
-                      "nu, larger than -1 and smaller than 1/2.");
-    prm.declare_entry("Density", "0", Patterns::Double(0.),
+    prm.declare_entry("Poisson ratio", "0.3",
+                      NumberPattern({nullptr, -1., 0.5, true, true}),
+                      "nu. At 0.5 the material would be incompressible, which "
+                      "displacements alone cannot describe.");
+    prm.declare_entry("Density", "0", NumberPattern::between(0., largest_value),
                       "Mass per volume; its weight is density times "
                       "`Solid/Gravity`.");
     prm.declare_entry("Support", "", Patterns::Anything(),
@@ -57,12 +62,5 @@ namespace abut::app
     pressure = prm.get("Pressure");
     body_force = prm.get("Body force");
     prm.leave_subsection();
-    if (!(young_modulus > 0.))
-      throw InputError(parameter("Young modulus"), "must be positive.");
-    if (!(poisson_ratio > -1. && poisson_ratio < 0.5))
-      throw InputError(parameter("Poisson ratio"),
-                       "must be larger than -1 and smaller than 0.5: at 0.5 "
-                       "the material is incompressible, which displacements "
-                       "alone cannot describe.");
   }
 } // namespace abut::app

@@ -133,9 +133,11 @@ namespace abut::app
     template <int dim> class CheckedFormula : public dealii::Function<dim>
     {
     public:
-      explicit CheckedFormula(const RigidObstacleParameters &parameters)
+      CheckedFormula(const RigidObstacleParameters &parameters,
+                     std::shared_ptr<const double> half_extent)
           : value_formula(parameters.values.at("Expression"),
-                          parameters.parameter("Expression"))
+                          parameters.parameter("Expression")),
+            half_extent(std::move(half_extent))
       {
         const std::string &text = parameters.values.at("Gradient");
         if (!text.empty())
@@ -169,19 +171,24 @@ namespace abut::app
           for (std::size_t i = 0; i < points.size(); ++i)
             gradients[i][d] = values[i];
         }
-        if (!gradient_formula)
-          for (std::size_t i = 0; i < points.size(); ++i)
-            gradients[i] = value_formula.gradient(points[i]);
+        if (gradient_formula)
+          return;
+        if (half_extent)
+          value_formula.set_length(*half_extent);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          gradients[i] = value_formula.gradient(points[i]);
       }
 
     private:
-      Expression<dim> value_formula;
+      mutable Expression<dim> value_formula;
       std::unique_ptr<Expression<dim>> gradient_formula;
+      const std::shared_ptr<const double> half_extent;
     };
 
     template <int dim>
     std::shared_ptr<RigidObstacle<dim>>
-    make_height(const RigidObstacleParameters &parameters)
+    make_height(const RigidObstacleParameters &parameters,
+                const std::shared_ptr<const double> &half_extent)
     {
       const Numbers numbers(parameters);
       const Tensor<1, dim> axis = numbers.direction<dim>("Axis");
@@ -197,10 +204,20 @@ namespace abut::app
       if (n_used != 1)
         numbers.wrong("Axis", "the axis of a height must be a coordinate axis, "
                               "along it or against it.");
+      const char *const names[] = {"x", "y", "z"};
+      for (const char *formula : {"Expression", "Gradient"})
+        if (names_in(parameters.values.at(formula)).count(names[height.axis])
+            > 0)
+          numbers.wrong(formula, "'" + parameters.values.at(formula)
+                                     + "' depends on "
+                                     + std::string(names[height.axis])
+                                     + ", the coordinate along the axis: a "
+                                       "height is given over the others.");
       if (parameters.hollow)
         height.material_above = !height.material_above;
       height.along_axis = parameters.along_axis;
-      height.height = std::make_shared<CheckedFormula<dim>>(parameters);
+      height.height =
+          std::make_shared<CheckedFormula<dim>>(parameters, half_extent);
       return std::make_shared<RigidObstacle<dim>>(height);
     }
 
@@ -347,15 +364,16 @@ namespace abut::app
     template <int dim>
     std::shared_ptr<RigidObstacle<dim>>
     make_unplaced(const RigidObstacleParameters &parameters,
-                  const RunOptions &options)
+                  const RunOptions &options,
+                  const std::shared_ptr<const double> &half_extent)
     {
       if (parameters.kind == "surface")
         return make_surface_obstacle<dim>(parameters, options);
       if (parameters.kind == "height")
-        return make_height<dim>(parameters);
+        return make_height<dim>(parameters, half_extent);
       if (parameters.kind == "distance")
         return std::make_shared<RigidObstacle<dim>>(
-            std::make_shared<CheckedFormula<dim>>(parameters),
+            std::make_shared<CheckedFormula<dim>>(parameters, half_extent),
             parameters.hollow);
       return std::make_shared<RigidObstacle<dim>>(make_shape<dim>(parameters));
     }
@@ -364,11 +382,12 @@ namespace abut::app
   template <int dim>
   std::shared_ptr<RigidObstacle<dim>>
   make_rigid_obstacle(const RigidObstacleParameters &parameters,
-                      const RunOptions &options)
+                      const RunOptions &options,
+                      const std::shared_ptr<const double> half_extent)
   {
     const auto motion = std::make_shared<Motion<dim>>(parameters);
     std::shared_ptr<RigidObstacle<dim>> obstacle =
-        make_unplaced<dim>(parameters, options);
+        make_unplaced<dim>(parameters, options, half_extent);
     obstacle->set_motion([motion](const double time)
                          { return motion->at(time); });
     obstacle->set_time(0);
@@ -376,7 +395,9 @@ namespace abut::app
   }
 
   template std::shared_ptr<RigidObstacle<2>>
-  make_rigid_obstacle<2>(const RigidObstacleParameters &, const RunOptions &);
+  make_rigid_obstacle<2>(const RigidObstacleParameters &, const RunOptions &,
+                         std::shared_ptr<const double>);
   template std::shared_ptr<RigidObstacle<3>>
-  make_rigid_obstacle<3>(const RigidObstacleParameters &, const RunOptions &);
+  make_rigid_obstacle<3>(const RigidObstacleParameters &, const RunOptions &,
+                         std::shared_ptr<const double>);
 } // namespace abut::app

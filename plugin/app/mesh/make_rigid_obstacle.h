@@ -14,11 +14,14 @@ namespace abut::app
    * moves it. Throws InputError that names the parameter for numbers out of
    * range, formulas that cannot be read, and files that are missing or no
    * surface of a body. Formulas throw it later, for points where they are not
-   * finite. Not collective: each rank makes its own. */
+   * finite. Not collective: each rank makes its own.
+   * @param half_extent of what it touches, for differences of formulas, read
+   * whenever they are taken: it may become known later. Null: 1 */
   template <int dim>
   std::shared_ptr<RigidObstacle<dim>>
   make_rigid_obstacle(const RigidObstacleParameters &parameters,
-                      const RunOptions &options);
+                      const RunOptions &options,
+                      std::shared_ptr<const double> half_extent = nullptr);
 } // namespace abut::app
 
 #endif

@@ -7,9 +7,12 @@
 #include "app/input/expression.h"
 #include "app/input/input_error.h"
 #include "app/input/parameters.h"
+#include "generator_arguments.h"
+#include "mesh_checks.h"
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
@@ -23,43 +26,6 @@ namespace abut::app
 {
   namespace
   {
-    /** The names that deal.II's generate_from_name_and_arguments() knows (it
-     * offers no list of them); only used to answer a wrong one. */
-    const std::vector<std::string> &generators()
-    {
-      static const std::vector<std::string> names = {
-          "hyper_cube",
-          "subdivided_hyper_cube",
-          "hyper_rectangle",
-          "subdivided_hyper_rectangle",
-          "cheese",
-          "general_cell",
-          "hyper_cross",
-          "plate_with_a_hole",
-          "channel_with_cylinder",
-          "enclosed_hyper_cube",
-          "hyper_ball",
-          "hyper_ball_balanced",
-          "quarter_hyper_ball",
-          "half_hyper_ball",
-          "cylinder",
-          "subdivided_cylinder",
-          "truncated_cone",
-          "pipe_junction",
-          "hyper_L",
-          "hyper_cube_slit",
-          "hyper_shell",
-          "half_hyper_shell",
-          "quarter_hyper_shell",
-          "eccentric_hyper_shell",
-          "cylinder_shell",
-          "concentric_hyper_shells",
-          "torus",
-          "simplex",
-          "moebius"};
-      return names;
-    }
-
     /** While it lives, failed assertions of deal.II's debug library throw
      * instead of ending the program: what a user wrote may well violate them.
      */
@@ -84,6 +50,7 @@ namespace abut::app
     {
       const std::string in_dimension =
           " in " + std::to_string(dim) + " dimensions";
+      check_repetitions<dim>(parameters);
       try
       {
         dealii::GridGenerator::generate_from_name_and_arguments(
@@ -108,8 +75,9 @@ namespace abut::app
                          "'" + parameters.arguments
                              + "' are not arguments of "
                                "dealii::GridGenerator::"
-                             + parameters.generator + "()" + in_dimension
-                             + " (all of them, separated by ':'): " + message);
+                             + parameters.generator + "()" + in_dimension + ": "
+                             + wrong_arguments(parameters.generator,
+                                               parameters.arguments, message));
       }
     }
 
@@ -172,11 +140,7 @@ namespace abut::app
           if (!std::isfinite(vertex[d]))
             throw InputError(parameter,
                              "a coordinate of the mesh is not finite.");
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (!(cell->measure() > 0))
-          throw InputError(parameter,
-                           "cell " + std::to_string(cell->active_cell_index())
-                               + " of the mesh is folded or has no volume.");
+      check_cells(parameter, triangulation);
     }
 
     /** Generated or read, one level, in its own place. */
@@ -310,6 +274,10 @@ namespace abut::app
       dealii::GridTools::transform([&placement](const dealii::Point<dim> &x)
                                    { return placement.place(x); },
                                    placed);
+      // What was good where it was made was spoiled by its place.
+      check_cells(parameters.section
+                      + (parameters.move.empty() ? "/Scale" : "/Move"),
+                  placed);
       set_boundary_ids(parameters.boundary_ids,
                        parameters.section + "/Boundary ids", placed);
       for (const dealii::types::manifold_id id : reference->get_manifold_ids())
@@ -319,6 +287,28 @@ namespace abut::app
     };
     collective(options.communicator, prepare);
     triangulation.copy_triangulation(placed);
+  }
+
+  template <int dim>
+  double half_extent(const dealii::Triangulation<dim> &triangulation)
+  {
+    dealii::Point<dim> least, largest;
+    bool is_first = true;
+    for (const auto &cell : triangulation.cell_iterators_on_level(0))
+      for (const unsigned int v : cell->vertex_indices())
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double x = cell->vertex(v)[d];
+          least[d] = is_first ? x : std::min(least[d], x);
+          largest[d] = is_first ? x : std::max(largest[d], x);
+        }
+        is_first = false;
+      }
+    double extent = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      extent = std::max(extent, largest[d] - least[d]);
+    return 0.5 * extent;
   }
 
   template <int dim>
@@ -340,7 +330,8 @@ namespace abut::app
                          "'" + entry
                              + "' is not of the form 'id: condition' with a "
                                "whole number from 0.");
-      const Expression<dim> condition(entry.substr(colon + 1), parameter);
+      const std::string text = dealii::Utilities::trim(entry.substr(colon + 1));
+      const Expression<dim> condition(text, parameter);
       bool found = false;
       for (const auto &face : triangulation.active_face_iterators())
         if (face->at_boundary() && condition.value(face->center()) > 0)
@@ -352,12 +343,14 @@ namespace abut::app
       if (!found)
         throw InputError(parameter, "no boundary face of the coarse mesh has "
                                     "its centre where '"
-                                        + entry.substr(colon + 1) + " '.");
+                                        + text + "'.");
     }
   }
 
   template Placement<2> make_placement<2>(const MeshParameters &);
   template Placement<3> make_placement<3>(const MeshParameters &);
+  template double half_extent<2>(const dealii::Triangulation<2> &);
+  template double half_extent<3>(const dealii::Triangulation<3> &);
   template void create_mesh<2>(const MeshParameters &, const RunOptions &,
                                dealii::Triangulation<2> &);
   template void create_mesh<3>(const MeshParameters &, const RunOptions &,

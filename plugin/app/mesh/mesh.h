@@ -57,6 +57,11 @@ namespace abut::app
   void create_mesh(const MeshParameters &parameters, const RunOptions &options,
                    dealii::Triangulation<dim> &triangulation);
 
+  /** Half the largest extent of a mesh along a coordinate, of the coarse cells:
+   * the same on all ranks. */
+  template <int dim>
+  double half_extent(const dealii::Triangulation<dim> &triangulation);
+
   /** Give the boundary faces whose centre satisfies a condition an id:
    * `1: y > 0.99; 2: abs(x) < 1e-6` (later entries win). An entry that no
    * face satisfies is an InputError. */

@@ -15,8 +15,8 @@ namespace abut::app
                                const la::Vector &field, const unsigned int body,
                                const dealii::Point<dim> &point)
   {
-    // Distance, position, value: compared in this order.
-    using Candidate = std::array<double, 1 + 2 * dim>;
+    // Distance, position, value, diameter: compared in this order.
+    using Candidate = std::array<double, 2 + 2 * dim>;
     Candidate best;
     best.fill(0.);
     best[0] = std::numeric_limits<double>::infinity();
@@ -48,6 +48,7 @@ namespace abut::app
           candidate[1 + dim + d] =
               field(dofs[fe.component_to_system_index(d, i)]);
         }
+        candidate[1 + 2 * dim] = cell->diameter();
         best = std::min(best, candidate);
       }
     }
@@ -60,6 +61,7 @@ namespace abut::app
       result.position[d] = best[1 + d];
       result.value[d] = best[1 + dim + d];
     }
+    result.cell_diameter = best[1 + 2 * dim];
     return result;
   }
 

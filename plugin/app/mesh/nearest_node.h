@@ -14,6 +14,7 @@ namespace abut::app
   {
     dealii::Point<dim> position;
     dealii::Tensor<1, dim> value;
+    double cell_diameter; ///< of a cell that the node belongs to
   };
 
   /** The node of the body @p body (by material id) that is nearest to

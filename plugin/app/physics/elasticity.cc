@@ -96,15 +96,10 @@ namespace abut::app
       dealii::VectorTools::interpolate_boundary_values(
           this->mapping, this->dof_handler,
           std::map<boundary_id, const dealii::Function<dim> *>{
-              {id, condition.function}},
+              {id, condition.checked}},
           values, condition.components);
       for (const auto &[dof, value] : values)
       {
-        if (!std::isfinite(value))
-          throw InputError(condition.function->parameter(),
-                           "'" + condition.function->text()
-                               + "' has a value that is not a number on "
-                               + data.name(id) + ".");
         largest = std::max(largest, std::abs(value));
         const auto [entry, is_new] = all.emplace(dof, value);
         if (!is_new && std::abs(entry->second - value) > 1e-10 * largest)

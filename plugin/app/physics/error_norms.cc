@@ -48,6 +48,12 @@ namespace abut::app
     return result;
   }
 
+  template <int dim>
+  void ExactSolution<dim>::set_length(const double half_extent)
+  {
+    value_expression.set_length(half_extent);
+  }
+
   template <int dim> void ExactSolution<dim>::set_time(const double time)
   {
     dealii::Function<dim>::set_time(time);

@@ -39,6 +39,8 @@ namespace abut::app
     dealii::Tensor<1, dim> gradient(const dealii::Point<dim> &point,
                                     unsigned int component = 0) const override;
     void set_time(double time) override;
+    /** As Expression::set_length(). */
+    void set_length(double half_extent);
 
   private:
     Expression<dim> value_expression;

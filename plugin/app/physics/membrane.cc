@@ -27,8 +27,13 @@ namespace abut::app
     this->distribute(
         [&](dealii::AffineConstraints<double> &values)
         {
-          dealii::VectorTools::interpolate_boundary_values(
-              this->mapping, this->dof_handler, data.dirichlet, values);
+          collective(this->communicator,
+                     [&]
+                     {
+                       dealii::VectorTools::interpolate_boundary_values(
+                           this->mapping, this->dof_handler, data.dirichlet,
+                           values);
+                     });
         });
   }
 

@@ -179,6 +179,11 @@ namespace abut::app
     left_out.push_back(line);
   }
 
+  void Report::not_used(const std::string &line)
+  {
+    unused.push_back(line);
+  }
+
   double Report::elapsed() const
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now()
@@ -236,6 +241,7 @@ namespace abut::app
       std::visit([&json, &name = name](const auto &v) { json.value(name, v); },
                  value);
     json.value("warnings", warnings);
+    json.value("not_used", unused);
     json.value("could_be_left_out", left_out);
     json.begin("modelled");
     for (const ModelLine &line : model_lines)
@@ -380,6 +386,10 @@ namespace abut::app
 
     print_model(out);
     print_cost(out);
+    if (!unused.empty())
+      out << "\n  Not used\n";
+    for (const std::string &line : unused)
+      out << "  " << line << "\n";
     for (const std::string &line : warnings)
       out << "\n  warning: " << line << "\n";
     std::cout << out.str() << std::flush;

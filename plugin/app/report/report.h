@@ -70,6 +70,12 @@ namespace abut::app
     /** Columns, once, before the first row. */
     void declare_columns(const std::vector<std::string> &names);
 
+    /** Whether there is a row. */
+    bool has_rows() const
+    {
+      return !rows.empty();
+    }
+
     /** Append a row; columns that are missing stay empty. */
     void add_row(const std::map<std::string, double> &values);
     /** @} */
@@ -88,6 +94,10 @@ namespace abut::app
      * times whose share of time and memory is its cost. */
     void model(const std::string &what, bool on, const std::string &why,
                const std::vector<std::string> &cost = {});
+
+    /** A parameter that was set and that this run does not use, with the
+     * reason. Collected under the key `not_used`. */
+    void not_used(const std::string &line);
 
     /** Something that the answer does not need, with the evidence; printed by
      * explain(). Collected under the key `could_be_left_out`. */
@@ -170,6 +180,7 @@ namespace abut::app
     std::vector<std::string> warnings;
     std::vector<ModelLine> model_lines;
     std::vector<std::string> left_out;
+    std::vector<std::string> unused;
   };
 } // namespace abut::app
 

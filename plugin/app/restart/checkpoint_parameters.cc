@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "checkpoint_parameters.h"
 
+#include <abut/dealii/number_pattern.h>
+
 namespace abut::app
 {
   void CheckpointParameters::declare(dealii::ParameterHandler &prm)
   {
     namespace Patterns = dealii::Patterns;
     prm.enter_subsection("Checkpoint");
-    prm.declare_entry("Every minutes", "10", Patterns::Double(0.),
+    prm.declare_entry("Every minutes", "10", NumberPattern::from(0.),
                       "Write a checkpoint, from which `abut run SCENE "
                       "--resume` goes on, at the end of the first mesh or load "
                       "step after so many minutes; 0: not by time. Results do "

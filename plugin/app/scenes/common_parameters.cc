@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "common_parameters.h"
 
+#include "app/input/effect_rules.h"
 #include "app/input/input_error.h"
 
 #include <ostream>
@@ -52,12 +53,6 @@ namespace abut::app
         out << "`" << parameter.default_value << "`";
       out << " (" << parameter.pattern << "). " << parameter.documentation
           << "\n";
-    }
-
-    std::string section_of(const DeclaredParameter &parameter)
-    {
-      const std::size_t slash = parameter.path.rfind('/');
-      return slash == std::string::npos ? "" : parameter.path.substr(0, slash);
     }
   } // namespace
 
@@ -127,15 +122,16 @@ namespace abut::app
     std::string section;
     // Those outside of sections come first.
     for (const DeclaredParameter &parameter : all)
-      if (section_of(parameter).empty())
+      if (section_of(parameter.path).empty())
         write_parameter(out, parameter);
     for (const DeclaredParameter &parameter : all)
     {
-      if (section_of(parameter).empty())
+      if (section_of(parameter.path).empty())
         continue;
-      if (section_of(parameter) != section)
-        out << "\n### " << section_of(parameter) << " (" << what << ")\n\n";
-      section = section_of(parameter);
+      if (section_of(parameter.path) != section)
+        out << "\n### " << section_of(parameter.path) << " (" << what
+            << ")\n\n";
+      section = section_of(parameter.path);
       write_parameter(out, parameter);
     }
   }

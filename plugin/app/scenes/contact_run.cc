@@ -386,10 +386,13 @@ namespace abut::app
   template <int dim> void ContactRun<dim>::refine()
   {
     DiscreteProblem<dim> &problem = model.problem();
-    if (state.control.is_on())
-      check_memory_of_flags(model.triangulation, problem.fe.degree,
-                            "Refinement/Target error",
-                            problem.fe.n_components());
+    check_memory_of_flags(
+        model.triangulation, problem.fe.degree,
+        state.control.is_on() ? "Refinement/Target error"
+        : state.settings.refinement.is_adaptive(state.mesh_number)
+            ? "Refinement/Adaptive cycles"
+            : "Refinement/Level",
+        problem.fe.n_components());
     std::vector<la::Vector> fields = {problem.ghosted(state.u)};
     if (model.has_contact())
       fields.push_back(problem.ghosted_field(state.contact.pressure()));

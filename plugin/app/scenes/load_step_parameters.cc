@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "load_step_parameters.h"
 
-#include "app/input/input_error.h"
+#include <abut/dealii/number_pattern.h>
 
 namespace abut::app
 {
@@ -13,12 +13,13 @@ namespace abut::app
                       "Number of equal steps from time 0 to the end. The time "
                       "is the t of all formulas; in one step all loads are "
                       "applied at once.");
-    prm.declare_entry("End time", "1", Patterns::Double(),
-                      "Time of the last step, positive.");
+    prm.declare_entry("End time", "1", NumberPattern::positive(),
+                      "Time of the last step.");
     prm.declare_entry("Cut back", "true", Patterns::Bool(),
                       "Halve a step that finds no answer, and try again; "
                       "later steps grow to their length again.");
-    prm.declare_entry("Smallest step", "1e-3", Patterns::Double(0., 1.),
+    prm.declare_entry("Smallest step", "1e-3",
+                      NumberPattern({nullptr, 0., 1., true, false}),
                       "Length of a step, as part of the whole time, below "
                       "which a failure ends the run.");
     prm.leave_subsection();
@@ -32,7 +33,5 @@ namespace abut::app
     cut_back = prm.get_bool("Cut back");
     smallest_step = prm.get_double("Smallest step");
     prm.leave_subsection();
-    if (!(end_time > 0.))
-      throw InputError("Load steps/End time", "must be positive.");
   }
 } // namespace abut::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "loaded_scene.h"
 
+#include "app/input/dealii_message.h"
 #include "app/input/input_error.h"
 #include "app/restart/disk.h"
 #include "common_parameters.h"
@@ -8,7 +9,6 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
-#include <sstream>
 #include <utility>
 
 namespace abut::app
@@ -51,6 +51,20 @@ namespace abut::app
     prm.leave_subsection();
   }
 
+  InputError LoadedScene::blamed(const std::string &message) const
+  {
+    // Sections that libraries declare begin their messages with the parameter.
+    std::string path;
+    for (const DeclaredParameter &parameter : declared_parameters(prm))
+      if (message.compare(0, parameter.path.size(), parameter.path) == 0
+          && parameter.path.size() > path.size())
+        path = parameter.path;
+    const std::size_t rest = message.find_first_not_of(": ", path.size());
+    if (path.empty() || rest == std::string::npos)
+      return {"", message};
+    return {path, message.substr(rest)};
+  }
+
   void LoadedScene::parse()
   {
     find_law();
@@ -61,10 +75,9 @@ namespace abut::app
     }
     catch (const dealii::ExceptionBase &error)
     {
-      std::ostringstream text;
-      error.print_info(text);
-      throw InputError("", dealii::Utilities::trim(text.str()));
+      throw blamed(dealii_message(error));
     }
+    not_used = values_without_effect(scene->effects(), SceneValues(prm, file));
   }
 
   void LoadedScene::describe(Report &report) const
@@ -75,6 +88,8 @@ namespace abut::app
       report.set("title", title);
     if (dimension > 0)
       report.set("dimension", dimension);
+    for (const std::string &line : not_used)
+      report.not_used(line);
   }
 
   RunIdentity LoadedScene::identity() const

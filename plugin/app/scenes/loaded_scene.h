@@ -43,10 +43,14 @@ namespace abut::app
     std::unique_ptr<Scene> scene;
 
   private:
+    /** @p message about the parameter whose name it begins with, if any. */
+    InputError blamed(const std::string &message) const;
+
     /** As other files of a scene the user's own law may stand beside it. */
     void find_law();
 
     const SceneKind &scene_kind;
+    std::vector<std::string> not_used; ///< values that this run does not use
     unsigned int dimension;
     dealii::ParameterHandler prm;
   };

@@ -3,6 +3,8 @@
 
 #include "app/input/input_error.h"
 
+#include <abut/dealii/number_pattern.h>
+
 namespace abut::app
 {
   void PairParameters::declare(dealii::ParameterHandler &prm,
@@ -31,7 +33,7 @@ namespace abut::app
     prm.declare_entry("Tied", "false", Patterns::Bool(),
                       "Glue the surfaces together where they are opposite to "
                       "each other.");
-    prm.declare_entry("Reach", "0", Patterns::Double(0.),
+    prm.declare_entry("Reach", "0", NumberPattern::from(0.),
                       "Distance within which the surfaces look for each other; "
                       "0: half a facet, or more when they move more.");
     prm.leave_subsection();

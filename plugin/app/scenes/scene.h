@@ -6,6 +6,7 @@
  * Scenes: what the program can run.
  */
 
+#include "app/input/effect_rules.h"
 #include "app/input/parameters.h"
 #include "app/input/run_options.h"
 #include "app/report/report.h"
@@ -50,6 +51,10 @@ namespace abut::app
      * (an expression, two values that contradict each other). Called inside
      * collective(), so that it must not communicate. */
     virtual void parse(dealii::ParameterHandler &prm) = 0;
+
+    /** When its parameters have an effect; what is set and has none is told or
+     * refused. */
+    virtual std::vector<EffectRule> effects() const = 0;
 
     /** How often the run writes checkpoints; null for kinds of scenes that
      * cannot go on from one. After parse(). */

@@ -3,14 +3,98 @@
 #include "strategy/options.h"
 #include "strategy/outer_table.h"
 
+#include <abut/limits.h>
 #include <math.h>
+#include <stddef.h>
+#include <string.h>
 
-/* A number of the options and its legal range, ends included. */
-typedef struct range
+/* A number of the options, its legal range and its place. */
+typedef struct entry
 {
-  const char *name;
-  double value, low, high;
-} range;
+  abut_limit limit;
+  size_t offset;
+  bool is_count; /* an int32_t, not a double */
+} entry;
+
+#define POSITIVE(field)                                                        \
+  {                                                                            \
+    {#field, ABUT_SMALLEST_NUMBER, ABUT_LARGEST_NUMBER, false, false},         \
+        offsetof(abut_strategy_options, field), false                          \
+  }
+#define NUMBER(field, low, high, low_open, high_open)                          \
+  {                                                                            \
+    {#field, low, high, low_open, high_open},                                  \
+        offsetof(abut_strategy_options, field), false                          \
+  }
+#define COUNT(field)                                                           \
+  {                                                                            \
+    {#field, 1, INT32_MAX, false, false},                                      \
+        offsetof(abut_strategy_options, field), true                           \
+  }
+
+/* A factor of 1 would neither raise a penalty nor lower a barrier, and a
+ * relative tolerance of 1 is met by the solution 0. */
+static const entry entries[] = {
+    POSITIVE(length_scale),
+    POSITIVE(pressure_scale),
+    NUMBER(penalty, 0, ABUT_LARGEST_NUMBER, false, false),
+    NUMBER(penalty_growth, 1, ABUT_LARGEST_NUMBER, true, false),
+    POSITIVE(penalty_cap),
+    NUMBER(allowed_penetration, 0, ABUT_LARGEST_NUMBER, false, false),
+    POSITIVE(complementarity),
+    POSITIVE(barrier_start),
+    NUMBER(barrier_factor, ABUT_SMALLEST_NUMBER, 1, false, true),
+    POSITIVE(barrier_end),
+    POSITIVE(gap_tolerance),
+    POSITIVE(pressure_tolerance),
+    NUMBER(linear_tolerance, ABUT_SMALLEST_NUMBER, 1, false, true),
+    NUMBER(final_linear_tolerance, ABUT_SMALLEST_NUMBER, 1, false, true),
+    COUNT(max_steps),
+    COUNT(max_outer),
+};
+
+static double
+value_of(const entry *e, const abut_strategy_options *options)
+{
+  const char *place = (const char *)options + e->offset;
+  double value;
+  int32_t count;
+  if (e->is_count)
+  {
+    memcpy(&count, place, sizeof(count));
+    return count;
+  }
+  memcpy(&value, place, sizeof(value));
+  return value;
+}
+
+const abut_limit *
+abut_strategy_limit(const char *name)
+{
+  for (size_t i = 0; name != NULL && i < sizeof(entries) / sizeof(entries[0]);
+       ++i)
+    if (strcmp(entries[i].limit.name, name) == 0)
+      return &entries[i].limit;
+  return NULL;
+}
+
+static abut_status
+fail_range(abut_context *context, const abut_limit *limit, double value,
+           const char *call)
+{
+  abut_text text = abut_fail_begin(context, call);
+  abut_text_add(&text, limit->name);
+  abut_text_add(&text, " = ");
+  abut_text_add_number(&text, value);
+  abut_text_add(&text, " is not between ");
+  abut_text_add_number(&text, limit->low);
+  abut_text_add(&text, " and ");
+  abut_text_add_number(&text, limit->high);
+  if (limit->low_open || limit->high_open)
+    abut_text_add(&text, limit->low_open ? ", the first excluded"
+                                         : ", the second excluded");
+  return isfinite(value) ? ABUT_INVALID_ARGUMENT : ABUT_NOT_FINITE;
+}
 
 static abut_status
 check_law(abut_context *context, const abut_law *law, const char *call)
@@ -30,40 +114,15 @@ abut_strategy_check_options(abut_context *context,
                             const abut_strategy_options *options,
                             const char *call)
 {
-  const double tiny = 1e-300, huge = 1e300;
-  const range ranges[] = {
-      {"length_scale", options->length_scale, tiny, huge},
-      {"pressure_scale", options->pressure_scale, tiny, huge},
-      {"penalty", options->penalty, 0, huge},
-      {"penalty_growth", options->penalty_growth, 1.01, huge},
-      {"penalty_cap", options->penalty_cap, tiny, huge},
-      {"allowed_penetration", options->allowed_penetration, 0, huge},
-      {"complementarity", options->complementarity, tiny, huge},
-      {"barrier_start", options->barrier_start, tiny, huge},
-      {"barrier_factor", options->barrier_factor, tiny, 0.99},
-      {"barrier_end", options->barrier_end, tiny, options->barrier_start},
-      {"gap_tolerance", options->gap_tolerance, tiny, huge},
-      {"pressure_tolerance", options->pressure_tolerance, tiny, huge},
-      {"linear_tolerance", options->linear_tolerance, tiny, 0.99},
-      {"final_linear_tolerance", options->final_linear_tolerance, tiny, 0.99},
-      {"max_steps", options->max_steps, 1, INT32_MAX},
-      {"max_outer", options->max_outer, 1, INT32_MAX},
-  };
-  for (size_t i = 0; i < sizeof(ranges) / sizeof(ranges[0]); ++i)
+  for (size_t i = 0; i < sizeof(entries) / sizeof(entries[0]); ++i)
   {
-    const range *r = &ranges[i];
-    if (r->value >= r->low && r->value <= r->high)
-      continue;
-    abut_text text = abut_fail_begin(context, call);
-    abut_text_add(&text, r->name);
-    abut_text_add(&text, " = ");
-    abut_text_add_number(&text, r->value);
-    abut_text_add(&text, " is not between ");
-    abut_text_add_number(&text, r->low);
-    abut_text_add(&text, " and ");
-    abut_text_add_number(&text, r->high);
-    return isfinite(r->value) ? ABUT_INVALID_ARGUMENT : ABUT_NOT_FINITE;
+    const double value = value_of(&entries[i], options);
+    if (!abut_limit_holds(&entries[i].limit, value))
+      return fail_range(context, &entries[i].limit, value, call);
   }
+  if (options->barrier_end > options->barrier_start)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "barrier_end is larger than barrier_start");
   return check_law(context, options->law, call);
 }
 

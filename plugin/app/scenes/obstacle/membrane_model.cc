@@ -2,6 +2,8 @@
 #include "membrane_model.h"
 
 #include "app/adapt/estimator.h"
+#include "app/input/input_error.h"
+#include "app/mesh/boundary_parts.h"
 #include "app/mesh/memory_check.h"
 #include "app/restart/archive.h"
 #include "app/scenes/automatic_law.h"
@@ -48,6 +50,8 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::set_data()
   {
+    if (exact)
+      exact->set_length(half_extent(this->triangulation));
     if (!parameters.boundary_ids.empty())
       contact_ids =
           parse_boundary_ids(parameters.boundary_ids, "Contact/Boundary ids",
@@ -69,7 +73,21 @@ namespace abut::app
     data.load = load.get();
     data.constant_conductivity = conductivity->is_constant();
     data.constant_load = load->is_constant();
-    data.neumann = neumann->functions(this->triangulation);
+    const std::set<dealii::types::boundary_id> prescribed = dirichlet->named();
+    const auto refuse_prescribed =
+        [&](const auto &ids, const std::string &name, const std::string &what)
+    {
+      for (const dealii::types::boundary_id id : ids)
+        if (prescribed.count(id) > 0)
+          throw InputError(name, what + " on boundary " + std::to_string(id)
+                                     + " has no effect: Membrane/Dirichlet "
+                                       "prescribes the displacement there.");
+    };
+    // What both lists name themselves is a mistake; their * mean the ids that
+    // are left.
+    refuse_prescribed(neumann->named(), "Membrane/Neumann", "the flux");
+    refuse_prescribed(contact_ids, "Contact/Boundary ids", "contact");
+    data.neumann = neumann->functions(this->triangulation, prescribed);
     std::set<dealii::types::boundary_id> taken = contact_ids;
     for (const auto &entry : data.neumann)
       taken.insert(entry.first);
@@ -230,6 +248,10 @@ namespace abut::app
   template <int dim> void MembraneModel<dim>::report_check()
   {
     run.report.set("constraints", run.contact.n_rows());
+    for (const BoundaryPart<dim> &part :
+         boundary_parts(this->triangulation, run.communicator))
+      run.report.progress("boundary " + std::to_string(part.id) + ": "
+                          + in_words(part));
   }
 
   template <int dim>

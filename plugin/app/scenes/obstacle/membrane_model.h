@@ -43,9 +43,14 @@ namespace abut::app
       return "contact rows and start";
     }
     void set_contact(ContactAssembler<dim> &contact, double time) override;
-    std::string parameter_of(const std::string &) const override
+    std::string parameter_of(const std::string &message) const override
     {
-      return "Contact/Obstacle";
+      const std::string upper = "The upper obstacle";
+      if (message.compare(0, upper.size(), upper) == 0)
+        return "Contact/Upper obstacle";
+      return parameters.obstacle.empty() && !parameters.height_map.file.empty()
+                 ? "Contact/Height map"
+                 : "Contact/Obstacle";
     }
     bool relaxes() const override
     {

@@ -3,6 +3,7 @@
 
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/contact_scene.h"
+#include "membrane_effects.h"
 #include "membrane_model.h"
 
 namespace abut::app
@@ -20,6 +21,11 @@ namespace abut::app
       {
         parameters.parse(prm);
         require_law_without_stress(this->method);
+      }
+
+      std::vector<EffectRule> effects() const override
+      {
+        return membrane_effects();
       }
 
       ContactRunSettings settings() const override

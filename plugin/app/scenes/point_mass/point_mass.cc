@@ -7,10 +7,12 @@
 #include "app/report/json.h"
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/diagnosis.h"
+#include "app/scenes/method_effects.h"
 #include "point_mass_model.h"
 #include "point_mass_pictures.h"
 
 #include <abut/dealii/method_parameters.h>
+#include <abut/dealii/number_pattern.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -111,6 +113,7 @@ namespace abut::app
     public:
       void declare(ParameterHandler &prm) const override;
       void parse(ParameterHandler &prm) override;
+      std::vector<EffectRule> effects() const override;
       void check(const RunOptions &options, Report &report) override;
       Outcome run(const RunOptions &options, Report &report) override;
 
@@ -157,7 +160,7 @@ namespace abut::app
       prm.leave_subsection();
       MethodParameters::declare_parameters(prm);
       prm.enter_subsection("Method");
-      prm.declare_entry("Barrier parameter", "0", Patterns::Double(0),
+      prm.declare_entry("Barrier parameter", "0", NumberPattern::from(0),
                         "Product of contact force and gap in the units of the "
                         "scene at which `barrier` stays instead of going to "
                         "zero; 0 uses `Barrier start`, `factor` and `end`.");
@@ -220,6 +223,26 @@ namespace abut::app
       for (const double penalty : penalties)
         if (!(penalty > 0))
           throw InputError("Sweep/Penalties", "a penalty must be above 0.");
+    }
+
+    std::vector<EffectRule> PointMass::effects() const
+    {
+      EffectRules barrier = {effective_if(
+          "Method/Barrier parameter", Weight::setting,
+          [](const SceneValues &values)
+          {
+            return law_may_be(values, [](const abut_law &law)
+                              { return abut_law_is_interior(&law); });
+          },
+          "it belongs to Method/Enforcement = barrier or interior point.")};
+      for (const char *name : {"start", "factor", "end"})
+        barrier.push_back(effective_if(
+            std::string("Method/Barrier ") + name, Weight::setting,
+            [](const SceneValues &values)
+            { return values.number("Method/Barrier parameter") == 0.; },
+            "Method/Barrier parameter takes its place."));
+      return joined({barrier, law_effects(),
+                     no_discretisation("the constraints are given.")});
     }
 
     void PointMass::describe(Report &report) const

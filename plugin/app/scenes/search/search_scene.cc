@@ -2,12 +2,32 @@
 #include "search_scene.h"
 
 #include "app/input/input_error.h"
+#include "app/scenes/method_effects.h"
 #include "search_run.h"
 
 namespace abut::app
 {
   namespace
   {
+    EffectRules search_effects()
+    {
+      const auto has_primary = [](const SceneValues &values)
+      { return !values.is_true("Search/Self contact"); };
+      const auto has_sweep = [](const SceneValues &values)
+      { return !values("Sweep/Bucket sizes").empty(); };
+      const std::string no_sweep = "Sweep/Bucket sizes is empty.";
+      return joined(
+          {{effective_if("Primary/*", Weight::data, has_primary,
+                         "with Search/Self contact the secondary surface "
+                         "touches itself."),
+            effective_if("Sweep/Repeats", Weight::setting, has_sweep, no_sweep),
+            effective_if("Sweep/Most tests", Weight::setting, has_sweep,
+                         no_sweep),
+            capacity_effect()},
+           mesh_effects("Secondary"),
+           mesh_effects("Primary")});
+    }
+
     template <int dim> class SearchScene : public Scene
     {
     public:
@@ -19,6 +39,11 @@ namespace abut::app
       void parse(dealii::ParameterHandler &prm) override
       {
         parameters.parse(prm);
+      }
+
+      std::vector<EffectRule> effects() const override
+      {
+        return search_effects();
       }
 
       void check(const RunOptions &options, Report &report) override

@@ -6,6 +6,8 @@
 #include "app/report/processor_time.h"
 #include "shim/handles.h"
 
+#include <abut/dealii/number_pattern.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -172,7 +174,7 @@ namespace abut::app
     prm.declare_entry("Repeats", "5", Integer(1),
                       "Measurements, in processor time, of which the fastest "
                       "counts; fewer where they take longer than a second.");
-    prm.declare_entry("Most tests", "3e8", Double(0),
+    prm.declare_entry("Most tests", "3e8", NumberPattern::from(0),
                       "All pairs take part in the sweep as long as nodes "
                       "times facets are not more.");
     prm.leave_subsection();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_functions.h"
 
+#include "app/input/input_error.h"
 #include "app/physics/hooke.h"
 
 #include <algorithm>
@@ -58,6 +59,7 @@ namespace abut::app
         for (const auto &entry : list)
           taken.insert(entry.first);
       add(own.support, result.supports);
+      require_effect(bodies, body, result);
       if (own.force->is_present())
         result.body_force[body] = own.force.get();
       const BodyParameters &given = parameters.bodies[body];
@@ -65,6 +67,44 @@ namespace abut::app
           given.young_modulus, given.poisson_ratio, parameters.plane);
     }
     return result;
+  }
+
+  template <int dim>
+  void SolidFunctions<dim>::require_effect(const Bodies<dim> &bodies,
+                                           const unsigned int body,
+                                           const ElasticData<dim> &data) const
+  {
+    // Whether a support of the id holds all components that the load moves.
+    const auto is_held =
+        [&](const boundary_id id, const std::vector<bool> &moves)
+    {
+      const auto support = data.supports.find(bodies.number(body, id));
+      bool held = support != data.supports.end();
+      for (unsigned int c = 0; held && c < dim; ++c)
+        held = !moves[c] || support->second.components[c];
+      return held;
+    };
+    const auto require = [&](const BoundaryExpressions<dim> &loads,
+                             const auto &given, const std::string &name)
+    {
+      for (const boundary_id id : loads.named())
+      {
+        const Expression<dim> &load =
+            *given.at(bodies.number(body, id)).function;
+        std::vector<bool> moves(dim, true);
+        for (unsigned int c = 0; load.n_components == dim && c < dim; ++c)
+          moves[c] =
+              !load.is_constant(c) || load.value(dealii::Point<dim>(), c) != 0.;
+        if (is_held(id, moves))
+          throw InputError(parameters.bodies[body].parameter(name),
+                           "the load on boundary " + std::to_string(id)
+                               + " has no effect: "
+                               + parameters.bodies[body].parameter("Support")
+                               + " holds it there.");
+      }
+    };
+    require(of_body[body].traction, data.tractions, "Traction");
+    require(of_body[body].pressure, data.pressures, "Pressure");
   }
 
   template <int dim> void SolidFunctions<dim>::set_time(const double time)

@@ -40,6 +40,10 @@ namespace abut::app
       std::unique_ptr<VolumeForce<dim>> force;
     };
 
+    /** Throw InputError for a load of a body where its support holds it. */
+    void require_effect(const Bodies<dim> &bodies, unsigned int body,
+                        const ElasticData<dim> &data) const;
+
     const SolidParameters &parameters;
     std::unique_ptr<Expression<dim>> gravity;
     std::vector<OfBody> of_body;

@@ -16,6 +16,14 @@ namespace abut::app
 {
   using dealii::types::boundary_id;
 
+  namespace
+  {
+    template <int dim> bool is_of_revolution(const SolidParameters &parameters)
+    {
+      return dim == 2 && parameters.plane == PlaneModel::axisymmetric;
+    }
+  } // namespace
+
   template <int dim>
   SolidModel<dim>::SolidModel(const SolidParameters &parameters,
                               ContactRunState<dim> &run,
@@ -23,13 +31,13 @@ namespace abut::app
       : ContactModel<dim>(run.communicator),
         parameters(parameters),
         run(run),
-        bodies(parameters.bodies),
+        bodies(parameters.bodies, is_of_revolution<dim>(parameters)),
         elasticity(this->triangulation, parameters.degree),
+        search(search),
+        assembler(run.contact),
         output(*this)
   {
-    run.contact.set_search_parameters(search);
-    run.contact.set_axisymmetric(
-        dim == 2 && parameters.plane == PlaneModel::axisymmetric);
+    run.contact.set_axisymmetric(is_of_revolution<dim>(parameters));
   }
 
   template <int dim> void SolidModel<dim>::create_functions()
@@ -48,10 +56,39 @@ namespace abut::app
                   this->triangulation);
   }
 
+  template <int dim> SearchParameters SolidModel<dim>::numbered_search() const
+  {
+    SearchParameters result = search;
+    result.thickness.clear();
+    for (const auto &[id, length] : search.thickness)
+    {
+      bool found = false;
+      for (unsigned int body = 0; body < bodies.size(); ++body)
+      {
+        const auto &ids = bodies.ids(body);
+        if (std::find(ids.begin(), ids.end(), boundary_id(id)) == ids.end())
+          continue;
+        result.thickness[bodies.number(body, boundary_id(id))] = length;
+        found = true;
+      }
+      if (!found)
+        throw InputError("Search/Thickness", "no body has a boundary id "
+                                                 + std::to_string(id) + ".");
+    }
+    return result;
+  }
+
   template <int dim> void SolidModel<dim>::set_data()
   {
+    assembler.set_search_parameters(numbered_search());
+    const double length = half_extent(this->triangulation);
+    pairs->set_length(length);
+    if (exact)
+      exact->set_length(length);
     pairs->find_surfaces(bodies);
     data = functions->data(bodies, pairs->surfaces());
+    pairs->require_free(bodies, data.supports);
+    points = read_points(parameters.points, bodies);
   }
 
   template <int dim> void SolidModel<dim>::check_setup()
@@ -78,6 +115,7 @@ namespace abut::app
                                    + ", and it is in no contact pair."));
     }
     pairs->hold(bodies, floating);
+    check_points(points, elasticity);
   }
 
   template <int dim> void SolidModel<dim>::setup_mesh()

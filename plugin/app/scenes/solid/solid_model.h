@@ -7,6 +7,7 @@
 #include "solid_functions.h"
 #include "solid_output.h"
 #include "solid_pairs.h"
+#include "solid_points.h"
 
 #include <memory>
 #include <vector>
@@ -109,11 +110,17 @@ namespace abut::app
     std::unique_ptr<SolidPairs<dim>> pairs;
     std::unique_ptr<ExactSolution<dim>> exact;
     ElasticData<dim> data;
+    std::vector<OutputPoint<dim>> points; ///< of `Output/Points`
 
   private:
+    /** Search parameters with the numbers of the triangulation in place of the
+     * user's boundary ids. Throws InputError for ids that no body has. */
+    SearchParameters numbered_search() const;
     bool is_held(unsigned int body,
                  const std::vector<PairResult<dim>> &results) const;
 
+    const SearchParameters &search;
+    ContactAssembler<dim> &assembler;
     std::vector<RigidFreedom> freedom; ///< by body
     SolidOutput<dim> output;
     bool has_warned = false;

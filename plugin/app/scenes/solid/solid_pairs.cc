@@ -6,6 +6,7 @@
 
 #include <abut/dealii/coded.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut::app
@@ -18,7 +19,8 @@ namespace abut::app
       : parameters(parameters)
   {
     for (const RigidObstacleParameters &obstacle : parameters.obstacles)
-      obstacles.push_back(make_rigid_obstacle<dim>(obstacle, options));
+      obstacles.push_back(
+          make_rigid_obstacle<dim>(obstacle, options, half_extent));
     for (const PairParameters &pair : parameters.pairs)
     {
       gaps.push_back(std::make_unique<Expression<dim>>(
@@ -54,6 +56,32 @@ namespace abut::app
                                      + " is on both sides of the pair. Where a "
                                        "surface touches itself both sides are "
                                        "the same altogether."));
+    }
+  }
+
+  template <int dim>
+  void SolidPairs<dim>::require_free(
+      const Bodies<dim> &bodies,
+      const std::map<boundary_id, BoundaryCondition<dim>> &supports) const
+  {
+    const auto is_held = [&](const boundary_id id)
+    {
+      const auto support = supports.find(id);
+      return support != supports.end()
+             && support->second.components.n_selected_components(dim) == dim;
+    };
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      const auto &side = all[i].secondary;
+      if (!std::all_of(side.begin(), side.end(), is_held))
+        continue;
+      const unsigned int body = bodies.body_of(*side.begin());
+      throw InputError(
+          parameters.pairs[i].parameter("Secondary"),
+          "all nodes of the surface are prescribed by "
+              + bodies[body].parameter("Support")
+              + ", so that contact cannot move them. Exchange the two sides, "
+                "or leave the surface free.");
     }
   }
 

@@ -2,6 +2,7 @@
 #ifndef ABUT_APP_SOLID_PAIRS_H
 #define ABUT_APP_SOLID_PAIRS_H
 
+#include "app/input/boundary_expressions.h"
 #include "app/input/expression.h"
 #include "app/mesh/bodies.h"
 #include "solid_parameters.h"
@@ -26,6 +27,18 @@ namespace abut::app
     /** Find the boundary ids of the surfaces. Throws InputError for bodies and
      * ids that do not exist, and for a surface on both sides of a pair. */
     void find_surfaces(const Bodies<dim> &bodies);
+
+    /** Half the extent of the bodies, for differences of formulas. */
+    void set_length(double length)
+    {
+      *half_extent = length;
+    }
+
+    /** Throw InputError for a secondary surface all of whose nodes supports
+     * hold in all directions. */
+    void require_free(const Bodies<dim> &bodies,
+                      const std::map<dealii::types::boundary_id,
+                                     BoundaryCondition<dim>> &supports) const;
 
     /** Say that pairs with a surface of these bodies hold them. */
     void hold(const Bodies<dim> &bodies,
@@ -58,6 +71,8 @@ namespace abut::app
 
   private:
     const SolidParameters &parameters;
+    /** Of the bodies, known with their mesh. */
+    const std::shared_ptr<double> half_extent = std::make_shared<double>(1.);
     std::vector<std::shared_ptr<RigidObstacle<dim>>> obstacles;
     std::vector<std::unique_ptr<Expression<dim>>> gaps;
     std::vector<ContactPair<dim>> all;

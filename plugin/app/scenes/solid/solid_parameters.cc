@@ -3,6 +3,8 @@
 
 #include "app/input/input_error.h"
 
+#include <cstdlib>
+
 namespace abut::app
 {
   namespace
@@ -25,6 +27,24 @@ namespace abut::app
                                         + std::to_string(smallest) + " to "
                                         + std::to_string(most) + ".");
       return static_cast<unsigned int>(value[0]);
+    }
+
+    /** A section beyond the count of its kind would be passed over. */
+    void refuse_beyond(const ParameterFile &file, const std::string &word,
+                       const std::string &parameter, const unsigned int n)
+    {
+      for (const auto &[path, value] : file.values())
+      {
+        if (path.compare(0, word.size() + 1, word + " ") != 0)
+          continue;
+        char *end = nullptr;
+        const unsigned long number =
+            std::strtoul(path.c_str() + word.size() + 1, &end, 10);
+        if (*end == '/' && number > n && number <= most)
+          throw InputError(path, "has no effect: " + parameter + " is "
+                                     + std::to_string(n) + ": set it to "
+                                     + std::to_string(number) + ".");
+      }
     }
 
     std::string numbered(const std::string &word, const unsigned int index)
@@ -106,6 +126,9 @@ namespace abut::app
     counts.bodies = count(file, "Solid/Bodies", 1, 1);
     counts.pairs = count(file, "Solid/Pairs", 0, 0);
     counts.obstacles = count(file, "Solid/Obstacles", 0, 0);
+    refuse_beyond(file, "Body", "Solid/Bodies", counts.bodies);
+    refuse_beyond(file, "Pair", "Solid/Pairs", counts.pairs);
+    refuse_beyond(file, "Obstacle", "Solid/Obstacles", counts.obstacles);
     return counts;
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run of the scene `solid` leaves behind.
 #include "solid_report.h"
-#include "app/input/input_error.h"
 #include "app/input/short_number.h"
+#include "app/mesh/boundary_parts.h"
 #include "app/mesh/nearest_node.h"
 #include "app/physics/volumetric_locking.h"
 #include "app/scenes/diagnosis.h"
@@ -55,26 +55,20 @@ namespace abut::app
       report_checks();
     report_shares();
     report.set("bodies", bodies.size());
+    for (const BoundaryPart<dim> &part :
+         boundary_parts(model.triangulation, communicator))
+      report.progress(bodies.name(part.id) + ": " + in_words(part));
   }
 
   template <int dim> void SolidReport<dim>::report_points() const
   {
     const la::Vector displacement = elasticity.ghosted(u);
     unsigned int number = 0;
-    for (const std::string &part : split_list(parameters.points, ';'))
+    for (const OutputPoint<dim> &point : model.points)
     {
-      const auto [body, text] = bodies.split_body(part, "Output/Points");
-      const std::vector<double> x = parse_numbers(text, "Output/Points");
-      if (x.size() != dim)
-        throw InputError("Output/Points", "'" + part + "' does not have "
-                                              + std::to_string(dim)
-                                              + " coordinates.");
-      dealii::Point<dim> point;
-      for (unsigned int d = 0; d < dim; ++d)
-        point[d] = x[d];
       const NodalValue<dim> node =
           nearest_node(elasticity.mapping, elasticity.dof_handler, displacement,
-                       body, point);
+                       point.body, point.place);
       const std::string key = "point_" + std::to_string(++number);
       report.set(key, std::vector<double>(node.value.begin_raw(),
                                           node.value.end_raw()));

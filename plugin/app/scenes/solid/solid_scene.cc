@@ -3,6 +3,7 @@
 
 #include "app/scenes/automatic_law.h"
 #include "app/scenes/contact_scene.h"
+#include "solid_effects.h"
 #include "solid_model.h"
 
 #include <algorithm>
@@ -33,6 +34,11 @@ namespace abut::app
                                                        parameters.pairs.end(),
                                                        [](const auto &pair)
                                                        { return pair.tied; }));
+      }
+
+      std::vector<EffectRule> effects() const override
+      {
+        return solid_effects();
       }
 
       ContactRunSettings settings() const override

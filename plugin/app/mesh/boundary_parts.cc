@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "boundary_parts.h"
+
+#include "app/input/short_number.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace abut::app
+{
+  template <int dim>
+  std::vector<BoundaryPart<dim>>
+  boundary_parts(const dealii::Triangulation<dim> &triangulation,
+                 const MPI_Comm communicator)
+  {
+    namespace MPI = dealii::Utilities::MPI;
+    std::vector<BoundaryPart<dim>> parts;
+    for (const dealii::types::boundary_id id : triangulation.get_boundary_ids())
+    {
+      // The largest coordinates and the negative of the least.
+      double ends[2 * dim];
+      std::fill(ends, ends + 2 * dim, -std::numeric_limits<double>::infinity());
+      unsigned int n_faces = 0;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+        {
+          const auto face = cell->face(f);
+          if (!cell->is_locally_owned() || !face->at_boundary()
+              || face->boundary_id() != id)
+            continue;
+          ++n_faces;
+          for (const unsigned int v : face->vertex_indices())
+            for (unsigned int d = 0; d < dim; ++d)
+            {
+              ends[d] = std::max(ends[d], face->vertex(v)[d]);
+              ends[dim + d] = std::max(ends[dim + d], -face->vertex(v)[d]);
+            }
+        }
+      BoundaryPart<dim> part{id, MPI::sum(n_faces, communicator), {}, {}};
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        part.largest[d] = MPI::max(ends[d], communicator);
+        part.least[d] = -MPI::max(ends[dim + d], communicator);
+      }
+      parts.push_back(part);
+    }
+    return parts;
+  }
+
+  template <int dim> std::string in_words(const BoundaryPart<dim> &part)
+  {
+    const char *const names[] = {"x", "y", "z"};
+    std::string text =
+        std::to_string(part.n_faces) + (part.n_faces == 1 ? " face" : " faces");
+    double extent = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      extent = std::max(extent, part.largest[d] - part.least[d]);
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const bool is_flat = part.largest[d] - part.least[d] <= 1e-12 * extent;
+      text += std::string(", ") + names[d] + (is_flat ? " = " : " from ")
+              + short_number(part.least[d]);
+      if (!is_flat)
+        text += " to " + short_number(part.largest[d]);
+    }
+    return text;
+  }
+
+  template std::vector<BoundaryPart<2>>
+  boundary_parts<2>(const dealii::Triangulation<2> &, MPI_Comm);
+  template std::vector<BoundaryPart<3>>
+  boundary_parts<3>(const dealii::Triangulation<3> &, MPI_Comm);
+  template std::string in_words<2>(const BoundaryPart<2> &);
+  template std::string in_words<3>(const BoundaryPart<3> &);
+} // namespace abut::app

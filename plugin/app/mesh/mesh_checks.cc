@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "mesh_checks.h"
+
+#include "app/input/expression.h"
+#include "app/input/input_error.h"
+#include "app/input/short_number.h"
+#include "memory_check.h"
+
+#include <deal.II/base/geometry_info.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+namespace abut::app
+{
+  template <int dim>
+  void check_cells(const std::string &parameter,
+                   const dealii::Triangulation<dim> &triangulation)
+  {
+    using Geometry = dealii::GeometryInfo<dim>;
+    // What round-off makes of a corner with an angle of 180 degrees.
+    constexpr double round_off = 1e-10;
+    for (const auto &cell : triangulation.active_cell_iterators())
+    {
+      dealii::Point<dim> vertices[Geometry::vertices_per_cell];
+      dealii::Tensor<0, dim> forms[Geometry::vertices_per_cell];
+      for (const unsigned int v : cell->vertex_indices())
+        vertices[v] = cell->vertex(v);
+      Geometry::alternating_form_at_vertices(vertices, forms);
+      const double measure = cell->measure();
+      bool is_good = measure > 0 && std::isfinite(measure);
+      for (const double form : forms)
+        is_good = is_good && form > -round_off * measure;
+      if (is_good)
+        continue;
+      std::ostringstream where;
+      where << "cell " << cell->active_cell_index() << " of the mesh, around ("
+            << cell->center() << "), is folded or concave, or has no volume.";
+      throw InputError(parameter, where.str());
+    }
+  }
+
+  template <int dim> void check_repetitions(const MeshParameters &parameters)
+  {
+    const bool is_cube = parameters.generator == "subdivided_hyper_cube";
+    if (!is_cube && parameters.generator != "subdivided_hyper_rectangle")
+      return;
+    const std::string first =
+        parameters.arguments.substr(0, parameters.arguments.find(':'));
+    double n_cells = 1.;
+    const std::vector<std::string> words = split_list(first, ',');
+    if (!is_cube && words.size() > dim)
+      throw InputError(parameters.section + "/Arguments",
+                       "'" + first + "' are " + std::to_string(words.size())
+                           + " repetitions for " + std::to_string(dim)
+                           + " directions.");
+    for (const std::string &word : words)
+      n_cells *= std::max(1., std::atof(word.c_str()));
+    check_memory(dim, is_cube ? std::pow(n_cells, dim) : n_cells, 1,
+                 MPI_COMM_SELF, parameters.section + "/Arguments");
+  }
+
+  void check_axis(const MeshParameters &parameters,
+                  const dealii::Triangulation<2> &triangulation)
+  {
+    double least = 0., largest = 0.;
+    for (const dealii::Point<2> &vertex : triangulation.get_vertices())
+    {
+      least = std::min(least, vertex[0]);
+      largest = std::max(largest, std::abs(vertex[0]));
+    }
+    // Round-off of a mesh that was turned or moved to the axis.
+    if (least < -1e-9 * largest)
+      throw InputError(parameters.section
+                           + (parameters.move.empty() ? "/Arguments" : "/Move"),
+                       "the body reaches to x = " + short_number(least)
+                           + ", beyond the axis of revolution: with "
+                             "Solid/Plane = axisymmetric, x is the radius.");
+  }
+
+  template void check_cells<2>(const std::string &,
+                               const dealii::Triangulation<2> &);
+  template void check_cells<3>(const std::string &,
+                               const dealii::Triangulation<3> &);
+  template void check_repetitions<2>(const MeshParameters &);
+  template void check_repetitions<3>(const MeshParameters &);
+} // namespace abut::app

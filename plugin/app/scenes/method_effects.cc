@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "method_effects.h"
+
+namespace abut::app
+{
+  namespace
+  {
+    /** A setting of the laws for which @p holds is true. */
+    EffectRule of_laws(const std::string &name, const std::string &laws,
+                       const std::function<bool(const abut_law &law)> &holds)
+    {
+      return effective_if(
+          "Method/" + name, Weight::setting,
+          [holds](const SceneValues &values)
+          { return law_may_be(values, holds); },
+          "it belongs to Method/Enforcement = " + laws + ".");
+    }
+
+    bool has_penalty(const abut_law &law)
+    {
+      return abut_law_has_penalty(&law);
+    }
+
+    bool needs_stress(const abut_law &law)
+    {
+      return abut_law_needs_stress(&law);
+    }
+
+    bool updates_multipliers(const abut_law &law)
+    {
+      return abut_law_updates_multipliers(&law);
+    }
+
+    bool has_continuation(const abut_law &law)
+    {
+      return abut_law_needs_open_start(&law);
+    }
+
+    bool is_interior(const abut_law &law)
+    {
+      return abut_law_is_interior(&law);
+    }
+
+    /** Whether the penalty is raised on the way. */
+    bool grows(const abut_law &law)
+    {
+      return has_penalty(law) && !abut_law_solves_once(&law);
+    }
+
+    EffectRule setting(const std::string &parameters,
+                       std::function<bool(const SceneValues &)> condition,
+                       const std::string &otherwise)
+    {
+      return effective_if(parameters, Weight::setting, std::move(condition),
+                          otherwise);
+    }
+
+    bool may_iterate(const SceneValues &values)
+    {
+      return values("Solver/Linear solver") != "direct";
+    }
+
+    bool is_nested(const SceneValues &values)
+    {
+      return values.is_true("Refinement/Nested iteration");
+    }
+
+    bool has_target(const SceneValues &values)
+    {
+      return values.number("Refinement/Target error") > 0.;
+    }
+
+    bool is_adaptive(const SceneValues &values)
+    {
+      return has_target(values)
+             || values.number("Refinement/Adaptive cycles") > 0.;
+    }
+
+    bool has_several_meshes(const SceneValues &values)
+    {
+      return is_adaptive(values)
+             || (is_nested(values)
+                 && values.number("Refinement/Level")
+                        > values.number("Refinement/Coarsest level"));
+    }
+  } // namespace
+
+  bool law_may_be(const SceneValues &values,
+                  const std::function<bool(const abut_law &law)> &holds)
+  {
+    const abut_law *law = abut_law_find(values("Method/Enforcement").c_str());
+    return law == nullptr || holds(*law);
+  }
+
+  EffectRules law_effects()
+  {
+    const auto is_user = [](const SceneValues &values)
+    { return values("Method/Enforcement") == "user"; };
+    const std::string user = "it belongs to Method/Enforcement = user.";
+    return {
+        setting("Method/Law *", is_user, user),
+        of_laws("Penalty",
+                "penalty, quadratic penalty, augmented lagrangian or nitsche",
+                has_penalty),
+        of_laws("Nitsche theta", "nitsche", needs_stress),
+        of_laws("Penalty growth", "quadratic penalty",
+                [](const abut_law &law)
+                { return grows(law) && !updates_multipliers(law); }),
+        of_laws("Penalty cap", "quadratic penalty or augmented lagrangian",
+                grows),
+        of_laws("Allowed penetration", "penalty or quadratic penalty",
+                [](const abut_law &law)
+                {
+                  return has_penalty(law) && !needs_stress(law)
+                         && !updates_multipliers(law);
+                }),
+        of_laws("Adaptive penalty", "augmented lagrangian",
+                updates_multipliers),
+        of_laws("Pressure tolerance", "augmented lagrangian",
+                updates_multipliers),
+        of_laws("Barrier start", "barrier", has_continuation),
+        of_laws("Barrier factor", "barrier", has_continuation),
+        of_laws("Barrier end", "barrier or interior point", is_interior),
+    };
+  }
+
+  EffectRules no_discretisation(const std::string &instead)
+  {
+    const auto never = [](const SceneValues &) { return false; };
+    EffectRules rules = {
+        effective_if("Method/Multiplier degree", Weight::data, never, instead)};
+    for (const char *name : {"Discretisation", "Quadrature degree", "Segments"})
+      rules.push_back(setting(std::string("Method/") + name, never, instead));
+    return rules;
+  }
+
+  EffectRules solver_effects()
+  {
+    const std::string iterative =
+        "it belongs to Solver/Linear solver = iterative or auto.";
+    EffectRules rules = {
+        setting(
+            "Solver/Direct limit",
+            [](const SceneValues &values)
+            { return values("Solver/Linear solver") == "auto"; },
+            "it belongs to Solver/Linear solver = auto."),
+        setting(
+            "Solver/Saddle point augmentation",
+            [](const SceneValues &values)
+            {
+              return may_iterate(values)
+                     && values("Method/System") != "condensed"
+                     && law_may_be(values, [](const abut_law &law)
+                                   { return abut_law_is_exact(&law); });
+            },
+            "it belongs to iterative solvers of saddle points.")};
+    for (const char *name : {"Maximum iterations", "Aggregation threshold",
+                             "Smoother sweeps", "Contact filter"})
+      rules.push_back(
+          setting(std::string("Solver/") + name, may_iterate, iterative));
+    return rules;
+  }
+
+  EffectRules refinement_effects()
+  {
+    const std::string target = "it belongs to Refinement/Target error.";
+    return {
+        setting(
+            "Refinement/Coarsest level",
+            [](const SceneValues &values)
+            { return is_nested(values) || has_target(values); },
+            "it belongs to Refinement/Nested iteration = true."),
+        setting(
+            "Refinement/Level",
+            [](const SceneValues &values) { return !has_target(values); },
+            "with Refinement/Target error meshes begin at "
+            "Refinement/Coarsest level."),
+        setting(
+            "Refinement/Adaptive cycles",
+            [](const SceneValues &values) { return !has_target(values); },
+            "Refinement/Target error decides how many there are."),
+        setting("Refinement/Coarse level tolerance", has_several_meshes,
+                "there is one mesh."),
+        setting("Refinement/Refine fraction", is_adaptive,
+                "it belongs to Refinement/Adaptive cycles or Target error."),
+        setting("Refinement/Coarsen fraction", is_adaptive,
+                "it belongs to Refinement/Adaptive cycles or Target error."),
+        setting("Refinement/Target quantity", has_target, target),
+        setting("Refinement/Most meshes", has_target, target),
+    };
+  }
+
+  EffectRules result_effects()
+  {
+    return {
+        effective_if(
+            "Exact solution/Gradient", Weight::data,
+            [](const SceneValues &values)
+            { return !values("Exact solution/Displacement").empty(); },
+            "it is the gradient of Exact solution/Displacement, "
+            "which is empty."),
+    };
+  }
+
+  EffectRules mesh_effects(const std::string &section)
+  {
+    const std::string why = "meshes are made once, before any motion.";
+    EffectRules rules = {without_time(section + "/Boundary ids", why),
+                         without_time(section + "/Map", why)};
+    for (const char *name : {"/Generator", "/Arguments"})
+      rules.push_back(
+          {section + name, Weight::data,
+           [](const SceneValues &values, const std::string &path)
+           {
+             const std::string file = section_of(path) + "/File";
+             return values(file).empty()
+                        ? std::string()
+                        : "the mesh is read from the file that " + file
+                              + " names; leave one of the two empty.";
+           }});
+    return rules;
+  }
+
+  EffectRule capacity_effect()
+  {
+    return setting(
+        "Search/Bucket capacity",
+        [](const SceneValues &values)
+        { return values("Search/Algorithm") == "adaptive buckets"; },
+        "it belongs to Search/Algorithm = adaptive buckets.");
+  }
+
+  EffectRules joined(const std::vector<EffectRules> &lists)
+  {
+    EffectRules all;
+    for (const EffectRules &list : lists)
+      all.insert(all.end(), list.begin(), list.end());
+    return all;
+  }
+} // namespace abut::app

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "membrane_effects.h"
+
+namespace abut::app
+{
+  namespace
+  {
+    EffectRules of_height_maps()
+    {
+      const auto has_map = [](const SceneValues &values)
+      { return !values("Contact/Height map").empty(); };
+      return {effective_if("Contact/Height map *", Weight::data, has_map,
+                           "Contact/Height map names no image.")};
+    }
+
+    EffectRules of_time()
+    {
+      const std::string why = "a membrane has no load steps: t is always 0.";
+      EffectRules rules;
+      for (const char *parameters :
+           {"Membrane/*", "Contact/Obstacle", "Contact/Upper obstacle",
+            "Exact solution/*"})
+        rules.push_back(without_time(parameters, why));
+      return rules;
+    }
+
+    EffectRules of_search()
+    {
+      return {effective_if(
+                  "Search/*", Weight::setting,
+                  [](const SceneValues &) { return false; },
+                  "the obstacle of a membrane is a function: nothing is "
+                  "searched."),
+              effective_if(
+                  "Refinement/Relaxation sweeps", Weight::setting,
+                  [](const SceneValues &values)
+                  { return values.is_true("Refinement/Nested iteration"); },
+                  "it belongs to Refinement/Nested iteration = true.")};
+    }
+  } // namespace
+
+  EffectRules membrane_effects()
+  {
+    return joined({of_time(), of_height_maps(), mesh_effects("Mesh"),
+                   law_effects(),
+                   no_discretisation("the obstacle of a membrane acts at "
+                                     "nodes."),
+                   solver_effects(), refinement_effects(), of_search(),
+                   result_effects()});
+  }
+} // namespace abut::app

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_effects.h"
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Data whose effect a condition on the whole scene decides. */
+    EffectRule data(const std::string &parameters,
+                    std::function<bool(const SceneValues &)> condition,
+                    const std::string &otherwise)
+    {
+      return effective_if(parameters, Weight::data, std::move(condition),
+                          otherwise);
+    }
+
+    EffectRule setting(const std::string &parameters,
+                       std::function<bool(const SceneValues &)> condition,
+                       const std::string &otherwise)
+    {
+      return effective_if(parameters, Weight::setting, std::move(condition),
+                          otherwise);
+    }
+
+    bool any_has_weight(const SceneValues &values)
+    {
+      for (const std::string &path : values.matching("Body */Density"))
+        if (values.number(path) > 0.)
+          return true;
+      return false;
+    }
+
+    bool has_gravity(const SceneValues &values)
+    {
+      return !values("Solid/Gravity").empty();
+    }
+
+    bool has_pairs(const SceneValues &values)
+    {
+      return values.number("Solid/Pairs") > 0.;
+    }
+
+    /** Whether any pair fits. */
+    bool any_pair(const SceneValues &values,
+                  const std::function<bool(const std::string &section)> &fits)
+    {
+      for (const std::string &path : values.matching("Pair */Secondary"))
+        if (fits(section_of(path)))
+          return true;
+      return false;
+    }
+
+    bool has_two_bodies_in_contact(const SceneValues &values)
+    {
+      return any_pair(values, [&](const std::string &section)
+                      { return !values(section + "/Primary").empty(); });
+    }
+
+    /** A parameter of pairs that has no effect where @p is_without says so. */
+    EffectRule
+    of_pairs(const std::string &name,
+             const std::function<bool(const SceneValues &values,
+                                      const std::string &section)> &is_without,
+             const std::string &why)
+    {
+      return {
+          "Pair */" + name, Weight::data,
+          [is_without, why](const SceneValues &values, const std::string &path)
+          { return is_without(values, section_of(path)) ? why : ""; }};
+    }
+
+    std::string unused_obstacle(const SceneValues &values, const std::string &)
+    {
+      const int n = static_cast<int>(values.number("Solid/Obstacles"));
+      for (int obstacle = 1; obstacle <= n; ++obstacle)
+      {
+        const std::string number = std::to_string(obstacle);
+        if (!any_pair(values, [&](const std::string &section)
+                      { return values(section + "/Obstacle") == number; }))
+          return "no pair is against obstacle " + number
+                 + ": name it in 'Pair N/Obstacle', with Solid/Pairs = N or "
+                   "more.";
+      }
+      return "";
+    }
+
+    EffectRules of_loads()
+    {
+      return {data("Solid/Gravity", any_has_weight,
+                   "no body has a weight: set Body 1/Density."),
+              setting("Body */Density", has_gravity, "Solid/Gravity is empty."),
+              data(
+                  "Solid/Plane",
+                  [](const SceneValues &values)
+                  { return values("Dimension") == "2"; },
+                  "it is about scenes in 2 dimensions.")};
+    }
+
+    EffectRules of_contact()
+    {
+      const auto is_tied =
+          [](const SceneValues &values, const std::string &section)
+      { return values.is_true(section + "/Tied"); };
+      const std::string tied = "the pair is tied: it is glued together as the "
+                               "meshes lie.";
+      return {{"Solid/Obstacles", Weight::data, unused_obstacle},
+              of_pairs("Initial gap", is_tied, tied),
+              of_pairs("Mesh gap", is_tied, tied)};
+    }
+
+    EffectRules of_obstacles()
+    {
+      const auto turns = [](const SceneValues &values, const std::string &path)
+      {
+        const std::string angle = section_of(path) + "/Rotation angle";
+        return values(angle).empty() ? angle + " is empty." : "";
+      };
+      return {
+          {"Obstacle */Gradient", Weight::data,
+           [](const SceneValues &values, const std::string &path)
+           {
+             const std::string section = section_of(path);
+             return values(section + "/Kind") == "height"
+                            && values(section + "/Gap along") == "axis"
+                        ? "gap and force are along the axis (" + section
+                              + "/Gap along), whatever the slope."
+                        : "";
+           }},
+          {"Obstacle */Rotation centre", Weight::data, turns},
+          {"Obstacle */Rotation axis", Weight::data,
+           [turns](const SceneValues &values, const std::string &path)
+           {
+             return values("Dimension") == "2"
+                        ? "in 2 dimensions obstacles turn in the plane."
+                        : turns(values, path);
+           }},
+      };
+    }
+
+    EffectRules of_search()
+    {
+      const auto never = [](const SceneValues &) { return false; };
+      EffectRules rules = {
+          data("Search/Extension", never,
+               "pairs of bodies touch where they are opposite to each other. "
+               "Scenes of kind 'search' have it."),
+          data("Search/Self contact", never,
+               "a pair whose Primary is the same as its Secondary may touch "
+               "itself. Scenes of kind 'search' have it."),
+          data(
+              "Refinement/Relaxation sweeps",
+              [](const SceneValues &values)
+              {
+                return law_may_be(values, [](const abut_law &law)
+                                  { return abut_law_needs_open_start(&law); });
+              },
+              "starts are improved in scenes of kind 'obstacle' only, and by "
+              "the method barrier."),
+          data(
+              "Method/Multiplier degree",
+              [](const SceneValues &values)
+              {
+                return values("Method/Discretisation") == "mortar"
+                       && values.number("Solid/Degree") == 2.;
+              },
+              "it belongs to Method/Discretisation = mortar on elements of "
+              "Solid/Degree = 2.")};
+      const std::string no_partner = "no pair is between bodies.";
+      rules.push_back(
+          data("Search/Thickness", has_two_bodies_in_contact, no_partner));
+      for (const char *name : {"Search/Algorithm", "Search/Bucket*",
+                               "Search/Skin", "Method/Segments"})
+        rules.push_back(setting(name, has_two_bodies_in_contact, no_partner));
+      rules.push_back(capacity_effect());
+      const std::string no_contact = "there is no contact: Solid/Pairs is 0.";
+      rules.push_back(
+          {"Method/*", Weight::setting,
+           [no_contact](const SceneValues &values, const std::string &path)
+           {
+             return has_pairs(values) || path == "Method/Final linear tolerance"
+                        ? ""
+                        : no_contact;
+           }});
+      rules.push_back(
+          setting("Output/Inf-sup constant", has_pairs, no_contact));
+      return rules;
+    }
+
+    EffectRules of_load_steps()
+    {
+      return {setting(
+          "Load steps/Smallest step",
+          [](const SceneValues &values)
+          { return values.is_true("Load steps/Cut back"); },
+          "it belongs to Load steps/Cut back = true.")};
+    }
+  } // namespace
+
+  EffectRules solid_effects()
+  {
+    return joined({of_loads(), of_contact(), of_obstacles(), of_search(),
+                   mesh_effects("Body */Mesh"), mesh_effects("Obstacle *"),
+                   law_effects(), solver_effects(), refinement_effects(),
+                   of_load_steps(), result_effects()});
+  }
+} // namespace abut::app
