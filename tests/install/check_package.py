@@ -11,11 +11,29 @@ import sys
 from installed import Failure, passed, require, run
 
 
+DEBUG_FILES = ("libabut.g.so", "libabut_plugin.g.so")
+
+
+def debug_build(folder):
+    """What a build in Debug mode is for the package: a folder with libraries
+    and a script that installs them."""
+    folder.mkdir()
+    script = ""
+    for name in DEBUG_FILES:
+        (folder / name).write_text("a library in Debug mode\n")
+        script += ('file(INSTALL DESTINATION "${CMAKE_INSTALL_PREFIX}/lib" '
+                   f'TYPE FILE FILES "{folder / name}")\n')
+    (folder / "cmake_install.cmake").write_text(script)
+    return folder
+
+
 def make(arguments, folder):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
+    debug = debug_build(folder / "debug")
     run(arguments.cpack, "-G", "DEB", "-B", folder, "--config",
-        pathlib.Path(arguments.build) / "CPackConfig.cmake")
+        pathlib.Path(arguments.build) / "CPackConfig.cmake",
+        "-D", f"CPACK_ABUT_DEBUG_BUILD={debug}")
     packages = list(folder.glob("*.deb"))
     require(len(packages) == 1, f"packages: {packages}")
     return packages[0]
@@ -66,6 +84,7 @@ def check_depends(depends, unpacked):
 
 def check_content(unpacked):
     for name in ("bin/abut", "lib/libabut.so", "lib/libabut_plugin.so",
+                 *("lib/" + library for library in DEBUG_FILES),
                  "lib/libabut_core.so.0.1", "lib/pkgconfig/abut_core.pc",
                  "lib/cmake/Abut/AbutConfig.cmake",
                  "include/abut/dealii/load_plugin.h",

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Install the build into a folder of its own and use it from there: the
 program, the C library through pkg-config, the library and the plugin through
-find_package. The tree is moved once, to show that no path is built in."""
+find_package. The tree is moved once, to show that no path is built in. Programs
+of the other build mode are refused until its libraries are installed, too."""
 import argparse
 import json
 import pathlib
@@ -53,12 +54,14 @@ def check_program(tree, scratch):
 
 
 def check_c(tree, scratch):
-    """Force 0.3 and contact from x = 0.2: see the head of the example."""
+    """Force 0.3 and contact from x = 0.2: see the head of the example. The line
+    is that of doc/c-interface.md."""
     source = tree.prefix / "share/doc/abut/examples/c-interface/two_strings.c"
-    program = scratch / "two_strings"
-    libdir, = tree.pkg_config("--variable=libdir", "abut_core")
-    tree.compile_c(source, program, *tree.pkg_config("--libs", "abut_core"),
-                   "-lm", f"-Wl,-rpath,{libdir}")
+    text = (tree.prefix / "share/doc/abut/c-interface.md").read_text()
+    line = text.split("```sh\n")[1].split("```")[0]
+    shutil.copy(source, scratch / "program.c")
+    tree.run("sh", "-euc", line, cwd=scratch)
+    program = scratch / "program"
     needed = tree.run("ldd", program).stdout
     require("deal" not in needed and "mpi" not in needed, needed)
     check_strings(tree.run(program).stdout)
@@ -72,19 +75,83 @@ def check_strings(output):
     require(abs(edge - 0.2) <= 1 / 60, output)
 
 
-def check_find_package(tree, arguments, scratch):
-    source = pathlib.Path(__file__).parent / "consumer"
-    build = scratch / "consumer"
+def configure(tree, arguments, build, mode, *more, code=0):
+    """The project `consumer`, with the build type that is given."""
     shutil.rmtree(build, ignore_errors=True)
     example = tree.prefix / "share/doc/abut/examples/c-interface/two_strings.c"
-    tree.run(arguments.cmake, "-S", source, "-B", build, "-G", "Ninja",
-             f"-DCMAKE_BUILD_TYPE={arguments.mode}",
-             f"-DCMAKE_PREFIX_PATH={tree.prefix}", f"-DEXAMPLE={example}")
+    source = pathlib.Path(__file__).parent / "consumer"
+    return tree.run(
+        arguments.cmake, "-S", source, "-B", build, "-G", "Ninja",
+        f"-DCMAKE_BUILD_TYPE={mode}", f"-DCMAKE_PREFIX_PATH={tree.prefix}",
+        f"-DEXAMPLE={example}", *more, code=code)
+
+
+def check_find_package(tree, arguments, scratch):
+    build = scratch / "consumer"
+    configure(tree, arguments, build, arguments.mode)
     tree.run(arguments.cmake, "--build", build, "-j1")
     output = tree.run(build / "consumer").stdout
     require("is registered already" in output and "same methods: 8" in output,
             output)
     check_strings(tree.run(build / "two-strings").stdout)
+
+
+OTHER = {"Debug": "Release", "Release": "Debug"}
+POSTFIX = {"Debug": ".g", "Release": ""}
+PRESET = {"Debug": "dev", "Release": "release"}
+
+
+def check_other_mode_refused(tree, arguments, scratch):
+    """A program in the mode that is not installed; and one in none."""
+    other = OTHER[arguments.mode]
+    for mode, words in ((other, [f"CMAKE_BUILD_TYPE={other}",
+                                 f"libabut_plugin{POSTFIX[other]}.so",
+                                 f"preset '{PRESET[other]}'"]),
+                        ("", ["-DCMAKE_BUILD_TYPE=Release or Debug"])):
+        result = configure(tree, arguments, scratch / "refused", mode, code=1)
+        message = " ".join(result.stderr.split())
+        for word in words:
+            require(word in message, f"no {word} in {message}")
+
+
+def add_other_mode(tree, libdir, mode):
+    """A tree with the libraries of both modes, as another build would install
+    them: those of the other mode are copies of these."""
+    other = OTHER[mode]
+    both = Tree(tree.prefix.parent / "both", libdir)
+    shutil.rmtree(both.prefix, ignore_errors=True)
+    shutil.copytree(tree.prefix, both.prefix, symlinks=True)
+    ours, theirs = POSTFIX[mode] + ".so", POSTFIX[other] + ".so"
+    for name in ("abut", "abut_plugin"):
+        shutil.copy(both.libraries / f"lib{name}{ours}",
+                    both.libraries / f"lib{name}{theirs}")
+    targets = both.libraries / "cmake/Abut"
+    text = (targets / f"AbutDealii-{mode.lower()}.cmake").read_text()
+    text = text.replace(mode.upper(), other.upper()).replace(mode, other)
+    text = text.replace(f"libabut{ours}.0.1.0", f"libabut{theirs}")
+    (targets / f"AbutDealii-{other.lower()}.cmake").write_text(text)
+    return both
+
+
+def check_both_modes(tree, arguments, scratch):
+    """Each program gets the libraries of its own mode, Abut's and deal.II's,
+    and nothing of the other."""
+    both = add_other_mode(tree, arguments.libdir, arguments.mode)
+    build = scratch / "both-modes"
+    for mode in OTHER:
+        configure(both, arguments, build, mode)
+        rules = (build / "build.ninja").read_text()
+        link = rules[rules.index("build consumer:"):].split("\n\n")[0]
+        for library in ("libabut", "libdeal.ii"):
+            found = {word.rsplit("/", 1)[-1].split(".so")[0]
+                     for word in link.split()
+                     if f"/{library}" in word and ".so" in word}
+            require(found == {library + POSTFIX[mode]},
+                    f"{mode}: links to {found}")
+        define = f"libabut_plugin{POSTFIX[mode]}.so"
+        require(define in rules, f"{mode}: Abut_PLUGIN is not {define}")
+        require(("-DNDEBUG" in rules) == (mode == "Release"),
+                f"{mode}: NDEBUG")
 
 
 def main():
@@ -102,6 +169,8 @@ def main():
             check_program(tree, scratch)
         check_c(tree, scratch)
         check_find_package(tree, arguments, scratch)
+        check_other_mode_refused(tree, arguments, scratch)
+        check_both_modes(tree, arguments, scratch)
 
     return passed(checks)
 

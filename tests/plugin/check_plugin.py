@@ -5,6 +5,7 @@ plugins, or plugins for others: copies of the real one in which a few bytes are
 changed. Every pairing works, or is refused with one line before the plugin is
 loaded; no program crashes at its end."""
 import argparse
+import os
 import pathlib
 import subprocess
 import sys
@@ -137,6 +138,26 @@ def wrong_symbols(check):
     ]
 
 
+def check_names(check, host):
+    """A name without a slash is one of a library, as for dlopen(); others are
+    paths."""
+    name, folder = check.plugin.name, str(check.plugin.parent)
+    search = os.environ.get("LD_LIBRARY_PATH")
+    check.refused(host, [("libabut_nowhere.so",
+                          ["no such file in the folders of libraries (", "/lib",
+                           "LD_LIBRARY_PATH"], False),
+                         ("./libabut_nowhere.so",
+                          ["no such file in the working folder",
+                           str(pathlib.Path.cwd())], False)])
+    os.environ["LD_LIBRARY_PATH"] = folder
+    check.works("by LD_LIBRARY_PATH", host, name, largest_error=1e-10)
+    del os.environ["LD_LIBRARY_PATH"]
+    if search is not None:
+        os.environ["LD_LIBRARY_PATH"] = search
+    check.works("by a relative path", host,
+                "./" + os.path.relpath(check.plugin), largest_error=1e-10)
+
+
 def check_all(arguments):
     check = Checker(arguments)
     hosts = {"Debug": arguments.debug_host, "Release": arguments.release_host}
@@ -159,6 +180,8 @@ def check_all(arguments):
     check.refused(other_host, [(check.plugin, modes, False)])
     no_plugin = [(check.scratch / "none.so", ["no such file"], False)]
     check.refused(host, no_plugin, ranks=2)
+
+    check_names(check, host)
 
     # The stamp is all that is looked at in a plugin of the other mode.
     fakes = [(check.fake("mode", MODE, other_mode.encode() + b"\0"),

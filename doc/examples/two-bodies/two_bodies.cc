@@ -197,6 +197,7 @@ private:
     contact.reinit(mapping, dof_handler, constraints);
     contact.set_pressure(pressure); // contact: from the coarser mesh, or 0
     contact.detect(u);
+    report_warnings();
     la::Vector increment(owned, MPI_COMM_WORLD);
     n_steps = 0;
     do
@@ -209,7 +210,20 @@ private:
     } while (contact.update(u)); // contact: instead of a test of the residual
     AssertThrow(contact.reason() == ABUT_REASON_CONVERGED,
                 ExcMessage(contact.explanation()));
+    // contact: whether bodies have met where no constraint was
+    AssertThrow(
+        contact.check_penetration(u, 1e-3 * contact.length_scale(u)).empty(),
+        ExcMessage("Nodes penetrate without a constraint: use a larger reach"));
     pressure = contact.pressure();
+  }
+
+  /** contact: what looks wrong before anything is solved. */
+  void report_warnings() const
+  {
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      for (const abut::PairCheck &check : contact.pair_checks())
+        for (const std::string &warning : check.warnings)
+          std::cerr << warning << std::endl;
   }
 
   void refine()

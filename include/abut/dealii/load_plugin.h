@@ -19,6 +19,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <vector>
 
 namespace abut
 {
@@ -74,12 +76,58 @@ namespace abut
       return "";
     }
 
+    /** The folders in which dlopen() looks for a name without a slash:
+     * LD_LIBRARY_PATH, those that the program was linked with, and the
+     * system's. */
+    inline std::vector<std::string> library_folders()
+    {
+      std::vector<std::string> result;
+      void *const program = dlopen(nullptr, RTLD_LAZY);
+      Dl_serinfo sizes;
+      if (program == nullptr
+          || dlinfo(program, RTLD_DI_SERINFOSIZE, &sizes) != 0)
+        return result;
+      std::vector<char> memory(sizes.dls_size);
+      auto *const info = reinterpret_cast<Dl_serinfo *>(memory.data());
+      if (dlinfo(program, RTLD_DI_SERINFOSIZE, info) == 0
+          && dlinfo(program, RTLD_DI_SERINFO, info) == 0)
+        for (unsigned int i = 0; i < info->dls_cnt; ++i)
+          result.emplace_back(info->dls_serpath[i].dls_name);
+      dlclose(program);
+      return result;
+    }
+
+    /** The file that is meant by @p name: a name with a slash is a path, one
+     * without is looked for as dlopen() does; a problem if it is nowhere. */
+    inline std::string find_plugin(const std::string &name, std::string &path)
+    {
+      std::error_code error;
+      path = name;
+      if (name.find('/') != std::string::npos)
+        return std::filesystem::is_regular_file(path, error)
+                   ? ""
+                   : "there is no such file"
+                         + (name[0] == '/'
+                                ? std::string()
+                                : " in the working folder '"
+                                      + std::filesystem::current_path(error)
+                                            .string()
+                                      + "'");
+      std::string where;
+      for (const std::string &folder : library_folders())
+      {
+        path = folder + "/" + name;
+        if (std::filesystem::is_regular_file(path, error))
+          return "";
+        where += (where.empty() ? "" : ", ") + folder;
+      }
+      return "there is no such file in the folders of libraries (" + where
+             + "): give its whole path, or name its folder in LD_LIBRARY_PATH";
+    }
+
     /** Look at a file without running anything of it. */
     inline std::string check_plugin_file(const std::string &path)
     {
-      std::error_code error;
-      if (!std::filesystem::is_regular_file(path, error))
-        return "there is no such file";
       std::ifstream file(path, std::ios::binary);
       if (!file)
         return "it cannot be read";
@@ -143,18 +191,24 @@ namespace abut
     }
   } // namespace internal
 
-  /** Load the plugin @p path and add its methods to @p registry; throws
-   * PluginError, and loads nothing, if it does not fit. It stays loaded until
-   * the program ends. Collective; call it after MPI is initialised. */
+  /** Load the plugin @p name and add its methods to @p registry; throws
+   * PluginError, and loads nothing, if it does not fit. A name with a slash is
+   * a path, absolute or from the working folder; one without is looked for as
+   * dlopen() does, in LD_LIBRARY_PATH, the folders that the program was linked
+   * with, and the system's. It stays loaded until the program ends. Collective;
+   * call it after MPI is initialised. */
   template <int dim>
-  void load_plugin(const std::string &path, Registry<dim> &registry,
+  void load_plugin(const std::string &name, Registry<dim> &registry,
                    const MPI_Comm communicator = MPI_COMM_WORLD)
   {
-    internal::throw_plugin_error(path, internal::check_plugin_file(path),
-                                 communicator);
+    std::string path;
+    std::string problem = internal::find_plugin(name, path);
+    if (problem.empty())
+      problem = internal::check_plugin_file(path);
+    internal::throw_plugin_error(name, problem, communicator);
     const abut_plugin *plugin = nullptr;
-    const std::string problem = internal::open_plugin(path, plugin);
-    internal::throw_plugin_error(path, problem, communicator);
+    problem = internal::open_plugin(path, plugin);
+    internal::throw_plugin_error(name, problem, communicator);
     (dim == 2 ? plugin->register_2d : plugin->register_3d)(&registry);
   }
 } // namespace abut
