@@ -201,6 +201,25 @@ target = ["Refinement/Target error=0.05", "Refinement/Refine fraction=0.4",
 expected = alone(membrane, target)
 killed(membrane, 3, expected, target)
 
+# A disc from a file: resumed, refinement goes on along the circle, on two ranks
+# too, whose mesh p4est has made anew.
+corners = [(x * r, y * r) for r in (0.4, 0.5**0.5)
+           for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+cells = [(1, 2, 3, 4), *((k + 1, k + 5, (k + 1) % 4 + 5, (k + 1) % 4 + 1)
+                         for k in range(4))]
+p.write("disc.inp", f"8 {len(cells)} 0 0 0\n"
+        + "".join(f"{i} {x!r} {y!r} 0\n"
+                  for i, (x, y) in enumerate(corners, start=1))
+        + "".join(f"{i} 0 quad {' '.join(map(str, cell))}\n"
+                  for i, cell in enumerate(cells, start=1)))
+disc = ["Mesh/File=disc.inp", "Mesh/Curved sides=0: circle: 0, 0", *cycles]
+expected = alone(membrane, disc)
+killed(membrane, 3, expected, disc)
+check_other_ranks(membrane, expected, disc)
+chords = alone(membrane, ["Mesh/File=disc.inp", *cycles])
+p.expect(kill_and_resume.compare_coarsely(expected, chords, 1e-3, ""),
+         "a disc as a square")
+
 # Files that parameters name count with their content.
 mesh = p.source / "prm/slotted-block.inp"
 shutil.copy(mesh, p.folder)

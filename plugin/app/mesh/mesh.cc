@@ -2,6 +2,8 @@
 
 #include "mesh.h"
 
+#include "curved_sides.h"
+
 #include "app/input/collective.h"
 #include "app/input/dealii_message.h"
 #include "app/input/expression.h"
@@ -191,6 +193,16 @@ namespace abut::app
                       "the coarse mesh: 'id: condition' separated by ';', "
                       "for example '1: y > 0.99; 2: abs(x) < 1e-6'. A later "
                       "entry wins.");
+    prm.declare_entry("Curved sides", "", Anything(),
+                      "Surfaces that refinement follows, by boundary id; "
+                      "without, it keeps the straight facets of a mesh file. "
+                      "In 2D 'ids: circle: centre', in 3D 'ids: sphere: "
+                      "centre' or 'ids: cylinder: point of the axis: "
+                      "direction', separated by ';', for example '3: circle: "
+                      "0, 0; 4: circle: 2, 1'. The nodes with an id tell its "
+                      "radius and must be on the surface. 'ids: flat' says "
+                      "that the facets are meant as they are. In the "
+                      "coordinates of the mesh where it has been moved to.");
   }
 
   void MeshParameters::parse(dealii::ParameterHandler &prm,
@@ -201,6 +213,7 @@ namespace abut::app
     arguments = prm.get("Arguments");
     file = prm.get("File");
     boundary_ids = prm.get("Boundary ids");
+    curved_sides = prm.get("Curved sides");
     const auto numbers = [&](const std::string &name)
     { return parse_numbers(prm.get(name), section + "/" + name); };
     scale = numbers("Scale");
@@ -284,6 +297,8 @@ namespace abut::app
         if (id != dealii::numbers::flat_manifold_id)
           placed.set_manifold(id,
                               PlacedManifold<dim>(reference, id, placement));
+      set_curved_sides(parameters.curved_sides,
+                       parameters.section + "/Curved sides", placed);
     };
     collective(options.communicator, prepare);
     triangulation.copy_triangulation(placed);

@@ -29,6 +29,7 @@ namespace abut::app
     std::vector<double> rotate;
     std::vector<double> move;
     std::string boundary_ids;
+    std::string curved_sides;
     std::string section; /**< full name of the section, for messages */
 
     /** Declare the parameters in the present section of @p prm. */
@@ -45,9 +46,9 @@ namespace abut::app
   Placement<dim> make_placement(const MeshParameters &parameters);
 
   /** Create the coarse mesh in the empty @p triangulation: generate or read
-   * it, then scale, rotate and move it, then set boundary ids. Manifolds of
-   * generators stay attached (as long as nothing but moving, rotating and equal
-   * scaling is asked for; unequal scaling flattens them).
+   * it, then scale, rotate and move it, then set boundary ids and curved sides.
+   * Manifolds of generators stay attached (as long as nothing but moving,
+   * rotating and equal scaling is asked for; unequal scaling flattens them).
    *
    * Throws InputError, on all ranks alike, that names the parameter: an unknown
    * generator (with the nearest right names), arguments that do not fit (with

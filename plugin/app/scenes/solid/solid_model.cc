@@ -4,13 +4,16 @@
 #include "app/adapt/elastic_estimator.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
+#include "app/mesh/curved_sides.h"
 #include "app/physics/contact_traction.h"
 #include "app/physics/elastic_normal_stress.h"
+#include "app/pictures/contact_output.h"
 #include "app/restart/archive.h"
 #include "solid_report.h"
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace abut::app
 {
@@ -116,6 +119,30 @@ namespace abut::app
     }
     pairs->hold(bodies, floating);
     check_points(points, elasticity);
+    look_for_chords();
+  }
+
+  template <int dim> void SolidModel<dim>::look_for_chords() const
+  {
+    std::set<dealii::types::material_id> from_files;
+    for (unsigned int body = 0; body < bodies.size(); ++body)
+      if (!bodies[body].mesh.file.empty()
+          && bodies[body].refinements + parameters.refinement.last_mesh() > 0)
+        from_files.insert(body);
+    const Bend<dim> bend =
+        largest_bend(this->triangulation, from_files, pairs->surfaces());
+    if (bend.degrees == 0.)
+      return;
+    std::ostringstream message;
+    message << "Facets of the mesh file of " << bodies.name(bend.id)
+            << " meet at an angle of " << short_number(bend.degrees, 3)
+            << " degrees at (" << bend.place
+            << "), and refinement keeps them straight: finer meshes will "
+               "converge to the contact of a polygon. Name the circle, "
+               "cylinder or sphere in "
+            << bodies[bodies.body_of(bend.id)].mesh.section
+            << "/Curved sides; 'flat' there says that it is a corner.";
+    run.report.warn(coded(ABUT_FAILURE_COARSE_CURVE, message.str()));
   }
 
   template <int dim> void SolidModel<dim>::setup_mesh()
@@ -178,9 +205,9 @@ namespace abut::app
     return "";
   }
 
-  template <int dim> void SolidModel<dim>::look_at_rows()
+  template <int dim> void SolidModel<dim>::look_at_rows(const bool is_last)
   {
-    if (has_warned || !run.is_last_mesh())
+    if (has_warned || !is_last)
       return;
     has_warned = true;
     for (const PairCheck &check : run.contact.pair_checks())
@@ -232,6 +259,9 @@ namespace abut::app
                              elasticity.unbalanced_forces(run.u)),
             elasticity.ghosted_field(run.contact.pressure()),
             elasticity.ghosted_field(run.contact.gap()),
+            elasticity.ghosted_field(mark_rows(elasticity.dof_handler,
+                                               run.contact.gap(),
+                                               run.contact.status())),
             elasticity.ghosted_field(run.contact.status())};
   }
 

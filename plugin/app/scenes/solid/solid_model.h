@@ -54,7 +54,7 @@ namespace abut::app
       return pairs->parameter_of(message);
     }
     std::string support_of(const std::string &message) const override;
-    void look_at_rows() override;
+    void look_at_rows(bool is_last) override;
     /** Names a body that nothing holds. */
     std::string refuse() const override;
 
@@ -116,6 +116,8 @@ namespace abut::app
     /** Search parameters with the numbers of the triangulation in place of the
      * user's boundary ids. Throws InputError for ids that no body has. */
     SearchParameters numbered_search() const;
+    /** Whether refinement keeps the chords of a round side in contact. */
+    void look_for_chords() const;
     bool is_held(unsigned int body,
                  const std::vector<PairResult<dim>> &results) const;
 
