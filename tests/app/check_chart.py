@@ -252,6 +252,13 @@ wrong(chart(VALUES, GOOD, curve("a", {"Method/Enforcment": "penalty"})),
       "chart.prm:11: Method/Enforcment", "Enforcement")
 wrong(chart(VALUES, GOOD, curve("a", {"Method/Enforcement": "penalti"})),
       "chart.prm:11: Method/Enforcement", "'penalty'")
+twice = [curve("a", {"Method/Enforcement": law})
+         for law in ("lagrange", "penalty")]
+wrong(chart(VALUES, GOOD, "".join(twice)), "chart.prm:16", "second section",
+      "'Curve a'")
+wrong(chart(VALUES, GOOD, twice[0] + curve("b", {"Refinement/Level": 2})
+            + curve("a", {"Refinement/Level": 3})), "second section",
+      "'Curve a'")
 wrong(chart(VALUES + "\nset Axis = Refinement/Levels", GOOD),
       "chart.prm:3: Refinement/Levels", "'Level'")
 wrong(chart("set Values = 2 | two", GOOD), "chart.prm:3: Refinement/Level",

@@ -66,6 +66,11 @@ def solve(name, text, ranks):
     p.expect(result.returncode == 0, f"{out}: {result.stderr}")
     steps = [vtu.pieces(path)
              for path in sorted((p.folder / out).glob("contact_*.vtu"))]
+    values = [value for pieces in steps for piece in pieces
+              for value in zip(piece.fields["status"], piece.fields["gap"])]
+    p.expect(all(math.isnan(gap) for status, gap in values if status == -1)
+             and all(math.isfinite(gap) for status, gap in values
+                     if status == 1), f"{out}: gaps without rows")
     return json.loads((p.folder / out / "summary.json").read_text()), steps
 
 

@@ -137,6 +137,10 @@ namespace
     Expect::that(evaluated(status, vectors)
                      == std::vector<double>{vectors[0][0], vectors[1][0]},
                  "first component");
+    const std::vector<double> gaps =
+        evaluated(GapOfRows<dim>("gap"), {{2, 1, 2}, {2, 0.5, 2}});
+    Expect::that(gaps[0] == 2 && std::isnan(gaps[1]),
+                 "no gap at a hanging node with one row");
 
     const std::string kind = std::to_string(dim);
     for (const unsigned int degree : {1U, 2U})
@@ -318,7 +322,7 @@ namespace
     refine_corner(problem);
     const la::Vector traction =
         problem.interpolate("if(x > 1 - 1e-9, -3, 0); if(y < 1e-9, 1 + x, 0)");
-    const la::Vector gap = problem.interpolate("x; x");
+    const la::Vector gap = problem.interpolate("x; if(x < 0.6, 1, 0)");
     const la::Vector status = problem.interpolate("x; x");
     const std::vector<ContactLine> both =
         contact_lines(problem.mapping, problem.dof_handler, {1, 2},
@@ -352,7 +356,10 @@ namespace
       {
         Expect::near(node.arc, node.place[0], 1e-14, "arc");
         Expect::near(node.pressure, 1 + node.place[0], 1e-14, "pressure");
-        Expect::near(node.gap, node.place[0], 1e-14, "gap");
+        if (node.place[0] < 0.6)
+          Expect::near(node.gap, node.place[0], 1e-14, "gap");
+        else
+          Expect::that(std::isnan(node.gap), "no gap without a row");
         Expect::near(node.status, node.place[0], 1e-14, "status");
       }
     write_contact_lines(folder / "line.csv", two);
@@ -382,11 +389,20 @@ namespace
         dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     Expect::that(draw_bodies(report, folder, "bodies", problem.mapping,
                              problem.dof_handler, u, hooke<2>(7., 0.3), curves,
-                             "Two bodies")
+                             {}, "Two bodies")
                      == root,
                  "bodies are drawn");
-    Expect::that(draw_bodies(report, folder, "bodies-alone", problem.mapping,
+    abut_obstacle_shape plane = abut_obstacle_shape_defaults();
+    plane.dimension = 2;
+    plane.axis[0] = 1.;
+    Expect::that(draw_bodies(report, folder, "bodies-plane", problem.mapping,
                              problem.dof_handler, u, hooke<2>(7., 0.3), {},
+                             {{std::make_shared<RigidObstacle<2>>(plane), {}}},
+                             "Bodies and a plane")
+                     == root,
+                 "bodies are drawn with an obstacle");
+    Expect::that(draw_bodies(report, folder, "bodies-alone", problem.mapping,
+                             problem.dof_handler, u, hooke<2>(7., 0.3), {}, {},
                              "Two bodies")
                      == root,
                  "bodies are drawn without contact");
@@ -395,6 +411,11 @@ namespace
     const std::string script = content(folder / "bodies.gp");
     Expect::that(script.find("drawn 50 times") != std::string::npos,
                  "factor of the displacement");
+    Expect::that(script.find("$obstacles") == std::string::npos
+                     && content(folder / "bodies-plane.gp")
+                                .find(", $obstacles using 1:2")
+                            != std::string::npos,
+                 "obstacle in the picture");
     const std::string svg = content(folder / "bodies.svg");
     Expect::that(svg.find("</svg>") != std::string::npos, "picture complete");
     Expect::that(svg.size() < 300000,

@@ -262,6 +262,21 @@ namespace
                  "distance from the sphere");
     Expect::near(dealii::GridTools::volume(ball, dealii::MappingQ<3>(3)),
                  4 * pi / 3, 1e-3, "volume of the ball");
+
+    // a cube whose sides are named as parts of the sphere through its corners
+    MeshParameters named = mesh_parameters("hyper_cube", "-1 : 1 : false");
+    named.move = {0, 2, 0};
+    named.curved_sides = "0: sphere: 0, 2, 0";
+    Mesh<3> blown(MPI_COMM_WORLD);
+    create_mesh(named, run_options(), blown);
+    blown.refine_global(1);
+    for (const auto &cell : blown.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->center()[0] > 0)
+        cell->set_refine_flag();
+    blown.execute_coarsening_and_refinement();
+    const double radius = std::sqrt(3.);
+    Expect::near(largest_distance(blown, {0, 2, 0}, {radius, radius, radius}),
+                 0, 1e-13, "distance from the sphere that was named");
   }
 
   void mesh_files()

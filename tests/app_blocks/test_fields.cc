@@ -6,8 +6,10 @@
 #include "app/input/expression.h"
 #include "app/physics/error_norms.h"
 #include "app/pictures/field_output.h"
+#include "app/pictures/picture_parts.h"
 #include "app/pictures/pictures.h"
 #include "app/pictures/raster.h"
+#include "app/pictures/zero_line.h"
 #include "app/report/report.h"
 
 #include "expect.h"
@@ -360,6 +362,63 @@ namespace
                      != std::string::npos,
                  "slope of the H1 error");
   }
+
+  /** The number that stands behind a word of a script. */
+  double number_after(const std::string &script, const std::string &word)
+  {
+    const std::size_t place = script.find(word);
+    return place == std::string::npos
+               ? std::nan("")
+               : std::stod(script.substr(place + word.size()));
+  }
+
+  void axes()
+  {
+    // whole numbers: whole ticks, and a range a little wider than they are
+    const std::string levels = fitted_axis('x', {4, 2, 3}, false);
+    Expect::that(levels.find("set xtics 1\n") != std::string::npos, levels);
+    Expect::near(number_after(levels, "xrange ["), 1.92, 1e-12, "left end");
+    Expect::that(fitted_axis('x', {0, 1000}, false).find("xtics 100\n")
+                     != std::string::npos,
+                 "ticks at hundreds");
+    Expect::that(fitted_axis('x', {0.5, 2}, false).find("xtics autofreq")
+                     != std::string::npos,
+                 "ticks of other numbers");
+    // logarithmic: not up to the next power of ten, zeros left out
+    const std::string errors =
+        fitted_axis('y', {0.02, 0, std::nan(""), 0.2}, true);
+    Expect::near(number_after(errors, "yrange ["), 0.02 / std::pow(10., 0.04),
+                 1e-9, "lower end");
+    Expect::that(errors.find("set ytics (0.02, 0.05, 0.1, 0.2)")
+                     != std::string::npos,
+                 errors);
+    Expect::that(fitted_axis('y', {1, 1.1}, true).find("ytics (1, 1.05, 1.1)")
+                     != std::string::npos,
+                 "ticks of a short axis: " + fitted_axis('y', {1, 1.1}, true));
+    Expect::that(fitted_axis('y', {0, -1}, true).empty(), "nothing to show");
+  }
+
+  /** The circle x^2 + y^2 = 1, to the second order of the grid. */
+  void round_line()
+  {
+    Raster frame;
+    frame.x_min = frame.y_min = -2;
+    frame.x_max = frame.y_max = 2;
+    const auto rows =
+        zero_line(frame, 81, [](const Point<2> &x) { return x.norm() - 1.; });
+    double length = 0.;
+    for (std::size_t i = 0; i < rows.size(); i += 3)
+    {
+      const Point<2> a(rows[i][0], rows[i][1]),
+          b(rows[i + 1][0], rows[i + 1][1]);
+      Expect::near(a.norm(), 1., 2e-3, "on the circle");
+      length += a.distance(b);
+    }
+    Expect::near(length, 2 * 3.14159265, 0.01, "length of the circle");
+    Expect::that(
+        zero_line(frame, 11, [](const Point<2> &) { return 1.; }).empty(),
+        "no line");
+  }
 } // namespace
 
 int
@@ -381,6 +440,8 @@ main(int argc, char **argv)
                       effectivity<3>(1, 2);
                       rasters();
                       field_files();
+                      axes();
+                      round_line();
                       pictures();
                     });
 }

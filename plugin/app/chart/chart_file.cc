@@ -14,6 +14,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 namespace abut::app
 {
@@ -110,6 +111,30 @@ namespace abut::app
         result = longer;
       }
       return result;
+    }
+
+    /** A section that comes back, or says something twice, is another curve
+     * with the same name, which would lose the first one. The command line may
+     * well say something once more. */
+    void check_repeated(const std::vector<Assignment> &all)
+    {
+      std::set<std::string> paths, sections;
+      std::string last;
+      for (const Assignment &assignment : all)
+      {
+        if (!of_curve(assignment.path) || begins_with(assignment.origin, "--"))
+          continue;
+        const std::string section =
+            assignment.path.substr(0, assignment.path.find('/'));
+        const bool comes_back =
+            section != last && !sections.insert(section).second;
+        if (comes_back || !paths.insert(assignment.path).second)
+          throw InputError("", assignment.origin + ": '" + assignment.path
+                                   + "' is in a second section '" + section
+                                   + "', or set twice: give each curve a "
+                                     "name of its own.");
+        last = section;
+      }
     }
 
     std::vector<std::string> section_names(const std::vector<Assignment> &all)
@@ -275,6 +300,7 @@ namespace abut::app
 
   void ChartFile::read_curves(const std::vector<Assignment> &free)
   {
+    check_repeated(free);
     const std::vector<Assignment> common = below(all_curves, free);
     std::vector<std::string> names = section_names(free);
     if (names.empty())

@@ -27,6 +27,10 @@ namespace abut::app
 
     constexpr int n_line_types = 8;
 
+    constexpr unsigned int width = 900, height = 500; // of a picture
+
+    const std::string front_label = "front: nothing is better";
+
     std::string time_label(const ChartFile &chart)
     {
       if (chart.time == "processor_seconds")
@@ -103,10 +107,28 @@ namespace abut::app
       if (front.empty())
         return;
       data << gnuplot_data("front", front);
-      below = "$front using 1:2 with steps lw 7 lc rgb '#dcdcdc' title 'front: "
-              "nothing is better', ";
+      below = "$front using 1:2 with steps lw 7 lc rgb '#dcdcdc' title "
+              + quoted(front_label) + ", ";
       above = ", $front using 1:2 with points pt 6 ps 1.7 lw 1.6 lc rgb "
               "'#000000' notitle";
+    }
+
+    /** Put the legend beside the curves, and leave it no more room than its
+     * longest label needs: gnuplot guesses too wide a font. */
+    std::string legend_beside(const std::vector<double> &label_lengths,
+                              const bool with_front)
+    {
+      double longest = with_front ? double(front_label.size()) : 0.;
+      for (const double length : label_lengths)
+        longest = std::max(longest, length);
+      const double letter = 8., sample = 75.;
+      const double share =
+          std::min(0.5, (sample + letter * longest) / double(width));
+      std::ostringstream script;
+      script << "set rmargin at screen " << 1. - share << "\nset key at screen "
+             << 1.01 - share
+             << ", graph 1 left top vertical Left reverse noenhanced\n";
+      return script.str();
     }
 
     void draw(Report &report, const std::filesystem::path &folder,
@@ -115,6 +137,7 @@ namespace abut::app
     {
       std::ostringstream data;
       std::string below, above, curves;
+      std::vector<double> xs, ys, label_lengths;
       if (axes.front != nullptr)
         add_front(axes, rows, data, below, above);
       const bool many_axes = axis_names(chart).size() > 1;
@@ -130,15 +153,23 @@ namespace abut::app
           continue;
         const std::string name = "curve" + std::to_string(c);
         data << gnuplot_data(name, points);
+        for (const std::vector<double> &point : points)
+          if (std::isfinite(point[0] + point[1]))
+          {
+            xs.push_back(point[0]);
+            ys.push_back(point[1]);
+          }
         const ChartCurve &curve = chart.curves[c];
         const bool with_axis =
             many_axes && axes.x == &ChartRow::x && chart.axis_quantity.empty();
+        const std::string label =
+            curve.name + (with_axis ? " (" + axis_name(curve) + ")" : "");
+        label_lengths.push_back(double(label.size()));
         curves += (curves.empty() ? "$" : ", $") + name
                   + " using 1:2 with linespoints lt "
                   + std::to_string(1 + c % n_line_types) + " dt "
                   + std::to_string(1 + c / n_line_types) + " title "
-                  + quoted(curve.name
-                           + (with_axis ? " (" + axis_name(curve) + ")" : ""));
+                  + quoted(label);
       }
       if (curves.empty())
       {
@@ -147,17 +178,16 @@ namespace abut::app
         return;
       }
       std::ostringstream script;
-      script << gnuplot_header(axes.name, 900, 500) << data.str()
+      script << gnuplot_header(axes.name, width, height) << data.str()
              << "set title " << quoted(chart.title) << " noenhanced\n"
-             << "set logscale y\n"
-             << (is_wide(rows, axes.x, 20.) ? "set logscale x\n" : "")
              << "set format '%g'\n"
+             << fitted_axis('x', xs, is_wide(rows, axes.x, 20.))
+             << fitted_axis('y', ys, true)
              << (is_wide(rows, axes.x, 1e6) ? "set format x '10^{%T}'\n" : "")
-             << "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n"
              << "set xlabel " << quoted(axes.x_label) << " noenhanced\n"
              << "set ylabel " << quoted(axes.y_label) << " noenhanced\n"
-             << "set key outside right top vertical Left reverse noenhanced\n"
-             << "plot " << below << curves << above << '\n';
+             << legend_beside(label_lengths, axes.front != nullptr) << "plot "
+             << below << curves << above << '\n';
       draw_picture(report, folder, axes.name, script.str());
     }
   } // namespace

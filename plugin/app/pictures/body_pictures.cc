@@ -6,6 +6,7 @@
 #include "gnuplot.h"
 #include "picture_parts.h"
 #include "raster.h"
+#include "zero_line.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_q.h>
@@ -99,20 +100,74 @@ namespace abut::app
       return rows;
     }
 
-    /** The map of the stress, in the upper part of the picture. */
-    std::string map_script(const Raster &raster, const double bottom)
+    /** What the picture shows: the bodies, and a strip around them where
+     * surfaces of obstacles are. */
+    Raster frame_of(const Raster &bodies, const bool with_obstacles)
     {
-      const auto [low, high] = value_range(raster.fields.at(0));
+      Raster frame(bodies);
+      if (!with_obstacles)
+        return frame;
+      const double strip =
+          0.08
+          * std::max(bodies.x_max - bodies.x_min, bodies.y_max - bodies.y_min);
+      frame.x_min -= strip;
+      frame.x_max += strip;
+      frame.y_min -= strip;
+      frame.y_max += strip;
+      return frame;
+    }
+
+    /** Surfaces of obstacles, moved @p factor times as far as they are. */
+    std::vector<std::vector<double>>
+    surfaces(const std::vector<DrawnObstacle> &obstacles, const Raster &frame,
+             const double factor)
+    {
+      std::vector<std::vector<double>> rows;
+      for (const DrawnObstacle &obstacle : obstacles)
+      {
+        const auto distance = [&](const dealii::Point<2> &drawn)
+        {
+          std::vector<double> result;
+          try
+          {
+            obstacle.shape->distance({drawn - (factor - 1.) * obstacle.motion},
+                                     result);
+          }
+          catch (const std::exception &)
+          {
+            return none; // a formula without a value there
+          }
+          return result[0];
+        };
+        const auto lines = zero_line(frame, 160, distance);
+        rows.insert(rows.end(), lines.begin(), lines.end());
+      }
+      return rows;
+    }
+
+    /** The map of the stress, in the upper part of the picture. */
+    std::string map_script(const Raster &raster, const Raster &frame,
+                           const bool with_obstacles, const double bottom)
+    {
+      auto [low, high] = value_range(raster.fields.at(0));
+      if (!(high - low > 1e-5 * std::abs(high))) // all but the same everywhere
+      {
+        low -= 0.5 * std::abs(low);
+        high = high > low ? high + 0.5 * std::abs(high) : low + 1.;
+      }
       std::ostringstream script;
       script << "set origin 0, " << bottom << "\nset size 1, " << 0.95 - bottom
              << '\n'
-             << palette() << ranges(raster) << "set cbrange [" << low << ':'
-             << (high > low ? high : low + 1)
-             << "]\nset size ratio -1\nunset key\nunset grid\n"
+             << palette() << ranges(frame) << "set cbrange [" << low << ':'
+             << high << "]\nset size ratio -1\nunset key\nunset grid\n"
              << "set format cb '%g'\nset xlabel 'x'\nset ylabel 'y'\n"
              << "set cblabel 'von Mises stress' offset 2\n"
              << "plot $stress using 1:2:3 with image, "
-             << "$outline using 1:2 with lines lc rgb '#303030' lw 0.8\n";
+             << "$outline using 1:2 with lines lc rgb '#303030' lw 0.8"
+             << (with_obstacles ? ", $obstacles using 1:2 with lines lc rgb "
+                                  "'#000000' lw 2.2"
+                                : "")
+             << '\n';
       return script.str();
     }
 
@@ -151,10 +206,16 @@ namespace abut::app
     std::string pressure_script(const std::vector<PressureCurve> &pressures,
                                 const double top)
     {
+      std::vector<double> values = {0.};
+      for (const PressureCurve &curve : pressures)
+        for (const ContactLine &line : curve.lines)
+          for (const ContactLineNode &node : line)
+            values.push_back(node.pressure);
       std::ostringstream script;
       script << "set origin 0, 0\nset size noratio 1, " << top
              << "\nset autoscale\n"
-             << pressed_range(pressures) << "set grid\nset key top right\n"
+             << pressed_range(pressures) << fitted_axis('y', values, false)
+             << "set grid\nset key top right\n"
              << "set xlabel 'length along the contact line'\n"
              << "set ylabel 'contact pressure'\n";
       for (std::size_t i = 0; i < pressures.size(); ++i)
@@ -172,6 +233,7 @@ namespace abut::app
                    const la::Vector &displacement,
                    const Materials<2> &materials,
                    const std::vector<PressureCurve> &pressures,
+                   const std::vector<DrawnObstacle> &obstacles,
                    const std::string &title)
   {
     const double factor = exaggeration(dof_handler, displacement);
@@ -190,8 +252,10 @@ namespace abut::app
     if (MPI::this_mpi_process(report.communicator) != 0)
       return false;
 
+    const Raster frame = frame_of(raster, !obstacles.empty());
+    const auto drawn_obstacles = surfaces(obstacles, frame, factor);
     const unsigned int below = pressures.empty() ? 0 : 280;
-    const unsigned int height = map_height(raster, 440, 110) + below;
+    const unsigned int height = map_height(frame, 440, 110) + below;
     std::ostringstream text;
     text << title;
     if (factor > 1.)
@@ -200,12 +264,14 @@ namespace abut::app
     script << gnuplot_header(name, 760, height)
            << grid_block("stress", raster, raster.fields.at(0), 1)
            << gnuplot_data("outline", edges);
+    if (!drawn_obstacles.empty())
+      script << gnuplot_data("obstacles", drawn_obstacles);
     for (std::size_t i = 0; i < pressures.size(); ++i)
       script << gnuplot_data("pressure" + std::to_string(i + 1),
                              pressure_rows(pressures[i].lines));
     const double share = double(below) / height;
     script << "set multiplot title " << quoted(text.str()) << " font ',15'\n"
-           << map_script(raster, share);
+           << map_script(raster, frame, !drawn_obstacles.empty(), share);
     if (!pressures.empty())
       script << pressure_script(pressures, share);
     script << "unset multiplot\n";

@@ -6,6 +6,8 @@
 
 #include "contact_line.h"
 
+#include "contact_output.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe.h>
 
@@ -90,7 +92,10 @@ namespace abut::app
       Values values(const dealii::Point<2> &x, const std::array<Key, 2> &node,
                     const dealii::Tensor<1, 2> &outward) const
       {
-        const double gap = fields.gap != nullptr ? (*fields.gap)(node[0]) : 0.;
+        const double gap =
+            fields.gap != nullptr
+                ? gap_of_row((*fields.gap)(node[0]), (*fields.gap)(node[1]))
+                : 0.;
         const double status =
             fields.status != nullptr ? (*fields.status)(node[0]) : 0.;
         return {

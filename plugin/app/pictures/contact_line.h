@@ -26,7 +26,7 @@ namespace abut::app
     double arc = 0.;        /**< length along the line from its first node */
     dealii::Point<2> place; /**< of the reference configuration */
     double pressure = 0.;   /**< > 0: compression */
-    double gap = 0.;        /**< > 0: open; 0 where there is no row */
+    double gap = 0.;        /**< > 0: open; NaN where there is no row */
     double status = 0.;     /**< as ContactAssembler::status() */
   };
 
@@ -38,8 +38,7 @@ namespace abut::app
   struct ContactLineFields
   {
     const la::Vector &traction; /**< force per area on the body */
-    /** As ContactAssembler::gap() and status(), the same in all components;
-     * null: 0. */
+    /** As mark_rows() and ContactAssembler::status(); null: 0. */
     const la::Vector *gap;
     const la::Vector *status;
   };

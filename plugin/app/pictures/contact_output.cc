@@ -2,7 +2,10 @@
 
 #include "contact_output.h"
 
+#include <deal.II/dofs/dof_tools.h>
+
 #include <cmath>
+#include <limits>
 
 namespace abut::app
 {
@@ -67,7 +70,45 @@ namespace abut::app
       result[0] = number(face->boundary_id());
   }
 
+  double gap_of_row(const double gap, const double presence)
+  {
+    return presence > 1. - 1e-6 ? gap
+                                : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  template <int dim>
+  la::Vector mark_rows(const dealii::DoFHandler<dim> &dof_handler,
+                       const la::Vector &gap, const la::Vector &status)
+  {
+    dealii::ComponentMask second(dim, false);
+    second.set(1, true);
+    la::Vector result(gap);
+    for (const auto dof : dealii::DoFTools::extract_dofs(dof_handler, second))
+      result(dof) = status(dof) < -0.5 ? 0. : 1.;
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+  template <int dim>
+  GapOfRows<dim>::GapOfRows(const std::string &name)
+      : dealii::DataPostprocessorScalar<dim>(name, dealii::update_values)
+  {
+  }
+
+  template <int dim>
+  void GapOfRows<dim>::evaluate_vector_field(
+      const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+      std::vector<dealii::Vector<double>> &results) const
+  {
+    for (unsigned int q = 0; q < results.size(); ++q)
+      results[q][0] = gap_of_row(inputs.solution_values[q][0],
+                                 inputs.solution_values[q][1]);
+  }
+
 #define ABUT_INSTANTIATE(dim)                                                  \
+  template class GapOfRows<dim>;                                               \
+  template la::Vector mark_rows<dim>(const dealii::DoFHandler<dim> &,          \
+                                     const la::Vector &, const la::Vector &);  \
   template class SignedLength<dim>;                                            \
   template class FirstComponent<dim>;                                          \
   template class NumberOfBoundary<dim>;

@@ -6,6 +6,9 @@
  * Fields of contact boundaries for output files of faces.
  */
 
+#include <abut/dealii/linear_algebra.h>
+
+#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
 #include <functional>
@@ -45,6 +48,7 @@ namespace abut::app
         const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
         std::vector<dealii::Vector<double>> &results) const override;
   };
+
   /** A number by boundary id, such as what its user calls it. For faces. */
   template <int dim>
   class NumberOfBoundary : public dealii::DataPostprocessorScalar<dim>
@@ -61,6 +65,30 @@ namespace abut::app
   private:
     const Number number;
   };
+
+  /** The gap, which is the same in all components of @p gap, with 1 in the
+   * second component where a node has a row and 0 where @p status says that it
+   * has none. All owned, without ghosts. */
+  template <int dim>
+  la::Vector mark_rows(const dealii::DoFHandler<dim> &dof_handler,
+                       const la::Vector &gap, const la::Vector &status);
+
+  /** From a field of mark_rows(), the gap; NaN, which viewers leave out, where
+   * a node has no row, or a hanging node a parent without one: nothing is known
+   * there, and 0 would mean that surfaces touch. */
+  template <int dim>
+  class GapOfRows : public dealii::DataPostprocessorScalar<dim>
+  {
+  public:
+    explicit GapOfRows(const std::string &name);
+
+    void evaluate_vector_field(
+        const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+        std::vector<dealii::Vector<double>> &results) const override;
+  };
+
+  /** What GapOfRows says of one node. */
+  double gap_of_row(double gap, double presence);
 } // namespace abut::app
 
 #endif

@@ -134,7 +134,11 @@ namespace abut::app
     std::string slope_text(const std::vector<std::pair<double, double>> &points)
     {
       const std::size_t n = points.size() / 2 + 1;
-      if (points.size() < 3)
+      const bool is_level =
+          std::all_of(points.begin(), points.end(),
+                      [&](const auto &point)
+                      { return point.second == points.front().second; });
+      if (points.size() < 3 || is_level)
         return "";
       double sx = 0;
       double sy = 0;
@@ -198,29 +202,35 @@ namespace abut::app
     if (n_plots == 0)
       return false;
 
-    double top = 1;
+    std::vector<double> unknowns, values, numbers = {0.};
+    for (const Curve &curve : errors)
+      for (const auto &[x, y] : shown(curve))
+      {
+        unknowns.push_back(x);
+        values.push_back(y);
+      }
     for (const Curve &curve : counts)
-      for (const auto &point : shown(curve))
-        top = std::max(top, point.second);
+      for (const auto &[x, y] : shown(curve))
+      {
+        unknowns.push_back(x);
+        numbers.push_back(y);
+      }
 
     std::ostringstream script;
     script << gnuplot_header(name, 760, 100 + 340 * n_plots) << blocks.str()
            << "set multiplot layout " << n_plots << ",1 title " << quoted(title)
            << " font ',15'\n"
-           << "set lmargin 11\nset rmargin 3\nset logscale x\n"
-           << "set format x '10^{%T}'\n";
+           << "set lmargin 11\nset rmargin 3\nset format '%g'\n"
+           << fitted_axis('x', unknowns, true)
+           // Above the curves, where it hides no point.
+           << "set key tmargin center vertical maxrows 3 Left reverse\n";
     if (!above.empty())
-      script << "set logscale y\nset format y '10^{%T}'\n"
-             << "set ylabel 'error'\n"
+      script << fitted_axis('y', values, true) << "set ylabel 'error'\n"
              << (below.empty() ? "set xlabel 'degrees of freedom'\n" : "")
-             << "set key bottom left\n"
              << above << '\n';
     if (!below.empty())
-      script << "unset logscale y\nset format y '%g'\nset yrange [0:"
-             << 1.4 * top << "]\nset ytics "
-             << std::max(1., level_step(1.5 * top)) << "\n"
+      script << fitted_axis('y', numbers, false)
              << "set ylabel 'number'\nset xlabel 'degrees of freedom'\n"
-             << "set key top left\n"
              << below << '\n';
     script << "unset multiplot\n";
     return draw_picture(report, folder, name, script.str());

@@ -92,9 +92,12 @@ namespace abut::app
       return "";
     }
 
-    /** There are new rows. */
-    virtual void look_at_rows()
+    /** There are new rows.
+     * @param is_last they are those of the mesh that the run ends with, as far
+     * as is known */
+    virtual void look_at_rows(bool is_last)
     {
+      (void)is_last;
     }
 
     /** Whether relax() makes a better start on a finer mesh. */

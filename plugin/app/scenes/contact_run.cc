@@ -159,7 +159,7 @@ namespace abut::app
       if (phase == SolvePhase::solve)
       {
         ++state.n_searches;
-        model.look_at_rows();
+        model.look_at_rows(state.is_last_mesh());
         section.emplace(report.times, "solve");
       }
       else if (phase != SolvePhase::end)
@@ -332,7 +332,10 @@ namespace abut::app
       const std::optional<bool> met =
           state.control.is_on() ? follow_target() : std::optional<bool>();
       if (met)
+      {
+        model.look_at_rows(true);
         return *met;
+      }
       if (state.is_last_mesh())
         return true;
       set_refine_flags();

@@ -9,7 +9,11 @@
 #include "app/scenes/automatic_law.h"
 #include "membrane_report.h"
 
+#include <deal.II/dofs/dof_tools.h>
+
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace abut::app
 {
@@ -199,6 +203,30 @@ namespace abut::app
          "setup_seconds", "krylov_seconds", "seconds"});
   }
 
+  template <int dim> la::Vector MembraneModel<dim>::gaps() const
+  {
+    la::Vector gap = run.contact.gap();
+    const la::Vector status = run.contact.status();
+    std::map<dealii::types::global_dof_index, dealii::Point<dim>> points;
+    dealii::DoFTools::map_dofs_to_support_points(membrane.mapping,
+                                                 membrane.dof_handler, points);
+    for (const auto dof : membrane.dof_handler.locally_owned_dofs())
+    {
+      if (status(dof) > -0.5)
+        continue;
+      double distance = std::numeric_limits<double>::infinity();
+      if (obstacle.lower)
+        distance = run.u(dof) - obstacle.lower->value(points.at(dof));
+      if (obstacle.upper)
+        distance = std::min(distance,
+                            obstacle.upper->value(points.at(dof)) - run.u(dof));
+      if (std::isfinite(distance))
+        gap(dof) = distance;
+    }
+    gap.compress(dealii::VectorOperation::insert);
+    return membrane.ghosted_field(gap);
+  }
+
   template <int dim> void MembraneModel<dim>::write_fields()
   {
     if (!parameters.fields)
@@ -206,7 +234,7 @@ namespace abut::app
     SectionTimes::Scope scope(run.report.times, "output");
     const la::Vector displacement = membrane.ghosted(run.u);
     const la::Vector p = membrane.ghosted_field(run.contact.pressure());
-    const la::Vector g = membrane.ghosted_field(run.contact.gap());
+    const la::Vector g = gaps();
     const la::Vector status = membrane.ghosted_field(run.contact.status());
     Fields<dim> fields{membrane.mapping,
                        membrane.dof_handler,

@@ -85,6 +85,10 @@ namespace abut::app
     void report_result(bool converged) override;
     void report_model() override;
 
+    /** Distances from the nearer obstacle, ghosted: those of the rows, and of
+     * nodes without a row, as at supports, the same from the formulas. */
+    la::Vector gaps() const;
+
     const ObstacleParameters &parameters;
     const ContactRunState<dim> &run;
     Membrane<dim> membrane;

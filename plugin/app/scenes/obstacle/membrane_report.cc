@@ -4,6 +4,7 @@
 #include "app/pictures/nodal_table.h"
 #include "app/pictures/pictures.h"
 #include "app/scenes/diagnosis.h"
+#include "app/scenes/estimate_curves.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
 #include "app/scenes/nodal_forces.h"
@@ -51,11 +52,9 @@ namespace abut::app
     la::Vector displacement(u);
     membrane.constraints.distribute(displacement);
     std::vector<NodalColumn> columns = {{"displacement", displacement}};
-    for (const auto &[name, field] :
-         {std::make_pair("pressure", contact.pressure()),
-          std::make_pair("gap", contact.gap()),
-          std::make_pair("status", contact.status())})
-      columns.push_back({name, membrane.ghosted_field(field)});
+    columns.push_back({"pressure", membrane.ghosted_field(contact.pressure())});
+    columns.push_back({"gap", model.gaps()});
+    columns.push_back({"status", membrane.ghosted_field(contact.status())});
     for (NodalColumn &column : force_columns(membrane, run, true))
       columns.push_back(std::move(column));
     write_nodal_table(run.options.output_folder / "nodal.csv", membrane.mapping,
@@ -135,9 +134,8 @@ namespace abut::app
             {n, std::abs(level.energy - parameters.exact_energy)});
       count.points.push_back({n, double(level.steps)});
     }
-    for (Curve *curve : {&l2, &h1, &energy})
-      if (!curve->points.empty())
-        errors.push_back(*curve);
+    errors = estimate_curves(levels, parameters.refinement);
+    errors.insert(errors.begin(), {l2, h1, energy});
     draw_convergence(report, run.options.output_folder, "convergence", errors,
                      {count}, "Convergence");
   }

@@ -5,6 +5,7 @@
 #include "app/pictures/body_pictures.h"
 #include "app/pictures/contact_output.h"
 #include "app/pictures/pictures.h"
+#include "app/scenes/estimate_curves.h"
 #include "app/scenes/nodal_forces.h"
 #include "solid_model.h"
 
@@ -15,11 +16,11 @@ namespace abut::app
   namespace
   {
     /** Errors over unknowns of the meshes of the first load step. */
-    std::vector<Curve> error_curves(const std::vector<ContactResult> &states)
+    std::vector<Curve> error_curves(const std::vector<ContactResult> &states,
+                                    const RefinementParameters &refinement)
     {
       Curve l2{"L2 error", {}};
       Curve energy{"error in energy norm", {}};
-      Curve estimate{"estimate of the latter", {}};
       for (const ContactResult &state : states)
         if (state.load_step == states.front().load_step)
         {
@@ -29,10 +30,10 @@ namespace abut::app
             l2.points.emplace_back(n, state.errors->l2);
             energy.points.emplace_back(n, *state.errors->energy);
           }
-          if (state.estimate)
-            estimate.points.emplace_back(n, *state.estimate);
         }
-      return {l2, energy, estimate};
+      std::vector<Curve> curves = estimate_curves(states, refinement);
+      curves.insert(curves.begin(), {l2, energy});
+      return curves;
     }
   } // namespace
 
@@ -82,7 +83,7 @@ namespace abut::app
   {
     const ContactFields contact_values = model.contact_fields();
     const SignedLength<dim> pressures("pressure", -1.);
-    const FirstComponent<dim> gaps("gap");
+    const GapOfRows<dim> gaps("gap");
     const FirstComponent<dim> states("status");
     const NumberOfBoundary<dim> numbers_of_bodies(
         "body", [this](const dealii::types::boundary_id id)
@@ -96,7 +97,7 @@ namespace abut::app
                         {"traction", &contact_values.traction}},
                        {}};
     fields.derived = {{&contact_values.traction, &pressures},
-                      {&contact_values.gap, &gaps},
+                      {&contact_values.row_gap, &gaps},
                       {&contact_values.status, &states},
                       {&displacement, &numbers_of_bodies},
                       {&displacement, &ids}};
@@ -131,9 +132,10 @@ namespace abut::app
       for (const ContactPair<dim> &pair : model.pairs->pairs())
         curves.push_back(
             {pair.name,
-             contact_lines(model.elasticity.mapping,
-                           model.elasticity.dof_handler, pair.secondary,
-                           {fields.traction, &fields.gap, &fields.status})});
+             contact_lines(
+                 model.elasticity.mapping, model.elasticity.dof_handler,
+                 pair.secondary,
+                 {fields.traction, &fields.row_gap, &fields.status})});
     }
     return curves;
   }
@@ -161,17 +163,24 @@ namespace abut::app
   {
     SectionTimes::Scope scope(model.run.report.times, "output");
     if constexpr (dim == 2)
+    {
+      std::vector<DrawnObstacle> obstacles;
+      for (const auto &obstacle : model.pairs->moved_obstacles())
+        obstacles.push_back({obstacle.shape, obstacle.motion});
       draw_bodies(model.run.report, model.run.options.output_folder, "bodies",
                   model.elasticity.mapping, model.elasticity.dof_handler,
                   model.elasticity.ghosted(model.run.u), model.data.materials,
-                  pressure_curves(model.contact_fields()), "Deformed bodies");
+                  pressure_curves(model.contact_fields()), obstacles,
+                  "Deformed bodies");
+    }
     Curve count{"linear systems", {}};
     for (const ContactResult &state : model.run.results)
       if (state.load_step == model.run.results.front().load_step)
         count.points.emplace_back(double(state.dofs), double(state.steps));
-    draw_convergence(model.run.report, model.run.options.output_folder,
-                     "convergence", error_curves(model.run.results), {count},
-                     "Convergence");
+    draw_convergence(
+        model.run.report, model.run.options.output_folder, "convergence",
+        error_curves(model.run.results, model.parameters.refinement), {count},
+        "Convergence");
   }
 
   template class SolidOutput<2>;

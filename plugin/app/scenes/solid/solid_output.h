@@ -18,7 +18,8 @@ namespace abut::app
   {
     la::Vector traction; ///< force per area on either side
     la::Vector pressure; ///< p n on the secondary side
-    la::Vector gap;      ///< in all components
+    la::Vector gap;      ///< in all components; 0 without a row
+    la::Vector row_gap;  ///< of mark_rows()
     la::Vector status;   ///< in all components
   };
 

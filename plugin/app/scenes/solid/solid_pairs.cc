@@ -98,8 +98,9 @@ namespace abut::app
             pair.holds_body = true;
   }
 
-  template <int dim> void SolidPairs<dim>::set_time(const double time)
+  template <int dim> void SolidPairs<dim>::set_time(const double present)
   {
+    time = present;
     for (const auto &obstacle : obstacles)
       obstacle->set_time(time);
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -116,6 +117,28 @@ namespace abut::app
                                "alone.");
       all[i].gap = values[0];
     }
+  }
+
+  template <int dim>
+  std::vector<typename SolidPairs<dim>::MovedObstacle>
+  SolidPairs<dim>::moved_obstacles() const
+  {
+    const auto place = [](const RigidObstacle<dim> &obstacle)
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = obstacle.view().translation[d];
+      return result;
+    };
+    std::vector<MovedObstacle> result;
+    for (const auto &obstacle : obstacles)
+    {
+      obstacle->set_time(0.);
+      const dealii::Tensor<1, dim> start = place(*obstacle);
+      obstacle->set_time(time);
+      result.push_back({obstacle, place(*obstacle) - start});
+    }
+    return result;
   }
 
   template <int dim> std::set<boundary_id> SolidPairs<dim>::secondary() const

@@ -62,6 +62,16 @@ namespace abut::app
     std::set<dealii::types::boundary_id> secondary() const;
     std::set<dealii::types::boundary_id> surfaces() const;
 
+    /** An obstacle, and how far its motion has brought it since time 0. */
+    struct MovedObstacle
+    {
+      std::shared_ptr<const RigidObstacle<dim>> shape;
+      dealii::Tensor<1, dim> motion;
+    };
+
+    /** All obstacles at the present time. */
+    std::vector<MovedObstacle> moved_obstacles() const;
+
     /** Both sides of the pairs between bodies. */
     std::vector<ContactSides> sides() const;
 
@@ -73,6 +83,7 @@ namespace abut::app
     const SolidParameters &parameters;
     /** Of the bodies, known with their mesh. */
     const std::shared_ptr<double> half_extent = std::make_shared<double>(1.);
+    double time = 0.;
     std::vector<std::shared_ptr<RigidObstacle<dim>>> obstacles;
     std::vector<std::unique_ptr<Expression<dim>>> gaps;
     std::vector<ContactPair<dim>> all;
