@@ -279,6 +279,29 @@ arguments_are_checked(void **unused)
   assert_refused(&s.points, ABUT_NOT_FINITE);
 }
 
+/* What follows the last row may be anything. */
+static void
+nothing_beyond_the_rows_is_read_or_written(void **unused)
+{
+  (void)unused;
+  for (int32_t k = 0; abut_law_get(k) != NULL; ++k)
+  {
+    const abut_law *law = abut_law_get(k);
+    static sample s;
+    fill(&s, 5, (law->flags & ABUT_LAW_INTERIOR) != 0);
+    s.points.n = 10;
+    s.gap[10] = s.pressure[10] = s.slack[10] = s.reference[10] =
+        s.compliance[10] = NAN;
+    s.scale[10] = -1;
+    s.c[10] = s.a[10] = s.b[10] = 77;
+    s.state[10] = 77;
+    assert_ok(law->classify(&s.points, s.state));
+    assert_ok(law->linearise(&s.points, s.state, &s.result));
+    assert_true(s.c[10] == 77 && s.a[10] == 77 && s.b[10] == 77);
+    assert_int_equal(s.state[10], 77);
+  }
+}
+
 static void
 results_are_checked(void **unused)
 {
@@ -312,6 +335,7 @@ main(void)
       cmocka_unit_test(touching_without_pressure_is_open),
       cmocka_unit_test(names),
       cmocka_unit_test(arguments_are_checked),
+      cmocka_unit_test(nothing_beyond_the_rows_is_read_or_written),
       cmocka_unit_test(results_are_checked),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -296,10 +296,44 @@ barrier_refuses_a_closed_start(void **unused)
   assert_ok(abut_context_destroy(&context));
 }
 
+/* At the end p g = mu in every row of the barrier, and no less than that is
+ * open; rows in contact are those of the discrete problem. */
+static void
+interior_methods_tell_where_they_are(void **unused)
+{
+  (void)unused;
+  const char *const laws[] = {"barrier", "interior point"};
+  abut_context *context = fixture_context();
+  for (int k = 0; k < 2; ++k)
+  {
+    membrane scene = membrane_create(references[0].level, 1, 1);
+    const abut_strategy_options options = membrane_options(&scene, laws[k]);
+    abut_progress progress;
+    assert_int_equal(membrane_run(context, &scene, &options, false, &progress),
+                     ABUT_REASON_CONVERGED);
+    assert_int_equal(progress.n_rows, scene.n);
+    assert_int_equal(progress.n_active, references[0].active);
+    assert_int_equal(progress.n_changes, 0);
+    double penetration = 0, largest = 0;
+    for (int32_t i = 0; i < scene.n; ++i)
+    {
+      const double gap = scene.u[i] - scene.psi[i];
+      penetration = fmax(penetration, -gap);
+      largest = fmax(largest, fabs(scene.pressure[i] * gap));
+    }
+    assert_true(progress.penetration == penetration);
+    assert_true(progress.complementarity == largest);
+    assert_true(largest <= 1.1e-8 * scene.load);
+    membrane_destroy(&scene);
+  }
+  assert_ok(abut_context_destroy(&context));
+}
+
 int
 main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(interior_methods_tell_where_they_are),
       cmocka_unit_test(plain_active_set_takes_the_steps_of_step_41),
       cmocka_unit_test(nested_active_set),
       cmocka_unit_test(final_solve_is_counted),
