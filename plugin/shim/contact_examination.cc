@@ -79,10 +79,8 @@ namespace abut
                                 || seen.mean_strain >= useless_mean_strain);
       findings.add(
           ABUT_FAILURE_LARGE_STRAIN, is_error,
-          "The largest strain is " + percent(seen.strain)
-              + (seen.mean_strain > 0.
-                     ? ", " + percent(seen.mean_strain) + " in the mean"
-                     : std::string())
+          "The largest strain is " + percent(seen.strain) + ", "
+              + percent(seen.mean_strain) + " in the mean"
               + ", but strains are taken as small ones, linear in the "
                 "displacement. Look at the units of loads and stiffness"
               + (is_error ? "; if such strains are meant, allow them (Allow "

@@ -18,33 +18,6 @@ namespace abut::shim
 {
   namespace
   {
-    /** Nodes of a cell that move against each other by less than this part of
-     * its smallest edge make no strain worth looking at. */
-    constexpr double quiet_cell = 5e-3;
-
-    /** Mean strains are asked for only if there is a larger one somewhere. */
-    constexpr double least_mean = 0.3;
-
-    /** Whether the nodes of a cell move almost alike; @p values by unknown. */
-    template <int dim>
-    bool is_quiet(const dealii::FiniteElement<dim> &fe,
-                  const std::vector<double> &values, const double edge)
-    {
-      double first[dim];
-      std::fill(first, first + dim, NAN);
-      double largest = 0.;
-      for (unsigned int i = 0; i < values.size(); ++i)
-      {
-        const unsigned int c = fe.system_to_component_index(i).first;
-        if (c >= dim)
-          continue;
-        if (std::isnan(first[c]))
-          first[c] = values[i];
-        largest = std::max(largest, std::abs(values[i] - first[c]));
-      }
-      return largest <= quiet_cell * edge;
-    }
-
     template <int dim>
     double principal(const dealii::SymmetricTensor<2, dim> &strain)
     {
@@ -134,8 +107,6 @@ namespace abut::shim
     std::vector<dealii::SymmetricTensor<2, dim>> strain(
         points.n_quadrature_points);
     std::vector<dealii::Tensor<1, dim>> motion(points.n_quadrature_points);
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    std::vector<double> values(fe.n_dofs_per_cell());
     Strains result;
     std::map<unsigned int, Sums> sums;
     for (const auto &cell : dof_handler.active_cell_iterators())
@@ -143,13 +114,6 @@ namespace abut::shim
       if (!cell->is_locally_owned())
         continue;
       Sums &sum = sums[cell->material_id()];
-      sum.volume += cell->measure();
-      cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        values[i] = ghosted(dofs[i]);
-      if (!axisymmetric
-          && is_quiet(fe, values, cell->minimum_vertex_distance()))
-        continue;
       points.reinit(cell);
       points[field].get_function_symmetric_gradients(ghosted, strain);
       points[field].get_function_values(ghosted, motion);
@@ -160,12 +124,12 @@ namespace abut::shim
           here = std::max(
               here, std::abs(motion[q][0] / points.quadrature_point(q)[0]));
         result.largest = std::max(result.largest, here);
+        sum.volume += points.JxW(q);
         sum.strain += here * points.JxW(q);
       }
     }
     result.largest = dealii::Utilities::MPI::max(result.largest, communicator);
-    if (result.largest > least_mean)
-      result.mean = largest_mean(sums, communicator);
+    result.mean = largest_mean(sums, communicator);
     return result;
   }
 

@@ -26,8 +26,7 @@ namespace abut::shim
   };
 
   /** Small strains at points of quadrature of the first dim components.
-   * Cells whose strain is small for sure are not looked at: bodies that are
-   * hardly deformed cost one pass over the unknowns. @p u is owned.
+   * One pass over the cells. @p u is owned.
    * @param axisymmetric the hoop strain u_x / x counts, too
    * Collective. */
   template <int dim>

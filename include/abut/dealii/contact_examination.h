@@ -32,7 +32,7 @@ namespace abut
      * for scalar fields. */
     double strain = 0.;
     /** Mean of that magnitude over the cells of the material id where it is
-     * largest; 0 where @ref strain is too small for that to matter. */
+     * largest. */
     double mean_strain = 0.;
     /** How far bodies are deformed at the most, length: what depths are
      * compared with. */
