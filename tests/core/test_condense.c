@@ -394,10 +394,42 @@ refusals(void **unused)
   assert_ok(abut_condense(&points, &result));
 }
 
+static void
+nothing_beyond_the_points_is_read_or_written(void **unused)
+{
+  (void)unused;
+  /* Three points of which two are given; p = 2 g and a held one. */
+  const double p[3] = {0, 0, NAN}, c[3] = {0, 1, NAN}, a[3] = {1, 0, NAN},
+               b[3] = {-2, 1, NAN}, w[3] = {1, 1, NAN}, dg[3] = {3, 0, NAN};
+  double value[3] = {0, 0, NAN}, force[3] = {0, 0, NAN},
+         spring[3] = {0, 0, NAN}, dp[3] = {0, 0, NAN};
+  uint8_t held[3] = {7, 7, 7};
+  const abut_condense_points points = {.struct_size = sizeof(points),
+                                       .n = 2,
+                                       .weight = w,
+                                       .pressure = p,
+                                       .residual = c,
+                                       .d_pressure = a,
+                                       .d_gap = b};
+  const abut_condensed result = {.struct_size = sizeof(result),
+                                 .held = held,
+                                 .value = value,
+                                 .force = force,
+                                 .spring = spring};
+  assert_ok(abut_condense(&points, &result));
+  assert_ok(abut_condense_recover(&points, dg, dp));
+  assert_int_equal(held[2], 7);
+  assert_true(held[0] == 0 && held[1] == 1 && dp[0] == 6 && dp[1] == 0);
+  assert_true(spring[0] == -2 && value[1] == -1);
+  assert_true(isnan(value[2]) && isnan(force[2]) && isnan(spring[2])
+              && isnan(dp[2]));
+}
+
 int
 main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(nothing_beyond_the_points_is_read_or_written),
       cmocka_unit_test(numbers_are_todays_formulas),
       cmocka_unit_test(all_mixtures),
       cmocka_unit_test(points_of_all_sizes),

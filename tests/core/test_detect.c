@@ -586,10 +586,52 @@ wrong_arguments(void **state)
   end(&p);
 }
 
+/* Two surfaces whose nodes have the same numbers: a facet next to a node's own
+ * one is excluded in contact of a body with itself, and only there. */
+static void
+surfaces_with_equal_numbers_are_still_two(void **state)
+{
+  (void)state;
+  for (int self = 0; self < 2; ++self)
+  {
+    scene_mesh mesh[2] = {scene_square(ABUT_FACET_QUAD4, 4, 0.125, true),
+                          scene_square(ABUT_FACET_QUAD4, 4, 0., false)};
+    int64_t id[25];
+    for (int i = 0; i < 25; ++i)
+      id[i] = i;
+    abut_surface *surface[2] = {NULL, NULL};
+    for (int k = 0; k < 2; ++k)
+    {
+      abut_surface_data data = scene_data(&mesh[k]);
+      data.node_id = id;
+      require(abut_surface_create(context, &data, &surface[k]));
+    }
+    abut_detection_options options = abut_detection_defaults();
+    options.self_contact = self == 1;
+    abut_detection *detection = NULL;
+    abut_detection_view view;
+    require(abut_detection_create(context, surface[0], surface[1], &options,
+                                  &detection));
+    require(abut_detection_run(detection, 0.));
+    require(abut_detection_get(detection, &view));
+    if (self)
+      assert_true(view.rejected[ABUT_REJECTION_NEIGHBOUR] > 0);
+    else
+      assert_int_equal(view.rejected[ABUT_REJECTION_NEIGHBOUR], 0);
+    require(abut_detection_destroy(&detection));
+    for (int k = 0; k < 2; ++k)
+    {
+      require(abut_surface_destroy(&surface[k]));
+      scene_free(&mesh[k]);
+    }
+  }
+}
+
 int
 main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(surfaces_with_equal_numbers_are_still_two),
       cmocka_unit_test(flat_grids),
       cmocka_unit_test(spheres),
       cmocka_unit_test(arcs),

@@ -326,6 +326,21 @@ interior_methods_tell_where_they_are(void **unused)
     assert_true(largest <= 1.1e-8 * scene.load);
     membrane_destroy(&scene);
   }
+  /* Before the end, from a start within the obstacle. */
+  membrane scene = membrane_create(references[0].level, 1, 1);
+  abut_strategy_options options = membrane_options(&scene, laws[1]);
+  options.max_steps = 1;
+  for (int32_t i = 0; i < scene.n; ++i)
+    scene.u[i] = -0.5;
+  abut_progress progress;
+  assert_int_equal(membrane_run(context, &scene, &options, false, &progress),
+                   ABUT_REASON_STEP_LIMIT);
+  double penetration = 0;
+  for (int32_t i = 0; i < scene.n; ++i)
+    penetration = fmax(penetration, scene.psi[i] - scene.u[i]);
+  assert_true(penetration > 0);
+  assert_close(progress.penetration / penetration, 1, 1e-14);
+  membrane_destroy(&scene);
   assert_ok(abut_context_destroy(&context));
 }
 

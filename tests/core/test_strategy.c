@@ -747,10 +747,32 @@ flicker_stops(void **unused)
   close_scene(&s);
 }
 
+/* Three rows, two of them closed, the deepest by 0.3: g = 1, -0.1, -0.3. */
+static void
+a_start_is_told_before_the_first_step(void **unused)
+{
+  (void)unused;
+  const abut_strategy_options options = exact_options();
+  fixture s = open_scene(&options);
+  const double unit[3] = {1, 1, 1}, gap[3] = {1, -0.1, -0.3};
+  const uint8_t state[3] = {ABUT_STATE_OPEN, ABUT_STATE_CLOSED,
+                            ABUT_STATE_CLOSED};
+  abut_progress progress;
+  assert_ok(abut_strategy_start(s.strategy, 3, NULL, unit, unit, NULL, gap,
+                                NULL, state));
+  assert_ok(abut_strategy_progress(s.strategy, &progress));
+  assert_int_equal(progress.n_rows, 3);
+  assert_int_equal(progress.n_active, 2);
+  assert_true(progress.penetration == 0.3);
+  assert_int_equal(progress.step, 0);
+  close_scene(&s);
+}
+
 int
 main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_start_is_told_before_the_first_step),
       cmocka_unit_test(laws_have_first_penalties),
       cmocka_unit_test(options_are_checked),
       cmocka_unit_test(limits_are_those_of_the_check),

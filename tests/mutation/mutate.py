@@ -23,7 +23,6 @@ import fnmatch
 import hashlib
 import json
 import pathlib
-import random
 import re
 import shlex
 import subprocess
@@ -100,8 +99,12 @@ def mistakes(text):
             if match.group(1) == old.strip():
                 for new in news:
                     add(match.start(1), match.end(1), new.strip())
+    # Room for more numbers, and zeros to begin with, are no mistakes.
+    harmless = [match.span() for match in re.finditer(
+        r"\b(?:double|float|bool|u?int\w*) \w[^;=()]*|= \{[{}0., ]*\}", code)]
     for match in re.finditer(r"(?<![\w.])(\d+\.?\d*(?:e-?\d+)?)(?![\w.])", code):
-        add(match.start(), match.end(), other_number(match.group()))
+        if not any(a <= match.start() < b for a, b in harmless):
+            add(match.start(), match.end(), other_number(match.group()))
     for match in re.finditer(r"(?<=[=(,?:] )-(?=[\w(])|(?<=return )-(?=[\w(])"
                              r"|(?<=\()-(?=[\w(])", code):
         add(match.start(), match.end(), "")
@@ -203,12 +206,14 @@ class Core:
 
 
 def drawn(files, number):
-    """A share of each file's mistakes, in an order that is the same each time."""
+    """Some of all mistakes: (file, text, mistake), in an order that looks
+    random and stays the same for sources that stay the same."""
     everything = []
     for name in files:
         text = (ROOT / name).read_text()
-        everything += [(name, mistake) for mistake in mistakes(text)]
-    random.Random(1).shuffle(everything)
+        everything += [(name, text, mistake) for mistake in mistakes(text)]
+    everything.sort(key=lambda each: hashlib.sha256(
+        f"{each[0]}:{each[2]}".encode()).digest())
     return everything[:number]
 
 
@@ -273,8 +278,7 @@ def main():
         core.count(entry["file"], entry["killer"])
     results = []
     end = time.monotonic() + options.seconds
-    for name, mistake in drawn(files, options.number):
-        text = (ROOT / name).read_text()
+    for name, text, mistake in drawn(files, options.number):
         key = key_of(name, text, mistake)
         known = done.get(key)
         if known is None or (options.again and known["killer"] is None):
