@@ -67,7 +67,8 @@ extern "C"
     ABUT_REDUCTION_MAX
   } abut_reduction;
 
-  /** Options; set by abut_strategy_defaults(). All are free of units: pressures
+  /** Options; set by abut_strategy_defaults(). Their legal ranges are those of
+   * abut_strategy_limit() (abut/limits.h). All are free of units: pressures
    * are measured by pressure_scale, lengths by length_scale, stiffnesses by the
    * rows' stiffness given to abut_strategy_start(). */
   typedef struct abut_strategy_options
@@ -76,9 +77,8 @@ extern "C"
     const abut_law *law;   /**< NULL (default): lagrange */
     double length_scale;   /**< > 0, length; default 1 */
     double pressure_scale; /**< > 0, force per area; default 1 */
-    /** eps = penalty * stiffness. Default 0 = the law's own: 50 for penalty
-     * and augmented lagrangian 20, nitsche 10, quadratic penalty starts at 1.
-     */
+    /** eps = penalty * stiffness. Default 0, the law's own: penalty 50,
+     * augmented lagrangian 20, nitsche 10, quadratic penalty starts at 1. */
     double penalty;
     double penalty_growth; /**< factor of quadratic penalty; default 10 */
     double penalty_cap;    /**< largest eps/stiffness; default 1e6 */

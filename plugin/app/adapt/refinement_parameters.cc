@@ -14,6 +14,9 @@ namespace abut::app
     /** Tolerances as parts of the target: below what its error shows. */
     constexpr double target_part = 1e-2;
 
+    /** Smallest error that can be asked for. */
+    constexpr double least_target = 1e-10;
+
     /** The method with tolerances that are not finer than @p enough needs. */
     MethodParameters with_tolerance(const MethodParameters &method,
                                     const double enough)
@@ -113,6 +116,10 @@ namespace abut::app
                           : TargetQuantity::energy_norm;
     prm.leave_subsection();
     coarsest_level = std::min(coarsest_level, level);
+    if (target_error > 0. && target_error < least_target)
+      throw InputError("Refinement/Target error",
+                       "is below 1e-10: round-off hides such errors, and no "
+                       "memory holds the meshes.");
     if (has_target())
     {
       level = coarsest_level;

@@ -12,8 +12,10 @@ namespace abut::app
     std::string text = error.what();
     const std::string before = "Additional information:";
     const std::size_t at = text.find(before);
+    // Others may have put words of their own before deal.II's.
     if (at != std::string::npos)
-      text = text.substr(at + before.size());
+      text = text.substr(0, std::min(at, text.find("\n-----")))
+             + text.substr(at + before.size());
     text = text.substr(
         0, std::min(text.find("\nStacktrace"), text.find("\n-----")));
     std::istringstream words(text);

@@ -97,9 +97,11 @@ namespace abut::app
         in.seekg(0, std::ios::end);
         const std::streamoff left = in.tellg() - here;
         in.seekg(here);
-        if (left < std::streamoff(needed))
-          fail("is truncated: it has " + std::to_string(left) + " of "
-               + std::to_string(needed) + " bytes of pixels");
+        if (left >= std::streamoff(needed))
+          return;
+        fail(is_text ? "ends before its last pixel"
+                     : "is truncated: it has " + std::to_string(left) + " of "
+                           + std::to_string(needed) + " bytes of pixels");
       }
 
       void read_text(GreyImage &image, const std::size_t white)

@@ -47,8 +47,8 @@ namespace abut::app
     const bool is_cube = parameters.generator == "subdivided_hyper_cube";
     if (!is_cube && parameters.generator != "subdivided_hyper_rectangle")
       return;
-    const std::string first =
-        parameters.arguments.substr(0, parameters.arguments.find(':'));
+    const std::vector<std::string> all = split_list(parameters.arguments, ':');
+    const std::string first = all.empty() ? "" : all[0];
     double n_cells = 1.;
     const std::vector<std::string> words = split_list(first, ',');
     if (!is_cube && words.size() > dim)

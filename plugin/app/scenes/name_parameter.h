@@ -2,6 +2,7 @@
 #ifndef ABUT_APP_NAME_PARAMETER_H
 #define ABUT_APP_NAME_PARAMETER_H
 
+#include "app/input/dealii_message.h"
 #include "app/input/input_error.h"
 #include "contact_model.h"
 
@@ -20,11 +21,11 @@ namespace abut::app
     }
     catch (const ContactError &error)
     {
-      throw InputError(model.parameter_of(error.what()), error.what());
+      throw InputError(model.parameter_of(error.what()), dealii_message(error));
     }
     catch (const ObstacleError &error)
     {
-      throw InputError(model.parameter_of(error.what()), error.what());
+      throw InputError(model.parameter_of(error.what()), dealii_message(error));
     }
   }
 } // namespace abut::app

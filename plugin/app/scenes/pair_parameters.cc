@@ -7,6 +7,12 @@
 
 namespace abut::app
 {
+  namespace
+  {
+    /** The search takes squares and volumes of its reach. */
+    constexpr double largest_reach = 1e40;
+  } // namespace
+
   void PairParameters::declare(dealii::ParameterHandler &prm,
                                const std::string &section)
   {
@@ -33,7 +39,7 @@ namespace abut::app
     prm.declare_entry("Tied", "false", Patterns::Bool(),
                       "Glue the surfaces together where they are opposite to "
                       "each other.");
-    prm.declare_entry("Reach", "0", NumberPattern::from(0.),
+    prm.declare_entry("Reach", "0", NumberPattern::between(0., largest_reach),
                       "Distance within which the surfaces look for each other; "
                       "0: half a facet, or more when they move more.");
     prm.leave_subsection();
