@@ -59,8 +59,12 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_unchanged("allowed_penetration()");
     const abut_law *law = i.method.options.law;
-    if (!i.is_started || !abut_law_has_penalty(law)
-        || abut_law_updates_multipliers(law))
+    // Multipliers shared by the nodes close gaps of points in the mean only;
+    // what is left of them is a penalty.
+    const bool is_closed =
+        abut_law_updates_multipliers(law)
+        && (i.surfaces == nullptr || !i.surfaces->has_points());
+    if (!i.is_started || !abut_law_has_penalty(law) || is_closed)
       return 0.;
     const double penalty = progress().penalty;
     double largest = 0.;

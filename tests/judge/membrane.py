@@ -80,7 +80,7 @@ class MembraneJudge:
         self.u, self.p = columns["displacement"], columns["pressure"]
         self.gap, self.status = columns["gap"], columns["status"]
         self.load, self.contact = columns["load"], columns["contact"]
-        self.reaction = columns["reaction"]
+        self.reaction, self.held = columns["reaction"], columns["held"]
         self.method = summary.get("method") or ""
         self.lower = self.upper = None
         if scene.get("Contact/Height map"):
@@ -134,7 +134,8 @@ class MembraneJudge:
     # Contact on the boundary
 
     def contact_sides(self):
-        """Sides of cells all of whose nodes have a row."""
+        """Sides of cells whose nodes have rows or, at the ends of the contact
+        boundary, a prescribed value."""
         count = {}
         for cell in self.fields.cells:
             corner = corners(cell.dim, cell.degree)
@@ -143,9 +144,31 @@ class MembraneJudge:
                     key = frozenset(cell.nodes[i] for k, i in enumerate(corner)
                                     if (k >> d & 1) == side)
                     count.setdefault(key, []).append((cell, d, side))
-        return [owners[0] for key, owners in count.items()
-                if len(owners) == 1
-                and all(self.status[i] >= 0 for i in key)]
+        single = {key: owners[0] for key, owners in count.items()
+                  if len(owners) == 1}
+        inside = self.between_sizes(single)
+        return [owner for key, owner in single.items()
+                if not key & inside[0] and key not in inside[1]
+                and any(self.status[i] >= 0 for i in key)
+                and all(self.status[i] >= 0 or self.held[i] != 0
+                        for i in key)]
+
+    def between_sizes(self, sides):
+        """Where cells of two sizes meet: the nodes in the middle of the larger
+        sides, which are corners of smaller ones, and those larger sides."""
+        corner = {i for key in sides for i in key}
+        middles, larger = set(), set()
+        for key in sides:
+            places = [self.nodes.place[i] for i in key]
+            middle = tuple(sum(x) / len(places) for x in zip(*places))
+            try:
+                i = self.nodes.find(middle, None)
+            except Wrong:
+                continue
+            if i in corner:
+                middles.add(i)
+                larger.add(key)
+        return middles, larger
 
     @staticmethod
     def side(cell, d, side):
@@ -247,6 +270,10 @@ class MembraneJudge:
     def tension(self):
         if self.method in ADHESIVE:
             self.findings.leave("tension", "the law is adhesive")
+            return
+        if of_balance(self.scene, self.summary) is None:
+            self.findings.leave("tension",
+                                "the target error sets the tolerances")
             return
         limit = THRESHOLDS["tension"]
         for name, values in (("pressure", self.p),

@@ -112,7 +112,8 @@ class Fields:
         dim = nodes.dim
         n = len(piece.points)
         for name, values in piece.fields.items():
-            if not all(math.isfinite(v) for v in values):
+            # gaps are no numbers where there is no row
+            if name != "gap" and not all(map(math.isfinite, values)):
                 raise Wrong(f"{name} has values that are no numbers")
         bodies = piece.fields.get("body")
         number = [nodes.find(place[:dim], bodies and int(bodies[i]))

@@ -81,21 +81,26 @@ def small(level):
             "Refinement/Adaptive cycles": 0}
 
 
-def find_level(abut, path, overrides=()):
-    """The finest level of a scene with few enough unknowns, by `abut check`;
-    not finer than its own."""
+def find_level(abut, path, overrides=(), most=MOST_UNKNOWNS):
+    """A level of a scene, not finer than its own, on which it has no more than
+    so many unknowns: from their number on a coarse one, by `abut check`."""
     overrides = dict(overrides)
-    kind = Scene(path).get("Scene", "obstacle")
-    level = int(overrides.get("Refinement/Level") or Scene(path).get(
+    scene = Scene(path)
+    kind = scene.get("Scene", "obstacle")
+    own = int(overrides.get("Refinement/Level") or scene.get(
         "Refinement/Level", "2" if kind == "solid" else "5"))
+    level = min(own, 1)
+    words = [abut, "check", path]
+    for name, value in {**overrides, **small(level)}.items():
+        words += ["--set", f"{name}={value}"]
     with tempfile.TemporaryDirectory(prefix="abut-level-") as folder:
-        while level > 0:
-            words = [abut, "check", path]
-            for name, value in {**overrides, **small(level)}.items():
-                words += ["--set", f"{name}={value}"]
-            code, output, _ = run(words, 60, pathlib.Path(folder))
-            found = re.search(r"^ *dofs +(\d+)", output, re.MULTILINE)
-            if code == 0 and found and int(found[1]) <= MOST_UNKNOWNS:
-                break
-            level -= 1
+        code, output, _ = run(words, 60, pathlib.Path(folder))
+    found = re.search(r"^ *dofs +(\d+)", output, re.MULTILINE)
+    if code != 0 or not found:
+        return level
+    # each level has a little less than 2^dim times as many
+    factor = 2**int(scene.get("Dimension", "2"))
+    unknowns = int(found[1]) * factor
+    while level < own and unknowns <= most:
+        level, unknowns = level + 1, unknowns * factor
     return level

@@ -26,6 +26,11 @@ def of_energy(scene, summary):
 
 
 def of_gaps(scene, summary, length):
-    """Penetration that the law, or the scene, leaves open."""
+    """Penetration, or gap under pressure, that the law or the scene leaves
+    open. Interior methods end with a product of pressure and gap: where
+    pressures are a hundredth of the pressure scale, gaps are a hundred times
+    as large."""
     law = summary.get("allowed_penetration") or 0.
+    if summary.get("method") in ("barrier", "interior point"):
+        law += 100 * length * scene.number("Method/Barrier end", 1e-8)
     return law + length * scene.number("Method/Gap tolerance", 1e-6)

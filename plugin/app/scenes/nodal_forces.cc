@@ -21,9 +21,18 @@ namespace abut::app
     else if (has_contact)
       run.contact.add_contact_forces(contact);
     problem.constraints.set_zero(contact);
+
+    la::Vector held = problem.vector();
+    for (const auto dof : problem.dof_handler.locally_owned_dofs())
+      held(dof) = problem.constraints.is_constrained(dof)
+                          && !problem.hanging.is_constrained(dof)
+                      ? 1.
+                      : 0.;
+    held.compress(dealii::VectorOperation::insert);
     return {{"load", forces.external},
             {"contact", contact},
-            {"reaction", reaction}};
+            {"reaction", reaction},
+            {"held", held}};
   }
 
   template std::vector<NodalColumn>

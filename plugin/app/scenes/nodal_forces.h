@@ -15,7 +15,8 @@
 
 namespace abut::app
 {
-  /** Columns `load`, `contact` and `reaction`: forces on the body at the
+  /** Columns `load`, `contact`, `reaction` and `held` (1 where a value is
+   * prescribed): forces on the body at the
    * present displacement of @p run, hanging nodes by their parents, so that the
    * sums are those of the bodies. Where a support holds a direction what
    * contact presses there is part of the reaction. Laws that need the stress
