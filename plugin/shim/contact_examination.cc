@@ -144,9 +144,11 @@ namespace abut
             ABUT_FAILURE_SLIDING, scale.is_more(pair.gap_error, useless),
             pair.name + ": nodes in contact slide by up to " + number(pair.slip)
                 + ", and their distance from the obstacle, which is "
-                  "curved, is off by "
+                  "curved or has a corner, is off by "
                 + scale.compared(pair.gap_error)
-                + ": gaps are those of the undeformed places.");
+                + ": gaps are those of the undeformed places, to one side of a "
+                  "corner. Give each side of a corner an obstacle and a pair "
+                  "of its own.");
     }
 
     template <int dim>
@@ -176,9 +178,11 @@ namespace abut
                        const double facet, const Scale &scale,
                        Findings &findings)
     {
+      // Rows that are soft are told of by themselves.
+      const double between = pair.between_rows - std::max(0., pair.penetration);
       if (!is_obstacle)
       {
-        if (scale.is_more(pair.between_rows, useless))
+        if (scale.is_more(between, useless))
           findings.add(ABUT_FAILURE_COARSE_SECONDARY, true,
                        pair.name
                            + ": nodes of the primary surface are inside the "
@@ -190,7 +194,7 @@ namespace abut
       }
       const bool missed = pair.missed_depth > missed_part * facet
                           && scale.is_more(pair.missed_depth, useless);
-      if (missed || scale.is_more(pair.between_rows, useless))
+      if (missed || scale.is_more(between, useless))
         findings.add(ABUT_FAILURE_UNSEEN, missed,
                      pair.name
                          + ": the obstacle is in the body between nodes, "
@@ -246,7 +250,8 @@ namespace abut
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::examine_membrane(
-      const la::Vector &displacement, ContactExamination &result)
+      const la::Vector &displacement, const double penetration,
+      ContactExamination &result)
   {
     const Deepest deepest(find_unseen(displacement), communicator);
     result.deformation = displacement.linfty_norm();
@@ -257,7 +262,7 @@ namespace abut
     const Scale scale{result.deformation, result.deformation,
                       round_off_of_places * MPI::max(cell, communicator)};
     const bool missed = scale.is_more(deepest.missed, missed_part);
-    if (missed || scale.is_more(deepest.any, useless))
+    if (missed || scale.is_more(deepest.any - penetration, useless))
       Findings(result).add(
           ABUT_FAILURE_UNSEEN, missed,
           "The obstacle is above the membrane between nodes, by up to "
@@ -292,7 +297,7 @@ namespace abut
     }
     if (can_touch && i.surfaces == nullptr)
     {
-      i.examine_membrane(displacement, result);
+      i.examine_membrane(displacement, penetration(), result);
       return result;
     }
     const shim::Strains strain =
@@ -360,7 +365,7 @@ namespace abut
   template std::vector<shim::Unseen>                                           \
   ContactAssembler<dim>::Implementation::find_unseen(const la::Vector &);      \
   template void ContactAssembler<dim>::Implementation::examine_membrane(       \
-      const la::Vector &, ContactExamination &);                               \
+      const la::Vector &, double, ContactExamination &);                       \
   template void ContactAssembler<dim>::check_supports(const la::Matrix &)      \
       const;                                                                   \
   template ContactExamination ContactAssembler<dim>::examine(                  \

@@ -109,7 +109,7 @@ namespace abut
     std::vector<std::uint8_t> row_states() const;
     /** Where obstacles are between the nodes. Collective. */
     std::vector<shim::Unseen> find_unseen(const la::Vector &displacement);
-    void examine_membrane(const la::Vector &displacement,
+    void examine_membrane(const la::Vector &displacement, double penetration,
                           ContactExamination &result);
     /** Penetration that the law is meant to have, length. */
     double soft_on_purpose() const;
