@@ -6,8 +6,7 @@ from program import Program
 
 p = Program()
 QUIET = {"Output/Fields": "false", "Output/Pictures": "false"}
-TIGHT = {"Method/Final linear tolerance": 1e-12, "Method/Gap tolerance": 1e-10,
-         "Method/Pressure tolerance": 1e-10}
+TIGHT = {"Method/Final linear tolerance": 1e-12, "Method/Gap tolerance": 1e-10}
 SWAPPED = {"press-fit.prm": {"Pair 1/Secondary": "2: 0",
                              "Pair 1/Primary": "1: 1"},
            "two-cylinders.prm": {"Pair 1/Secondary": "1: 0",

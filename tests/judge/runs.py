@@ -69,7 +69,7 @@ def words_of(abut, scene, ranks, overrides=()):
     """The command of a run into the folder `out`."""
     words = [abut, "run", scene, "--output", "out", "--quiet"]
     for name, value in overrides:
-        words += ["--set", f"{name}={value}"]
+        words += ["--set-if-used", f"{name}={value}"]
     return (["mpirun", "--oversubscribe", "-n", ranks] if ranks > 1
             else []) + words
 
@@ -92,7 +92,7 @@ def find_level(abut, path, overrides=(), most=MOST_UNKNOWNS):
     level = min(own, 1)
     words = [abut, "check", path]
     for name, value in {**overrides, **small(level)}.items():
-        words += ["--set", f"{name}={value}"]
+        words += ["--set-if-used", f"{name}={value}"]
     with tempfile.TemporaryDirectory(prefix="abut-level-") as folder:
         code, output, _ = run(words, 60, pathlib.Path(folder))
     found = re.search(r"^ *dofs +(\d+)", output, re.MULTILINE)
