@@ -192,14 +192,12 @@ namespace abut::app
 
   EffectRules result_effects()
   {
-    return {
-        effective_if(
-            "Exact solution/Gradient", Weight::data,
-            [](const SceneValues &values)
-            { return !values("Exact solution/Displacement").empty(); },
-            "it is the gradient of Exact solution/Displacement, "
-            "which is empty."),
-    };
+    return {setting(
+        "Exact solution/Gradient",
+        [](const SceneValues &values)
+        { return !values("Exact solution/Displacement").empty(); },
+        "it is the gradient of Exact solution/Displacement, which "
+        "is empty.")};
   }
 
   EffectRules mesh_effects(const std::string &section)
@@ -208,16 +206,15 @@ namespace abut::app
     EffectRules rules = {without_time(section + "/Boundary ids", why),
                          without_time(section + "/Map", why)};
     for (const char *name : {"/Generator", "/Arguments"})
-      rules.push_back(
-          {section + name, Weight::data,
-           [](const SceneValues &values, const std::string &path)
-           {
-             const std::string file = section_of(path) + "/File";
-             return values(file).empty()
-                        ? std::string()
-                        : "the mesh is read from the file that " + file
-                              + " names; leave one of the two empty.";
-           }});
+      rules.push_back({section + name, Weight::setting,
+                       [](const SceneValues &values, const std::string &path)
+                       {
+                         const std::string file = section_of(path) + "/File";
+                         return values(file).empty()
+                                    ? std::string()
+                                    : "the mesh is read from the file that "
+                                          + file + " names.";
+                       }});
     return rules;
   }
 
