@@ -26,13 +26,6 @@ namespace abut
     {
     }
 
-    /** Any finite number. */
-    static NumberPattern any()
-    {
-      return NumberPattern(
-          {nullptr, -ABUT_LARGEST_NUMBER, ABUT_LARGEST_NUMBER, false, false});
-    }
-
     /** From @p low on. */
     static NumberPattern from(const double low)
     {

@@ -161,9 +161,11 @@ namespace abut::app
                       dealii::Patterns::Anything(),
                       "x and y of the centre of the image's upper right "
                       "pixel. Outside, the nearest pixel of the rim holds.");
-    prm.declare_entry("Height map lowest", "0", NumberPattern::any(),
+    prm.declare_entry("Height map lowest", "0",
+                      NumberPattern::between(-largest_value, largest_value),
                       "Height of black.");
-    prm.declare_entry("Height map highest", "1", NumberPattern::any(),
+    prm.declare_entry("Height map highest", "1",
+                      NumberPattern::between(-largest_value, largest_value),
                       "Height of white.");
   }
 

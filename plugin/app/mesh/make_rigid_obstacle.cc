@@ -375,7 +375,17 @@ namespace abut::app
         return std::make_shared<RigidObstacle<dim>>(
             std::make_shared<CheckedFormula<dim>>(parameters, half_extent),
             parameters.hollow);
-      return std::make_shared<RigidObstacle<dim>>(make_shape<dim>(parameters));
+      const abut_obstacle_shape shape = make_shape<dim>(parameters);
+      try
+      {
+        return std::make_shared<RigidObstacle<dim>>(shape);
+      }
+      catch (const dealii::ExceptionBase &error)
+      {
+        throw InputError(parameters.parameter("Kind"),
+                         "the numbers make no " + parameters.kind + ": "
+                             + dealii_message(error));
+      }
     }
   } // namespace
 
