@@ -17,7 +17,7 @@ namespace abut::app
       { return !values("Sweep/Bucket sizes").empty(); };
       const std::string no_sweep = "Sweep/Bucket sizes is empty.";
       return joined(
-          {{effective_if("Primary/*", Weight::data, has_primary,
+          {{effective_if("Primary/*", Weight::setting, has_primary,
                          "with Search/Self contact the secondary surface "
                          "touches itself."),
             effective_if("Sweep/Repeats", Weight::setting, has_sweep, no_sweep),
