@@ -27,7 +27,7 @@ namespace abut::app
     std::string topic; /**< of `abut help TOPIC` */
     std::vector<std::string> overrides; /**< of `--set` */
     std::vector<std::string> offers;    /**< of `--set-if-used` */
-    std::string output; /**< empty: output/<name of the file> */
+    std::string output;                 /**< empty: output/<name of the file> */
     std::string report; /**< page of the atlas; empty: in its output */
     bool quiet = false;
     bool resume = false;  /**< go on from the latest checkpoint */
