@@ -82,7 +82,9 @@ def press_fit(sides, *more, **how):
     """The scene prm/press-fit.prm with meshes from files."""
     settings = []
     for body, file in enumerate(FILES, start=1):
-        settings += [f"Body {body}/Mesh/File={p.folder / file}",
+        settings += [f"Body {body}/Mesh/Generator=",
+                     f"Body {body}/Mesh/Arguments=",
+                     f"Body {body}/Mesh/File={p.folder / file}",
                      f"Body {body}/Mesh/Curved sides={sides}"]
     return run(p.source / "prm/press-fit.prm", [*settings, *more], **how)
 
@@ -150,7 +152,7 @@ subsection Body 1
     set File = {file}
     set Curved sides = {sides}
   end
-  set Young modulus = 1
+  set Young modulus = 1000
   set Poisson ratio = 0.3
   set Support = 2: 0, free, free; 3: free, 0, free; 4: free, free, 0
   set Pressure = 0: 1
@@ -159,7 +161,7 @@ subsection Refinement
   set Level = {level}
 end
 subsection Exact solution
-  set Displacement = 1.3/3*(0.4 + 4/(x^2+y^2))*x, 1.3/3*(0.4 + 4/(x^2+y^2))*y, 0
+  set Displacement = 0.0013/3*(0.4+4/(x^2+y^2))*x, 0.0013/3*(0.4+4/(x^2+y^2))*y, 0
 end
 """
 

@@ -212,11 +212,12 @@ p.write("disc.inp", f"8 {len(cells)} 0 0 0\n"
                   for i, (x, y) in enumerate(corners, start=1))
         + "".join(f"{i} 0 quad {' '.join(map(str, cell))}\n"
                   for i, cell in enumerate(cells, start=1)))
-disc = ["Mesh/File=disc.inp", "Mesh/Curved sides=0: circle: 0, 0", *cycles]
+file = ["Mesh/Generator=", "Mesh/Arguments=", "Mesh/File=disc.inp", *cycles]
+disc = [*file, "Mesh/Curved sides=0: circle: 0, 0"]
 expected = alone(membrane, disc)
 killed(membrane, 3, expected, disc)
 check_other_ranks(membrane, expected, disc)
-chords = alone(membrane, ["Mesh/File=disc.inp", *cycles])
+chords = alone(membrane, file)
 p.expect(kill_and_resume.compare_coarsely(expected, chords, 1e-3, ""),
          "a disc as a square")
 

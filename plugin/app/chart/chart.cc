@@ -27,7 +27,8 @@ namespace abut::app
 {
   namespace
   {
-    const std::string exact_displacement = "Exact solution/Displacement";
+    const std::string exact_displacement = "Exact solution/Displacement",
+                      exact_gradient = "Exact solution/Gradient";
 
     /** What an error of the summary needs in the scene. */
     const std::vector<std::pair<std::string, std::string>> error_sources = {
@@ -155,7 +156,8 @@ namespace abut::app
         point.timed = point.measured;
         if (knows(scene, exact_displacement))
         {
-          all.push_back({exact_displacement, "", "abut chart"});
+          for (const std::string &path : {exact_displacement, exact_gradient})
+            all.push_back({path, "", "abut chart"});
           point.timed = maker.setting(maker.load(all), all);
           if (!needs_displacement(chart.error.quantity))
             point.measured = point.timed;

@@ -210,7 +210,7 @@ namespace abut::app
                        [](const SceneValues &values, const std::string &path)
                        {
                          const std::string file = section_of(path) + "/File";
-                         return values(file).empty()
+                         return values(file).empty() || values(path).empty()
                                     ? std::string()
                                     : "the mesh is read from the file that "
                                           + file + " names.";
