@@ -160,12 +160,12 @@ def read_list(path):
 
 
 def make_cases(seeds, options, abut):
-    """Cases of seeds."""
+    """Cases of seeds, one after the other."""
     reference = read_reference(subprocess.run(
         [abut, "parameters"], capture_output=True, text=True,
         check=True).stdout)
     levels = find_levels(abut, options.levels)
-    return [make_case(seed, levels, reference) for seed in seeds]
+    return (make_case(seed, levels, reference) for seed in seeds)
 
 
 def read_results(path):
@@ -213,24 +213,25 @@ def main():
     abut = options.abut.resolve()
     trial = Trial(abut, options.sanitized and options.sanitized.resolve())
     first, _, end = options.seeds.partition(":")
+    listed = read_list(options.list) if options.list else []
     seeds = ([options.repeat] if options.repeat is not None else
+             [case["seed"] for case in listed] or
              range(int(first), int(end)))
-    cases = (read_list(options.list) if options.list else
-             make_cases(seeds, options, abut))
-    if options.repeat is not None:
-        return repeat(trial, next(case for case in cases
-                                  if case["seed"] == options.repeat))
     results = read_results(options.results)
-    left = [case for case in cases if case["seed"] not in results]
+    left = [seed for seed in seeds if seed not in results]
+    cases = ([case for case in listed if case["seed"] in left] if listed else
+             make_cases(left, options, abut))
+    if options.repeat is not None:
+        return repeat(trial, next(iter(cases)))
     output = options.results and open(options.results, "a", encoding="utf-8")
     with multiprocessing.Pool(options.jobs) as pool:
-        for result in pool.imap_unordered(trial, left):
+        for result in pool.imap_unordered(trial, cases):
             results[result["seed"]] = result
             if output:
                 output.write(json.dumps(result) + "\n")
                 output.flush()
     again = f" --list {options.list}" if options.list else ""
-    return table([results[case["seed"]] for case in cases],
+    return table([results[seed] for seed in seeds],
                  f"tests/judge/mutate.py --abut {options.abut}{again}")
 
 

@@ -385,12 +385,16 @@ class SolidJudge:
         obstacle = Obstacle(self.scene, pair.obstacle, self.dim, self.time)
         facets = Pair.facets(pair.secondary, self.facets)
         for facet in facets:
+            # what supports hold inside no contact can move
+            held = max([-(obstacle.distance(x) + pair.gap) for i, x in
+                        zip(facet.nodes, facet.deformed)
+                        if any(self.held[i])] + [0.])
             for place in facet.samples():
                 depth = -(obstacle.distance(facet.at(place)) + pair.gap)
                 if not pair.mesh_gap:
                     depth += obstacle.distance(facet.at(place, False))
                 if depth > 0:
-                    yield depth, self.limit(pair, facet)
+                    yield depth, self.limit(pair, facet) + held
         if not pair.mesh_gap:
             return
         tree = Tree([p for f in facets for p in f.pieces(True)])
@@ -476,7 +480,7 @@ class SolidJudge:
         largest = max(max(norm(f), norm(g))
                       for f, g in zip(self.load, self.reaction))
         least = min(f.size for f in self.facets)**(self.dim - 1)
-        return 1e-8 * largest / least
+        return (1e-8 * largest + self.round_off()) / least
 
     def sides(self, pair):
         key = f"pair_{pair.number}"
