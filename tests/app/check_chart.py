@@ -254,7 +254,7 @@ wrong(chart(VALUES, GOOD, curve("a", {"Method/Enforcement": "penalti"})),
       "chart.prm:11: Method/Enforcement", "'penalty'")
 twice = [curve("a", {"Method/Enforcement": law})
          for law in ("lagrange", "penalty")]
-wrong(chart(VALUES, GOOD, "".join(twice)), "chart.prm:16", "second section",
+wrong(chart(VALUES, GOOD, "".join(twice)), "chart.prm:17", "second section",
       "'Curve a'")
 wrong(chart(VALUES, GOOD, twice[0] + curve("b", {"Refinement/Level": 2})
             + curve("a", {"Refinement/Level": 3})), "second section",
