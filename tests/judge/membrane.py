@@ -136,6 +136,16 @@ class MembraneJudge:
     def contact_sides(self):
         """Sides of cells whose nodes have rows or, at the ends of the contact
         boundary, a prescribed value."""
+        single = self.single_sides()
+        middles, larger, _ = self.between_sizes(single)
+        return [owner for key, owner in single.items()
+                if not key & middles and key not in larger
+                and any(self.status[i] >= 0 for i in key)
+                and all(self.status[i] >= 0 or self.held[i] != 0
+                        for i in key)]
+
+    def single_sides(self):
+        """Sides, by their corners, that one cell has: cell, direction, end."""
         count = {}
         for cell in self.fields.cells:
             corner = corners(cell.dim, cell.degree)
@@ -144,18 +154,13 @@ class MembraneJudge:
                     key = frozenset(cell.nodes[i] for k, i in enumerate(corner)
                                     if (k >> d & 1) == side)
                     count.setdefault(key, []).append((cell, d, side))
-        single = {key: owners[0] for key, owners in count.items()
-                  if len(owners) == 1}
-        inside = self.between_sizes(single)
-        return [owner for key, owner in single.items()
-                if not key & inside[0] and key not in inside[1]
-                and any(self.status[i] >= 0 for i in key)
-                and all(self.status[i] >= 0 or self.held[i] != 0
-                        for i in key)]
+        return {key: owners[0] for key, owners in count.items()
+                if len(owners) == 1}
 
     def between_sizes(self, sides):
         """Where cells of two sizes meet: the nodes in the middle of the larger
-        sides, which are corners of smaller ones, and those larger sides."""
+        sides, which are corners of smaller ones, those larger sides, and the
+        nodes that hang between."""
         corner = {i for key in sides for i in key}
         middles, larger = set(), set()
         for key in sides:
@@ -168,7 +173,10 @@ class MembraneJudge:
             if i in corner:
                 middles.add(i)
                 larger.add(key)
-        return middles, larger
+        ends = {i for key in larger for i in key}
+        hanging = {i for key, owner in sides.items() if key & middles
+                   for i in self.side(*owner).nodes}
+        return middles, larger, hanging - ends
 
     @staticmethod
     def side(cell, d, side):
@@ -241,6 +249,7 @@ class MembraneJudge:
         limit = THRESHOLDS["penetration, nodes"]
         law = of_gaps(self.scene, self.summary, max(map(abs, self.u)))
         n = 4 if self.dim == 2 else 3
+        hanging = self.between_sizes(self.single_sides())[2]
         for side, factor in ((self.lower, 1.), (self.upper, -1.)):
             if side is None:
                 continue
@@ -252,6 +261,9 @@ class MembraneJudge:
                 points = [self.nodes.place[i] for i in cell.nodes]
                 allowed = (law + scale
                            + limit.value * self.size_of(cell))
+                # nodes that hang follow others, which have the rows
+                allowed += max([at_node[i] - factor * self.u[i]
+                                for i in cell.nodes if i in hanging] + [0.])
                 for index in range(n**cell.dim):
                     place = tuple((index // n**d % n + 0.5) / n
                                   for d in range(cell.dim))
