@@ -30,10 +30,12 @@ namespace abut::solve
       Motions(const la::Matrix &stiffness, const NearNullSpace &space)
           : space_(space),
             dim_(space.n_components),
+            has_points_(MPI::logical_or(!space.point.empty(),
+                                        stiffness.get_mpi_communicator())),
             center_(space.n_bodies),
             radius_(space.n_bodies, 1.)
       {
-        if (!space.point.empty())
+        if (has_points_)
           find_centers(stiffness.get_mpi_communicator());
         const la::LocalRows rows = la::local_rows(stiffness);
         is_coupled_.assign(rows.n_rows, 0);
@@ -46,7 +48,7 @@ namespace abut::solve
       unsigned int n_modes() const
       {
         const unsigned int rotations = dim_ == 3 ? 3 : dim_ - 1;
-        return dim_ + (space_.point.empty() ? 0 : rotations);
+        return dim_ + (has_points_ ? rotations : 0);
       }
 
       int body(const std::size_t i) const
@@ -99,6 +101,7 @@ namespace abut::solve
 
       const NearNullSpace &space_;
       const unsigned int dim_;
+      const bool has_points_; // on any rank: some have no unknowns
       std::vector<dealii::Point<3>> center_;
       std::vector<double> radius_;
       std::vector<std::uint8_t> is_coupled_;

@@ -76,8 +76,24 @@ p.expect_error(p.call("run", scene, "--set", "Method/Barrier end=1"),
 p.write("file", "")
 p.expect_error(p.call("run", scene, "--output", "file/x"), "file/x")
 p.expect_error(p.call("run", scene, "--output", "file"), "'file'")
-if os.geteuid() != 0:
-    os.mkdir(p.folder / "locked", 0o500)
-    p.expect_error(p.call("run", scene, "--output", "locked"), "'locked'")
+os.mkdir(p.folder / "locked", 0o500)
+p.expect_error(p.call("run", scene, "--output", "locked", ordinary=True),
+               "'locked'")
+p.expect_error(p.call("run", scene, "--output", "locked/in", ordinary=True),
+               "'locked/in'")
+
+# Files that may not be read.
+for name in ("secret.prm", "secret.pgm", "secret.msh"):
+    p.write(name, "")
+    (p.folder / name).chmod(0)
+p.expect_error(p.call("run", "secret.prm", ordinary=True), "secret.prm")
+p.expect_error(p.call("check", "secret.prm", ordinary=True), "secret.prm")
+p.expect_error(p.call("run", p.source / "prm/height-map.prm", "--set",
+                      f"Contact/Height map={p.folder}/secret.pgm",
+                      ordinary=True), "secret.pgm", "Height map")
+p.expect_error(p.call("run", p.source / "prm/patch-2d.prm", "--set",
+                      "Body 1/Mesh/Generator=file", "--set",
+                      f"Body 1/Mesh/File={p.folder}/secret.msh",
+                      ordinary=True), "secret.msh")
 
 p.finish()

@@ -188,8 +188,17 @@ def check_volume():
              "bytes of boxes do not depend on the mesh")
 
 
+def check_idle_ranks():
+    """Two cells on the coarsest mesh: some ranks have nothing to do there."""
+    one, many = (p.solve("rigid-plate.prm", ranks=ranks)[0]
+                 for ranks in (1, 5))
+    for key in ("energy", "contact_force"):
+        p.close(many[key], one[key], 1e-8, f"more ranks than cells: {key}")
+
+
 check_pushed()
 check_rolled()
 check_apart()
 check_volume()
+check_idle_ranks()
 p.finish()

@@ -18,6 +18,10 @@ def set_words(settings):
     return [word for setting in settings for word in ("--set", setting)]
 
 
+# What lets root read and write everything.
+NO_OVERRIDE = "-dac_override,-dac_read_search"
+
+
 class Program:
     """The program under test with a folder of its own to work in."""
 
@@ -34,13 +38,20 @@ class Program:
         self.folder = pathlib.Path(self._folder.name)
         self.failures = 0
 
-    def call(self, *words, ranks=0, environment=None, timeout=120):
-        """Run `abut words`; ranks > 0: under mpirun."""
+    def call(self, *words, ranks=0, environment=None, timeout=120,
+             ordinary=False, before=(), at_start=None):
+        """Run `abut words`; ranks > 0: under mpirun; ordinary: obeying the
+        permissions of files, as root otherwise does not; before: words before
+        all others; at_start: called by the new process."""
         command = [self.abut, *map(str, words)]
+        if ordinary and os.geteuid() == 0:
+            command = ["setpriv", f"--bounding-set={NO_OVERRIDE}",
+                       f"--inh-caps={NO_OVERRIDE}"] + command
         if ranks > 0:
             command = ["mpirun", "--oversubscribe", "-n", str(ranks)] + command
-        return subprocess.run(command, cwd=self.folder, text=True,
+        return subprocess.run([*before, *command], cwd=self.folder, text=True,
                               capture_output=True, timeout=timeout,
+                              preexec_fn=at_start,
                               env={**os.environ, **(environment or {})})
 
     def write(self, name, text):
@@ -53,8 +64,9 @@ class Program:
             print("FAILED:", message)
 
     def close(self, value, expected, tolerance, message):
+        """A value that is expected but for a part `tolerance` of it."""
         good = (value is not None and math.isfinite(value)
-                and abs(value - expected) <= tolerance * max(1, abs(expected)))
+                and abs(value - expected) <= tolerance * abs(expected))
         self.expect(good, f"{message}: {value} is not {expected}")
 
     def expect_error(self, result, *texts, code=2):

@@ -49,6 +49,9 @@ OPERATORS = {
 WORDS = {"true": "false", "false": "true", "fmin": "fmax", "fmax": "fmin",
          "ABUT_STATE_OPEN": "ABUT_STATE_CLOSED",
          "ABUT_STATE_CLOSED": "ABUT_STATE_OPEN"}
+# Tests of the core run with sanitizers (the preset `core`); here only those that
+# find nothing without.
+SANITIZED = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 # Left alone: what compilers read, and tables of names.
 SKIPPED = re.compile(r"^\s*(#|static_assert|typedef|extern|case\b|default:)")
 
@@ -165,26 +168,27 @@ class Core:
         self.kills[test] += 1
         self.kills[name, test] += 1
 
-    def passes(self, program, limit):
+    def passes(self, program, limit, in_time=True):
+        """in_time: a test that takes longer fails."""
         try:
             return subprocess.run(
                 [program], timeout=limit, stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL, cwd=program.parent).returncode == 0
         except subprocess.TimeoutExpired:
-            return False
+            return not in_time
 
-    def compiles(self, name, text, folder):
+    def compiles(self, name, text, folder, flags=()):
         """Makes an object of another text of one source; False if it is none."""
         source = folder / pathlib.Path(name).name
         source.write_text(text)
         words = list(self.compile[name])
         words[words.index("-o") + 1] = str(folder / "changed.o")
         words[words.index("-c") + 1] = str(source)
-        words += ["-I", str((ROOT / name).parent), "-w"]
+        words += ["-I", str((ROOT / name).parent), "-w", *flags]
         return subprocess.run(words, cwd=self.build,
                               capture_output=True).returncode == 0
 
-    def killer(self, name, folder):
+    def killer(self, name, folder, flags=()):
         """The first test that fails, those first that are likely to and short;
         None if none does."""
         words = self.compile[name]
@@ -195,9 +199,12 @@ class Core:
             link = [str(folder / "changed.o") if w == old else w
                     for w in self.link[test]]
             link[link.index("-o") + 1] = str(folder / test)
+            link += flags
             subprocess.run(link, cwd=self.build, check=True,
                            capture_output=True)
-            good = self.passes(folder / test, 5 + 10 * self.seconds[test])
+            # Sanitizers take their time; what hangs was found without.
+            good = self.passes(folder / test, 10 + 10 * self.seconds[test],
+                               not flags)
             (folder / test).unlink()
             if not good:
                 self.count(name, test)
@@ -292,6 +299,9 @@ def main():
                 killer = (core.killer(name, folder)
                           if core.compiles(name, changed, folder)
                           else "compiler")
+                if killer is None and core.compiles(name, changed, folder,
+                                                    SANITIZED):
+                    killer = core.killer(name, folder, SANITIZED)
             known = {"key": key, "file": name, "killer": killer,
                      "what": describe(name, text, mistake)}
             with open(log, "a", encoding="utf-8") as out:

@@ -3,7 +3,10 @@
 
 #include "input_error.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
+#include <string>
 #include <unistd.h>
 
 namespace abut::app
@@ -32,12 +35,15 @@ namespace abut::app
                                + "'" + (error ? ": " + error.message() : "")
                                + ". Choose another one with --output DIR.");
     const fs::path probe = folder / ".abut-can-write";
+    errno = 0;
     const bool writable =
         static_cast<bool>(std::ofstream(probe) << "x" << std::flush);
+    const std::string reason =
+        errno != 0 ? std::string(": ") + std::strerror(errno) : "";
     fs::remove(probe, error);
     if (!writable)
       throw InputError("", "cannot write into the output folder '"
-                               + folder.string()
-                               + "'. Choose another one with --output DIR.");
+                               + folder.string() + "'" + reason
+                               + ". Choose another one with --output DIR.");
   }
 } // namespace abut::app

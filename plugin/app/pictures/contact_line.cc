@@ -6,6 +6,7 @@
 
 #include "contact_line.h"
 
+#include "app/restart/disk.h"
 #include "contact_output.h"
 
 #include <deal.II/base/mpi.h>
@@ -16,10 +17,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <map>
-#include <stdexcept>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -199,14 +199,13 @@ namespace abut::app
   void write_contact_lines(const std::filesystem::path &file,
                            const std::vector<ContactLine> &lines)
   {
-    std::ofstream out(file);
+    std::ostringstream out;
     out << "line,arc,x,y,pressure,gap,status\n" << std::setprecision(17);
     for (std::size_t i = 0; i < lines.size(); ++i)
       for (const ContactLineNode &node : lines[i])
         out << i + 1 << ',' << node.arc << ',' << node.place[0] << ','
             << node.place[1] << ',' << node.pressure << ',' << node.gap << ','
             << node.status << '\n';
-    if (!out.flush())
-      throw std::runtime_error("cannot write " + file.string());
+    write_file(file, out.str());
   }
 } // namespace abut::app

@@ -58,6 +58,39 @@ namespace abut::app
 
       const std::set<dealii::types::boundary_id> &ids;
     };
+
+    /** The part of this rank in a file of all: the first one has the head, the
+     * last one the end, and each its pieces. */
+    std::string part_of_rank(const std::string &whole, const unsigned int rank,
+                             const unsigned int n_ranks)
+    {
+      static const std::string end_of_piece = "</Piece>\n";
+      const std::size_t begin = rank == 0 ? 0 : whole.find("<Piece"),
+                        end = whole.rfind(end_of_piece);
+      if (begin == std::string::npos || end == std::string::npos)
+        return "";
+      return rank + 1 == n_ranks
+                 ? whole.substr(begin)
+                 : whole.substr(begin, end + end_of_piece.size() - begin);
+    }
+
+    /** One file of all ranks, written one after the other: what fails on one
+     * fails on all, which files of MPI do not promise. Collective. */
+    void write_in_turns(const std::filesystem::path &file,
+                        const std::string &whole, const MPI_Comm communicator)
+    {
+      namespace MPI = dealii::Utilities::MPI;
+      const unsigned int n_ranks = MPI::n_mpi_processes(communicator),
+                         rank = MPI::this_mpi_process(communicator);
+      for (unsigned int turn = 0; turn < n_ranks; ++turn)
+        collective(communicator,
+                   [&]
+                   {
+                     if (rank == turn)
+                       write_file(file, part_of_rank(whole, rank, n_ranks),
+                                  turn > 0);
+                   });
+    }
   } // namespace
 
   FieldSeries::FieldSeries(std::filesystem::path folder, std::string name,
@@ -109,16 +142,21 @@ namespace abut::app
   void FieldSeries::append(const double time, const Output &output)
   {
     const unsigned int step = static_cast<unsigned int>(records.size());
-    const std::string file = output.write_vtu_with_pvtu_record(
-        folder.string() + "/", name, step, communicator, 4, 1);
-    records.emplace_back(time, file);
+    const std::string stem =
+        name + "_" + dealii::Utilities::int_to_string(step, 4);
+    std::ostringstream whole;
+    output.write_vtu(whole);
+    write_in_turns(folder / (stem + ".0.vtu"), whole.str(), communicator);
+    records.emplace_back(time, stem + ".pvtu");
 
     collective(communicator,
-               [this]()
+               [&]()
                {
                  if (dealii::Utilities::MPI::this_mpi_process(communicator) > 0)
                    return;
-                 std::ostringstream pvd;
+                 std::ostringstream pvtu, pvd;
+                 output.write_pvtu_record(pvtu, {stem + ".0.vtu"});
+                 write_file(folder / (stem + ".pvtu"), pvtu.str());
                  dealii::DataOutBase::write_pvd_record(pvd, records);
                  replace_on_disk(folder / (name + ".pvd"), pvd.str());
                });

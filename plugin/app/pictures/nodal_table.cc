@@ -2,14 +2,13 @@
 #include "nodal_table.h"
 
 #include "app/input/collective.h"
+#include "app/restart/disk.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_values.h>
 
-#include <fstream>
 #include <iomanip>
 #include <sstream>
-#include <stdexcept>
 
 namespace abut::app
 {
@@ -96,13 +95,11 @@ namespace abut::app
                {
                  if (MPI::this_mpi_process(communicator) != 0)
                    return;
-                 std::ofstream out(file);
-                 out << names_of(columns, dim,
-                                 dof_handler.get_fe().n_components());
+                 std::string text = names_of(
+                     columns, dim, dof_handler.get_fe().n_components());
                  for (const std::string &part : all)
-                   out << part;
-                 if (!out.flush())
-                   throw std::runtime_error("cannot write " + file.string());
+                   text += part;
+                 write_file(file, text);
                });
   }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "surface_output.h"
 
+#include "app/restart/disk.h"
+
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/grid/reference_cell.h>
 
-#include <fstream>
-#include <stdexcept>
+#include <sstream>
 
 namespace abut::app
 {
@@ -55,13 +56,12 @@ namespace abut::app
     for (const auto *list : {&fields.nodal, &fields.facets})
       for (const auto &field : *list)
         names.push_back(field.first);
-    std::ofstream out(file);
+    std::ostringstream out;
     // Better compression takes many times as long and saves little.
     dealii::DataOutBase::VtkFlags flags;
     flags.compression_level = decltype(flags.compression_level)::best_speed;
     dealii::DataOutBase::write_vtu(patches, names, {}, flags, out);
-    if (!out.flush())
-      throw std::runtime_error("cannot write " + file.string());
+    write_file(file, out.str());
   }
 
   template void write_surface<2>(const std::filesystem::path &,

@@ -3,6 +3,7 @@
 
 #include "app/input/collective.h"
 #include "app/input/input_error.h"
+#include "app/input/output_folder.h"
 #include "disk.h"
 
 #include <deal.II/base/mpi.h>
@@ -124,7 +125,7 @@ namespace abut::app
                  if (!is_root)
                    return;
                  fs::remove_all(next);
-                 fs::create_directory(next);
+                 make_output_folder(next);
                });
     write(next);
     MPI_Barrier(communicator);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "disk.h"
 
+#include "app/input/input_error.h"
+
 #include <boost/crc.hpp>
 
 #include <fcntl.h>
@@ -10,18 +12,23 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 namespace abut::app
 {
   namespace
   {
-    [[noreturn]] void fail(const std::filesystem::path &path,
-                           const std::string &what)
+    [[noreturn]] void fail_to_write(const std::filesystem::path &path,
+                                    const std::string &reason)
     {
-      const std::string reason = errno != 0 ? std::strerror(errno) : "";
-      throw std::runtime_error("'" + path.string() + "' cannot be " + what
-                               + (reason.empty() ? "" : ": " + reason));
+      throw InputError("", "cannot write '" + path.string() + "'"
+                               + (reason.empty() ? "" : ": " + reason)
+                               + ". Make room, or choose another folder with "
+                                 "--output DIR.");
+    }
+
+    std::string reason_of(const int error)
+    {
+      return error != 0 ? std::strerror(error) : "";
     }
   } // namespace
 
@@ -29,23 +36,46 @@ namespace abut::app
   {
     const int file = open(path.c_str(), O_RDONLY);
     if (file < 0)
-      fail(path, "opened");
+      fail_to_write(path, reason_of(errno));
     // Some file systems have no such call for folders.
-    const bool synced = fsync(file) == 0 || errno == EINVAL;
+    const int error = fsync(file) == 0 || errno == EINVAL ? 0 : errno;
     close(file);
-    if (!synced)
-      fail(path, "brought to the disk");
+    if (error != 0)
+      fail_to_write(path, reason_of(error));
+  }
+
+  void write_file(const std::filesystem::path &file, const std::string &bytes,
+                  const bool append)
+  {
+    errno = 0;
+    std::ofstream out(file, append ? std::ios::binary | std::ios::app
+                                   : std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out)
+      fail_to_write(file, reason_of(errno));
+  }
+
+  void require_room(const std::filesystem::path &folder,
+                    const std::size_t bytes)
+  {
+    const std::filesystem::path name = folder / "room";
+    const int file = open(name.c_str(), O_WRONLY | O_CREAT, 0666);
+    if (file < 0)
+      fail_to_write(name, reason_of(errno));
+    const int error = posix_fallocate(file, 0, static_cast<off_t>(bytes));
+    close(file);
+    std::error_code ignored;
+    std::filesystem::remove(name, ignored);
+    // Some file systems have no such call.
+    if (error != 0 && error != EINVAL && error != EOPNOTSUPP)
+      fail_to_write(name, reason_of(error));
   }
 
   void write_to_disk(const std::filesystem::path &file,
                      const std::string &bytes)
   {
-    errno = 0;
-    std::ofstream out(file, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out)
-      fail(file, "written");
+    write_file(file, bytes);
     sync(file);
   }
 
@@ -55,7 +85,10 @@ namespace abut::app
     std::filesystem::path next = file;
     next += ".new";
     write_to_disk(next, bytes);
-    std::filesystem::rename(next, file);
+    std::error_code error;
+    std::filesystem::rename(next, file, error);
+    if (error)
+      fail_to_write(file, error.message());
     sync(file.has_parent_path() ? file.parent_path() : ".");
   }
 
@@ -74,7 +107,9 @@ namespace abut::app
     bytes << in.rdbuf();
     // An empty file sets no bit of the stream but that of the output.
     if (!in)
-      fail(file, "read");
+      throw InputError("", "cannot read '" + file.string() + "'"
+                               + (errno != 0 ? ": " + reason_of(errno) : "")
+                               + ".");
     return bytes.str();
   }
 } // namespace abut::app

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "saved_mesh.h"
 
+#include "app/input/collective.h"
+#include "disk.h"
+
 #include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/dofs/dof_tools.h>
 
@@ -40,6 +43,27 @@ namespace abut::app
       }
       return result;
     }
+
+    /** p4est ends the program where it cannot write: more bytes than it takes
+     * for a cell with its fields must be there. Collective. */
+    template <int dim>
+    void require_room_for(const std::filesystem::path &folder,
+                          const typename MeshHistory<dim>::Mesh &mesh,
+                          const dealii::DoFHandler<dim> &dof_handler,
+                          const std::size_t n_fields)
+    {
+      const MPI_Comm communicator = mesh.get_communicator();
+      const std::size_t per_cell =
+          128 + n_fields * 8 * dof_handler.get_fe().n_dofs_per_cell();
+      collective(
+          communicator,
+          [&]
+          {
+            if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+              require_room(folder,
+                           65536 + per_cell * mesh.n_global_active_cells());
+          });
+    }
   } // namespace
 
   template <int dim>
@@ -56,6 +80,7 @@ namespace abut::app
     Transfer<dim> transfer(dof_handler);
     if (!pointers.empty())
       transfer.prepare_for_serialization(pointers);
+    require_room_for<dim>(folder, mesh, dof_handler, fields.size());
     mesh.save((folder / mesh_name).string());
 
     MeshPart part{history.is_known(), history.steps(), {}};

@@ -15,6 +15,19 @@ namespace abut::app
 {
   namespace
   {
+    /** Its checksum; who needs the file says better why it cannot be read. */
+    std::string checksum_of(const std::filesystem::path &file)
+    {
+      try
+      {
+        return checksum(read_from_disk(file));
+      }
+      catch (const InputError &)
+      {
+        return "unreadable";
+      }
+    }
+
     /** Checksum of the file that @p value may be the name of, else empty. */
     std::string content_of(const RunOptions &options, const std::string &value)
     {
@@ -23,7 +36,7 @@ namespace abut::app
       for (const std::filesystem::path &file :
            {folder / value, std::filesystem::path(value)})
         if (!value.empty() && std::filesystem::is_regular_file(file, error))
-          return checksum(read_from_disk(file));
+          return checksum_of(file);
       return "";
     }
   } // namespace

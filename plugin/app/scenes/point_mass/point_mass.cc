@@ -5,6 +5,7 @@
 #include "app/input/parameters.h"
 #include "app/input/short_number.h"
 #include "app/report/json.h"
+#include "app/restart/disk.h"
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/method_effects.h"
@@ -19,7 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 namespace abut::app
 {
@@ -337,7 +338,7 @@ namespace abut::app
 
     void PointMass::write_sweep(const RunOptions &options) const
     {
-      std::ofstream out(options.output_folder / "sweep.csv");
+      std::ostringstream out;
       out << "penalty";
       for (const std::string &name : numbered("u", model.n()))
         out << "," << name;
@@ -357,7 +358,7 @@ namespace abut::app
           out << "," << json_number(p);
         out << "\n";
       }
-      AssertThrow(out.flush(), dealii::ExcMessage("cannot write sweep.csv"));
+      write_file(options.output_folder / "sweep.csv", out.str());
     }
 
     Outcome PointMass::run(const RunOptions &options, Report &report)

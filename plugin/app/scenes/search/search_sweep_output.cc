@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "app/input/short_number.h"
 #include "app/pictures/gnuplot.h"
+#include "app/restart/disk.h"
 #include "search_sweep.h"
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
-#include <stdexcept>
 
 namespace abut::app
 {
@@ -79,7 +78,7 @@ namespace abut::app
                    const std::vector<SweepPoint> &points,
                    const SweepHeading &heading)
   {
-    std::ofstream out(folder / "sweep.csv");
+    std::ostringstream out;
     out << "algorithm,bucket_size,automatic,bucket_in_use,raised,ns_per_node,"
            "build_ns_per_facet,query_ns_per_node,structure_bytes_per_facet,"
            "buckets,capacity,tests_per_node,candidates\n"
@@ -100,9 +99,7 @@ namespace abut::app
           << double(s.n_block_tests + s.n_box_tests) / nodes << ',' << s.n_pairs
           << '\n';
     }
-    if (!out.flush())
-      throw std::runtime_error("cannot write "
-                               + (folder / "sweep.csv").string());
+    write_file(folder / "sweep.csv", out.str());
   }
 
   void print_sweep_head(Report &report)
