@@ -83,7 +83,7 @@ p.expect_error(p.call("run", scene, "--output", "locked/in", ordinary=True),
                "'locked/in'")
 
 # Files that may not be read.
-for name in ("secret.prm", "secret.pgm", "secret.msh"):
+for name in ("secret.prm", "secret.pgm"):
     p.write(name, "")
     (p.folder / name).chmod(0)
 p.expect_error(p.call("run", "secret.prm", ordinary=True), "secret.prm")
@@ -91,9 +91,5 @@ p.expect_error(p.call("check", "secret.prm", ordinary=True), "secret.prm")
 p.expect_error(p.call("run", p.source / "prm/height-map.prm", "--set",
                       f"Contact/Height map={p.folder}/secret.pgm",
                       ordinary=True), "secret.pgm", "Height map")
-p.expect_error(p.call("run", p.source / "prm/patch-2d.prm", "--set",
-                      "Body 1/Mesh/Generator=file", "--set",
-                      f"Body 1/Mesh/File={p.folder}/secret.msh",
-                      ordinary=True), "secret.msh")
 
 p.finish()

@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <new>
 #include <thread>
 
 namespace
@@ -73,6 +74,12 @@ main(int argc, char *argv[])
   {
     code = fail(end_of_run, ExitCode::bad_input,
                 std::string("error: ") + error.what());
+  }
+  catch (const std::bad_alloc &)
+  {
+    code = fail(end_of_run, ExitCode::bad_input,
+                "error: there is not enough memory for this mesh. Take a "
+                "coarser one, or more ranks on more machines.");
   }
   catch (const std::exception &error)
   {
