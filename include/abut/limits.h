@@ -16,9 +16,10 @@ extern "C"
 {
 #endif
 
-  /** Largest and smallest magnitude of a number that is not zero: products of
-   * a few of them with lengths and stiffnesses stay finite. */
+  /** Largest magnitude of a number: products of a few of them with lengths and
+   * stiffnesses stay finite. */
 #define ABUT_LARGEST_NUMBER 1e300
+  /** Smallest magnitude of a number that is not zero, for the same reason. */
 #define ABUT_SMALLEST_NUMBER 1e-300
 
   /** The legal range of a number. NaN is in none. */

@@ -44,6 +44,7 @@ namespace abut
       return NumberPattern({nullptr, low, high, false, false});
     }
 
+    /** Whether @p text is one number in the range. */
     bool match(const std::string &text) const override
     {
       double value;
@@ -76,6 +77,7 @@ namespace abut
       return words.str();
     }
 
+    /** The same pattern again. */
     std::unique_ptr<dealii::Patterns::PatternBase> clone() const override
     {
       return std::make_unique<NumberPattern>(limit);
