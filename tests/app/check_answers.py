@@ -196,6 +196,9 @@ for settings in (["Refinement/Adaptive cycles=3"],
     summary = expect(run(example / "soft-plate.prm", *soft, *settings), 0,
                      without=("ABUT-F06", "ABUT-F37", "internal error"))
     if "Law parameters" not in settings[0]:
-        near(summary["contact_force"], 20.616856, 1e-6, f"{settings}: force")
+        # A target error of 1 % ends Newton's method earlier, too.
+        tolerance = 1e-5 if "Target" in settings[0] else 1e-6
+        near(summary["contact_force"], 20.616856, tolerance,
+             f"{settings}: force")
 
 p.finish()

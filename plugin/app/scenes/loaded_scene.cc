@@ -75,7 +75,8 @@ namespace abut::app
     const std::size_t rest = message.find_first_not_of(": ", path.size());
     if (path.empty() || rest == std::string::npos)
       return {"", message};
-    return {path, message.substr(rest)};
+    // "Section/Name = value goes with ..." is a sentence of its own.
+    return {path, message[rest] == '=' ? message : message.substr(rest)};
   }
 
   void LoadedScene::parse()
