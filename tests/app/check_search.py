@@ -10,7 +10,7 @@ from program import Program
 
 p = Program()
 QUIET = ("--output", "out", "--quiet", "--set", "Sweep/Bucket sizes=",
-         "--set", "Sweep/Repeats=1", "--set", "Output/Fields=false")
+         "--set", "Output/Fields=false")
 
 
 def scene(secondary, primary="", search="", dimension=3):

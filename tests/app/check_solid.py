@@ -47,9 +47,11 @@ p.expect_error(run("Pair 1/Primary=2: 2"), "Pair 1/Secondary",
 p.expect_error(run("Pair 1/Obstacle=1"), "Pair 1/Obstacle", "primary surface")
 p.expect_error(run("Pair 1/Primary=", "Pair 1/Obstacle=2"), "Pair 1/Obstacle",
                "no obstacle 2")
-p.expect_error(run("Pair 2/Reach=1"), "no section 'Pair 2'", "Pair 1")
+p.expect_error(run("Pair 2/Reach=1"), "Pair 2/Reach",
+               "Solid/Pairs is 1: set it to 2")
 p.expect_error(run("Pair 1/Initial gap=x"), "Pair 1/Initial gap")
-p.expect_error(run("Solid/Pairs=0"), "no section 'Pair 1'")
+p.expect_error(run("Solid/Pairs=0"), "Pair 1/Primary",
+               "Solid/Pairs is 0: set it to 1")
 
 # Surfaces that cannot meet.
 p.expect_error(run("Body 2/Mesh/Move=0, 0.6", "Refinement/Level=0"),
@@ -62,6 +64,9 @@ p.expect(run(*deep, "Search/Thickness=1").returncode == 0,
 p.expect_error(run(*deep, "Search/Thickness=0.5"), "Pair 1/Secondary",
                "overlap")
 p.expect_error(run("Pair 1/Secondary=2: 3", "Pair 1/Reach=2"),
+               "Pair 1/Secondary", "prescribed by Body 2/Support")
+p.expect_error(run("Pair 1/Secondary=2: 3", "Pair 1/Reach=2",
+                   "Body 2/Support=1: 0, 0"),
                "Pair 1/Secondary", "ABUT-F23", "same way")
 p.expect_error(run("Body 2/Mesh/Move=3, 0"), "Pair 1/Secondary", "ABUT-F24",
                "too far apart", "reach")
