@@ -93,10 +93,10 @@ namespace abut::app
     for (const auto &[id, condition] : data.supports)
     {
       Values values;
+      const CheckedExpression<dim> function(*condition.function);
       dealii::VectorTools::interpolate_boundary_values(
           this->mapping, this->dof_handler,
-          std::map<boundary_id, const dealii::Function<dim> *>{
-              {id, condition.checked}},
+          std::map<boundary_id, const dealii::Function<dim> *>{{id, &function}},
           values, condition.components);
       for (const auto &[dof, value] : values)
       {
