@@ -197,7 +197,7 @@ for name, settings in ((bodies, steps), (membrane, cycles)):
 
 # To a target error, and in three dimensions.
 target = ["Refinement/Target error=0.05", "Refinement/Refine fraction=0.4",
-          "Refinement/Level=2"]
+          "Refinement/Coarsest level=2"]
 expected = alone(membrane, target)
 killed(membrane, 3, expected, target)
 
