@@ -12,9 +12,9 @@ namespace abut::shim
    * things are missed on coarse meshes, and at least the middle. */
   inline unsigned int samples_per_direction(const double n_cells, const int dim)
   {
-    constexpr double most_in_all = 2e5;
+    constexpr double most_in_all = 2e5, most = 400.;
     const double n = std::pow(most_in_all / std::max(1., n_cells), 1. / dim);
-    return static_cast<unsigned int>(std::clamp(n, 1., dim == 1 ? 15. : 7.));
+    return static_cast<unsigned int>(std::clamp(n, 1., most));
   }
 } // namespace abut::shim
 
