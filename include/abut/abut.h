@@ -15,6 +15,7 @@
 #include <abut/export.h>
 #include <abut/facet.h>
 #include <abut/failure.h>
+#include <abut/friction.h>
 #include <abut/history.h>
 #include <abut/law.h>
 #include <abut/limits.h>

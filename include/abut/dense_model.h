@@ -8,7 +8,8 @@
  *
  *     minimise 1/2 u'Ku - f'u  subject to  g = g0 + B u >= 0 (or = 0),
  *
- * for a point mass on a spring, for examples, and for tests.
+ * with friction where it is given; for a point mass on a spring, for chains of
+ * masses, for examples, and for tests.
  */
 
 #include <abut/points.h>
@@ -29,6 +30,10 @@ extern "C"
     const double *force;     /**< [n] f */
     /** Unknown k of node l is number l * dimension + k, below n. */
     const abut_points *points;
+    /** Friction of contact points with more than one component; NULL: none, and
+     * there must be no such points. Its rows are the components of the points.
+     */
+    const abut_strategy_friction *friction;
   } abut_dense_model;
 
   /** One line of the history of a solve. */
@@ -40,7 +45,9 @@ extern "C"
    * the stiffness of a component, sum_k B_k^2 K_kk / ((sum_k B_k^2)^2 w), which
    * for one unknown is K B^-2 / w. Costs O((n + n_components)^3) per linear
    * system. CALLBACK_FAILED if K is singular with what is closed in some step:
-   * then begin with a state that holds the body.
+   * then begin with a state that holds the body; if all that is closed slips,
+   * nothing else holds it. In the rows of tangents the pressure is the
+   * traction, and the gap is the slip since the last accepted step.
    * @param displacement [n] in: start; out: solution
    * @param pressure [n_components] in: start (may be all 0); out: pressure
    * @param state [n_components] starting set on entry, final set on return;

@@ -78,7 +78,11 @@ extern "C"
   X(NOT_FINITE, 39, "a number is infinite or none",                            \
     "look for loads, supports or materials that are not finite")               \
   X(STEP_LIMIT, 40, "limit of steps",                                          \
-    "allow more steps, start closer to the solution, or another method")
+    "allow more steps, start closer to the solution, or another method")       \
+  X(STICK_SLIP, 41, "no state of stick and slip is found",                     \
+    "smaller load steps, or a smaller coefficient of friction")                \
+  X(FREE_SLIDING, 42, "friction does not hold a body",                         \
+    "give the body a support, or less load along the surface")
 
   /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
   typedef enum abut_failure

@@ -34,8 +34,9 @@ extern "C"
   /** State of a row. */
   typedef enum abut_state
   {
-    ABUT_STATE_OPEN = 0,  /**< no contact, p = 0 */
-    ABUT_STATE_CLOSED = 1 /**< contact (with friction: stick) */
+    ABUT_STATE_OPEN = 0,   /**< no contact, p = 0 */
+    ABUT_STATE_CLOSED = 1, /**< contact (with friction: stick) */
+    ABUT_STATE_SLIP = 2    /**< contact, and the traction at its bound */
   } abut_state;
 
   /** What a law needs and what its linearisation looks like. */

@@ -25,6 +25,7 @@
  */
 
 #include <abut/failure.h>
+#include <abut/friction.h>
 #include <abut/law.h>
 #include <stdbool.h>
 #include <string.h>
@@ -176,6 +177,12 @@ extern "C"
     const double *d_gap;      /**< [n] b */
     double *pressure_change;  /**< [n] out at SOLVE(_AGAIN): dp */
     double *gap_change;       /**< [n] out at SOLVE(_AGAIN): dg = B du */
+    /** With friction, a and b are blocks as abut_condense() takes them:
+     * d_pressure and d_gap have the sum of block_size^2 numbers, and pressure,
+     * residual and changes of the tangents are tractions and slips. NULL
+     * without friction: one number for each row. */
+    const uint8_t *block_size; /**< [n_blocks] rows of each block, in order */
+    int32_t n_blocks;          /**< blocks; without friction 0 */
   } abut_request;
 
   /** Progress, for logs and tables; global over ranks. */
@@ -202,6 +209,11 @@ extern "C"
      * of an interior point, a law that further solves do not meet; else NONE.
      */
     abut_failure seen;
+    int64_t n_slipping; /**< points in contact whose traction is at its bound */
+    /** How far sets of stick and slip that came back were cured: 0 not needed,
+     * 1 by another derivative of the bound, 2 by a coefficient that grew in
+     * quarters, 3 by Tresca's problems with frozen bounds, 4 not at all. */
+    int32_t friction_rung;
   } abut_progress;
 
   /** The known failure behind the end of a strategy with this law, by what was
@@ -221,6 +233,30 @@ extern "C"
 
   /** Destroy a strategy and set the handle to NULL. */
   ABUT_API abut_status abut_strategy_destroy(abut_strategy **strategy);
+
+  /** Points with friction; arrays are owned by the caller. The rows of such a
+   * point stand together, the normal first; in the tangents' rows gap means
+   * slip since the last accepted step and pressure means traction. */
+  typedef struct abut_strategy_friction
+  {
+    size_t struct_size;        /**< sizeof(abut_strategy_friction) */
+    const abut_friction *law;  /**< NULL: coulomb */
+    int32_t n;                 /**< points with friction on this rank */
+    const int32_t *first;      /**< [n] row of the normal, ascending */
+    const uint8_t *n_tangents; /**< [n] 1 or 2 */
+    const double *coefficient; /**< [n] mu >= 0 */
+    const double *cap;         /**< [n] largest bound; NULL: none */
+    /** [m] traction at the last accepted step, which the springs of penalty
+     * laws start from; NULL: 0 */
+    const double *reference_traction;
+    const void *parameters; /**< handed to the friction law */
+  } abut_strategy_friction;
+
+  /** Friction for all starts that follow, copied; NULL: none. Where it is given
+   * it must be given on all ranks, be it for no point. UNSUPPORTED for interior
+   * laws and nitsche. */
+  ABUT_API abut_status abut_strategy_set_friction(
+      abut_strategy *strategy, const abut_strategy_friction *friction);
 
   /** Begin a solve with @p n rows on this rank. Collective if reduce is set.
    * @param id [n] global number of each row, 0 <= id < 2^53 and used once over

@@ -45,7 +45,7 @@ point_mass(abut_strategy_options options, const char *law)
   assert_ok(abut_points_create(context, 1, &points));
   assert_ok(abut_points_append_scalar(points, 0, 1, h, ABUT_POINT_CONTACT, 1,
                                       &node, &minus_one));
-  const abut_dense_model model = {sizeof(model), 1, &k, &weight, points};
+  const abut_dense_model model = {sizeof(model), 1, &k, &weight, points, NULL};
   outcome out = {0};
   options.law = abut_law_find(law);
   assert_ok(abut_dense_model_solve(context, &model, &options, &out.u, &out.p,
@@ -178,7 +178,7 @@ multipliers_of_a_space(void **unused)
   for (int i = 0; i < 2; ++i)
     assert_ok(abut_points_append_scalar(
         points, i, 0.5, floors[i], ABUT_POINT_CONTACT, 1, &node, &minus_one));
-  const abut_dense_model model = {sizeof(model), 1, &k, &weight, points};
+  const abut_dense_model model = {sizeof(model), 1, &k, &weight, points, NULL};
   abut_status answer = ABUT_SUCCESS;
   abut_strategy_options options = exact_options();
   options.law = abut_law_find("augmented lagrangian");
@@ -259,7 +259,7 @@ two_unknowns(double c)
   assert_ok(abut_points_create(context, 1, &points));
   assert_ok(abut_points_append_scalar(points, 0, 1, -1, ABUT_POINT_TIE, 2,
                                       nodes, ones));
-  const abut_dense_model model = {sizeof(model), 2, stiffness, force, points};
+  const abut_dense_model model = {sizeof(model), 2, stiffness, force, points, NULL};
   abut_strategy_options options = exact_options();
   options.law = abut_law_find("augmented lagrangian");
   options.penalty = c;
@@ -313,7 +313,7 @@ check_equality(const char *law, double sum)
   assert_ok(abut_points_create(context, 1, &points));
   assert_ok(abut_points_append_scalar(points, 0, 1, -sum, ABUT_POINT_TIE, 2,
                                       nodes, ones));
-  const abut_dense_model model = {sizeof(model), 2, stiffness, force, points};
+  const abut_dense_model model = {sizeof(model), 2, stiffness, force, points, NULL};
   abut_strategy_options options = exact_options();
   options.law = abut_law_find(law);
   options.penalty = eps;
@@ -365,7 +365,7 @@ channel(void **unused)
                                         &node, &down));
     assert_ok(abut_points_append_scalar(points, 1, 1, h, ABUT_POINT_CONTACT, 1,
                                         &node, &up));
-    const abut_dense_model model = {sizeof(model), 1, &k, &load, points};
+    const abut_dense_model model = {sizeof(model), 1, &k, &load, points, NULL};
     abut_strategy_options options = exact_options();
     options.law = abut_law_find(hard ? "lagrange" : "penalty");
     options.penalty = eps;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* A host with a dense matrix: each SOLVE factorises
  *
- *     [ K       -B'W ] [du]   [-R]
- *     [ diag(b)B   a ] [dp] = [-c]
+ *     [ K    -B'W ] [du]   [-R]
+ *     [ b B     a ] [dp] = [-c]
  *
  * as it stands, so that K may be singular as long as the active constraints
- * hold the body. */
+ * hold the body; a and b are diagonal but for blocks of points with friction.
+ */
 #include "base/dense_lu.h"
 #include "base/memory.h"
 
@@ -104,24 +105,35 @@ fill_rows(dense_host *host)
 /* Stiffness that row i sees, as pressure per length: sum B^2 K_kk over
  * (sum B^2)^2 w. Exact for one unknown, and of the right size and units for
  * several. */
+static double
+stiffness_of_row(const dense_host *host, int32_t i)
+{
+  const double *row = host->b + (int64_t)i * host->n;
+  double squares = 0, stiffness = 0;
+  for (int32_t j = 0; j < host->n; ++j)
+  {
+    squares += row[j] * row[j];
+    stiffness +=
+        row[j] * row[j] * host->model->stiffness[j * (host->n + (int64_t)1)];
+  }
+  return stiffness / (squares * squares * host->points.component_weight[i]);
+}
+
 static abut_status
 find_stiffness(dense_host *host)
 {
   const abut_points_view *points = &host->points;
-  const double *k = host->model->stiffness;
-  for (int32_t i = 0; i < host->m; ++i)
+  for (int32_t point = 0; point < points->n_points; ++point)
   {
-    const double *row = host->b + (int64_t)i * host->n;
-    double squares = 0, stiffness = 0;
-    for (int32_t j = 0; j < host->n; ++j)
+    const int32_t first = points->component_start[point];
+    for (int32_t i = first; i < points->component_start[point + 1]; ++i)
     {
-      squares += row[j] * row[j];
-      stiffness += row[j] * row[j] * k[j * (host->n + (int64_t)1)];
-    }
-    host->stiffness[i] =
-        stiffness / (squares * squares * points->component_weight[i]);
-    if (!isfinite(host->stiffness[i]) || host->stiffness[i] <= 0)
-    {
+      const double stiffness = stiffness_of_row(host, i);
+      /* A body may be free along a tangent. */
+      host->stiffness[i] =
+          i > first && !(stiffness > 0) ? host->stiffness[first] : stiffness;
+      if (isfinite(host->stiffness[i]) && host->stiffness[i] > 0)
+        continue;
       abut_text text = abut_fail_begin(host->context, call);
       abut_text_add(&text, "point ");
       abut_text_add_integer(&text, points->component_id[i]);
@@ -130,6 +142,23 @@ find_stiffness(dense_host *host)
     }
   }
   return ABUT_SUCCESS;
+}
+
+/* Add a block of the laws, k rows from @p first on. */
+static void
+add_block(dense_host *host, int32_t first, int32_t k, const double *a,
+          const double *b)
+{
+  const int64_t n = host->n, size = n + host->m;
+  for (int32_t r = 0; r < k; ++r)
+    for (int32_t c = 0; c < k; ++c)
+    {
+      double *row = host->matrix + (n + first + r) * size;
+      const double *gap = host->b + (first + c) * n;
+      row[n + first + c] = a[r * k + c];
+      for (int64_t j = 0; j < n && b[r * k + c] != 0; ++j)
+        row[j] += b[r * k + c] * gap[j];
+    }
 }
 
 /* The matrix of the head comment. */
@@ -143,15 +172,16 @@ assemble(dense_host *host, const abut_request *request)
     memcpy(host->matrix + i * size, host->model->stiffness + i * n,
            (size_t)n * sizeof(double));
   for (int32_t i = 0; i < host->m; ++i)
+    for (int64_t j = 0; j < n; ++j)
+      host->matrix[j * size + n + i] -= host->b[i * n + j] * weight[i];
+  int64_t at = 0;
+  for (int32_t i = 0, block = 0; i < host->m; ++block)
   {
-    double *row = host->matrix + (n + i) * size;
-    row[n + i] = request->d_pressure[i];
-    for (int64_t k = 0; k < n; ++k)
-    {
-      const double b = host->b[i * n + k];
-      row[k] += request->d_gap[i] * b;
-      host->matrix[k * size + n + i] -= b * weight[i];
-    }
+    const int32_t k =
+        request->block_size == NULL ? 1 : request->block_size[block];
+    add_block(host, i, k, request->d_pressure + at, request->d_gap + at);
+    i += k;
+    at += (int64_t)k * k;
   }
 }
 
@@ -317,12 +347,18 @@ abut_dense_model_solve_sized(abut_context *context,
   }
   if (status == ABUT_SUCCESS)
     status = abut_strategy_create(context, options, &strategy);
+  if (status == ABUT_SUCCESS && model->friction != NULL)
+    status = abut_strategy_set_friction(strategy, model->friction);
   if (status == ABUT_SUCCESS)
     status = run(&host, strategy, state, progress, reason);
   if (host.singular)
     abut_fail(context, status, call,
-              "the stiffness is singular with what is closed: give a start "
-              "state that holds the body");
+              model->friction != NULL
+                  ? "the stiffness is singular with what is closed and sticks: "
+                    "friction and contact do not hold the body, or not from "
+                    "this start"
+                  : "the stiffness is singular with what is closed: give a "
+                    "start state that holds the body");
   abut_strategy_destroy(&strategy);
   abut_array_release(context, &host.block);
   abut_array_release(context, &host.pivots);

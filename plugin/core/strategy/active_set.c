@@ -21,13 +21,19 @@ static const double pressure_noise = 1e-10, gap_noise = 1e-12;
  * digits for the rest of the matrix. */
 static const double stiff = 1e10;
 
+/* Tractions that miss their bound by less, relative to the largest pressure,
+ * meet it. */
+static const double traction_noise = 1e-10;
+
 /* What the rows of all ranks say after a step. */
 typedef struct findings
 {
   double max_pressure, max_gap_change, defect;    /* maxima */
+  double traction_defect;                         /* max, of what slips */
   double n_bad, bad_weight, all_weight, n_active; /* sums */
-  double n_closing;                               /* sum: bad and open */
-  double signature[ABUT_SET_PARTS];               /* sums */
+  double n_closing, n_opening;      /* sums: normals that change */
+  double n_slipping;                /* sum */
+  double signature[ABUT_SET_PARTS]; /* sums */
   double last_bad; /* largest number of a bad row, -1 if none */
   bool seen;       /* this set has been seen before */
 } findings;
@@ -80,6 +86,7 @@ find_maxima(abut_strategy *s, findings *found)
     PRESSURE,
     GAP_CHANGE,
     DEFECT,
+    TRACTION,
     PENETRATION,
     COMPLEMENTARITY,
     CHANGED,
@@ -96,9 +103,12 @@ find_maxima(abut_strategy *s, findings *found)
     max[GAP_CHANGE] = fmax(max[GAP_CHANGE], fabs(s->dg[i]));
     if (slope > 0)
       max[DEFECT] = fmax(max[DEFECT], fabs(s->residual[i]) / slope);
+    if (abut_friction_row_is_free(s, i))
+      max[TRACTION] = fmax(max[TRACTION], fabs(s->residual[i]));
     max[PENETRATION] = fmax(max[PENETRATION], abut_strategy_penetration(s, i));
-    max[COMPLEMENTARITY] =
-        fmax(max[COMPLEMENTARITY], fabs(s->pressure[i] * s->gap[i]));
+    if (s->bilateral[i] != ABUT_ROW_TANGENT)
+      max[COMPLEMENTARITY] =
+          fmax(max[COMPLEMENTARITY], fabs(s->pressure[i] * s->gap[i]));
   }
   const abut_status status =
       abut_strategy_reduce(s, ABUT_REDUCTION_MAX, max, N_MAXIMA);
@@ -107,6 +117,7 @@ find_maxima(abut_strategy *s, findings *found)
   found->max_pressure = max[PRESSURE];
   found->max_gap_change = max[GAP_CHANGE];
   found->defect = max[DEFECT];
+  found->traction_defect = max[TRACTION];
   s->progress.penetration = max[PENETRATION];
   s->progress.complementarity = max[COMPLEMENTARITY];
   return status;
@@ -134,7 +145,9 @@ classify(abut_strategy *s, const findings *found)
   points.gap = s->trial_gap;
   points.pressure = s->trial_pressure;
   points.scale = s->trial_scale;
-  return s->options.law->classify(&points, s->trial_state);
+  const abut_status status = s->options.law->classify(&points, s->trial_state);
+  return status == ABUT_SUCCESS ? abut_friction_find_states(s, p_noise, g_noise)
+                                : status;
 }
 
 /* Count the bad rows of all ranks. */
@@ -148,27 +161,36 @@ count_bad(abut_strategy *s, findings *found)
     ALL_WEIGHT,
     N_ACTIVE,
     N_CLOSING,
+    N_OPENING,
+    N_SLIPPING,
     SIGNATURE,
     N_SUMS = SIGNATURE + ABUT_SET_PARTS
   };
   double sum[N_SUMS] = {0};
   found->last_bad = -1;
+  sum[N_SLIPPING] = abut_friction_n_slipping(&s->friction);
   for (int32_t i = 0; i < s->n; ++i)
   {
-    const bool closed = s->state[i] != ABUT_STATE_OPEN;
     sum[ALL_WEIGHT] += s->weight[i] * fabs(s->pressure[i]);
+    if (s->bilateral[i] == ABUT_ROW_TANGENT)
+      continue;
+    const bool closed = s->state[i] != ABUT_STATE_OPEN;
     if (closed)
     {
       sum[N_ACTIVE] += 1;
-      abut_active_set_sign(s->id[i], sum + SIGNATURE);
+      abut_active_set_sign(s->id[i] + abut_friction_mark(s, i),
+                           sum + SIGNATURE);
     }
-    if (s->trial_state[i] == s->state[i])
+    const bool flips = s->trial_state[i] != s->state[i];
+    if (!flips && !abut_friction_point_is_bad(s, i))
       continue;
     sum[N_BAD] += 1;
-    sum[N_CLOSING] += closed ? 0 : 1;
+    sum[N_CLOSING] += flips && !closed;
+    sum[N_OPENING] += flips && closed;
     sum[BAD_WEIGHT] +=
         s->weight[i]
-        * (fabs(s->pressure[i]) + s->stiffness[i] * fabs(s->gap[i]));
+        * (flips ? fabs(s->pressure[i]) + s->stiffness[i] * fabs(s->gap[i])
+                 : abut_friction_excess(s, i));
     found->last_bad = fmax(found->last_bad, (double)s->id[i]);
   }
   abut_status status = abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, N_SUMS);
@@ -179,6 +201,8 @@ count_bad(abut_strategy *s, findings *found)
   found->all_weight = sum[ALL_WEIGHT];
   found->n_active = sum[N_ACTIVE];
   found->n_closing = sum[N_CLOSING];
+  found->n_opening = sum[N_OPENING];
+  found->n_slipping = sum[N_SLIPPING];
   memcpy(found->signature, sum + SIGNATURE, sizeof(found->signature));
   return status;
 }
@@ -208,25 +232,59 @@ inspect(abut_strategy *s, findings *found)
 static void
 flip(abut_strategy *s, const findings *found, bool all)
 {
-  bool closes = false;
+  int change = 0;
   for (int32_t i = 0; i < s->n; ++i)
-    if (s->trial_state[i] != s->state[i]
+    if (s->trial_state[i] != s->state[i] && s->bilateral[i] != ABUT_ROW_TANGENT
         && (all || (double)s->id[i] == found->last_bad))
     {
-      closes = s->state[i] == ABUT_STATE_OPEN;
+      change = s->state[i] == ABUT_STATE_OPEN ? 1 : -1;
       s->state[i] = s->trial_state[i];
     }
+  abut_friction_take_states(s, all, found->last_bad);
   s->matrix_changed = true;
   if (all)
   {
     s->progress.n_changes = (int64_t)found->n_bad;
     s->progress.n_active =
-        (int64_t)(found->n_active + 2 * found->n_closing - found->n_bad);
+        (int64_t)(found->n_active + found->n_closing - found->n_opening);
     return;
   }
   s->progress.n_changes = 1;
   s->progress.fallback_steps += 1;
-  s->progress.n_active = (int64_t)found->n_active + (closes ? 1 : -1);
+  s->progress.n_active = (int64_t)found->n_active + change;
+}
+
+static bool
+can_tighten(const abut_strategy *s)
+{
+  return !s->active_set.tight
+         && s->options.final_linear_tolerance < s->options.linear_tolerance;
+}
+
+/* With friction, sets that come back climb the ladder of friction.h; a front of
+ * slip that walks from node to node is progress all the same. */
+static abut_status
+change_frictional_set(abut_strategy *s, const findings *found, bool *goes_on)
+{
+  abut_active_set *set = &s->active_set;
+  const bool lost = found->seen || abut_friction_is_lost(&s->friction);
+  abut_status status = ABUT_SUCCESS;
+  *goes_on = true;
+  if (lost && can_tighten(s))
+  {
+    set->tight = true;
+    set->n_sets = 0;
+    s->friction.steps = 0;
+  }
+  else if (lost)
+  {
+    status = abut_friction_climb(s, goes_on);
+    abut_active_set_reset(set);
+    set->tight = true;
+  }
+  if (status == ABUT_SUCCESS && *goes_on)
+    flip(s, found, true);
+  return status;
 }
 
 /* Change the set according to the rules in active_set.h. */
@@ -234,9 +292,6 @@ static void
 change_set(abut_strategy *s, const findings *found)
 {
   abut_active_set *set = &s->active_set;
-  const bool can_tighten =
-      !set->tight
-      && s->options.final_linear_tolerance < s->options.linear_tolerance;
   bool all = true;
   if (found->n_bad < set->best)
   {
@@ -245,7 +300,7 @@ change_set(abut_strategy *s, const findings *found)
     set->best = found->n_bad;
     set->budget = FULL_STEP_BUDGET;
   }
-  else if ((found->seen || set->budget == 0) && can_tighten)
+  else if ((found->seen || set->budget == 0) && can_tighten(s))
   {
     set->tight = true;
     set->budget = FULL_STEP_BUDGET;
@@ -303,9 +358,37 @@ solved(abut_strategy *s)
   for (int32_t i = 0; i < s->n; ++i)
     /* A prescribed pressure is met exactly, whatever the linear solver did. */
     s->pressure[i] += s->d_gap[i] == 0 && s->d_pressure[i] != 0
+                              && !abut_friction_row_is_free(s, i)
                           ? -s->residual[i] / s->d_pressure[i]
                           : s->dp[i];
   return abut_strategy_ask_move(s, 1);
+}
+
+/* No state of stick and slip was found, which does not mean that there is none.
+ */
+static abut_status
+stop_without_state(abut_strategy *s)
+{
+  abut_text text = abut_strategy_remark(s);
+  abut_text_add(&text, "sets of stick and slip came back and no cure helped");
+  s->progress.seen = ABUT_FAILURE_STICK_SLIP;
+  return abut_strategy_stop(s, ABUT_REASON_STAGNATION);
+}
+
+/* The set has settled and the laws hold: done, or the next round of a cure. */
+static abut_status
+settle_friction(abut_strategy *s, abut_reason reason)
+{
+  bool goes_on = false;
+  const abut_status status = abut_friction_settled(s, &goes_on);
+  if (status != ABUT_SUCCESS)
+    return status;
+  if (s->friction.rung == ABUT_RUNG_END)
+    return stop_without_state(s);
+  if (!goes_on)
+    return abut_strategy_stop(s, reason);
+  abut_active_set_reset(&s->active_set);
+  return abut_strategy_ask_solve(s, s->options.final_linear_tolerance, false);
 }
 
 /* The law must hold, too, when the set has settled: a user's law need not be
@@ -321,13 +404,26 @@ finish(abut_strategy *s, const findings *found, abut_reason reason)
     set->defect = INFINITY;
     return abut_strategy_ask_solve(s, final, true);
   }
-  if (found->defect <= limit)
-    return abut_strategy_stop(s, reason);
-  set->n_defect = found->defect > 0.5 * set->defect ? set->n_defect + 1 : 0;
-  set->defect = found->defect;
+  const double traction_limit = traction_noise * found->max_pressure;
+  if (found->defect <= limit && found->traction_defect <= traction_limit)
+    return settle_friction(s, reason);
+  const double defect = found->defect + found->traction_defect;
+  set->n_defect = defect > 0.5 * set->defect ? set->n_defect + 1 : 0;
+  set->defect = defect;
+  s->friction.steps += 1;
   if (set->n_defect < MAX_DEFECT_SOLVES)
     return abut_strategy_ask_solve(s, fmin(final, s->options.linear_tolerance),
                                    s->request.final_solve);
+  if (abut_friction_has_ladder(&s->friction))
+  {
+    bool goes_on = false;
+    const abut_status status = abut_friction_climb(s, &goes_on);
+    abut_active_set_reset(set);
+    if (status != ABUT_SUCCESS)
+      return status;
+    return goes_on ? abut_strategy_ask_solve(s, final, false)
+                   : stop_without_state(s);
+  }
   abut_text text = abut_strategy_remark(s);
   abut_text_add(&text, "the contact law is violated by a length of ");
   abut_text_add_number(&text, found->defect);
@@ -375,6 +471,7 @@ moved(abut_strategy *s)
   abut_status status = inspect(s, &found);
   if (status != ABUT_SUCCESS)
     return status;
+  s->progress.n_slipping = (int64_t)found.n_slipping;
   if (found.n_bad == 0 || only_flickers(s, &found))
     return settled(s, &found);
   if (abut_law_updates_multipliers(s->options.law)
@@ -382,8 +479,15 @@ moved(abut_strategy *s)
     status = abut_multiplier_update(s);
   if (status != ABUT_SUCCESS)
     return status;
-  change_set(s, &found);
-  return abut_strategy_ask_solve(s, tolerance_of(s), false);
+  bool goes_on = true;
+  if (abut_friction_has_ladder(&s->friction))
+    status = change_frictional_set(s, &found, &goes_on);
+  else
+    change_set(s, &found);
+  if (status != ABUT_SUCCESS)
+    return status;
+  return goes_on ? abut_strategy_ask_solve(s, tolerance_of(s), false)
+                 : stop_without_state(s);
 }
 
 const abut_method abut_method_active_set = {begin, solved, moved};

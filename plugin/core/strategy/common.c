@@ -53,16 +53,18 @@ abut_strategy_points(const abut_strategy *s)
   return points;
 }
 
-/* A number that tells the law's matrix coefficients apart. */
+/* A number that tells the laws' matrix coefficients apart. */
 static uint64_t
 sign_coefficients(const abut_strategy *s)
 {
+  const bool blocks = abut_friction_is_on(&s->friction);
+  const int64_t n = blocks ? s->friction.block_numbers : s->n;
   uint64_t sign = 0;
-  for (int32_t i = 0; i < s->n; ++i)
+  for (int64_t i = 0; i < n; ++i)
   {
     uint64_t a, b;
-    memcpy(&a, &s->d_pressure[i], sizeof(a));
-    memcpy(&b, &s->d_gap[i], sizeof(b));
+    memcpy(&a, blocks ? &s->friction.a[i] : &s->d_pressure[i], sizeof(a));
+    memcpy(&b, blocks ? &s->friction.b[i] : &s->d_gap[i], sizeof(b));
     sign = (sign ^ a) * UINT64_C(1099511628211);
     sign = (sign ^ b) * UINT64_C(1099511628211);
   }
@@ -76,7 +78,8 @@ fault_of_row(const abut_strategy *s, int32_t i)
   const double a = s->d_pressure[i], b = s->d_gap[i];
   if (!isfinite(s->residual[i]) || !isfinite(a) || !isfinite(b))
     return "a value that is not finite";
-  if (a == 0 && (b == 0 || !abut_law_is_exact(s->options.law)))
+  if (s->bilateral[i] != ABUT_ROW_TANGENT && a == 0
+      && (b == 0 || !abut_law_is_exact(s->options.law)))
     return "a derivative by the pressure that is zero";
   return NULL;
 }
@@ -124,8 +127,9 @@ abut_strategy_linearise(abut_strategy *s)
       .d_gap = s->d_gap,
   };
   const uint64_t before = sign_coefficients(s);
-  const abut_status status =
-      s->options.law->linearise(&points, s->state, &result);
+  abut_status status = s->options.law->linearise(&points, s->state, &result);
+  if (status == ABUT_SUCCESS && abut_friction_is_on(&s->friction))
+    status = abut_friction_evaluate(s);
   s->coefficients_changed |= sign_coefficients(s) != before;
   return check_law_result(s, status);
 }
@@ -144,6 +148,7 @@ abut_strategy_ask_solve(abut_strategy *s, double tolerance, bool final)
   const abut_status status = abut_strategy_agree(s, abut_strategy_linearise(s));
   if (status != ABUT_SUCCESS)
     return status;
+  abut_friction_keep_directions(&s->friction);
   s->coefficients_changed = false;
   s->progress.step += 1;
   s->request.action = ABUT_ACTION_SOLVE;
@@ -189,5 +194,7 @@ abut_strategy_set_penalty(abut_strategy *s, double penalty)
 double
 abut_strategy_penetration(const abut_strategy *s, int32_t i)
 {
+  if (s->bilateral[i] == ABUT_ROW_TANGENT)
+    return 0;
   return s->bilateral[i] != 0 ? fabs(s->gap[i]) : fmax(-s->gap[i], 0);
 }

@@ -72,10 +72,13 @@ measure(abut_strategy *s, const double *change, double *gap_error)
   for (int32_t i = 0; i < s->n; ++i)
   {
     const bool closed = s->state[i] != ABUT_STATE_OPEN;
-    max = fmax(max, s->options.project != NULL
-                        ? fabs(change[i]) * s->compliance[i]
-                    : closed ? fabs(s->gap[i])
-                             : fmax(-s->gap[i], 0));
+    const double error = s->options.project != NULL
+                             ? fabs(change[i]) * s->compliance[i]
+                         : closed ? fabs(s->gap[i])
+                                  : fmax(-s->gap[i], 0);
+    /* What slips closes no gap along its tangent. */
+    if (!abut_friction_row_is_free(s, i))
+      max = fmax(max, error);
     sum[0] += s->weight[i] * fabs(change[i]);
     sum[1] += s->weight[i] * fabs(s->pressure[i]);
   }

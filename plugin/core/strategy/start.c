@@ -44,7 +44,9 @@ check_row(abut_strategy *s, const inputs *in, int32_t i)
   if (in->id != NULL && (in->id[i] < 0 || in->id[i] >= max_id))
     return reject(s, ABUT_INVALID_ARGUMENT, i,
                   "its number is negative or 2^53 or more");
-  if (in->state != NULL && in->state[i] > ABUT_STATE_CLOSED)
+  const uint8_t last = abut_friction_is_on(&s->friction) ? ABUT_STATE_SLIP
+                                                         : ABUT_STATE_CLOSED;
+  if (in->state != NULL && in->state[i] > last)
     return reject(s, ABUT_INVALID_ARGUMENT, i, "its state is not a state");
   if (in->bilateral != NULL && in->bilateral[i] != 0
       && abut_law_is_interior(s->options.law))
@@ -162,7 +164,9 @@ first_state(abut_strategy *s, const uint8_t *state)
     return s->options.law->classify(&points, s->state);
   }
   for (int32_t i = 0; i < s->n; ++i)
-    s->state[i] = s->bilateral[i] != 0 ? ABUT_STATE_CLOSED : state[i];
+    s->state[i] = s->bilateral[i] != 0 || state[i] != ABUT_STATE_OPEN
+                      ? ABUT_STATE_CLOSED
+                      : ABUT_STATE_OPEN;
   return ABUT_SUCCESS;
 }
 
@@ -170,17 +174,22 @@ first_state(abut_strategy *s, const uint8_t *state)
 static abut_status
 count_rows(abut_strategy *s)
 {
-  double sum[2] = {s->n, 0}, penetration = 0;
+  double sum[3] = {0, 0, abut_friction_n_slipping(&s->friction)};
+  double penetration = 0;
   for (int32_t i = 0; i < s->n; ++i)
   {
+    if (s->bilateral[i] == ABUT_ROW_TANGENT)
+      continue;
+    sum[0] += 1;
     sum[1] += s->state[i] != ABUT_STATE_OPEN;
     penetration = fmax(penetration, abut_strategy_penetration(s, i));
   }
-  abut_status status = abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, 2);
+  abut_status status = abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, 3);
   if (status == ABUT_SUCCESS)
     status = abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &penetration, 1);
   s->progress.n_rows = (int64_t)sum[0];
   s->progress.n_active = (int64_t)sum[1];
+  s->progress.n_slipping = (int64_t)sum[2];
   s->progress.penetration = penetration;
   return status;
 }
@@ -200,6 +209,14 @@ reset(abut_strategy *s)
   s->request.d_gap = s->d_gap;
   s->request.pressure_change = s->dp;
   s->request.gap_change = s->dg;
+  if (abut_friction_is_on(&s->friction))
+  {
+    s->request.state = s->friction.row_state;
+    s->request.d_pressure = s->friction.a;
+    s->request.d_gap = s->friction.b;
+    s->request.block_size = s->friction.block_size;
+    s->request.n_blocks = s->friction.n_blocks;
+  }
   s->mu = 0;
   s->matrix_changed = true;
   for (int32_t i = 0; i < s->n; ++i)
@@ -239,10 +256,16 @@ abut_strategy_start(abut_strategy *strategy, int32_t n, const int64_t *id,
   if (status == ABUT_SUCCESS)
   {
     copy_inputs(s, &in);
+    status = abut_friction_start(s);
+  }
+  if (status == ABUT_SUCCESS)
+  {
     reset(s);
     status = first_reference(s);
     if (status == ABUT_SUCCESS && !abut_law_is_interior(s->options.law))
       status = first_state(s, state);
+    if (status == ABUT_SUCCESS)
+      status = abut_friction_first_state(s, state);
   }
   status = abut_strategy_agree(s, status);
   if (status == ABUT_SUCCESS)

@@ -110,6 +110,7 @@ abut_strategy_create(abut_context *context,
   s->numbers.element = sizeof(double);
   s->bytes.element = sizeof(uint8_t);
   s->ids.element = sizeof(int64_t);
+  abut_friction_prepare(&s->friction);
   *strategy = s;
   return ABUT_SUCCESS;
 }
@@ -125,6 +126,7 @@ abut_strategy_destroy(abut_strategy **strategy)
   abut_array_release(s->context, &s->numbers);
   abut_array_release(s->context, &s->bytes);
   abut_array_release(s->context, &s->ids);
+  abut_friction_release(s->context, &s->friction);
   abut_object_destroy(s->context, s, sizeof(*s));
   *strategy = NULL;
   return ABUT_SUCCESS;

@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "strategy/active_set.h"
+#include "strategy/friction.h"
 #include "strategy/interior.h"
 #include "strategy/outer.h"
 
@@ -52,6 +53,7 @@ struct abut_strategy
   abut_request request;
   abut_progress progress;
 
+  abut_friction_rows friction;
   abut_active_set active_set;
   abut_outer_memory outer;
   abut_interior interior;
@@ -88,7 +90,7 @@ abut_text abut_strategy_remark(abut_strategy *s);
 /* eps_i = penalty * stiffness_i for all rows. */
 void abut_strategy_set_penalty(abut_strategy *s, double penalty);
 
-/* Penetration of row i: -g, or |g| of a bilateral row; >= 0. */
+/* Penetration of row i: -g, or |g| of a bilateral row, 0 of a tangent; >= 0. */
 double abut_strategy_penetration(const abut_strategy *s, int32_t i);
 
 #endif

@@ -1,0 +1,592 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Rows of tangents: memory, evaluation, states; see friction.h. */
+#include "strategy/friction.h"
+#include "strategy/strategy.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char call[] = "abut_strategy_set_friction";
+
+/* c of the tangents, as a multiple of that of the normals. */
+static const double tangent_scale = 0.3;
+
+void
+abut_friction_prepare(abut_friction_rows *f)
+{
+  f->given.element = f->numbers.element = sizeof(double);
+  f->given_rows.element = sizeof(int32_t);
+  f->given_bytes.element = f->bytes.element = sizeof(uint8_t);
+}
+
+void
+abut_friction_release(abut_context *context, abut_friction_rows *f)
+{
+  abut_array *arrays[] = {&f->given, &f->given_rows, &f->given_bytes,
+                          &f->numbers, &f->bytes};
+  for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); ++i)
+    abut_array_release(context, arrays[i]);
+}
+
+static abut_status
+reject(abut_strategy *s, abut_status status, int32_t i, const char *what)
+{
+  abut_text text = abut_fail_begin(s->context, call);
+  abut_text_add(&text, "point ");
+  abut_text_add_integer(&text, i);
+  abut_text_add(&text, ": ");
+  abut_text_add(&text, what);
+  return status;
+}
+
+static abut_status
+check_point(abut_strategy *s, const abut_strategy_friction *in, int32_t i,
+            int32_t tangent, int32_t least_row)
+{
+  if (in->n_tangents[i] < 1 || in->n_tangents[i] > 2)
+    return reject(s, ABUT_INVALID_ARGUMENT, i, "it has not 1 or 2 tangents");
+  if (in->first[i] < least_row)
+    return reject(s, ABUT_INVALID_ARGUMENT, i,
+                  "its rows do not come after those of the point before");
+  double probe = 0 * in->coefficient[i];
+  for (int32_t k = 0; in->reference_traction != NULL && k < in->n_tangents[i];
+       ++k)
+    probe += 0 * in->reference_traction[tangent + k];
+  if (!isfinite(probe))
+    return reject(s, ABUT_NOT_FINITE, i,
+                  "coefficient or traction is not finite");
+  if (in->coefficient[i] < 0 || (in->cap != NULL && !(in->cap[i] >= 0)))
+    return reject(s, ABUT_INVALID_ARGUMENT, i,
+                  "coefficient or cap is negative");
+  return ABUT_SUCCESS;
+}
+
+static abut_status
+check_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t *m,
+               int32_t *blocks)
+{
+  if (in->n < 0
+      || (in->n > 0
+          && (in->first == NULL || in->n_tangents == NULL
+              || in->coefficient == NULL)))
+    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, call,
+                     "an array is NULL, or n is negative");
+  if (in->law->struct_size != sizeof(abut_friction) || in->law->bound == NULL
+      || in->law->name == NULL)
+    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, call,
+                     "the law's table is incomplete or of another version");
+  if (abut_law_is_interior(s->options.law)
+      || abut_law_needs_stress(s->options.law))
+  {
+    abut_text text = abut_fail_begin(s->context, call);
+    abut_text_add(&text, "the law '");
+    abut_text_add(&text, s->options.law->name);
+    abut_text_add(&text, "' has no friction: use lagrange, penalty, quadratic "
+                         "penalty or augmented lagrangian");
+    return ABUT_UNSUPPORTED;
+  }
+  *m = *blocks = 0;
+  int32_t row = 0;
+  for (int32_t i = 0; i < in->n; ++i)
+  {
+    const abut_status status = check_point(s, in, i, *m, row);
+    if (status != ABUT_SUCCESS)
+      return status;
+    const int32_t t = in->n_tangents[i];
+    row = in->first[i] + 1 + t;
+    *m += t;
+    *blocks += t * t;
+  }
+  return ABUT_SUCCESS;
+}
+
+static abut_status
+copy_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t m)
+{
+  abut_friction_rows *f = &s->friction;
+  const int32_t n = in->n;
+  abut_status status =
+      abut_array_reserve(s->context, &f->given, 0, 2 * (int64_t)n + m);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(s->context, &f->given_rows, 0, n);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(s->context, &f->given_bytes, 0, n);
+  if (status != ABUT_SUCCESS || n == 0)
+    return status;
+  f->coefficient = f->given.data;
+  f->cap = f->coefficient + n;
+  f->committed = f->cap + n;
+  f->first = f->given_rows.data;
+  f->n_tangents = f->given_bytes.data;
+  for (int32_t i = 0; i < n; ++i)
+  {
+    f->coefficient[i] = in->coefficient[i];
+    f->cap[i] = in->cap == NULL ? INFINITY : in->cap[i];
+    f->first[i] = in->first[i];
+    f->n_tangents[i] = in->n_tangents[i];
+  }
+  for (int32_t k = 0; k < m; ++k)
+    f->committed[k] =
+        in->reference_traction == NULL ? 0 : in->reference_traction[k];
+  return status;
+}
+
+abut_status
+abut_strategy_set_friction(abut_strategy *strategy,
+                           const abut_strategy_friction *friction)
+{
+  if (strategy == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_strategy *s = strategy;
+  abut_friction_rows *f = &s->friction;
+  s->phase = ABUT_PHASE_CREATED;
+  f->law = NULL;
+  f->n = f->m = f->blocks = 0;
+  if (friction == NULL)
+    return ABUT_SUCCESS;
+  abut_strategy_friction taken = {.struct_size = sizeof(taken)};
+  abut_status status =
+      abut_take(s->context, call, &taken, sizeof(taken), friction);
+  if (status != ABUT_SUCCESS)
+    return status;
+  if (taken.law == NULL)
+    taken.law = abut_friction_coulomb();
+  int32_t m = 0, blocks = 0;
+  status = check_friction(s, &taken, &m, &blocks);
+  if (status == ABUT_SUCCESS)
+    status = copy_friction(s, &taken, m);
+  if (status != ABUT_SUCCESS)
+    return status;
+  f->law = taken.law;
+  f->parameters = taken.parameters;
+  f->has_cap = taken.cap != NULL;
+  f->n = taken.n;
+  f->m = m;
+  f->blocks = blocks;
+  return ABUT_SUCCESS;
+}
+
+/* Blocks of all points: rows that belong to no point with friction are blocks
+ * of one number. */
+static void
+count_blocks(const abut_strategy *s, int32_t *n_blocks, int64_t *numbers)
+{
+  const abut_friction_rows *f = &s->friction;
+  *n_blocks = s->n - f->m;
+  *numbers = (int64_t)s->n - f->m - f->n;
+  for (int32_t i = 0; i < f->n; ++i)
+  {
+    const int64_t k = 1 + f->n_tangents[i];
+    *numbers += k * k;
+  }
+}
+
+static abut_status
+place_arrays(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  const int64_t n = f->n, m = f->m, rows = s->n;
+  count_blocks(s, &f->n_blocks, &f->block_numbers);
+  abut_status status = abut_array_reserve(s->context, &f->numbers, 0,
+                                          6 * n + 7 * m + 2 * (int64_t)f->blocks
+                                              + 2 * f->block_numbers + rows);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(s->context, &f->bytes, 0,
+                                f->n_blocks + 2 * n + 3 * rows);
+  if (status != ABUT_SUCCESS || rows == 0)
+    return status;
+  double *next = f->numbers.data;
+  double **by_point[] = {&f->pressure, &f->scale,   &f->compliance,
+                         &f->bound,    &f->d_bound, &f->frozen};
+  for (size_t k = 0; k < sizeof(by_point) / sizeof(by_point[0]); ++k, next += n)
+    *by_point[k] = next;
+  double **by_tangent[] = {&f->slip,     &f->traction,   &f->reference,
+                           &f->residual, &f->d_pressure, &f->direction,
+                           &f->turned};
+  for (size_t k = 0; k < sizeof(by_tangent) / sizeof(by_tangent[0]);
+       ++k, next += m)
+    *by_tangent[k] = next;
+  f->d_traction = next;
+  f->d_slip = f->d_traction + f->blocks;
+  f->a = f->d_slip + f->blocks;
+  f->b = f->a + f->block_numbers;
+  f->row_excess = f->b + f->block_numbers;
+  f->block_size = f->bytes.data;
+  f->state = f->block_size + f->n_blocks;
+  f->trial = f->state + n;
+  f->row_state = f->trial + n;
+  f->row_changes = f->row_state + rows;
+  f->row_mark = f->row_changes + rows;
+  return ABUT_SUCCESS;
+}
+
+/* Sizes of blocks, and marks at the rows of tangents. */
+static void
+mark_rows(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  int32_t block = 0, row = 0;
+  for (int32_t i = 0; i <= f->n; ++i)
+  {
+    const int32_t end = i < f->n ? f->first[i] : s->n;
+    for (; row < end; ++row)
+      f->block_size[block++] = 1;
+    if (i == f->n)
+      break;
+    f->block_size[block++] = (uint8_t)(1 + f->n_tangents[i]);
+    for (int32_t k = 1; k <= f->n_tangents[i]; ++k)
+    {
+      s->bilateral[row + k] = ABUT_ROW_TANGENT;
+      s->scale[row + k] *= tangent_scale;
+    }
+    row += 1 + f->n_tangents[i];
+  }
+}
+
+abut_status
+abut_friction_start(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  if (!abut_friction_is_on(f))
+    return ABUT_SUCCESS;
+  for (int32_t i = 0; i < f->n; ++i)
+  {
+    if (f->first[i] + f->n_tangents[i] >= s->n)
+      return reject(s, ABUT_INVALID_ARGUMENT, i, "there are not so many rows");
+    for (int32_t k = 0; k <= f->n_tangents[i]; ++k)
+      if (s->bilateral[f->first[i] + k] != 0)
+        return reject(s, ABUT_INVALID_ARGUMENT, i, "one of its rows is a tie");
+  }
+  const abut_status status = place_arrays(s);
+  if (status != ABUT_SUCCESS)
+    return status;
+  mark_rows(s);
+  f->rung = ABUT_RUNG_NEWTON;
+  f->quarter = ABUT_FRICTION_QUARTERS;
+  f->steps = f->rounds = 0;
+  f->change = 0;
+  for (int32_t k = 0; k < f->m; ++k)
+    f->direction[k] = f->turned[k] = 0;
+  if (s->n > 0)
+  {
+    memset(f->row_changes, 0, (size_t)s->n);
+    memset(f->row_mark, 0, (size_t)s->n);
+  }
+  return ABUT_SUCCESS;
+}
+
+/* Pressures, slips and tractions of the rows, by point. */
+static void
+gather(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  const bool updates = s->reference != NULL;
+  int32_t t = 0;
+  for (int32_t i = 0; i < f->n; ++i)
+  {
+    const int32_t row = f->first[i];
+    f->pressure[i] = s->pressure[row];
+    f->scale[i] = s->scale[row + 1];
+    f->compliance[i] = s->compliance == NULL ? 0 : s->compliance[row + 1];
+    for (int32_t k = 1; k <= f->n_tangents[i]; ++k, ++t)
+    {
+      f->slip[t] = s->gap[row + k];
+      f->traction[t] = s->pressure[row + k];
+      f->reference[t] = updates ? s->reference[row + k] : f->committed[t];
+    }
+  }
+}
+
+abut_status
+abut_friction_find_bounds(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  gather(s);
+  const abut_friction_bounds points = {
+      .struct_size = sizeof(points),
+      .n = f->n,
+      .pressure = f->pressure,
+      .coefficient = f->coefficient,
+      .cap = f->has_cap ? f->cap : NULL,
+      .parameters = f->parameters,
+  };
+  const abut_status status = f->law->bound(&points, f->bound, f->d_bound);
+  const double factor = (double)f->quarter / ABUT_FRICTION_QUARTERS;
+  for (int32_t i = 0; i < f->n && status == ABUT_SUCCESS; ++i)
+  {
+    if (!(f->bound[i] >= 0) || !isfinite(f->d_bound[i]))
+      return reject(s, ABUT_NOT_FINITE, i,
+                    "the friction law gives a bound that is negative or none");
+    f->bound[i] *= factor;
+    f->d_bound[i] *= factor;
+    if (f->rung == ABUT_RUNG_TRESCA)
+    {
+      f->bound[i] = f->frozen[i];
+      f->d_bound[i] = 0;
+    }
+    else if (f->rung == ABUT_RUNG_BOUND && f->pressure[i] <= 0)
+      f->d_bound[i] = 0;
+  }
+  return status;
+}
+
+static abut_friction_points
+points_of(const abut_friction_rows *f)
+{
+  const abut_friction_points points = {
+      .struct_size = sizeof(points),
+      .n = f->n,
+      .n_tangents = f->n_tangents,
+      .slip = f->slip,
+      .traction = f->traction,
+      .reference_traction = f->reference,
+      .compliance = f->compliance,
+      .scale = f->scale,
+      .bound = f->bound,
+      .d_bound = f->d_bound,
+  };
+  return points;
+}
+
+/* The rows' states, with slip. */
+static void
+write_row_states(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  if (s->n > 0)
+    memcpy(f->row_state, s->state, (size_t)s->n);
+  for (int32_t i = 0; i < f->n; ++i)
+    for (int32_t k = 0; k <= f->n_tangents[i]; ++k)
+      f->row_state[f->first[i] + k] = f->state[i];
+}
+
+abut_status
+abut_friction_first_state(abut_strategy *s, const uint8_t *state)
+{
+  abut_friction_rows *f = &s->friction;
+  if (!abut_friction_is_on(f))
+    return ABUT_SUCCESS;
+  abut_status status = abut_friction_find_bounds(s);
+  for (int32_t i = 0; i < f->n; ++i)
+    f->state[i] = s->state[f->first[i]];
+  const abut_friction_points points = points_of(f);
+  if (status == ABUT_SUCCESS)
+    status = abut_friction_classify(&points, f->state);
+  for (int32_t i = 0; i < f->n && state != NULL; ++i)
+    f->state[i] = state[f->first[i]];
+  if (status == ABUT_SUCCESS)
+    write_row_states(s);
+  return status;
+}
+
+/* A point's block: the normal law's two numbers and friction's blocks. */
+static void
+write_block(abut_strategy *s, int32_t i, int32_t tangent, int32_t part,
+            int64_t at)
+{
+  abut_friction_rows *f = &s->friction;
+  const int32_t t = f->n_tangents[i], k = t + 1, row = f->first[i];
+  memset(f->a + at, 0, sizeof(double) * (size_t)(k * k));
+  memset(f->b + at, 0, sizeof(double) * (size_t)(k * k));
+  f->a[at] = s->d_pressure[row];
+  f->b[at] = s->d_gap[row];
+  for (int32_t r = 0; r < t; ++r)
+  {
+    double *a = f->a + at + (int64_t)(r + 1) * k;
+    double *b = f->b + at + (int64_t)(r + 1) * k;
+    a[0] = f->d_pressure[tangent + r];
+    for (int32_t c = 0; c < t; ++c)
+    {
+      a[c + 1] = f->d_traction[part + r * t + c];
+      b[c + 1] = f->d_slip[part + r * t + c];
+    }
+    s->residual[row + 1 + r] = f->residual[tangent + r];
+    /* What stands on the diagonal tells a length from a pressure. */
+    s->d_pressure[row + 1 + r] = a[r + 1];
+    s->d_gap[row + 1 + r] = b[r + 1];
+  }
+}
+
+static void
+write_blocks(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  int64_t at = 0;
+  int32_t row = 0, tangent = 0, part = 0;
+  for (int32_t i = 0; i <= f->n; ++i)
+  {
+    const int32_t end = i < f->n ? f->first[i] : s->n;
+    for (; row < end; ++row, ++at)
+    {
+      f->a[at] = s->d_pressure[row];
+      f->b[at] = s->d_gap[row];
+    }
+    if (i == f->n)
+      break;
+    const int32_t t = f->n_tangents[i];
+    write_block(s, i, tangent, part, at);
+    at += (int64_t)(t + 1) * (t + 1);
+    row += t + 1;
+    tangent += t;
+    part += t * t;
+  }
+}
+
+abut_status
+abut_friction_evaluate(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  abut_status status = abut_friction_find_bounds(s);
+  const abut_friction_points points = points_of(f);
+  const abut_friction_linearisation result = {
+      .struct_size = sizeof(result),
+      .residual = f->residual,
+      .d_traction = f->d_traction,
+      .d_slip = f->d_slip,
+      .d_pressure = f->d_pressure,
+      .direction = f->turned,
+  };
+  if (status == ABUT_SUCCESS)
+    status = abut_friction_linearise(&points, f->state, &result);
+  if (status == ABUT_SUCCESS)
+    write_blocks(s);
+  return status;
+}
+
+/* In the plane, slip that has turned round is another state; in space its
+ * direction is one of eight. */
+static uint8_t
+sector(const double *e, int32_t t)
+{
+  if (t == 1)
+    return e[0] < 0;
+  const bool steep = fabs(e[1]) > fabs(e[0]);
+  return (uint8_t)((e[0] < 0) + 2 * (e[1] < 0) + 4 * steep);
+}
+
+/* Whether a point contradicts its state. */
+static bool
+is_bad(const abut_friction_rows *f, int32_t i, int32_t tangent)
+{
+  if (f->trial[i] != f->state[i])
+    return true;
+  if (f->state[i] != ABUT_STATE_SLIP || f->bound[i] == 0)
+    return false;
+  double along = 0;
+  for (int32_t k = 0; k < f->n_tangents[i]; ++k)
+    along += f->direction[tangent + k] * f->turned[tangent + k];
+  return along < 0;
+}
+
+/* By how much: how far x is from the border between stick and slip. */
+static double
+excess(const abut_friction_rows *f, int32_t i, int32_t tangent)
+{
+  double square = 0;
+  for (int32_t k = tangent; k < tangent + f->n_tangents[i]; ++k)
+  {
+    const double shifted =
+        f->slip[k] + (f->traction[k] - f->reference[k]) * f->compliance[i];
+    const double x = f->traction[k] - f->scale[i] * shifted;
+    square += x * x;
+  }
+  return fabs(sqrt(square) - f->bound[i]);
+}
+
+/* Pressures and slips below the noise leave a state as it is: the disc is a
+ * little smaller for who slips and a little larger for who sticks. */
+static void
+allow_noise(abut_friction_rows *f, double pressure_noise, double slip_noise)
+{
+  for (int32_t i = 0; i < f->n; ++i)
+  {
+    const double noise = pressure_noise + slip_noise * f->scale[i];
+    f->bound[i] = f->state[i] == ABUT_STATE_CLOSED
+                      ? f->bound[i] + noise
+                      : fmax(f->bound[i] - noise, 0);
+  }
+}
+
+abut_status
+abut_friction_find_states(abut_strategy *s, double pressure_noise,
+                          double slip_noise)
+{
+  abut_friction_rows *f = &s->friction;
+  if (!abut_friction_is_on(f))
+    return ABUT_SUCCESS;
+  abut_status status = abut_friction_find_bounds(s);
+  allow_noise(f, pressure_noise, slip_noise);
+  for (int32_t i = 0; i < f->n; ++i)
+    f->trial[i] = s->trial_state[f->first[i]];
+  const abut_friction_points points = points_of(f);
+  if (status == ABUT_SUCCESS)
+    status = abut_friction_classify(&points, f->trial);
+  int32_t tangent = 0;
+  for (int32_t i = 0; i < f->n; tangent += f->n_tangents[i++])
+  {
+    const int32_t row = f->first[i];
+    f->row_changes[row] = is_bad(f, i, tangent);
+    f->row_excess[row] = f->row_changes[row] ? excess(f, i, tangent) : 0;
+    f->row_mark[row] =
+        f->state[i] == ABUT_STATE_SLIP
+            ? (uint8_t)(1 + sector(f->direction + tangent, f->n_tangents[i]))
+            : 0;
+  }
+  return status;
+}
+
+void
+abut_friction_take_states(abut_strategy *s, bool all, double only)
+{
+  abut_friction_rows *f = &s->friction;
+  if (!abut_friction_is_on(f))
+    return;
+  for (int32_t i = 0; i < f->n; ++i)
+    if (all || (double)s->id[f->first[i]] == only)
+      f->state[i] = f->trial[i];
+  write_row_states(s);
+}
+
+void
+abut_friction_keep_directions(abut_friction_rows *f)
+{
+  if (abut_friction_is_on(f) && f->m > 0)
+    memcpy(f->direction, f->turned, (size_t)f->m * sizeof(double));
+}
+
+bool
+abut_friction_row_is_free(const abut_strategy *s, int32_t i)
+{
+  return s->bilateral[i] == ABUT_ROW_TANGENT
+         && s->friction.row_state[i] != ABUT_STATE_CLOSED;
+}
+
+bool
+abut_friction_point_is_bad(const abut_strategy *s, int32_t i)
+{
+  return abut_friction_is_on(&s->friction) && s->friction.row_changes[i] != 0;
+}
+
+double
+abut_friction_excess(const abut_strategy *s, int32_t i)
+{
+  return s->friction.row_excess[i];
+}
+
+int64_t
+abut_friction_mark(const abut_strategy *s, int32_t i)
+{
+  /* Beyond all numbers of rows. */
+  return abut_friction_is_on(&s->friction)
+             ? (int64_t)s->friction.row_mark[i] << 54
+             : 0;
+}
+
+int32_t
+abut_friction_n_slipping(const abut_friction_rows *f)
+{
+  int32_t n = 0;
+  for (int32_t i = 0; i < f->n; ++i)
+    n += f->state[i] == ABUT_STATE_SLIP;
+  return n;
+}
