@@ -269,6 +269,11 @@ extern "C"
     uint32_t tie_axes;
     double gap; /**< added to gaps of contact, length; default 0 */
     bool flush; /**< surfaces count as touching: leave out their distance */
+    /** Points of contact have their tangents, too, with slips of zero: in the
+     * plane t = (-n2, n1); in space t1 is the axis that is most tangential, in
+     * the tangent plane, and t2 = n x t1. Their numbers follow that of the
+     * normal: numbers of points that are given must leave room. */
+    bool tangents;
   } abut_coupling_target;
 
   enum
@@ -281,8 +286,15 @@ extern "C"
   static inline abut_coupling_target
   abut_coupling_target_defaults(abut_points *points)
   {
-    const abut_coupling_target target = {
-        sizeof(abut_coupling_target), points, NULL, NULL, NULL, 0, 0., false};
+    const abut_coupling_target target = {sizeof(abut_coupling_target),
+                                         points,
+                                         NULL,
+                                         NULL,
+                                         NULL,
+                                         0,
+                                         0.,
+                                         false,
+                                         false};
     return target;
   }
 

@@ -152,9 +152,9 @@ extern "C"
                             double gap, abut_point_kind kind, int32_t n_nodes,
                             const int32_t *node, const double *coefficient);
 
-  /** Remove the components of ties with @p keep [n_components] zero, contact
-   * points whose first component has zero there, and ties without components;
-   * what is left stays in its order. */
+  /** Remove the components of ties, and the tangents of contact points, with
+   * @p keep [n_components] zero; contact points whose first component has zero
+   * there, and ties without components; what is left stays in its order. */
   ABUT_API abut_status abut_points_filter(abut_points *points,
                                           const uint8_t *keep);
 

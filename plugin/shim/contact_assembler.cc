@@ -28,6 +28,7 @@ namespace abut
           {
             return x.name == y.name && x.secondary == y.secondary
                    && x.primary == y.primary && x.obstacle == y.obstacle
+                   && x.friction == y.friction
                    && x.geometric_gap == y.geometric_gap && x.tied == y.tied
                    && x.holds_body == y.holds_body && x.reach == y.reach;
           });
@@ -159,6 +160,9 @@ namespace abut
     // the number of unknowns is the same.
     i.abandon_iteration();
     i.start_displacement = la::Vector();
+    i.committed_is_lost = i.committed_is_lost || i.committed.size() > 0;
+    i.committed = la::Vector();
+    i.slip_reference.clear();
     i.start_pressure.clear();
     i.reference_matrix = nullptr;
     i.law_compliance = la::Vector();
@@ -311,6 +315,9 @@ namespace abut
       i.take_matrix(matrix);
       i.begin(matrix, residual);
     }
+    AssertThrow(!i.has_friction,
+                ExcMessage("Contact with friction cannot be added to a matrix "
+                           "row by row: use ContactAssembler::solve()."));
     const solve::PointOperator &rows = i.coefficients;
     i.local.reinit(i.request, rows.n_rows(), rows.weights(), i.communicator);
     std::vector<global_dof_index> columns;

@@ -171,6 +171,7 @@ namespace abut::shim
 
   std::vector<double>
   ContactHistory::pressures_here(abut_history *history,
+                                 const abut_history_version version,
                                  const std::vector<std::int64_t> &id,
                                  const std::vector<PlacedRow> &placed) const
   {
@@ -178,7 +179,7 @@ namespace abut::shim
     abut_history_past past = {};
     past.struct_size = sizeof(past);
     past.pressure = result.data();
-    check(context_, abut_history_get(history, ABUT_HISTORY_TRIAL,
+    check(context_, abut_history_get(history, version,
                                      static_cast<std::int64_t>(id.size()),
                                      id.data(), &past));
     for (const PlacedRow &row : placed)
@@ -186,18 +187,17 @@ namespace abut::shim
       const std::int64_t first = PointNumber::group(id[row.row]);
       const std::int64_t end = first + PointNumber::points_per_facet;
       past.pressure = &result[row.row];
-      check(context_,
-            abut_history_nearest(history, ABUT_HISTORY_TRIAL, 1, &first, &end,
-                                 row.place.data(), &past));
+      check(context_, abut_history_nearest(history, version, 1, &first, &end,
+                                           row.place.data(), &past));
     }
     return result;
   }
 
-  Handle<abut_history> ContactHistory::meet()
+  Handle<abut_history> ContactHistory::meet(const abut_history_version version)
   {
     const unsigned int n_ranks = MPI::n_mpi_processes(post_.communicator());
     const abut_history_entries mine =
-        view_of(context_, history_.get(), ABUT_HISTORY_TRIAL);
+        view_of(context_, history_.get(), version);
     Mail known;
     for (std::int64_t i = 0; i < mine.n; ++i)
       write(mine, i, known[meeting_rank(mine.id[i], n_ranks)]);
@@ -212,13 +212,14 @@ namespace abut::shim
 
   std::vector<double>
   ContactHistory::pressures(const std::vector<std::int64_t> &id,
-                            const std::vector<PlacedRow> &placed)
+                            const std::vector<PlacedRow> &placed,
+                            const abut_history_version version)
   {
-    if (is_here_[ABUT_HISTORY_TRIAL])
-      return pressures_here(history_.get(), id, placed);
+    if (is_here_[version])
+      return pressures_here(history_.get(), version, id, placed);
 
     const unsigned int n_ranks = MPI::n_mpi_processes(post_.communicator());
-    const Handle<abut_history> met = meet();
+    const Handle<abut_history> met = meet(version);
     std::vector<const PlacedRow *> place(id.size(), nullptr);
     for (const PlacedRow &row : placed)
       place[row.row] = &row;
@@ -245,7 +246,9 @@ namespace abut::shim
           x = question.read_value();
         asked_by_place.push_back(row);
       }
-      for (const double p : pressures_here(met.get(), asked, asked_by_place))
+      // Whatever the version, it is the trial one of what has met.
+      for (const double p :
+           pressures_here(met.get(), ABUT_HISTORY_TRIAL, asked, asked_by_place))
         answers[rank].write_value(p);
     }
     Mail received = post_.exchange(answers);

@@ -49,11 +49,13 @@ namespace abut::shim
     /** Whether a version is of the mesh with this signature. Not collective. */
     bool knows(abut_history_version version, std::uint64_t mesh) const;
 
-    /** Pressures of the trial version at rows, 0 where a point has no past;
-     * of placed ones those of the nearest old point of the facet. Collective.
-     */
-    std::vector<double> pressures(const std::vector<std::int64_t> &id,
-                                  const std::vector<PlacedRow> &placed);
+    /** Pressures (tractions of tangents) of a version at rows, 0 where a point
+     * has no past; of placed ones those of the nearest old point of the facet.
+     * Collective. */
+    std::vector<double>
+    pressures(const std::vector<std::int64_t> &id,
+              const std::vector<PlacedRow> &placed,
+              abut_history_version version = ABUT_HISTORY_TRIAL);
 
     /** The penalty that the next solve goes on with; without a law if it is
      * none. Not collective. */
@@ -85,9 +87,10 @@ namespace abut::shim
   private:
     abut_history_problem problem(abut_history_version version) const;
     std::vector<double>
-    pressures_here(abut_history *history, const std::vector<std::int64_t> &id,
+    pressures_here(abut_history *history, abut_history_version version,
+                   const std::vector<std::int64_t> &id,
                    const std::vector<PlacedRow> &placed) const;
-    Handle<abut_history> meet();
+    Handle<abut_history> meet(abut_history_version version);
 
     abut_context *const context_;
     PointToPoint post_;

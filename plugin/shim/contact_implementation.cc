@@ -133,6 +133,10 @@ namespace abut
     for (std::size_t row = 0; row < start_pressure.size(); ++row)
       if (coefficients.bilateral()[row] != 0 || start_pressure[row] != 0.)
         result[row] = ABUT_STATE_CLOSED;
+    // Tangents have the state of their normal.
+    for (std::size_t row = 1; row < start_pressure.size(); ++row)
+      if (coefficients.is_tangent(static_cast<int>(row)))
+        result[row] = result[row - 1];
     return result;
   }
 
@@ -140,11 +144,12 @@ namespace abut
   double ContactAssembler<dim>::Implementation::law_defect(
       const int row, const double gap_there) const
   {
-    if (coefficients.bilateral()[row] == 0
+    if (coefficients.bilateral()[row] == 0 && !coefficients.is_tangent(row)
         && request.state[row] == ABUT_STATE_OPEN
         && !abut_law_is_interior(method.options.law))
       return std::min(0., gap_there);
-    const double a = request.d_pressure[row], b = request.d_gap[row];
+    const auto at = diagonal.empty() ? row : diagonal[row];
+    const double a = request.d_pressure[at], b = request.d_gap[at];
     const double size = std::max(std::abs(b), std::abs(a) * stiffness[row]);
     return size > 0.
                ? (request.residual[row] + b * (gap_there - gap[row])) / size
@@ -325,7 +330,49 @@ namespace abut
       solver.reset();
     }
     rows_mesh = points_mesh;
+    find_slip_reference();
     find_start();
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::find_slip_reference()
+  {
+    slip_reference.clear();
+    has_friction = MPI::logical_or(coefficients.has_tangents(), communicator);
+    if (!has_friction)
+      return;
+    AssertThrow(!committed_is_lost,
+                ExcMessage("Slips with friction are measured from the last "
+                           "commit(), which was on another mesh: call "
+                           "set_committed() after reinit()."));
+    surfaces->set_committed_poses(committed_poses);
+    slip_reference = source->slip_reference(committed);
+  }
+
+  template <int dim> void ContactAssembler<dim>::Implementation::set_friction()
+  {
+    diagonal.clear();
+    const auto points_with_friction = source->friction();
+    if (!points_with_friction.any)
+      return;
+    std::vector<double> traction;
+    if (history.knows(ABUT_HISTORY_COMMITTED, rows_mesh))
+    {
+      const std::vector<double> rows =
+          history.pressures(row_numbers(), placed_rows, ABUT_HISTORY_COMMITTED);
+      for (int row = 0; row < coefficients.n_rows(); ++row)
+        if (coefficients.is_tangent(row))
+          traction.push_back(rows[row]);
+    }
+    abut_strategy_friction friction = {};
+    friction.struct_size = sizeof(friction);
+    friction.n = static_cast<std::int32_t>(points_with_friction.first.size());
+    friction.first = points_with_friction.first.data();
+    friction.n_tangents = points_with_friction.n_tangents.data();
+    friction.coefficient = points_with_friction.coefficient.data();
+    friction.cap = points_with_friction.cap.data();
+    friction.reference_traction = traction.empty() ? nullptr : traction.data();
+    check(abut_strategy_set_friction(strategy.get(), &friction));
   }
 
   template <int dim>
@@ -360,6 +407,8 @@ namespace abut
   {
     gap.resize(coefficients.n_rows());
     coefficients.gap(displacement, gap.data());
+    for (std::size_t row = 0; row < slip_reference.size(); ++row)
+      gap[row] -= slip_reference[row];
     if (is_nitsche())
       nitsche.stress.gap(displacement, nitsche.normal_stress.data());
   }
@@ -494,6 +543,7 @@ namespace abut
       options.linear_tolerance = options.final_linear_tolerance =
           iteration_tolerance;
     strategy = shim::create_strategy(context.get(), options);
+    set_friction();
 
     if (is_nitsche())
     {
@@ -503,6 +553,8 @@ namespace abut
     }
     else if (surfaces != nullptr && is_penalty(*method.options.law))
       surfaces->make_uniform(stiffness);
+    if (surfaces != nullptr)
+      surfaces->copy_to_tangents(stiffness);
     if (surfaces != nullptr && !is_restarted
         && !abut_law_is_interior(method.options.law))
     {
@@ -517,6 +569,10 @@ namespace abut
         law_gap(), start_pressure.empty() ? nullptr : start_pressure.data(),
         start_state.empty() ? nullptr : start_state.data()));
     next();
+    const solve::RowBlocks blocks(request);
+    for (int block = 0; !blocks.empty() && block < blocks.n_blocks(); ++block)
+      for (int r = 0, k = blocks.size(block); r < k; ++r)
+        diagonal.push_back(blocks.at[block] + std::int64_t(r) * (k + 1));
     is_started = true;
   }
 

@@ -73,7 +73,14 @@ namespace abut
     /** The same, and begin again with the trial version. */
     void return_to_history();
     void find_stress();
+    /** Gaps, and slips since the last commit(). */
     void compute_gap(const la::Vector &displacement);
+    /** Slips are measured from where obstacles are now. */
+    void note_poses();
+    /** What slips are measured from, with the present points. Collective. */
+    void find_slip_reference();
+    /** Give the strategy what it must know of friction. Collective. */
+    void set_friction();
     /** Whether the law needs the normal stress of the bodies. */
     bool is_nitsche() const;
     /** The gap as the law wants it. */
@@ -176,7 +183,14 @@ namespace abut
     shim::ContactHistory::Penalty penalty;    ///< of this iteration
     shim::ContactHistory::Penalty resumed;    ///< that it may go on with
     la::Vector start_displacement;
-    std::vector<double> gap; ///< [rows] at the present displacement
+    std::vector<double> gap;   ///< [rows] at the present displacement
+    bool has_friction = false; ///< some pair has, on all ranks
+    la::Vector committed;      ///< displacement of the last commit(); empty: 0
+    std::vector<RigidPose<dim>> committed_poses; ///< of obstacles; empty: first
+    bool committed_is_lost = false;              ///< it was of another mesh
+    std::vector<double> slip_reference;          ///< [rows] slip then; empty: 0
+    /** [rows] place of a row's own derivatives in those of the request. */
+    std::vector<std::int64_t> diagonal;
     /** Of each unknown of this rank, in the matrix that penalties are
      * multiples of; empty: none yet. */
     la::Vector law_compliance;

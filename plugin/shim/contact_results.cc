@@ -17,7 +17,8 @@ namespace abut
       if (i.surfaces == nullptr)
         force += i.coefficients.weights()[row] * i.row_pressure(row)
                  * i.coefficients.coefficient(i.coefficients.begin(row));
-      else if (i.coefficients.bilateral()[row] == 0)
+      else if (i.coefficients.bilateral()[row] == 0
+               && !i.coefficients.is_tangent(row))
         force += i.coefficients.weights()[row] * i.row_pressure(row);
     return MPI::sum(force, i.communicator);
   }
@@ -29,6 +30,8 @@ namespace abut
     double sums[2] = {0., 0.};
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {
+      if (i.coefficients.is_tangent(row))
+        continue;
       const double p = i.row_pressure(row);
       sums[0] += i.coefficients.weights()[row] * std::abs(p * i.gap[row]);
       sums[1] += i.coefficients.weights()[row] * std::abs(p);
@@ -46,8 +49,9 @@ namespace abut
     {
       const double s = i.stiffness[row];
       const double residual =
-          i.coefficients.bilateral()[row] != 0
-              ? i.gap[row]
+          i.coefficients.bilateral()[row] != 0 ? i.gap[row]
+          : i.coefficients.is_tangent(row)
+              ? i.law_defect(row, i.gap[row])
               : std::min(i.gap[row], i.row_pressure(row) / s);
       sum += i.coefficients.weights()[row] * s * residual * residual;
     }
@@ -69,7 +73,8 @@ namespace abut
     const double penalty = progress().penalty;
     double largest = 0.;
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
-      if (i.coefficients.bilateral()[row] == 0)
+      if (i.coefficients.bilateral()[row] == 0
+          && !i.coefficients.is_tangent(row))
         largest = std::max(largest,
                            i.row_pressure(row) / (penalty * i.stiffness[row]));
     return MPI::max(largest, i.communicator)
@@ -82,9 +87,10 @@ namespace abut
     i.check_unchanged("penetration()");
     double largest = 0.;
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
-      largest = std::max(largest, i.coefficients.bilateral()[row] != 0
-                                      ? std::abs(i.gap[row])
-                                      : -i.gap[row]);
+      if (!i.coefficients.is_tangent(row))
+        largest = std::max(largest, i.coefficients.bilateral()[row] != 0
+                                        ? std::abs(i.gap[row])
+                                        : -i.gap[row]);
     return MPI::max(largest, i.communicator);
   }
 
@@ -148,8 +154,14 @@ namespace abut
     i.check_unchanged("pair_results()");
     if (i.surfaces == nullptr)
       return {};
-    return i.surfaces->results(i.row_pressures().data(), i.gap.data(),
-                               i.row_states().data());
+    const std::vector<double> pressure = i.row_pressures();
+    const std::vector<std::uint8_t> state = i.row_states();
+    auto results =
+        i.surfaces->results(pressure.data(), i.gap.data(), state.data());
+    if (i.has_friction)
+      i.surfaces->add_friction(pressure.data(), i.gap.data(), state.data(),
+                               results);
+    return results;
   }
 
   template <int dim>

@@ -39,7 +39,7 @@ namespace abut
     if (abut_law_find(method.options.law->name) != method.options.law)
       return;
     for (int i = 0; i < coefficients.n_rows(); ++i)
-      if (coefficients.bilateral()[i] == 0)
+      if (coefficients.bilateral()[i] == 0 && !coefficients.is_tangent(i))
         start_pressure[i] = std::max(0., start_pressure[i]);
   }
 
@@ -144,6 +144,14 @@ namespace abut
       start_from_history();
   }
 
+  template <int dim> void ContactAssembler<dim>::Implementation::note_poses()
+  {
+    committed_poses.clear();
+    for (const ContactPair<dim> &pair : pairs)
+      committed_poses.push_back(
+          pair.obstacle == nullptr ? RigidPose<dim>() : pair.obstacle->pose());
+  }
+
   template <int dim>
   void ContactAssembler<dim>::commit(const la::Vector &displacement)
   {
@@ -152,6 +160,25 @@ namespace abut
     i.check_size("commit()", "displacement", displacement.size());
     i.record_present();
     i.history.commit();
+    i.committed = i.has_friction ? displacement : la::Vector();
+    i.committed_is_lost = false;
+    if (!i.has_friction || !i.has_rows)
+      return;
+    i.note_poses();
+    i.find_slip_reference();
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::set_committed(const la::Vector &displacement)
+  {
+    Implementation &i = *implementation;
+    i.check_mesh("set_committed()");
+    i.check_size("set_committed()", "displacement", displacement.size());
+    i.committed = displacement;
+    i.committed_is_lost = false;
+    i.note_poses();
+    if (i.has_rows)
+      i.find_slip_reference();
   }
 
   template <int dim> void ContactAssembler<dim>::rollback()
@@ -187,6 +214,7 @@ namespace abut
   template void ContactAssembler<dim>::Implementation::start_from_present();   \
   template void ContactAssembler<dim>::Implementation::abandon_iteration();    \
   template void ContactAssembler<dim>::commit(const la::Vector &);             \
+  template void ContactAssembler<dim>::set_committed(const la::Vector &);      \
   template void ContactAssembler<dim>::rollback();                             \
   template void ContactAssembler<dim>::save(std::ostream &);                   \
   template void ContactAssembler<dim>::load(std::istream &);

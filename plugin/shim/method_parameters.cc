@@ -283,6 +283,30 @@ namespace abut
     return "";
   }
 
+  std::string friction_refusal(const abut_law &law,
+                               const abut_discretisation discretisation,
+                               const MethodParameters &method, const bool tied,
+                               const bool has_obstacle)
+  {
+    const abut_discretisation_info info = discretisation_info(discretisation);
+    const std::string with = "Method/Enforcement = " + std::string(law.name);
+    if (tied)
+      return "surfaces that are tied do not slide: leave out its friction.";
+    if (abut_law_is_interior(&law) || abut_law_needs_stress(&law))
+      return with
+             + " has no friction. Use lagrange, penalty, quadratic penalty or "
+               "augmented lagrangian.";
+    if (info.row_per_point && method.segments && !has_obstacle)
+      return "friction needs points that last: on the common parts of facets "
+             "they change with the pairs. Use Method/Segments = false, or dual "
+             "mortar.";
+    if (info.couples_rows || method.system == System::saddle_point)
+      return "friction is eliminated point by point, which standard mortar "
+             "multipliers and Method/System = saddle point do not allow. Use "
+             "dual mortar or node to segment, with System = auto.";
+    return "";
+  }
+
   void MethodParameters::declare_parameters(ParameterHandler &prm)
   {
     const abut_strategy_options defaults = abut_strategy_defaults();

@@ -245,6 +245,19 @@ namespace abut
 
   template <int dim> RigidObstacle<dim>::~RigidObstacle() = default;
 
+  template <int dim> RigidPose<dim> RigidObstacle<dim>::pose() const
+  {
+    const abut_obstacle_view present = view();
+    RigidPose<dim> result;
+    for (unsigned int i = 0; i < dim; ++i)
+    {
+      result.translation[i] = present.translation[i];
+      for (unsigned int j = 0; j < dim; ++j)
+        result.rotation[i][j] = present.rotation[dim * i + j];
+    }
+    return result;
+  }
+
   template <int dim>
   void RigidObstacle<dim>::set_pose(const RigidPose<dim> &pose)
   {

@@ -68,6 +68,30 @@ namespace abut::shim
       return {};
     }
 
+    /** Points with friction, in the order of their rows. */
+    struct FrictionalPoints
+    {
+      bool any = false;                     ///< on any rank
+      std::vector<std::int32_t> first;      ///< row of the normal
+      std::vector<std::uint8_t> n_tangents; ///< rows behind it
+      std::vector<double> coefficient, cap; ///< mu, and largest traction
+    };
+
+    /** Those of the present points. Throws on all ranks. Collective. */
+    virtual FrictionalPoints friction() const
+    {
+      return {};
+    }
+
+    /** [rows] what the slips of tangents are measured from: their values at
+     * the displacement of the last commit(), prescribed values as they were
+     * then (empty: 0), and what obstacles have moved since; 0 in other rows.
+     * Collective. */
+    virtual std::vector<double> slip_reference(const la::Vector &)
+    {
+      return {};
+    }
+
     /** Pressure of each row from a field as pressure() makes it; may be
      * negative. Collective. */
     virtual std::vector<double> row_pressure(const la::Vector &field) const = 0;

@@ -19,18 +19,22 @@ namespace abut::shim
 
   template <int dim>
   template <typename Function>
+  void SurfacePairRows<dim>::for_each_share_of(const Component &row,
+                                               const Function &function) const
+  {
+    if (row.place.node >= 0)
+      function(row, row.place.node, 1.);
+    else
+      for_each_secondary(row.point, [&](const Node node, const double share)
+                         { function(row, node, share); });
+  }
+
+  template <int dim>
+  template <typename Function>
   void SurfacePairRows<dim>::for_each_share(const Function &function) const
   {
-    for_each_component(
-        [&](const Component &component)
-        {
-          if (component.place.node >= 0)
-            function(component, component.place.node, 1.);
-          else
-            for_each_secondary(component.point,
-                               [&](const Node node, const double share)
-                               { function(component, node, share); });
-        });
+    for_each_component([&](const Component &row)
+                       { for_each_share_of(row, function); });
   }
 
   template <int dim>
@@ -39,7 +43,12 @@ namespace abut::shim
   {
     const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
     std::vector<global_dof_index> others;
-    for_each_share(
+    const auto for_each = [&](const auto &function)
+    {
+      for_each_row([&](const Component &row)
+                   { for_each_share_of(row, function); });
+    };
+    for_each(
         [&](const Component &, const Node node, double)
         {
           for (const auto dof : surface_.nodes[node].dof)
@@ -53,7 +62,7 @@ namespace abut::shim
     ghosted = field;
 
     std::vector<double> result(view_.n_components, 0.);
-    for_each_share(
+    for_each(
         [&](const Component &i, const Node node, const double share)
         {
           for (unsigned int d = 0; d < dim; ++d)
@@ -68,19 +77,21 @@ namespace abut::shim
   {
     // At nodes as it is; from quadrature points by weighted means.
     la::Vector result = field(), weight = field();
-    for_each_share(
+    const auto add =
         [&](const Component &i, const Node node, const double share)
-        {
-          const double w =
-              i.place.node >= 0 ? 1. : share * view_.weight[i.point];
-          for (unsigned int d = 0; d < dim; ++d)
-          {
-            const auto dof = surface_.nodes[node].dof[d];
-            result(dof) += w * row_pressure[i.row] * i.direction[d];
-            if (i.place.node < 0)
-              weight(dof) += w;
-          }
-        });
+    {
+      const double w = i.place.node >= 0 ? 1. : share * view_.weight[i.point];
+      const bool is_first =
+          static_cast<std::size_t>(view_.component_start[i.point]) == i.row;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const auto dof = surface_.nodes[node].dof[d];
+        result(dof) += w * row_pressure[i.row] * i.direction[d];
+        if (i.place.node < 0 && is_first)
+          weight(dof) += w;
+      }
+    };
+    for_each_row([&](const Component &row) { for_each_share_of(row, add); });
     result.compress(dealii::VectorOperation::add);
     weight.compress(dealii::VectorOperation::add);
     double *p = la::data(result);
@@ -122,7 +133,7 @@ namespace abut::shim
   la::Vector SurfacePairRows<dim>::status(const std::uint8_t *row_state) const
   {
     // Rows and closed rows are counted, since counts add up over ranks.
-    la::Vector present = field(), closed = field();
+    la::Vector present = field(), closed = field(), slipping = field();
     for_each_share(
         [&](const Component &i, const Node node, double)
         {
@@ -132,14 +143,17 @@ namespace abut::shim
           {
             present(dof) += 1.;
             closed(dof) += is_closed ? 1. : 0.;
+            slipping(dof) += is_closed && row_state[i.row] == ABUT_STATE_SLIP;
           }
         });
     present.compress(dealii::VectorOperation::add);
     closed.compress(dealii::VectorOperation::add);
+    slipping.compress(dealii::VectorOperation::add);
     la::Vector result = field();
     double *s = la::data(result);
     for (int i = 0; i < la::n_owned(result); ++i)
-      s[i] = la::data(closed)[i] > 0.    ? 1.
+      s[i] = la::data(slipping)[i] > 0.  ? 2.
+             : la::data(closed)[i] > 0.  ? 1.
              : la::data(present)[i] > 0. ? 0.
                                          : -1.;
     result.compress(dealii::VectorOperation::insert);

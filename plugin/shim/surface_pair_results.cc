@@ -209,24 +209,26 @@ namespace abut::shim
             result.least_pressure =
                 std::min(result.least_pressure, row_pressure[i]);
           result.initial_gap_work += weight * row_pressure[i] * view_.gap[i];
-          for_each_secondary(row.point,
-                             [&](const Node node, const double c)
-                             {
-                               const Direction force = -weight * row_pressure[i]
-                                                       * c * row.direction;
-                               result.secondary_force += force;
-                               result.secondary_moment +=
-                                   cross(surface_.nodes[node].point, force);
-                             });
+        });
+    for_each_row(
+        [&](const Component &row)
+        {
+          PairResult<dim> &result = results[row.place.pair];
+          const Direction total =
+              -view_.weight[row.point] * row_pressure[row.row] * row.direction;
+          const auto add =
+              [&](dealii::Tensor<1, dim> &force, Tensor<1, 3> &moment)
+          {
+            return [&](const Node node, const double c)
+            {
+              force += c * total;
+              moment += cross(surface_.nodes[node].point, Direction(c * total));
+            };
+          };
+          for_each_secondary(
+              row.point, add(result.secondary_force, result.secondary_moment));
           for_each_primary(row.point,
-                           [&](const Node node, const double c)
-                           {
-                             const Direction force =
-                                 -weight * row_pressure[i] * c * row.direction;
-                             result.primary_force += force;
-                             result.primary_moment +=
-                                 cross(surface_.nodes[node].point, force);
-                           });
+                           add(result.primary_force, result.primary_moment));
         });
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {

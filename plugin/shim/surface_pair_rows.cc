@@ -103,6 +103,13 @@ namespace abut::shim
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
       throw ContactError("Pair '" + data.name + "': " + reason);
+    const std::string no_friction =
+        data.friction == nullptr
+            ? ""
+            : friction_refusal(law, pair.discretisation, settings_.method,
+                               data.tied, data.obstacle != nullptr);
+    if (!no_friction.empty())
+      throw ContactError("Pair '" + data.name + "': " + no_friction);
     for (const Pair &other : pairs_)
       if (are_both_sides(data, other.data)
           && (data.tied || !abut_law_has_penalty(&law)))
@@ -313,6 +320,7 @@ namespace abut::shim
     target.id = id.data();
     target.tie_axes = tie_axes;
     target.gap = pair.data.gap;
+    target.tangents = pair.data.friction != nullptr;
     target.flush = !pair.data.geometric_gap;
     build(pair, pair.coupling.get(), dropped, motion, target);
 

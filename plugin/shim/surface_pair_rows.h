@@ -74,6 +74,8 @@ namespace abut::shim
 
     std::uint64_t mesh_signature() const override;
     std::vector<PlacedRow> placed_rows() const override;
+    FrictionalPoints friction() const override;
+    std::vector<double> slip_reference(const la::Vector &committed) override;
     std::vector<double> row_pressure(const la::Vector &field) const override;
     la::Vector pressure(const double *row_pressure) const override;
     la::Vector gap(const double *row_gap) const override;
@@ -113,6 +115,13 @@ namespace abut::shim
       return size;
     }
 
+    /** Where the obstacles of all pairs were at the last commit(); empty: at
+     * the first step. */
+    void set_committed_poses(const std::vector<RigidPose<dim>> &poses)
+    {
+      committed_poses_ = poses;
+    }
+
     /** What find() met, by pair. */
     const std::vector<PairCheck> &checks() const
     {
@@ -124,6 +133,16 @@ namespace abut::shim
     std::vector<PairResult<dim>> results(const double *row_pressure,
                                          const double *row_gap,
                                          const std::uint8_t *row_state) const;
+
+    /** Add what friction did to results: tractions stand in the pressures of
+     * the tangents' rows, slips since the last commit in their gaps.
+     * Collective. */
+    void add_friction(const double *row_pressure, const double *row_gap,
+                      const std::uint8_t *row_state,
+                      std::vector<PairResult<dim>> &results) const;
+
+    /** Give the tangents of a point the value [rows] of its normal. */
+    void copy_to_tangents(std::vector<double> &value) const;
 
     /** Whether some pair has rows at quadrature points. */
     bool has_points() const;
@@ -211,9 +230,23 @@ namespace abut::shim
       Direction direction;
     };
 
-    /** Call function(component) in the order of the rows. */
+    bool is_tangent(const Component &row) const
+    {
+      return view_.kind[row.point] == ABUT_POINT_CONTACT
+             && row.row
+                    != static_cast<std::size_t>(
+                        view_.component_start[row.point]);
+    }
+
+    /** Call function(component) in the order of the rows, those of tangents
+     * left out. */
     template <typename Function>
     void for_each_component(const Function &function) const;
+
+    /** The same with tangents, along whose direction the traction on the
+     * secondary is negative, as the pressure along the normal is. */
+    template <typename Function>
+    void for_each_row(const Function &function) const;
 
     /** Call function(node, c) for the stencil of a point: D / W at nodes of
      * the secondary, or - M / W at those of the primary. */
@@ -299,6 +332,9 @@ namespace abut::shim
     void for_each_point_pair(const Function &function) const;
     template <typename Function>
     void for_each_share(const Function &function) const;
+    template <typename Function>
+    void for_each_share_of(const Component &row,
+                           const Function &function) const;
 
     const dealii::Mapping<dim> &mapping_;
     const dealii::DoFHandler<dim> &dof_handler_;
@@ -311,7 +347,8 @@ namespace abut::shim
     std::vector<Pair> pairs_;
     abut_points *points_ = nullptr; ///< of the last find()
     abut_points_view view_ = {};
-    std::vector<Place> places_; ///< [points]
+    std::vector<RigidPose<dim>> committed_poses_; ///< [pairs], or empty
+    std::vector<Place> places_;                   ///< [points]
     /** [pairs] of the present points; empty: they have to be made anew. */
     std::vector<Origin> origins_;
     std::vector<PairCheck> checks_;
@@ -319,7 +356,7 @@ namespace abut::shim
 
   template <int dim>
   template <typename Function>
-  void SurfacePairRows<dim>::for_each_component(const Function &function) const
+  void SurfacePairRows<dim>::for_each_row(const Function &function) const
   {
     for (std::size_t i = 0; i < places_.size(); ++i)
       for (std::int32_t row = view_.component_start[i];
@@ -333,6 +370,18 @@ namespace abut::shim
         function(
             Component{i, static_cast<std::size_t>(row), places_[i], direction});
       }
+  }
+
+  template <int dim>
+  template <typename Function>
+  void SurfacePairRows<dim>::for_each_component(const Function &function) const
+  {
+    for_each_row(
+        [&](const Component &row)
+        {
+          if (!is_tangent(row))
+            function(row);
+        });
   }
 
   template <int dim>

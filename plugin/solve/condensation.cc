@@ -72,6 +72,9 @@ namespace abut::solve
 
   bool Condensation::condense()
   {
+    if (!local_.blocks().empty())
+      return choose_pivots(*rows_, local_, condensate_);
+    condensate_ = Condensate();
     condensate_.stiffness = local_.spring();
     return choose_pivots(*rows_, local_.held(), condensate_.pivot);
   }
@@ -79,11 +82,22 @@ namespace abut::solve
   la::Vector Condensation::lift() const
   {
     la::Vector result(rows_->owned(), rows_->communicator());
-    for (int i = 0; i < rows_->n_rows(); ++i)
+    double *const values = la::data(result);
+    const RowBlocks &blocks = condensate_.blocks;
+    for (int block = 0; !blocks.empty() && block < blocks.n_blocks(); ++block)
+      for (int r = 0, k = blocks.size(block); r < k; ++r)
+      {
+        const int i = blocks.first[block] + r;
+        for (int h = 0; h < k && local_.is_held(i); ++h)
+          values[rows_->column(condensate_.pivot[i])] +=
+              condensate_.trial[blocks.at[block] + r * k + h]
+              * local_.value()[blocks.first[block] + h];
+      }
+    for (int i = 0; blocks.empty() && i < rows_->n_rows(); ++i)
       if (local_.is_held(i))
       {
         const std::int64_t pivot = condensate_.pivot[i];
-        la::data(result)[rows_->column(pivot)] =
+        values[rows_->column(pivot)] =
             local_.value()[i] / rows_->coefficient(pivot);
       }
     return result;
@@ -101,31 +115,77 @@ namespace abut::solve
     return result;
   }
 
+  void Condensation::add_spring_forces(const abut_request &request,
+                                       la::Vector &reaction) const
+  {
+    std::vector<double> force(rows_->n_rows(), 0.);
+    if (local_.blocks().empty())
+    {
+      for (int i = 0; i < rows_->n_rows(); ++i)
+        if (!local_.is_held(i))
+          force[i] = -rows_->weight(i)
+                     * (request.pressure[i] + request.pressure_change[i]);
+    }
+    else
+    {
+      // What does not depend on the pressures of constraints, which are not
+      // known yet.
+      force.assign(request.gap_change, request.gap_change + rows_->n_rows());
+      solver_.matrix().apply_springs(force);
+      for (int i = 0; i < rows_->n_rows(); ++i)
+        force[i] -= local_.force()[i];
+    }
+    rows_->add_transposed(force.data(), reaction);
+  }
+
+  void Condensation::recover_held(const la::Vector &reaction,
+                                  const abut_request &request) const
+  {
+    // What holds the pivots is the force of their rows.
+    const double *const values = la::data(reaction);
+    const RowBlocks &blocks = condensate_.blocks;
+    for (int block = 0; !blocks.empty() && block < blocks.n_blocks(); ++block)
+      for (int h = 0, k = blocks.size(block); h < k; ++h)
+      {
+        const int i = blocks.first[block] + h;
+        if (!local_.is_held(i))
+          continue;
+        double sum = 0.;
+        for (int r = 0; r < k; ++r)
+          if (local_.is_held(blocks.first[block] + r))
+            sum += condensate_.test[blocks.at[block] + r * k + h]
+                   * values[rows_->column(
+                       condensate_.pivot[blocks.first[block] + r])];
+        request.pressure_change[i] =
+            sum / rows_->weight(i) - request.pressure[i];
+      }
+    for (int i = 0; blocks.empty() && i < rows_->n_rows(); ++i)
+      if (local_.is_held(i))
+      {
+        const std::int64_t pivot = condensate_.pivot[i];
+        request.pressure_change[i] =
+            values[rows_->column(pivot)]
+                / (rows_->weight(i) * rows_->coefficient(pivot))
+            - request.pressure[i];
+      }
+  }
+
   void Condensation::recover(const la::Vector &residual,
                              const abut_request &request,
                              const la::Vector &increment) const
   {
     rows_->times(increment, request.gap_change);
-    local_.recover(request);
-    std::vector<double> force(rows_->n_rows(), 0.);
-    for (int i = 0; i < rows_->n_rows(); ++i)
-      if (!local_.is_held(i))
-        force[i] = -rows_->weight(i)
-                   * (request.pressure[i] + request.pressure_change[i]);
-    // What holds the pivot is the force of its row.
+    const bool has_blocks = !local_.blocks().empty();
+    if (!has_blocks)
+      local_.recover(request);
     la::Vector reaction(residual);
     stiffness_->vmult(reaction, increment);
     reaction.add(1., residual);
-    rows_->add_transposed(force.data(), reaction);
-    for (int i = 0; i < rows_->n_rows(); ++i)
-      if (local_.is_held(i))
-      {
-        const std::int64_t pivot = condensate_.pivot[i];
-        request.pressure_change[i] =
-            la::data(reaction)[rows_->column(pivot)]
-                / (rows_->weight(i) * rows_->coefficient(pivot))
-            - request.pressure[i];
-      }
+    add_spring_forces(request, reaction);
+    recover_held(reaction, request);
+    // Tractions of what slips follow from the pressures.
+    if (has_blocks)
+      local_.recover(request);
   }
 
   LinearReport Condensation::solve(const la::Vector &residual,

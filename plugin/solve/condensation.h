@@ -20,6 +20,11 @@ namespace abut::solve
    * of stiffness w b/a. The system P^T (K + B^T diag(w b/a) B) P stays
    * symmetric and positive definite if K is.
    *
+   * With friction, the rows of a point go together: what sticks is held in all
+   * its components; what slips is held along the normal, with a force that has
+   * the friction, too, which makes the system unsymmetric (Hueber, Stadler and
+   * Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572).
+   *
    * Where a constraint has no unknown of its own (standard mortar), the
    * system is solved as a saddle point; the report says so. */
   class Condensation : public RowSolver
@@ -51,6 +56,10 @@ namespace abut::solve
     la::Vector right_hand_side(const la::Vector &residual,
                                const la::Vector &lift) const;
     la::Vector lift() const;
+    void add_spring_forces(const abut_request &request,
+                           la::Vector &reaction) const;
+    void recover_held(const la::Vector &reaction,
+                      const abut_request &request) const;
     void recover(const la::Vector &residual, const abut_request &request,
                  const la::Vector &increment) const;
 

@@ -30,6 +30,8 @@ namespace abut::solve
         pivot_rows_.push_back(i);
       has[0] |= condensate_.stiffness[i] != 0.;
     }
+    for (const double spring : condensate_.spring)
+      has[0] |= spring != 0.;
     has[1] = pivot_rows_.empty() ? 0 : 1;
     MPI::max(has, rows_->communicator(), has);
     has_springs_ = has[0] != 0;
@@ -43,6 +45,17 @@ namespace abut::solve
       values[rows_->column(condensate_.pivot[i])] = 0.;
   }
 
+  template <typename Function>
+  void CondensedMatrix::for_each_pivot(const Function &function) const
+  {
+    const RowBlocks &blocks = condensate_.blocks;
+    for (int block = 0; block < blocks.n_blocks(); ++block)
+      for (int r = 0, k = blocks.size(block); r < k; ++r)
+        if (condensate_.pivot[blocks.first[block] + r] != Condensate::none)
+          function(blocks.first[block] + r, blocks.first[block], k,
+                   blocks.at[block] + std::int64_t(r) * k);
+  }
+
   void CondensedMatrix::expand(la::Vector &u) const
   {
     if (!has_pivots_)
@@ -50,6 +63,18 @@ namespace abut::solve
     zero_pivots(u);
     rows_->times(u, row_values_.data());
     double *const values = la::data(u);
+    if (has_blocks())
+    {
+      for_each_pivot(
+          [&](const int i, const int first, const int k, const std::int64_t at)
+          {
+            double sum = 0.;
+            for (int c = 0; c < k; ++c)
+              sum += condensate_.trial[at + c] * row_values_[first + c];
+            values[rows_->column(condensate_.pivot[i])] = -sum;
+          });
+      return;
+    }
     for (const int i : pivot_rows_)
     {
       const std::int64_t e = condensate_.pivot[i];
@@ -63,11 +88,20 @@ namespace abut::solve
       return;
     const double *const values = la::data(f);
     std::fill(row_values_.begin(), row_values_.end(), 0.);
-    for (const int i : pivot_rows_)
-    {
-      const std::int64_t e = condensate_.pivot[i];
-      row_values_[i] = -values[rows_->column(e)] / rows_->coefficient(e);
-    }
+    if (has_blocks())
+      for_each_pivot(
+          [&](const int i, const int first, const int k, const std::int64_t at)
+          {
+            const double force = values[rows_->column(condensate_.pivot[i])];
+            for (int c = 0; c < k; ++c)
+              row_values_[first + c] -= condensate_.test[at + c] * force;
+          });
+    else
+      for (const int i : pivot_rows_)
+      {
+        const std::int64_t e = condensate_.pivot[i];
+        row_values_[i] = -values[rows_->column(e)] / rows_->coefficient(e);
+      }
     rows_->add_transposed(row_values_.data(), f);
     zero_pivots(f);
   }
@@ -79,8 +113,7 @@ namespace abut::solve
     if (!has_springs_)
       return;
     rows_->times(src, row_values_.data());
-    for (int i = 0; i < rows_->n_rows(); ++i)
-      row_values_[i] *= condensate_.stiffness[i];
+    apply_springs(row_values_);
     rows_->add_transposed(row_values_.data(), dst);
   }
 
@@ -97,38 +130,74 @@ namespace abut::solve
     restrict(dst);
   }
 
-  la::Matrix CondensedMatrix::assemble_springs() const
+  void CondensedMatrix::apply_springs(std::vector<double> &row_values) const
+  {
+    if (!has_blocks())
+    {
+      for (int i = 0; i < rows_->n_rows(); ++i)
+        row_values[i] *= condensate_.stiffness[i];
+      return;
+    }
+    const RowBlocks &blocks = condensate_.blocks;
+    for (int block = 0; block < blocks.n_blocks(); ++block)
+    {
+      const int k = blocks.size(block);
+      double *const value = &row_values[blocks.first[block]];
+      const double *const spring = &condensate_.spring[blocks.at[block]];
+      double result[ABUT_CONDENSE_COMPONENTS] = {};
+      for (int r = 0; r < k; ++r)
+        for (int c = 0; c < k; ++c)
+          result[r] += spring[r * k + c] * value[c];
+      std::copy_n(result, k, value);
+    }
+  }
+
+  template <typename Visit>
+  void CondensedMatrix::visit_spring(const int row, const int other,
+                                     const double stiffness,
+                                     const Visit &visit) const
   {
     std::vector<dealii::types::global_dof_index> columns;
-    std::vector<double> values;
+    rows_->get_columns(other, columns);
+    std::vector<double> values(columns.size());
+    for (auto e = rows_->begin(row); e < rows_->end(row); ++e)
+    {
+      for (auto f = rows_->begin(other); f < rows_->end(other); ++f)
+        values[f - rows_->begin(other)] =
+            stiffness * rows_->coefficient(e) * rows_->coefficient(f);
+      visit(rows_->global_column(rows_->column(e)), columns, values);
+    }
+  }
+
+  la::Matrix CondensedMatrix::assemble_springs() const
+  {
     return la::assemble(
         rows_->owned(), rows_->ghosts(), rows_->communicator(),
         [&](const auto &visit)
         {
-          for (int i = 0; i < rows_->n_rows(); ++i)
-          {
-            if (condensate_.stiffness[i] == 0.)
-              continue;
-            columns.clear();
-            for (auto e = rows_->begin(i); e < rows_->end(i); ++e)
-              columns.push_back(rows_->global_column(rows_->column(e)));
-            for (auto e = rows_->begin(i); e < rows_->end(i); ++e)
-            {
-              values.clear();
-              for (auto f = rows_->begin(i); f < rows_->end(i); ++f)
-                values.push_back(condensate_.stiffness[i]
-                                 * rows_->coefficient(e)
-                                 * rows_->coefficient(f));
-              visit(columns[e - rows_->begin(i)], columns, values);
-            }
-          }
+          if (!has_blocks())
+            for (int i = 0; i < rows_->n_rows(); ++i)
+              if (condensate_.stiffness[i] != 0.)
+                visit_spring(i, i, condensate_.stiffness[i], visit);
+          const RowBlocks &blocks = condensate_.blocks;
+          for (int block = 0; has_blocks() && block < blocks.n_blocks();
+               ++block)
+            for (int r = 0, k = blocks.size(block); r < k; ++r)
+              for (int c = 0; c < k; ++c)
+              {
+                const double spring =
+                    condensate_.spring[blocks.at[block] + r * k + c];
+                if (spring != 0.)
+                  visit_spring(blocks.first[block] + r, blocks.first[block] + c,
+                               spring, visit);
+              }
         });
   }
 
   la::Matrix CondensedMatrix::eliminate(const la::Matrix &whole) const
   {
     la::Matrix result =
-        la::sum(whole, elimination_terms(whole, *rows_, condensate_.pivot));
+        la::sum(whole, elimination_terms(whole, *rows_, condensate_));
     const std::vector<double> diagonal =
         la::diagonal(la::local_rows(*stiffness_));
     const la::LocalRows lines = la::local_rows(result);

@@ -11,6 +11,10 @@ namespace abut::solve
    *
    *     (P u)_q = - sum_{j != q} B_ij u_j / B_iq,     q the pivot of row i.
    *
+   * With friction, Q^T (K + B^T E B) P: P gives the unknowns of a point the
+   * values at which its constraints hold, E has a block for each point, and Q
+   * hands on the forces with those that friction adds to the pressure.
+   *
    * As an operator it needs K and the rows alone; assemble() is for
    * preconditioners and factorisations. Pivots are held at 0. */
   class CondensedMatrix
@@ -34,6 +38,12 @@ namespace abut::solve
       return !has_springs_ && !has_pivots_;
     }
 
+    /** Whether friction makes it unsymmetric, if K is not. */
+    bool has_blocks() const
+    {
+      return !condensate_.blocks.empty();
+    }
+
     /** u = P u; what @p u holds at pivots does not matter. Collective. */
     void expand(la::Vector &u) const;
 
@@ -45,6 +55,9 @@ namespace abut::solve
 
     /** dst = P^T (K + B^T diag(e) B) P src. Collective. */
     void vmult(la::Vector &dst, const la::Vector &src) const;
+
+    /** [rows] springs times changes of the gaps, in place. */
+    void apply_springs(std::vector<double> &row_values) const;
 
     /** Set a vector to 0 at pivots. */
     void zero_pivots(la::Vector &vector) const;
@@ -58,6 +71,13 @@ namespace abut::solve
   private:
     la::Matrix assemble_springs() const;
     la::Matrix eliminate(const la::Matrix &whole) const;
+    /** Call function(row, first row, rows, first number) for each pivot of a
+     * point: the number is that of the pivot's row in the blocks. */
+    template <typename Function>
+    void for_each_pivot(const Function &function) const;
+    template <typename Visit>
+    void visit_spring(int row, int other, double stiffness,
+                      const Visit &visit) const;
 
     const la::Matrix *stiffness_ = nullptr;
     const PointOperator *rows_ = nullptr;

@@ -43,6 +43,25 @@ namespace abut::solve
     }
   } // namespace
 
+  namespace
+  {
+    /** Make the blocks of springs of @p soft those that its diagonal says. */
+    void soften_blocks(const Condensate &stiff, Condensate &soft)
+    {
+      const RowBlocks &blocks = soft.blocks;
+      for (int block = 0; !blocks.empty() && block < blocks.n_blocks(); ++block)
+        for (int r = 0, k = blocks.size(block); r < k; ++r)
+          for (int c = 0; c < k; ++c)
+          {
+            const int i = blocks.first[block] + r, j = blocks.first[block] + c;
+            const double wanted = soft.stiffness[i] * soft.stiffness[j];
+            if (wanted > 0.)
+              soft.spring[blocks.at[block] + r * k + c] *=
+                  std::sqrt(wanted / (stiff.stiffness[i] * stiff.stiffness[j]));
+          }
+    }
+  } // namespace
+
   CondensedSolver::CondensedSolver(const SolverParameters &parameters,
                                    const PreconditionerKeeper &keeper)
       : parameters_(parameters), keeper_(keeper)
@@ -119,6 +138,40 @@ namespace abut::solve
         n_changed, n_in_contact, is_direct(), rows_->communicator());
   }
 
+  Condensate CondensedSolver::without_friction_forces() const
+  {
+    // Springs of what slips grow beyond all bounds at the border to stick.
+    constexpr double stiffest = 100.;
+    Condensate result = matrix_.condensate();
+    result.test = result.trial;
+    const RowBlocks &blocks = result.blocks;
+    for (int block = 0; block < blocks.n_blocks(); ++block)
+    {
+      const int k = blocks.size(block), first = blocks.first[block];
+      double *const spring = &result.spring[blocks.at[block]];
+      double scale[ABUT_CONDENSE_COMPONENTS];
+      for (int r = 0; r < k; ++r)
+      {
+        const double limit =
+            stiffest * rows_->weight(first + r) * row_stiffness_[first + r];
+        double &diagonal = spring[r * k + r];
+        diagonal = std::max(diagonal, 0.);
+        scale[r] = rows_->is_tangent(first + r) && diagonal > limit
+                       ? std::sqrt(limit / diagonal)
+                       : 1.;
+      }
+      for (int r = 0; r < k; ++r)
+        for (int c = 0; c <= r; ++c)
+        {
+          const double mean = 0.5 * (spring[r * k + c] + spring[c * k + r]);
+          spring[r * k + c] = spring[c * k + r] = mean * scale[r] * scale[c];
+        }
+      for (int r = 0; r < k; ++r)
+        result.stiffness[first + r] = spring[r * k + r];
+    }
+    return result;
+  }
+
   void CondensedSolver::build()
   {
     filter_.reset();
@@ -126,10 +179,18 @@ namespace abut::solve
     softened_.reset();
     direct_.reset();
     assembled_.reset();
-    if (!matrix_.is_plain())
+    built_ = matrix_.condensate();
+    if (matrix_.has_blocks() && !is_direct() && !matrix_.is_plain())
+    {
+      built_ = without_friction_forces();
+      CondensedMatrix symmetric;
+      symmetric.reinit(*stiffness_, *rows_);
+      symmetric.set(built_);
+      assembled_ = std::make_unique<la::Matrix>(symmetric.assemble());
+    }
+    else if (!matrix_.is_plain())
       assembled_ = std::make_unique<la::Matrix>(matrix_.assemble());
     const la::Matrix &system = matrix_.is_plain() ? *stiffness_ : *assembled_;
-    built_ = matrix_.condensate();
     keeper_.note_built();
     if (is_direct())
     {
@@ -155,6 +216,7 @@ namespace abut::solve
         wanted[i] = 1;
         soft.stiffness[i] = filtered * rows_->weight(i) * row_stiffness_[i];
       }
+    soften_blocks(built_, soft);
     CondensedMatrix softened;
     softened.reinit(*stiffness_, *rows_);
     softened.set(soft);
@@ -171,6 +233,9 @@ namespace abut::solve
 
   PreconditionerState CondensedSolver::state() const
   {
+    // With friction it is built anew.
+    if (!built_.blocks.empty())
+      return {};
     return {keeper_, built_.stiffness, built_.pivot, {}, {}};
   }
 
@@ -197,7 +262,7 @@ namespace abut::solve
     report.method =
         is_direct()
             ? DirectSolver::name()
-            : std::string(is_symmetric_ ? "conjugate gradients" : "FGMRES")
+            : std::string(is_definite() ? "conjugate gradients" : "FGMRES")
                   + (filter_ ? ", ML with contact filter" : ", ML");
     report.setup_seconds = timer.wall_time();
     return report;
@@ -245,7 +310,7 @@ namespace abut::solve
     bool converged = true;
     try
     {
-      if (is_symmetric_)
+      if (is_definite())
       {
         dealii::SolverCG<la::Vector> solver(control);
         solver.connect_condition_number_slot(
@@ -262,7 +327,7 @@ namespace abut::solve
     {
       converged = false;
       if (!keeper_.is_kept())
-        throw_failure(is_symmetric_ ? "Conjugate gradients" : "FGMRES", failure,
+        throw_failure(is_definite() ? "Conjugate gradients" : "FGMRES", failure,
                       tolerance);
     }
     report.n_iterations += control.last_step();

@@ -90,7 +90,14 @@ namespace abut::solve
     void take(const la::Matrix &stiffness, const PointOperator &rows,
               const std::vector<double> &row_stiffness);
     bool is_outdated() const;
+    /** Whether conjugate gradients may be used. */
+    bool is_definite() const
+    {
+      return is_symmetric_ && !matrix_.has_blocks();
+    }
     void build();
+    /** What a symmetric preconditioner is built for. */
+    Condensate without_friction_forces() const;
     bool iterate(const la::Vector &rhs, unsigned int max_iterations,
                  double tolerance, la::Vector &x, LinearReport &report);
     void solve_iteratively(const la::Vector &rhs, double tolerance,

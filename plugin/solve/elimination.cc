@@ -10,6 +10,7 @@
 #include "elimination.h"
 
 #include <algorithm>
+#include <map>
 #include <unordered_map>
 
 namespace abut::solve
@@ -130,6 +131,47 @@ namespace abut::solve
       return lines;
     }
 
+    /** The same for points with friction, by the map @p map of the
+     * condensate. */
+    std::vector<SparseLine> mapped_lines(const PointOperator &rows,
+                                         const Condensate &condensate,
+                                         const std::vector<double> &map,
+                                         Columns &columns)
+    {
+      std::vector<SparseLine> lines(columns.size());
+      const RowBlocks &blocks = condensate.blocks;
+      for (int block = 0; block < blocks.n_blocks(); ++block)
+      {
+        const int first = blocks.first[block], k = blocks.size(block);
+        std::vector<int> pivots;
+        for (int r = 0; r < k; ++r)
+          if (condensate.pivot[first + r] != Condensate::none)
+            pivots.push_back(rows.column(condensate.pivot[first + r]));
+        for (int r = 0; r < k; ++r)
+        {
+          if (condensate.pivot[first + r] == Condensate::none)
+            continue;
+          std::map<int, double> sum;
+          for (int c = 0; c < k; ++c)
+            for (auto e = rows.begin(first + c); e < rows.end(first + c); ++e)
+              sum[rows.column(e)] -=
+                  map[blocks.at[block] + r * k + c] * rows.coefficient(e);
+          const int own = rows.column(condensate.pivot[first + r]);
+          for (const int q : pivots)
+            sum.erase(q);
+          sum[own] = -1.;
+          SparseLine line;
+          for (const auto &[column, value] : sum)
+          {
+            line.column.push_back(columns.add(rows.global_column(column)));
+            line.value.push_back(value);
+          }
+          lines[own] = std::move(line);
+        }
+      }
+      return lines;
+    }
+
     using Message = std::vector<std::pair<global_dof_index, double>>;
 
     /** Each rank's pivots go to the ranks whose rows have entries for them:
@@ -195,10 +237,16 @@ namespace abut::solve
 
   la::Matrix elimination_terms(const la::Matrix &matrix,
                                const PointOperator &rows,
-                               const std::vector<std::int64_t> &pivot)
+                               const Condensate &condensate)
   {
     Columns columns(matrix);
-    std::vector<SparseLine> z = own_lines(rows, pivot, columns);
+    const bool has_blocks = !condensate.blocks.empty();
+    std::vector<SparseLine> z =
+        has_blocks ? mapped_lines(rows, condensate, condensate.trial, columns)
+                   : own_lines(rows, condensate.pivot, columns);
+    std::vector<SparseLine> y;
+    if (has_blocks)
+      y = mapped_lines(rows, condensate, condensate.test, columns);
     import_lines(matrix, columns, z);
     z.resize(columns.size());
 
@@ -221,7 +269,7 @@ namespace abut::solve
       if (!line.empty())
         result.emplace_back(i, std::move(line));
     }
-    const auto users = transpose(z, t.n_rows, columns.size());
+    const auto users = transpose(has_blocks ? y : z, t.n_rows, columns.size());
     for (int j = 0; j < columns.size(); ++j)
     {
       for (const auto &[q, value] : users[j])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Rows of one component each, as the core's elimination wants them.
+// Rows, or blocks of them, as the core's elimination wants them.
 #include "local_elimination.h"
 
 #include <abut/dealii/solver_parameters.h>
@@ -12,6 +12,7 @@ namespace abut::solve
                                 const double *const weight,
                                 const MPI_Comm communicator)
   {
+    blocks_ = RowBlocks(request);
     held_.resize(n);
     for (std::vector<double> *values : {&value_, &force_, &spring_})
       values->resize(n);
@@ -29,6 +30,20 @@ namespace abut::solve
     result.value = value_.data();
     result.force = force_.data();
     result.spring = spring_.data();
+    if (!blocks_.empty())
+    {
+      weight_.clear();
+      for (int b = 0; b < blocks_.n_blocks(); ++b)
+        weight_.push_back(weight[blocks_.first[b]]);
+      for (std::vector<double> *values : {&spring_block_, &trial_, &test_})
+        values->resize(blocks_.n_numbers());
+      points_.n = request.n_blocks;
+      points_.n_components = request.block_size;
+      points_.weight = weight_.data();
+      result.spring = spring_block_.data();
+      result.trial = trial_.data();
+      result.test = test_.data();
+    }
     const int failure = abut_condense(&points_, &result);
     const int worst = dealii::Utilities::MPI::max(failure, communicator);
     if (worst != ABUT_SUCCESS)
@@ -38,6 +53,10 @@ namespace abut::solve
                 "a constraint: both derivatives are 0."
               : std::string("Contact laws cannot be eliminated: ")
                     + abut_status_text(static_cast<abut_status>(worst)) + ".");
+    for (int b = 0; !blocks_.empty() && b < blocks_.n_blocks(); ++b)
+      for (int r = 0, k = blocks_.size(b); r < k; ++r)
+        spring_[blocks_.first[b] + r] =
+            spring_block_[blocks_.at[b] + std::int64_t(r) * k + r];
   }
 
   std::vector<std::uint8_t> LocalElimination::resisting() const

@@ -2,6 +2,8 @@
 #ifndef ABUT_SOLVE_LOCAL_ELIMINATION_H
 #define ABUT_SOLVE_LOCAL_ELIMINATION_H
 
+#include "row_blocks.h"
+
 #include <abut/condense.h>
 #include <abut/strategy.h>
 
@@ -11,9 +13,9 @@
 
 namespace abut::solve
 {
-  /** The pressures of all rows eliminated, one by one: abut_condense() with
-   * the arrays of a request. Held rows (a = 0) are constraints, all others
-   * springs. */
+  /** The pressures of all rows eliminated, one by one or, with friction, point
+   * by point: abut_condense() with the arrays of a request. Held rows (a = 0)
+   * are constraints, all others springs. */
   class LocalElimination
   {
   public:
@@ -57,11 +59,36 @@ namespace abut::solve
       return spring_;
     }
 
+    /** Rows by point; empty without friction, and then the next three are. */
+    const RowBlocks &blocks() const
+    {
+      return blocks_;
+    }
+
+    /** [numbers] force per length that changes of the gaps make. */
+    const std::vector<double> &spring_blocks() const
+    {
+      return spring_block_;
+    }
+
+    /** [numbers] directions of constraints, and of the forces that hold them.
+     */
+    const std::vector<double> &trial() const
+    {
+      return trial_;
+    }
+    const std::vector<double> &test() const
+    {
+      return test_;
+    }
+
     /** Write the pressure changes of springs into the request, whose gap
      * changes are known; constraints keep theirs. */
     void recover(const abut_request &request) const;
 
   private:
+    RowBlocks blocks_;
+    std::vector<double> weight_, spring_block_, trial_, test_;
     abut_condense_points points_ = {};
     std::vector<std::uint8_t> held_;
     std::vector<double> value_, force_, spring_;

@@ -22,7 +22,9 @@ namespace abut::solve
   {
     if (system == System::saddle_point)
       return std::make_unique<SaddlePoint>(parameters);
-    if (are_nodal(rows))
+    const bool has_friction = dealii::Utilities::MPI::logical_or(
+        rows.has_tangents(), rows.communicator());
+    if (are_nodal(rows) && !has_friction)
       return std::make_unique<NodalCondensation>(parameters);
     return std::make_unique<Condensation>(parameters);
   }

@@ -146,6 +146,7 @@ namespace abut::solve
     for (const global_dof_index column : columns)
       column_.push_back(
           static_cast<int>(partitioner_->global_to_local(column)));
+    mark_tangents();
     values_.resize(n_columns());
     buffer_.resize(partitioner_->n_import_indices());
   }
@@ -203,6 +204,35 @@ namespace abut::solve
       result[i] += initial_gap_[i];
   }
 
+  void PointOperator::mark_tangents()
+  {
+    for (int i = 0; i < points_.n_points; ++i)
+      for (int row = points_.component_start[i] + 1;
+           row < points_.component_start[i + 1]
+           && points_.kind[i] == ABUT_POINT_CONTACT;
+           ++row)
+      {
+        is_tangent_.resize(n_rows(), 0);
+        is_tangent_[row] = 1;
+      }
+  }
+
+  /** Add the ghosts of values_ to the owned entries of a vector. */
+  void PointOperator::export_values(la::Vector &vector) const
+  {
+    const std::size_t n_ghosts = values_.size() - n_owned_;
+    const dealii::ArrayView<double> ghosts(values_.data() + n_owned_, n_ghosts);
+    std::vector<MPI_Request> requests;
+    partitioner_->import_from_ghosted_array_start(
+        dealii::VectorOperation::add, 0, ghosts, make_array_view(buffer_),
+        requests);
+    partitioner_->import_from_ghosted_array_finish(
+        dealii::VectorOperation::add,
+        dealii::ArrayView<const double>(buffer_.data(), buffer_.size()),
+        dealii::ArrayView<double>(la::data(vector), n_owned_), ghosts,
+        requests);
+  }
+
   template <typename Function>
   void PointOperator::add_entries(const double *const factor,
                                   const Function &function,
@@ -221,16 +251,7 @@ namespace abut::solve
         (j < n_owned_ ? out[j] : values_[j]) += value;
       }
     }
-    const std::size_t n_ghosts = values_.size() - n_owned_;
-    const dealii::ArrayView<double> ghosts(values_.data() + n_owned_, n_ghosts);
-    std::vector<MPI_Request> requests;
-    partitioner_->import_from_ghosted_array_start(
-        dealii::VectorOperation::add, 0, ghosts, make_array_view(buffer_),
-        requests);
-    partitioner_->import_from_ghosted_array_finish(
-        dealii::VectorOperation::add,
-        dealii::ArrayView<const double>(buffer_.data(), buffer_.size()),
-        dealii::ArrayView<double>(out, n_owned_), ghosts, requests);
+    export_values(vector);
   }
 
   void PointOperator::add_transposed(const double *const factor,
@@ -253,6 +274,28 @@ namespace abut::solve
     const std::vector<double> factor(wanted, wanted + n_rows());
     add_entries(
         factor.data(), [](const double b) { return b == 0. ? 0. : 1.; }, d);
+  }
+
+  void PointOperator::add_group_counts(const std::uint8_t *const wanted,
+                                       const std::vector<int> &first,
+                                       la::Vector &d) const
+  {
+    double *const out = la::data(d);
+    std::fill(values_.begin() + n_owned_, values_.end(), 0.);
+    std::vector<int> columns;
+    for (std::size_t group = 0; group + 1 < first.size(); ++group)
+    {
+      columns.clear();
+      for (int i = first[group]; i < first[group + 1]; ++i)
+        if (wanted[i])
+          columns.insert(columns.end(), column_.begin() + begin(i),
+                         column_.begin() + end(i));
+      std::sort(columns.begin(), columns.end());
+      columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+      for (const int j : columns)
+        (j < n_owned_ ? out[j] : values_[j]) += 1.;
+    }
+    export_values(d);
   }
 
   std::vector<double> PointOperator::squares(const la::Vector &d) const

@@ -112,6 +112,18 @@ namespace abut::solve
       return points_.bilateral;
     }
 
+    /** Whether a row is a tangent of a point of contact. */
+    bool is_tangent(const int row) const
+    {
+      return !is_tangent_.empty() && is_tangent_[row] != 0;
+    }
+
+    /** Whether points on this rank have tangents. */
+    bool has_tangents() const
+    {
+      return !is_tangent_.empty();
+    }
+
     /** [rows] gap at displacement 0, prescribed values put in. */
     const std::vector<double> &initial_gap() const
     {
@@ -164,6 +176,12 @@ namespace abut::solve
      * Collective. */
     void add_counts(const std::uint8_t *wanted, la::Vector &d) const;
 
+    /** d_j += number of groups of neighbouring rows that have unknown j in a
+     * row with @p wanted nonzero; @p first has the first row of each group, and
+     * the number of rows at its end. Collective. */
+    void add_group_counts(const std::uint8_t *wanted,
+                          const std::vector<int> &first, la::Vector &d) const;
+
   private:
     template <typename Function>
     void add_entries(const double *factor, const Function &function,
@@ -171,6 +189,8 @@ namespace abut::solve
 
     std::vector<dealii::types::global_dof_index> expand(const NodeMap &nodes);
     double initial_gap(int point, int row, const NodeMap &nodes) const;
+    void mark_tangents();
+    void export_values(la::Vector &vector) const;
 
     abut_points_view points_ = {};
     int n_owned_ = 0;
@@ -178,6 +198,7 @@ namespace abut::solve
     std::vector<int> column_;
     std::vector<double> coefficient_;
     std::vector<double> initial_gap_;
+    std::vector<std::uint8_t> is_tangent_; ///< [rows]; empty: none
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner_ =
         std::make_shared<dealii::Utilities::MPI::Partitioner>();
     mutable std::vector<double> values_; ///< [n_columns]

@@ -35,7 +35,8 @@ same keys, each of which is merged over the top ones and run by itself.
 
 A check is a value (must be equal), a list of values, or an object with some of
 value, relative, absolute, min, max; "relative" and "absolute" without the
-other leave that one 0. A list with one entry may stand for its entry.
+other leave that one 0. A list with one entry may stand for its entry, and null
+in a list for any entry.
 """
 import argparse
 import csv
@@ -72,7 +73,7 @@ def close(value, wanted, relative=0.0, absolute=0.0):
     value, wanted = scalar(value), scalar(wanted)
     if isinstance(wanted, list):
         return (isinstance(value, list) and len(value) == len(wanted)
-                and all(close(v, w, relative, absolute)
+                and all(w is None or close(v, w, relative, absolute)
                         for v, w in zip(value, wanted)))
     if isinstance(wanted, bool) or not isinstance(wanted, (int, float)):
         return value == wanted

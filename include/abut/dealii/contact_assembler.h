@@ -230,6 +230,12 @@ namespace abut
      * HistoryError for streams of anything else. Collective. */
     virtual void load_preconditioner(std::istream &stream);
 
+    /** Tell what slips are measured from on a new mesh: the displacement of the
+     * last commit(), with prescribed values as they were then, brought to this
+     * mesh. Needed after reinit() for pairs with friction only, and after
+     * load(). Collective. */
+    virtual void set_committed(const la::Vector &displacement);
+
     /** Add the couplings that add() needs: those of all rows, in contact or
      * not. Rows on single unknowns, as those of a membrane's obstacle, need
      * none. The pattern must take rows of other ranks, and be distributed

@@ -7,11 +7,15 @@
  * and what was found there.
  */
 
+#include <abut/dealii/rigid_obstacle.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/base/types.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -19,7 +23,18 @@
 
 namespace abut
 {
-  template <int dim> class RigidObstacle;
+  /** Coulomb friction between the sides of a pair: the traction along the
+   * surface is at most rho = min(mu max(p, 0), cap), and where it is that, what
+   * slips is opposed to it (abut/friction.h). Functions of the place in the
+   * undeformed body of the secondary; what else they depend on, such as time,
+   * may change from one solve to the next. */
+  template <int dim> struct Friction
+  {
+    /** mu >= 0. */
+    std::function<double(const dealii::Point<dim> &)> coefficient;
+    /** Largest traction, force per area >= 0; empty: none. */
+    std::function<double(const dealii::Point<dim> &)> cap;
+  };
 
   /** Two surfaces, or a surface and a rigid obstacle, or a surface that may
    * touch itself: then both sides have the same boundary ids, and facets that
@@ -50,6 +65,13 @@ namespace abut
      * two rings, have none, though the facets of their meshes do. Searches are
      * as always. */
     bool geometric_gap = true;
+
+    /** Friction between the sides; null: none. */
+    std::shared_ptr<const Friction<dim>> friction;
+
+    /** With friction: where the obstacle was before the first step, which slips
+     * are measured from until the first commit(). None: where it is. */
+    std::optional<RigidPose<dim>> first_pose;
 
     /** The surfaces are glued: no relative displacement in any direction. */
     bool tied = false;
@@ -140,6 +162,18 @@ namespace abut
     /** Work of the contact forces on the gaps that were there before anything
      * moved: the sum of weight, pressure and gap at displacement 0. */
     double initial_gap_work = 0.;
+    /** With friction: rows in contact that slip, the rest sticks. */
+    dealii::types::global_dof_index n_slipping = 0;
+    /** Sums of the pressures and of the magnitudes of the tractions along the
+     * surface, force >= 0; normal_force counts pressures alone. */
+    double normal_force = 0., friction_force = 0.;
+    /** Resultant of the tractions along the surface on the secondary side; it
+     * is a part of @ref secondary_force. */
+    dealii::Tensor<1, dim> secondary_friction;
+    /** What friction took up since the last commit(), energy >= 0. */
+    double dissipation = 0.;
+    /** Largest traction, force per area. */
+    double traction = 0.;
   };
 
   /** A point of the secondary that has penetrated without a row. */

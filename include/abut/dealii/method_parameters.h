@@ -40,6 +40,15 @@ namespace abut
   std::string refusal(const abut_law &law, abut_discretisation discretisation,
                       System system, bool tied);
 
+  struct MethodParameters;
+
+  /** Why there is no friction with a method, with what to take instead; empty
+   * if there is. */
+  std::string friction_refusal(const abut_law &law,
+                               abut_discretisation discretisation,
+                               const MethodParameters &method, bool tied,
+                               bool has_obstacle);
+
   /** The section `Method` of a parameter file.
    *
    * Call declare_parameters() on a handler, parse the file, then

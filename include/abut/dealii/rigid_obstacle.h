@@ -107,6 +107,9 @@ namespace abut
      * what a function threw, or the core's. */
     virtual std::string failure() const;
 
+    /** Where it is. */
+    virtual RigidPose<dim> pose() const;
+
   private:
     class Implementation;
     std::unique_ptr<Implementation> implementation;

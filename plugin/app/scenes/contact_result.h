@@ -27,6 +27,9 @@ namespace abut::app
     abut_progress progress = {};
     dealii::types::global_dof_index cells = 0, dofs = 0, rows = 0, active = 0;
     double energy = 0., force = 0., penetration = 0.;
+    /** With friction: taken up since the last load step, energy; and the sum of
+     * the tractions along the surfaces, force. */
+    double dissipation = 0., friction_force = 0.;
     std::optional<ErrorNorms> errors;
     std::optional<double> estimate;
     std::optional<ErrorParts> error_parts; ///< with a target only

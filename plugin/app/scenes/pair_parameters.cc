@@ -39,6 +39,13 @@ namespace abut::app
     prm.declare_entry("Tied", "false", Patterns::Bool(),
                       "Glue the surfaces together where they are opposite to "
                       "each other.");
+    prm.declare_entry("Friction", "0", Patterns::Anything(),
+                      "Coefficient of Coulomb friction: a number or a formula "
+                      "of the undeformed place and t; 0: none.");
+    prm.declare_entry("Largest friction", "", Patterns::Anything(),
+                      "Bound of the traction along the surface, force per "
+                      "area, a number or a formula like `Friction`; with a "
+                      "large coefficient this is Tresca's law. Empty: none.");
     prm.declare_entry("Reach", "0", NumberPattern::between(0., largest_reach),
                       "Distance within which the surfaces look for each other; "
                       "0: half a facet, or more when they move more.");
@@ -55,6 +62,8 @@ namespace abut::app
     primary = prm.get("Primary");
     obstacle = prm.get_integer("Obstacle");
     gap = prm.get("Initial gap");
+    friction = prm.get("Friction");
+    friction_cap = prm.get("Largest friction");
     mesh_gap = prm.get_bool("Mesh gap");
     tied = prm.get_bool("Tied");
     reach = prm.get_double("Reach");

@@ -15,6 +15,7 @@ namespace abut::app
     std::string secondary, primary;
     unsigned int obstacle = 0; ///< number of the rigid obstacle; 0: none
     std::string gap;
+    std::string friction, friction_cap; ///< formulas; cap empty: none
     bool mesh_gap = true;
     bool tied = false;
     double reach = 0.;

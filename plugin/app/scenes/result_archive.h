@@ -43,6 +43,7 @@ namespace abut::app
                                                       sizeof(r.progress));
     archive &r.cells &r.dofs &r.rows &r.active;
     archive &r.energy &r.force &r.penetration;
+    archive &r.dissipation &r.friction_force;
     archive &r.errors &r.estimate &r.error_parts &r.inf_sup &r.seconds;
   }
 } // namespace abut::app

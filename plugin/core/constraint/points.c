@@ -362,20 +362,19 @@ abut_points_append_scalar(abut_points *points, int64_t id, double weight,
   return append(points, &point);
 }
 
-/* Point i as one to be appended. */
+/* Point i as one to be appended, its components from the given one on. */
 static abut_point
-point_of(const abut_points *p, int32_t i)
+point_of(const abut_points *p, int32_t i, int32_t first)
 {
   const int32_t *component = p->component.data;
   const int64_t *start = p->start.data;
   abut_point point = abut_point_defaults();
   point.id = ((const int64_t *)p->id.data)[i];
   point.kind = ((const uint8_t *)p->kind.data)[i];
-  point.n_components = component[i + 1] - component[i];
+  point.n_components = component[i + 1] - first;
   point.weight = ((const double *)p->weight.data)[i];
-  point.frame =
-      (const double *)p->frame.data + (int64_t)component[i] * p->dimension;
-  point.gap = (const double *)p->gap.data + component[i];
+  point.frame = (const double *)p->frame.data + (int64_t)first * p->dimension;
+  point.gap = (const double *)p->gap.data + first;
   point.n_nodes = (int32_t)(start[i + 1] - start[i]);
   point.n_secondary = ((const int32_t *)p->n_secondary.data)[i];
   point.node = (const int32_t *)p->node.data + start[i];
@@ -413,13 +412,17 @@ abut_points_filter(abut_points *points, const uint8_t *keep)
                      "abut_points_filter", "keep is NULL");
   const int32_t n = points->n_points;
   points->n_points = points->n_components = 0;
+  /* Where a point ends is overwritten as soon as components are left out. */
+  int32_t first = 0;
   for (int32_t i = 0; i < n; ++i)
   {
-    abut_point point = point_of(points, i);
-    const uint8_t *kept = keep + ((const int32_t *)points->component.data)[i];
-    if (point.kind == ABUT_POINT_TIE)
+    const int32_t end = ((const int32_t *)points->component.data)[i + 1];
+    abut_point point = point_of(points, i, first);
+    const uint8_t *kept = keep + first;
+    first = end;
+    if (point.kind == ABUT_POINT_TIE || kept[0])
       keep_components(points, kept, &point);
-    else if (!kept[0])
+    else
       point.n_components = 0;
     if (point.n_components > 0)
       write_point(points, &point);

@@ -215,7 +215,29 @@ id_of(const abut_coupling *c, const abut_coupling_share *total)
   const int64_t first =
       id != NULL ? id[total->facet]
                  : (int64_t)total->facet * ABUT_COUPLING_POINTS_PER_FACET;
-  return first + total->point;
+  /* Components have numbers of their own. */
+  const int32_t each = c->target->tangents ? c->secondary->view.dimension : 1;
+  return first + (int64_t)each * total->point;
+}
+
+/* Two vectors that make a frame with the normal; see abut_coupling_target. */
+static void
+fill_tangents(int32_t dim, const double *n, double *t)
+{
+  if (dim == 2)
+  {
+    t[0] = -n[1];
+    t[1] = n[0];
+    return;
+  }
+  int axis = 0;
+  for (int d = 1; d < 3; ++d)
+    if (fabs(n[d]) < fabs(n[axis]))
+      axis = d;
+  for (int d = 0; d < 3; ++d)
+    t[d] = (d == axis) - n[axis] * n[d];
+  unit3(t, 0.);
+  cross3(n, t, t + 3);
 }
 
 /* Frame and gaps of a point: the normal, or the axes of a tie. */
@@ -233,7 +255,11 @@ fill_components(abut_coupling *c, const abut_coupling_share *total,
         c->obstacle != NULL ? total->distance : dot3(normal, total->gap);
     memcpy(frame, normal, sizeof(double) * (size_t)dim);
     gap[0] = t->gap + (t->flush ? 0. : distance / total->weight);
-    return 1;
+    gap[1] = gap[2] = 0.;
+    if (!t->tangents)
+      return 1;
+    fill_tangents(dim, frame, frame + dim);
+    return dim;
   }
   int32_t n = 0;
   for (int32_t axis = 0; axis < dim; ++axis)

@@ -98,6 +98,9 @@ namespace abut::app
 
     EffectRules of_contact()
     {
+      const auto without_friction =
+          [](const SceneValues &values, const std::string &section)
+      { return !values.is_set(section + "/Friction"); };
       const auto is_tied =
           [](const SceneValues &values, const std::string &section)
       { return values.is_true(section + "/Tied"); };
@@ -105,7 +108,11 @@ namespace abut::app
                                "meshes lie.";
       return {{"Solid/Obstacles", Weight::data, unused_obstacle},
               of_pairs("Initial gap", is_tied, tied),
-              of_pairs("Mesh gap", is_tied, tied)};
+              of_pairs("Mesh gap", is_tied, tied),
+              of_pairs("Friction", is_tied, tied),
+              of_pairs("Largest friction", without_friction,
+                       "the pair has no friction: give Friction a "
+                       "coefficient, which may be large.")};
     }
 
     EffectRules of_obstacles()

@@ -339,6 +339,9 @@ namespace abut::app
                                 "energy",
                                 "contact_force",
                                 "penetration",
+                                "slipping",
+                                "friction_force",
+                                "dissipation",
                                 "l2_error",
                                 "h1_error",
                                 "energy_norm_error",
@@ -356,6 +359,17 @@ namespace abut::app
   {
     if (!pairs->empty() && parameters.inf_sup)
       result.inf_sup = run.contact.inf_sup_constant(elasticity.stiffness);
+    if (pairs->has_friction())
+    {
+      for (const PairResult<dim> &pair : run.contact.pair_results())
+      {
+        result.dissipation += pair.dissipation;
+        result.friction_force += pair.friction_force;
+      }
+      row["slipping"] = static_cast<double>(result.progress.n_slipping);
+      row["friction_force"] = result.friction_force;
+      row["dissipation"] = result.dissipation;
+    }
     row["load_step"] = result.load_step;
     row["time"] = result.time;
     if (result.errors)

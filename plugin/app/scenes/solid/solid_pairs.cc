@@ -30,10 +30,39 @@ namespace abut::app
       made.geometric_gap = pair.mesh_gap;
       made.tied = pair.tied;
       made.reach = pair.reach;
+      made.friction = make_friction(pair);
       if (pair.obstacle > 0)
+      {
         made.obstacle = obstacles[pair.obstacle - 1];
+        obstacles[pair.obstacle - 1]->set_time(0.);
+        made.first_pose = made.obstacle->pose();
+      }
       all.push_back(made);
     }
+  }
+
+  template <int dim>
+  std::shared_ptr<const Friction<dim>>
+  SolidPairs<dim>::make_friction(const PairParameters &pair)
+  {
+    const auto formula = [&](const std::string &text, const std::string &name)
+    {
+      friction.push_back(
+          std::make_shared<Expression<dim>>(text, pair.parameter(name)));
+      return [expression = friction.back()](const dealii::Point<dim> &place)
+      { return expression->evaluate({place})[0]; };
+    };
+    const Expression<dim> coefficient(pair.friction,
+                                      pair.parameter("Friction"));
+    // Contact without friction pays nothing for it.
+    if (coefficient.is_constant()
+        && coefficient.evaluate({dealii::Point<dim>()})[0] == 0.)
+      return nullptr;
+    auto made = std::make_shared<Friction<dim>>();
+    made->coefficient = formula(pair.friction, "Friction");
+    if (!pair.friction_cap.empty())
+      made->cap = formula(pair.friction_cap, "Largest friction");
+    return made;
   }
 
   template <int dim>
@@ -101,6 +130,8 @@ namespace abut::app
   template <int dim> void SolidPairs<dim>::set_time(const double present)
   {
     time = present;
+    for (const auto &formula : friction)
+      formula->set_time(time);
     for (const auto &obstacle : obstacles)
       obstacle->set_time(time);
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -58,6 +58,12 @@ namespace abut::app
       return all.empty();
     }
 
+    /** Whether any pair has friction. */
+    bool has_friction() const
+    {
+      return !friction.empty();
+    }
+
     /** Boundary ids of all secondary, or of all surfaces. */
     std::set<dealii::types::boundary_id> secondary() const;
     std::set<dealii::types::boundary_id> surfaces() const;
@@ -80,12 +86,17 @@ namespace abut::app
     std::string parameter_of(const std::string &message) const;
 
   private:
+    std::shared_ptr<const Friction<dim>>
+    make_friction(const PairParameters &pair);
+
     const SolidParameters &parameters;
     /** Of the bodies, known with their mesh. */
     const std::shared_ptr<double> half_extent = std::make_shared<double>(1.);
     double time = 0.;
     std::vector<std::shared_ptr<RigidObstacle<dim>>> obstacles;
     std::vector<std::unique_ptr<Expression<dim>>> gaps;
+    /** Of the pairs with friction. */
+    std::vector<std::shared_ptr<Expression<dim>>> friction;
     std::vector<ContactPair<dim>> all;
   };
 } // namespace abut::app

@@ -180,15 +180,41 @@ namespace abut::app
       report.set(key + "_held_inside", pair.held_inside);
       report.set(key + "_slip", pair.slip);
       report.set(key + "_gap_error", pair.gap_error);
+      if (pairs.pairs().at(number - 1).friction != nullptr)
+      {
+        report.set(key + "_slipping", pair.n_slipping);
+        report.set(key + "_normal_force", pair.normal_force);
+        report.set(key + "_friction_force", pair.friction_force);
+        report.set(key + "_friction", vector(pair.secondary_friction));
+        report.set(key + "_friction_ratio",
+                   pair.normal_force > 0.
+                       ? pair.secondary_friction.norm() / pair.normal_force
+                       : 0.);
+        report.set(key + "_traction", pair.traction);
+      }
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
     }
     return {force_imbalance, moment_imbalance};
   }
 
+  template <int dim> void SolidReport<dim>::report_friction() const
+  {
+    // The first load step is solved on several meshes.
+    double dissipation = 0.;
+    for (std::size_t i = 0; i < run.results.size(); ++i)
+      if (i + 1 == run.results.size()
+          || run.results[i + 1].load_step != run.results[i].load_step)
+        dissipation += run.results[i].dissipation;
+    report.set("dissipation", dissipation);
+    report.set("friction_rung", run.results.back().progress.friction_rung);
+  }
+
   template <int dim> void SolidReport<dim>::report_contact() const
   {
     const auto [force_imbalance, moment_imbalance] = report_pairs();
+    if (pairs.has_friction() && !run.results.empty())
+      report_friction();
     if ((method.discretisation
          && !discretisation_info(*method.discretisation).is_weighted)
         || abut_law_needs_stress(method.options.law))
@@ -334,7 +360,11 @@ namespace abut::app
                             "looked for");
     if (method.law_is_automatic && !pairs.empty())
       report.model("automatic law", true, method.options.law->name);
-    report.model("friction", false, "surfaces slide freely on each other");
+    report.model("friction", pairs.has_friction(),
+                 pairs.has_friction()
+                     ? std::to_string(contact.progress().n_slipping)
+                           + " of the points in contact slip, the rest sticks"
+                     : "surfaces slide freely on each other");
     const RefinementParameters &refinement = parameters.refinement;
     model_meshes(report, refinement);
     report.model("load steps", parameters.load_steps.steps > 1,
@@ -359,7 +389,7 @@ namespace abut::app
 
   template <int dim> void SolidReport<dim>::explain_pairs() const
   {
-    if (run.load_steps.n_accepted() > 1)
+    if (run.load_steps.n_accepted() > 1 && !pairs.has_friction())
       report.leave_out(
           "load steps: without friction the last answer does not depend on "
           "those before it; if only it is wanted, Load steps/Steps = 1.");

@@ -33,6 +33,7 @@ namespace abut::app
     void report_numerics() const;
     /** Returns the largest imbalance of forces and of moments of a pair. */
     std::pair<double, double> report_pairs() const;
+    void report_friction() const;
     void report_contact() const;
     std::optional<double> relative_error() const;
     /** What single ranks have and had to say. */

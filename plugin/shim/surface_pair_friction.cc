@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Friction of pairs: coefficients, slips, and what a solve found.
+#include "agree.h"
+#include "surface_pair_rows.h"
+
+#include <abut/strategy.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    template <int dim>
+    double value_of(const std::function<double(const dealii::Point<dim> &)> &f,
+                    const dealii::Point<dim> &place, const char *const what,
+                    std::string &message)
+    {
+      const double value = f(place);
+      if (value >= 0. && !std::isnan(value))
+        return value;
+      std::ostringstream text;
+      text << "its " << what << " is " << value << " at " << place
+           << ": it must not be negative.";
+      message = text.str();
+      return 0.;
+    }
+
+    /** How far the point of a rigid body that is at @p place now has come. */
+    template <int dim>
+    dealii::Tensor<1, dim> way_of(const dealii::Point<dim> &place,
+                                  const RigidPose<dim> &then,
+                                  const RigidPose<dim> &now)
+    {
+      const dealii::Tensor<1, dim> x = place;
+      const dealii::Tensor<1, dim> own =
+          transpose(now.rotation) * (x - now.translation);
+      return x - (then.rotation * own + then.translation);
+    }
+  } // namespace
+
+  template <int dim>
+  RowSource::FrictionalPoints SurfacePairRows<dim>::friction() const
+  {
+    FrictionalPoints result;
+    for (const Pair &pair : pairs_)
+      result.any = result.any || pair.data.friction != nullptr;
+    std::string message;
+    for (std::size_t i = 0; i < places_.size() && result.any; ++i)
+    {
+      const std::int32_t first = view_.component_start[i];
+      const std::int32_t n = view_.component_start[i + 1] - first;
+      const Pair &pair = pairs_[places_[i].pair];
+      if (view_.kind[i] == ABUT_POINT_TIE || n == 1)
+        continue;
+      const Friction<dim> &friction = *pair.data.friction;
+      std::string wrong;
+      result.first.push_back(first);
+      result.n_tangents.push_back(static_cast<std::uint8_t>(n - 1));
+      result.coefficient.push_back(
+          value_of<dim>(friction.coefficient, places_[i].position,
+                        "coefficient of friction", wrong));
+      result.cap.push_back(
+          friction.cap ? value_of<dim>(friction.cap, places_[i].position,
+                                       "largest traction", wrong)
+                       : std::numeric_limits<double>::infinity());
+      if (!wrong.empty())
+        message = "Pair '" + pair.data.name + "': " + wrong;
+    }
+    throw_everywhere<ContactError>(communicator_, message);
+    return result;
+  }
+
+  template <int dim>
+  std::vector<double>
+  SurfacePairRows<dim>::slip_reference(const la::Vector &committed)
+  {
+    std::vector<Direction> u(surface_.nodes.size());
+    if (committed.size() > 0)
+      u = exchange_->displacements(surface_, committed);
+    std::vector<RigidPose<dim>> now(pairs_.size()), then;
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (pairs_[p].data.obstacle != nullptr)
+        now[p] = pairs_[p].data.obstacle->pose();
+    then = now;
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (!committed_poses_.empty())
+        then[p] = committed_poses_[p];
+      else if (pairs_[p].data.first_pose)
+        then[p] = *pairs_[p].data.first_pose;
+    std::vector<double> result(view_.n_components, 0.);
+    for_each_row(
+        [&](const Component &row)
+        {
+          if (!is_tangent(row))
+            return;
+          const auto add = [&](const Node node, const double c)
+          { result[row.row] -= c * (u[node] * row.direction); };
+          for_each_secondary(row.point, add);
+          for_each_primary(row.point, add);
+          const std::size_t p = row.place.pair;
+          if (pairs_[p].data.obstacle != nullptr)
+            result[row.row] -=
+                way_of(row.place.position, then[p], now[p]) * row.direction;
+        });
+    return result;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::copy_to_tangents(std::vector<double> &value) const
+  {
+    for (std::int32_t i = 0; i < view_.n_points; ++i)
+      for (std::int32_t row = view_.component_start[i] + 1;
+           row < view_.component_start[i + 1]
+           && view_.kind[i] == ABUT_POINT_CONTACT;
+           ++row)
+        value[row] = value[view_.component_start[i]];
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::add_friction(
+      const double *row_pressure, const double *row_gap,
+      const std::uint8_t *row_state,
+      std::vector<PairResult<dim>> &results) const
+  {
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      const std::int32_t first = view_.component_start[i];
+      const double w = view_.weight[i];
+      PairResult<dim> &result = results[places_[i].pair];
+      if (view_.kind[i] == ABUT_POINT_TIE)
+        continue;
+      result.normal_force += w * row_pressure[first];
+      const bool slips =
+          row_state != nullptr && row_state[first] == ABUT_STATE_SLIP;
+      result.n_slipping += slips;
+      double square = 0., work = 0.;
+      for (std::int32_t row = first + 1; row < view_.component_start[i + 1];
+           ++row)
+      {
+        square += row_pressure[row] * row_pressure[row];
+        // The springs of what sticks take nothing up.
+        if (slips)
+          work -= row_pressure[row] * row_gap[row];
+        for (unsigned int d = 0; d < dim; ++d)
+          result.secondary_friction[d] +=
+              w * row_pressure[row] * view_.frame[row * std::size_t(dim) + d];
+      }
+      result.friction_force += w * std::sqrt(square);
+      result.traction = std::max(result.traction, std::sqrt(square));
+      result.dissipation += w * std::max(0., work);
+    }
+    for (PairResult<dim> &result : results)
+    {
+      double sums[3] = {result.normal_force, result.friction_force,
+                        result.dissipation};
+      MPI::sum(sums, communicator_, sums);
+      result.normal_force = sums[0];
+      result.friction_force = sums[1];
+      result.dissipation = sums[2];
+      result.n_slipping = MPI::sum(result.n_slipping, communicator_);
+      result.traction = MPI::max(result.traction, communicator_);
+      result.secondary_friction =
+          MPI::sum(result.secondary_friction, communicator_);
+    }
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template RowSource::FrictionalPoints SurfacePairRows<dim>::friction() const; \
+  template std::vector<double> SurfacePairRows<dim>::slip_reference(           \
+      const la::Vector &);                                                     \
+  template void SurfacePairRows<dim>::copy_to_tangents(std::vector<double> &)  \
+      const;                                                                   \
+  template void SurfacePairRows<dim>::add_friction(                            \
+      const double *, const double *, const std::uint8_t *,                    \
+      std::vector<PairResult<dim>> &) const;
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut::shim
