@@ -73,8 +73,8 @@ bool frictional_same(const frictional *problem, const frictional_answer *a,
 typedef struct frictional_count
 {
   int32_t n_problems, n_runs;
-  int32_t n_lost;    /* runs without an answer */
-  int32_t cured[4];  /* runs by the rung that they needed */
+  int32_t n_lost;   /* runs without an answer */
+  int32_t cured[4]; /* runs by the rung that they needed */
   int32_t answers[FRICTIONAL_STARTS + 2]; /* problems by different answers */
   int32_t most_steps;
   double mean_steps;      /* linear systems */

@@ -229,8 +229,14 @@ abut_friction_first_state(abut_strategy *s, const uint8_t *state)
   const abut_friction_points points = points_of(f);
   if (status == ABUT_SUCCESS)
     status = abut_friction_classify(&points, f->state);
-  for (int32_t i = 0; i < f->n && state != NULL; ++i)
-    f->state[i] = state[f->first[i]];
+  for (int32_t i = 0; i < f->n; ++i)
+    if (state != NULL)
+      f->state[i] = state[f->first[i]];
+    /* Before anything presses nothing is known: stick holds bodies that
+     * friction alone holds. */
+    else if (f->state[i] == ABUT_STATE_SLIP && !(f->pressure[i] > 0)
+             && f->d_bound[i] > 0)
+      f->state[i] = ABUT_STATE_CLOSED;
   if (status == ABUT_SUCCESS)
     write_row_states(s);
   return status;

@@ -44,8 +44,8 @@ check_row(abut_strategy *s, const inputs *in, int32_t i)
   if (in->id != NULL && (in->id[i] < 0 || in->id[i] >= max_id))
     return reject(s, ABUT_INVALID_ARGUMENT, i,
                   "its number is negative or 2^53 or more");
-  const uint8_t last = abut_friction_is_on(&s->friction) ? ABUT_STATE_SLIP
-                                                         : ABUT_STATE_CLOSED;
+  const uint8_t last =
+      abut_friction_is_on(&s->friction) ? ABUT_STATE_SLIP : ABUT_STATE_CLOSED;
   if (in->state != NULL && in->state[i] > last)
     return reject(s, ABUT_INVALID_ARGUMENT, i, "its state is not a state");
   if (in->bilateral != NULL && in->bilateral[i] != 0
