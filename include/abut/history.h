@@ -19,6 +19,9 @@
  * the point in a rule. Where points are renumbered while the facet stays, their
  * place on it tells which old point is nearest: abut_history_nearest().
  *
+ * With friction, the number of a tangent has the traction as its pressure: what
+ * the next step's slip begins with (abut_strategy_friction).
+ *
  * The multiplier that the method of multipliers begins with is the pressure,
  * so that it needs no entry of its own.
  *

@@ -55,7 +55,10 @@ extern "C"
     ABUT_REASON_STEP_LIMIT, /**< max_steps or max_outer reached */
     ABUT_REASON_STAGNATION, /**< outer iteration does not contract */
     ABUT_REASON_INFEASIBLE, /**< barrier: no start with all gaps open */
-    ABUT_REASON_NOT_FINITE  /**< NaN or infinity in a gap or increment */
+    ABUT_REASON_NOT_FINITE, /**< NaN or infinity in a gap or increment */
+    /** Told by hosts, as abut_dense_model_solve(): what is closed slips, and
+     * neither it nor anything else holds a body. */
+    ABUT_REASON_UNHELD
   } abut_reason;
 
   /** English text of a reason, with what to try; never NULL. */

@@ -74,7 +74,8 @@ open_floating(void)
   assert_ok(abut_points_create(f.context, 1, &f.points));
   assert_ok(abut_points_append_scalar(
       f.points, 0, 0.5, 0.25, ABUT_POINT_CONTACT, 1, &node, &minus_one));
-  const abut_dense_model model = {sizeof(model), 2, spring, push, f.points, NULL};
+  const abut_dense_model model = {sizeof(model), 2,        spring,
+                                  push,          f.points, NULL};
   f.model = model;
   return f;
 }

@@ -66,6 +66,7 @@ ends_of_strategies_name_what_was_measured(void **state)
       {ABUT_REASON_STEP_LIMIT, "nitsche", 60, 1, 0.1, 0, ABUT_FAILURE_NITSCHE},
       {ABUT_REASON_STEP_LIMIT, "nitsche", 60, 1, 10, 0, ABUT_FAILURE_CYCLE},
       {ABUT_REASON_NOT_FINITE, "penalty", 1, 0, 50, 0, ABUT_FAILURE_NOT_FINITE},
+      {ABUT_REASON_UNHELD, "penalty", 1, 0, 50, 0, ABUT_FAILURE_FREE_SLIDING},
   };
   for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i)
   {

@@ -259,7 +259,8 @@ two_unknowns(double c)
   assert_ok(abut_points_create(context, 1, &points));
   assert_ok(abut_points_append_scalar(points, 0, 1, -1, ABUT_POINT_TIE, 2,
                                       nodes, ones));
-  const abut_dense_model model = {sizeof(model), 2, stiffness, force, points, NULL};
+  const abut_dense_model model = {sizeof(model), 2,      stiffness,
+                                  force,         points, NULL};
   abut_strategy_options options = exact_options();
   options.law = abut_law_find("augmented lagrangian");
   options.penalty = c;
@@ -313,7 +314,8 @@ check_equality(const char *law, double sum)
   assert_ok(abut_points_create(context, 1, &points));
   assert_ok(abut_points_append_scalar(points, 0, 1, -sum, ABUT_POINT_TIE, 2,
                                       nodes, ones));
-  const abut_dense_model model = {sizeof(model), 2, stiffness, force, points, NULL};
+  const abut_dense_model model = {sizeof(model), 2,      stiffness,
+                                  force,         points, NULL};
   abut_strategy_options options = exact_options();
   options.law = abut_law_find(law);
   options.penalty = eps;

@@ -454,6 +454,31 @@ strategies(world *w)
   return ABUT_SUCCESS;
 }
 
+/* One point that slips and one row without friction. */
+static abut_status
+frictions(world *w)
+{
+  const int32_t first = 1;
+  const uint8_t one_tangent = 1;
+  const double mu = 0.5, ones[3] = {1, 1, 1}, gap[3] = {0.1, -0.1, 0.3};
+  const abut_strategy_options options = exact_options();
+  const abut_strategy_friction friction = {.struct_size = sizeof(friction),
+                                           .n = 1,
+                                           .first = &first,
+                                           .n_tangents = &one_tangent,
+                                           .coefficient = &mu};
+  abut_request request;
+  TRY(abut_strategy_create(w->context, &options, &w->strategy));
+  TRY(abut_strategy_set_friction(w->strategy, &friction));
+  TRY(abut_strategy_start(w->strategy, 3, NULL, ones, ones, NULL, gap, NULL,
+                          NULL));
+  TRY(abut_strategy_next(w->strategy, NULL, &request));
+  assert_int_equal(request.n_blocks, 2);
+  for (int i = 0; i < 3; ++i)
+    note(w, request.residual[i]);
+  return ABUT_SUCCESS;
+}
+
 static abut_status
 dense_models(world *w)
 {
@@ -461,7 +486,7 @@ dense_models(world *w)
   TRY(scalar_points(w));
   const uint8_t keep[5] = {1, 1};
   TRY(abut_points_filter(w->points, keep));
-  const abut_dense_model model = {sizeof(model), 2, k, f, w->points};
+  const abut_dense_model model = {sizeof(model), 2, k, f, w->points, NULL};
   const abut_strategy_options options = exact_options();
   double u[2] = {0, 0}, p[2] = {0, 0};
   TRY(abut_dense_model_solve(w->context, &model, &options, u, p, NULL, NULL,
@@ -541,6 +566,13 @@ strategies_without_memory(void **unused)
 }
 
 static void
+frictions_without_memory(void **unused)
+{
+  (void)unused;
+  deny_each(frictions, 0, 9);
+}
+
+static void
 dense_models_without_memory(void **unused)
 {
   (void)unused;
@@ -559,6 +591,7 @@ main(void)
       cmocka_unit_test(points_without_memory),
       cmocka_unit_test(histories_without_memory),
       cmocka_unit_test(strategies_without_memory),
+      cmocka_unit_test(frictions_without_memory),
       cmocka_unit_test(dense_models_without_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

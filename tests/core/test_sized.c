@@ -176,6 +176,63 @@ older_requests_and_progress(void **unused)
   require(abut_strategy_destroy(&s));
 }
 
+/* Friction's structs: what is beyond the caller's end is not read. */
+static void
+older_and_newer_friction(void **unused)
+{
+  (void)unused;
+  const uint8_t n_tangents = 1;
+  const double one = 1, slip = 2, traction = 3;
+  double c = 0, a = 0, b = 0, c_p = 0;
+  const abut_friction_points points = {sizeof(points), 1,    &n_tangents, &slip,
+                                       &traction,      NULL, NULL,        &one,
+                                       &one,           &one};
+  const abut_friction_linearisation places = {sizeof(places), &c,  &a, &b,
+                                              &c_p,           NULL};
+  abut_friction_linearisation *old =
+      resized(&places, sizeof(places),
+              offsetof(abut_friction_linearisation, direction));
+  const uint8_t state = ABUT_STATE_CLOSED;
+  require(abut_friction_linearise(&points, &state, old));
+  assert_true(c == 2 && a == 0 && b == 1 && c_p == 0);
+  /* The bound's derivative comes last. */
+  abut_friction_points *cut =
+      resized(&points, sizeof(points), offsetof(abut_friction_points, d_bound));
+  assert_int_equal(abut_friction_linearise(cut, &state, old),
+                   ABUT_INVALID_ARGUMENT);
+  abut_friction_points *newer =
+      resized(&points, sizeof(points), sizeof(points) + 8);
+  require(abut_friction_linearise(newer, &state, old));
+  ((unsigned char *)newer)[sizeof(points)] = 1;
+  assert_int_equal(abut_friction_linearise(newer, &state, old),
+                   ABUT_INVALID_ARGUMENT);
+  free(old);
+  free(cut);
+  free(newer);
+}
+
+/* A strategy's friction from before the traction it starts from. */
+static void
+older_friction_of_a_strategy(void **unused)
+{
+  (void)unused;
+  const int32_t first = 0;
+  const uint8_t n_tangents = 1;
+  const double mu = 0.5, wrong = NAN;
+  const abut_strategy_options o = abut_strategy_defaults();
+  abut_strategy *s = NULL;
+  require(abut_strategy_create(context, &o, &s));
+  const abut_strategy_friction friction = {
+      sizeof(friction), NULL, 1, &first, &n_tangents, &mu, NULL, &wrong, NULL};
+  assert_int_equal(abut_strategy_set_friction(s, &friction), ABUT_NOT_FINITE);
+  abut_strategy_friction *old =
+      resized(&friction, sizeof(friction),
+              offsetof(abut_strategy_friction, reference_traction));
+  require(abut_strategy_set_friction(s, old));
+  free(old);
+  require(abut_strategy_destroy(&s));
+}
+
 /* A law p = 2 g + 3 at p = 0, g = 0 that is not held: dp = 3 + 2 dg. Trial and
  * test are the last fields of the result. */
 static void
@@ -279,6 +336,9 @@ main(void)
       cmocka_unit_test_setup_teardown(older_requests_and_progress, set_up,
                                       tear_down),
       cmocka_unit_test(older_callers_condense),
+      cmocka_unit_test(older_and_newer_friction),
+      cmocka_unit_test_setup_teardown(older_friction_of_a_strategy, set_up,
+                                      tear_down),
       cmocka_unit_test_setup_teardown(older_callers_remember, set_up,
                                       tear_down),
       cmocka_unit_test(the_library_tells_its_version),

@@ -444,7 +444,7 @@ static void
 reasons_have_texts(void **unused)
 {
   (void)unused;
-  for (int reason = ABUT_REASON_NONE; reason <= ABUT_REASON_NOT_FINITE;
+  for (int reason = ABUT_REASON_NONE; reason <= ABUT_REASON_UNHELD;
        ++reason)
     assert_string_not_equal(abut_reason_text((abut_reason)reason),
                             "unknown reason");

@@ -153,14 +153,19 @@ slip(const contact *at, double d_bound, const double *e, const target *to)
 {
   const int32_t t = at->t;
   double inside[MAX_T];
+  /* Without a direction there is nothing to slip against: as if open. */
+  if (!(at->length > 0))
+  {
+    open_point(at, to);
+    return;
+  }
   const double beta = safeguard(at, e, inside);
-  const double length = at->length > 0 ? at->length : 1;
   const double kept = 1 - at->c * at->compliance;
   for (int32_t i = 0; i < t; ++i)
     for (int32_t j = 0; j < t; ++j)
     {
       const double unit = i == j ? 1 : 0;
-      const double m = beta / length * (at->rho * unit - inside[i] * e[j]);
+      const double m = beta / at->length * (at->rho * unit - inside[i] * e[j]);
       to->a[i * t + j] = unit - m * kept;
       to->b[i * t + j] = at->c * m;
     }

@@ -36,7 +36,7 @@ typedef struct dense_host
   double *gap, *stiffness;    /* [m] */
   double *b;                  /* [m * n] B = dg/du */
   int32_t *pivot;             /* [n+m] */
-  bool singular;
+  bool singular, slips; /* the last matrix is singular, with points that slip */
 } dense_host;
 
 static abut_status
@@ -222,6 +222,8 @@ solve(void *user, const abut_request *request)
     if (!abut_dense_lu_factorise(size, host->matrix, host->pivot, host->scale))
     {
       host->singular = true;
+      for (int32_t i = 0; i < host->m; ++i)
+        host->slips |= request->state[i] == ABUT_STATE_SLIP;
       return ABUT_INVALID_ARGUMENT;
     }
   }
@@ -280,6 +282,27 @@ run(dense_host *host, abut_strategy *strategy, uint8_t *state,
     memcpy(state, last.state, (size_t)host->m);
   return progress != NULL ? abut_strategy_progress_sized(strategy, progress)
                           : ABUT_SUCCESS;
+}
+
+/* A singular matrix: where something slips and the caller asks for a reason,
+ * the end of the iteration, else a failure. */
+static abut_status
+explain_singular(const dense_host *host, const abut_strategy *strategy,
+                 abut_progress *progress, abut_reason *reason,
+                 abut_status status)
+{
+  if (!host->slips)
+    return abut_fail(host->context, status, call,
+                     "the stiffness is singular with what is closed: give a "
+                     "start state that holds the body");
+  abut_fail(host->context, status, call,
+            "the stiffness is singular with what is closed and sticks: "
+            "friction does not hold the body, or not from this start");
+  if (reason == NULL)
+    return status;
+  *reason = ABUT_REASON_UNHELD;
+  return progress == NULL ? ABUT_SUCCESS
+                          : abut_strategy_progress_sized(strategy, progress);
 }
 
 /* Arrays of the caller for host->n unknowns and host->m components. */
@@ -352,13 +375,7 @@ abut_dense_model_solve_sized(abut_context *context,
   if (status == ABUT_SUCCESS)
     status = run(&host, strategy, state, progress, reason);
   if (host.singular)
-    abut_fail(context, status, call,
-              model->friction != NULL
-                  ? "the stiffness is singular with what is closed and sticks: "
-                    "friction and contact do not hold the body, or not from "
-                    "this start"
-                  : "the stiffness is singular with what is closed: give a "
-                    "start state that holds the body");
+    status = explain_singular(&host, strategy, progress, reason, status);
   abut_strategy_destroy(&strategy);
   abut_array_release(context, &host.block);
   abut_array_release(context, &host.pivots);

@@ -22,8 +22,9 @@ static const double pressure_noise = 1e-10, gap_noise = 1e-12;
 static const double stiff = 1e10;
 
 /* Tractions that miss their bound by less, relative to the largest pressure,
- * meet it. */
-static const double traction_noise = 1e-10;
+ * meet it; above the second number one solve more is worth its cost, since
+ * Newton's method converges quadratically. */
+static const double traction_noise = 1e-10, sharp_traction = 1e-13;
 
 /* What the rows of all ranks say after a step. */
 typedef struct findings
@@ -404,9 +405,15 @@ finish(abut_strategy *s, const findings *found, abut_reason reason)
     set->defect = INFINITY;
     return abut_strategy_ask_solve(s, final, true);
   }
-  const double traction_limit = traction_noise * found->max_pressure;
-  if (found->defect <= limit && found->traction_defect <= traction_limit)
-    return settle_friction(s, reason);
+  if (found->defect <= limit
+      && found->traction_defect <= traction_noise * found->max_pressure)
+  {
+    if (set->polished
+        || found->traction_defect <= sharp_traction * found->max_pressure)
+      return settle_friction(s, reason);
+    set->polished = true;
+    return abut_strategy_ask_solve(s, final, s->request.final_solve);
+  }
   const double defect = found->defect + found->traction_defect;
   set->n_defect = defect > 0.5 * set->defect ? set->n_defect + 1 : 0;
   set->defect = defect;

@@ -32,6 +32,8 @@ typedef struct abut_active_set
   bool tight;     /* linear solves are tight, not to mistake noise for cycles */
   double defect;  /* of the law after the last tight solve, length */
   int32_t n_defect; /* tight solves that did not lower the defect */
+  bool polished;    /* tractions that met their bounds roughly got a solve more
+                     */
 } abut_active_set;
 
 /* Method table of all laws that have an active set. */

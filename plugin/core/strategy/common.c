@@ -71,15 +71,17 @@ sign_coefficients(const abut_strategy *s)
   return sign;
 }
 
-/* Why the law's result in row i is of no use; NULL if it is good. */
+/* Why the law's result in row i is of no use; NULL if it is good, or if the
+ * row is a tangent, of which friction's law has the say. */
 static const char *
 fault_of_row(const abut_strategy *s, int32_t i)
 {
   const double a = s->d_pressure[i], b = s->d_gap[i];
+  if (s->bilateral[i] == ABUT_ROW_TANGENT)
+    return NULL;
   if (!isfinite(s->residual[i]) || !isfinite(a) || !isfinite(b))
     return "a value that is not finite";
-  if (s->bilateral[i] != ABUT_ROW_TANGENT && a == 0
-      && (b == 0 || !abut_law_is_exact(s->options.law)))
+  if (a == 0 && (b == 0 || !abut_law_is_exact(s->options.law)))
     return "a derivative by the pressure that is zero";
   return NULL;
 }
@@ -128,10 +130,11 @@ abut_strategy_linearise(abut_strategy *s)
   };
   const uint64_t before = sign_coefficients(s);
   abut_status status = s->options.law->linearise(&points, s->state, &result);
+  status = check_law_result(s, status);
   if (status == ABUT_SUCCESS && abut_friction_is_on(&s->friction))
     status = abut_friction_evaluate(s);
   s->coefficients_changed |= sign_coefficients(s) != before;
-  return check_law_result(s, status);
+  return status;
 }
 
 abut_status

@@ -1,170 +1,15 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* Rows of tangents: memory, evaluation, states; see friction.h. */
+/* Rows of tangents: evaluation and states; see friction.h. */
 #include "strategy/friction.h"
 #include "strategy/strategy.h"
 
 #include <math.h>
 #include <string.h>
 
-static const char call[] = "abut_strategy_set_friction";
+static const char call[] = "abut_strategy_next";
 
 /* c of the tangents, as a multiple of that of the normals. */
 static const double tangent_scale = 0.3;
-
-void
-abut_friction_prepare(abut_friction_rows *f)
-{
-  f->given.element = f->numbers.element = sizeof(double);
-  f->given_rows.element = sizeof(int32_t);
-  f->given_bytes.element = f->bytes.element = sizeof(uint8_t);
-}
-
-void
-abut_friction_release(abut_context *context, abut_friction_rows *f)
-{
-  abut_array *arrays[] = {&f->given, &f->given_rows, &f->given_bytes,
-                          &f->numbers, &f->bytes};
-  for (size_t i = 0; i < sizeof(arrays) / sizeof(arrays[0]); ++i)
-    abut_array_release(context, arrays[i]);
-}
-
-static abut_status
-reject(abut_strategy *s, abut_status status, int32_t i, const char *what)
-{
-  abut_text text = abut_fail_begin(s->context, call);
-  abut_text_add(&text, "point ");
-  abut_text_add_integer(&text, i);
-  abut_text_add(&text, ": ");
-  abut_text_add(&text, what);
-  return status;
-}
-
-static abut_status
-check_point(abut_strategy *s, const abut_strategy_friction *in, int32_t i,
-            int32_t tangent, int32_t least_row)
-{
-  if (in->n_tangents[i] < 1 || in->n_tangents[i] > 2)
-    return reject(s, ABUT_INVALID_ARGUMENT, i, "it has not 1 or 2 tangents");
-  if (in->first[i] < least_row)
-    return reject(s, ABUT_INVALID_ARGUMENT, i,
-                  "its rows do not come after those of the point before");
-  double probe = 0 * in->coefficient[i];
-  for (int32_t k = 0; in->reference_traction != NULL && k < in->n_tangents[i];
-       ++k)
-    probe += 0 * in->reference_traction[tangent + k];
-  if (!isfinite(probe))
-    return reject(s, ABUT_NOT_FINITE, i,
-                  "coefficient or traction is not finite");
-  if (in->coefficient[i] < 0 || (in->cap != NULL && !(in->cap[i] >= 0)))
-    return reject(s, ABUT_INVALID_ARGUMENT, i,
-                  "coefficient or cap is negative");
-  return ABUT_SUCCESS;
-}
-
-static abut_status
-check_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t *m,
-               int32_t *blocks)
-{
-  if (in->n < 0
-      || (in->n > 0
-          && (in->first == NULL || in->n_tangents == NULL
-              || in->coefficient == NULL)))
-    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, call,
-                     "an array is NULL, or n is negative");
-  if (in->law->struct_size != sizeof(abut_friction) || in->law->bound == NULL
-      || in->law->name == NULL)
-    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, call,
-                     "the law's table is incomplete or of another version");
-  if (abut_law_is_interior(s->options.law)
-      || abut_law_needs_stress(s->options.law))
-  {
-    abut_text text = abut_fail_begin(s->context, call);
-    abut_text_add(&text, "the law '");
-    abut_text_add(&text, s->options.law->name);
-    abut_text_add(&text, "' has no friction: use lagrange, penalty, quadratic "
-                         "penalty or augmented lagrangian");
-    return ABUT_UNSUPPORTED;
-  }
-  *m = *blocks = 0;
-  int32_t row = 0;
-  for (int32_t i = 0; i < in->n; ++i)
-  {
-    const abut_status status = check_point(s, in, i, *m, row);
-    if (status != ABUT_SUCCESS)
-      return status;
-    const int32_t t = in->n_tangents[i];
-    row = in->first[i] + 1 + t;
-    *m += t;
-    *blocks += t * t;
-  }
-  return ABUT_SUCCESS;
-}
-
-static abut_status
-copy_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t m)
-{
-  abut_friction_rows *f = &s->friction;
-  const int32_t n = in->n;
-  abut_status status =
-      abut_array_reserve(s->context, &f->given, 0, 2 * (int64_t)n + m);
-  if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &f->given_rows, 0, n);
-  if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &f->given_bytes, 0, n);
-  if (status != ABUT_SUCCESS || n == 0)
-    return status;
-  f->coefficient = f->given.data;
-  f->cap = f->coefficient + n;
-  f->committed = f->cap + n;
-  f->first = f->given_rows.data;
-  f->n_tangents = f->given_bytes.data;
-  for (int32_t i = 0; i < n; ++i)
-  {
-    f->coefficient[i] = in->coefficient[i];
-    f->cap[i] = in->cap == NULL ? INFINITY : in->cap[i];
-    f->first[i] = in->first[i];
-    f->n_tangents[i] = in->n_tangents[i];
-  }
-  for (int32_t k = 0; k < m; ++k)
-    f->committed[k] =
-        in->reference_traction == NULL ? 0 : in->reference_traction[k];
-  return status;
-}
-
-abut_status
-abut_strategy_set_friction(abut_strategy *strategy,
-                           const abut_strategy_friction *friction)
-{
-  if (strategy == NULL)
-    return ABUT_INVALID_ARGUMENT;
-  abut_strategy *s = strategy;
-  abut_friction_rows *f = &s->friction;
-  s->phase = ABUT_PHASE_CREATED;
-  f->law = NULL;
-  f->n = f->m = f->blocks = 0;
-  if (friction == NULL)
-    return ABUT_SUCCESS;
-  abut_strategy_friction taken = {.struct_size = sizeof(taken)};
-  abut_status status =
-      abut_take(s->context, call, &taken, sizeof(taken), friction);
-  if (status != ABUT_SUCCESS)
-    return status;
-  if (taken.law == NULL)
-    taken.law = abut_friction_coulomb();
-  int32_t m = 0, blocks = 0;
-  status = check_friction(s, &taken, &m, &blocks);
-  if (status == ABUT_SUCCESS)
-    status = copy_friction(s, &taken, m);
-  if (status != ABUT_SUCCESS)
-    return status;
-  f->law = taken.law;
-  f->parameters = taken.parameters;
-  f->has_cap = taken.cap != NULL;
-  f->n = taken.n;
-  f->m = m;
-  f->blocks = blocks;
-  return ABUT_SUCCESS;
-}
 
 /* Blocks of all points: rows that belong to no point with friction are blocks
  * of one number. */
@@ -252,10 +97,12 @@ abut_friction_start(abut_strategy *s)
   for (int32_t i = 0; i < f->n; ++i)
   {
     if (f->first[i] + f->n_tangents[i] >= s->n)
-      return reject(s, ABUT_INVALID_ARGUMENT, i, "there are not so many rows");
+      return abut_friction_reject(s, ABUT_INVALID_ARGUMENT, i,
+                                  "there are not so many rows");
     for (int32_t k = 0; k <= f->n_tangents[i]; ++k)
       if (s->bilateral[f->first[i] + k] != 0)
-        return reject(s, ABUT_INVALID_ARGUMENT, i, "one of its rows is a tie");
+        return abut_friction_reject(s, ABUT_INVALID_ARGUMENT, i,
+                                    "one of its rows is a tie");
   }
   const abut_status status = place_arrays(s);
   if (status != ABUT_SUCCESS)
@@ -311,12 +158,22 @@ abut_friction_find_bounds(abut_strategy *s)
       .parameters = f->parameters,
   };
   const abut_status status = f->law->bound(&points, f->bound, f->d_bound);
+  if (status != ABUT_SUCCESS)
+  {
+    abut_text text = abut_fail_begin(s->context, call);
+    abut_text_add(&text, "the friction law '");
+    abut_text_add(&text, f->law->name);
+    abut_text_add(&text, "' fails: ");
+    abut_text_add(&text, abut_status_text(status));
+    return status;
+  }
   const double factor = (double)f->quarter / ABUT_FRICTION_QUARTERS;
-  for (int32_t i = 0; i < f->n && status == ABUT_SUCCESS; ++i)
+  for (int32_t i = 0; i < f->n; ++i)
   {
     if (!(f->bound[i] >= 0) || !isfinite(f->d_bound[i]))
-      return reject(s, ABUT_NOT_FINITE, i,
-                    "the friction law gives a bound that is negative or none");
+      return abut_friction_reject(
+          s, ABUT_NOT_FINITE, i,
+          "the friction law gives a bound that is negative or none");
     f->bound[i] *= factor;
     f->d_bound[i] *= factor;
     if (f->rung == ABUT_RUNG_TRESCA)
@@ -372,8 +229,14 @@ abut_friction_first_state(abut_strategy *s, const uint8_t *state)
   const abut_friction_points points = points_of(f);
   if (status == ABUT_SUCCESS)
     status = abut_friction_classify(&points, f->state);
-  for (int32_t i = 0; i < f->n && state != NULL; ++i)
-    f->state[i] = state[f->first[i]];
+  for (int32_t i = 0; i < f->n; ++i)
+    if (state != NULL)
+      f->state[i] = state[f->first[i]];
+    /* Before anything presses nothing is known: stick holds bodies that
+     * friction alone holds. */
+    else if (f->state[i] == ABUT_STATE_SLIP && !(f->pressure[i] > 0)
+             && f->d_bound[i] > 0)
+      f->state[i] = ABUT_STATE_CLOSED;
   if (status == ABUT_SUCCESS)
     write_row_states(s);
   return status;
@@ -446,10 +309,13 @@ abut_friction_evaluate(abut_strategy *s)
       .d_pressure = f->d_pressure,
       .direction = f->turned,
   };
-  if (status == ABUT_SUCCESS)
-    status = abut_friction_linearise(&points, f->state, &result);
-  if (status == ABUT_SUCCESS)
-    write_blocks(s);
+  if (status != ABUT_SUCCESS)
+    return status;
+  status = abut_friction_linearise(&points, f->state, &result);
+  if (status != ABUT_SUCCESS)
+    return abut_fail(s->context, status, call,
+                     "slips or tractions are not finite");
+  write_blocks(s);
   return status;
 }
 

@@ -79,6 +79,10 @@ abut_friction_is_on(const abut_friction_rows *f)
 void abut_friction_prepare(abut_friction_rows *f);
 void abut_friction_release(abut_context *context, abut_friction_rows *f);
 
+/* Say what is wrong with point i, and return the status. */
+abut_status abut_friction_reject(abut_strategy *s, abut_status status,
+                                 int32_t i, const char *what);
+
 /* Memory and marks for the rows that were copied into the strategy. */
 abut_status abut_friction_start(abut_strategy *s);
 

@@ -30,6 +30,9 @@ abut_reason_text(abut_reason reason)
   case ABUT_REASON_NOT_FINITE:
     return "a gap or an increment is NaN or infinite: look for data that are "
            "not finite, and for a linear system that is singular";
+  case ABUT_REASON_UNHELD:
+    return "friction does not hold a body and nothing else does: give it a "
+           "support, less load along the surface, or more friction";
   }
   return "unknown reason";
 }
@@ -76,6 +79,8 @@ abut_reason_failure(abut_reason reason, const abut_law *law,
     return ABUT_FAILURE_INFEASIBLE_START;
   case ABUT_REASON_NOT_FINITE:
     return ABUT_FAILURE_NOT_FINITE;
+  case ABUT_REASON_UNHELD:
+    return ABUT_FAILURE_FREE_SLIDING;
   }
   return ABUT_FAILURE_NONE;
 }
