@@ -10,38 +10,39 @@
 
 namespace abut::shim
 {
-  namespace
+  template <int dim>
+  BodyNumbers<dim>::BodyNumbers(const dealii::Triangulation<dim> &triangulation)
   {
-    /** Body of each coarse cell, by its index. All ranks know all coarse
-     * cells. */
-    template <int dim>
-    std::vector<int>
-    number_bodies(const dealii::Triangulation<dim> &triangulation,
-                  unsigned int &n_bodies)
+    // Union-find over vertices: cells with a common vertex are one body.
+    std::vector<unsigned int> root(triangulation.n_vertices());
+    std::iota(root.begin(), root.end(), 0u);
+    const auto find = [&](unsigned int v)
     {
-      // Union-find over vertices: cells with a common vertex are one body.
-      std::vector<unsigned int> root(triangulation.n_vertices());
-      std::iota(root.begin(), root.end(), 0u);
-      const auto find = [&](unsigned int v)
-      {
-        while (root[v] != v)
-          v = root[v] = root[root[v]];
-        return v;
-      };
-      for (const auto &cell : triangulation.cell_iterators_on_level(0))
-        for (const unsigned int v : cell->vertex_indices())
-          root[find(cell->vertex_index(v))] = find(cell->vertex_index(0));
+      while (root[v] != v)
+        v = root[v] = root[root[v]];
+      return v;
+    };
+    for (const auto &cell : triangulation.cell_iterators_on_level(0))
+      for (const unsigned int v : cell->vertex_indices())
+        root[find(cell->vertex_index(v))] = find(cell->vertex_index(0));
 
-      std::map<unsigned int, int> number;
-      std::vector<int> body(triangulation.n_cells(0));
-      for (const auto &cell : triangulation.cell_iterators_on_level(0))
-        body[cell->index()] =
-            number.emplace(find(cell->vertex_index(0)), number.size())
-                .first->second;
-      n_bodies = static_cast<unsigned int>(number.size());
-      return body;
-    }
-  } // namespace
+    std::map<unsigned int, unsigned int> number;
+    body_.resize(triangulation.n_cells(0));
+    for (const auto &cell : triangulation.cell_iterators_on_level(0))
+      body_[cell->index()] =
+          number
+              .emplace(find(cell->vertex_index(0)),
+                       static_cast<unsigned int>(number.size()))
+              .first->second;
+    n_bodies_ = static_cast<unsigned int>(number.size());
+  }
+
+  template <int dim> unsigned int BodyNumbers<dim>::of(Cell cell) const
+  {
+    while (cell->level() > 0)
+      cell = cell->parent();
+    return body_[cell->index()];
+  }
 
   template <int dim>
   solve::NearNullSpace
@@ -52,8 +53,8 @@ namespace abut::shim
     const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
     solve::NearNullSpace space;
     space.n_components = fe.n_components();
-    const std::vector<int> bodies =
-        number_bodies(dof_handler.get_triangulation(), space.n_bodies);
+    const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
+    space.n_bodies = bodies.n_bodies();
     space.component.resize(owned.n_elements());
     space.body.resize(owned.n_elements());
     space.point.resize(owned.n_elements());
@@ -69,16 +70,14 @@ namespace abut::shim
         continue;
       values.reinit(cell);
       cell->get_dof_indices(dofs);
-      typename dealii::Triangulation<dim>::cell_iterator ancestor = cell;
-      while (ancestor->level() > 0)
-        ancestor = ancestor->parent();
+      const unsigned int body = bodies.of(cell);
       for (unsigned int i = 0; i < dofs.size(); ++i)
       {
         if (!owned.is_element(dofs[i]))
           continue;
         const auto k = owned.index_within_set(dofs[i]);
         space.component[k] = fe.system_to_component_index(i).first;
-        space.body[k] = bodies[ancestor->index()];
+        space.body[k] = static_cast<int>(body);
         for (unsigned int d = 0; d < dim; ++d)
           space.point[k][d] = values.quadrature_point(i)[d];
       }
@@ -86,6 +85,8 @@ namespace abut::shim
     return space;
   }
 
+  template class BodyNumbers<2>;
+  template class BodyNumbers<3>;
   template solve::NearNullSpace
   make_near_null_space(const dealii::Mapping<2> &,
                        const dealii::DoFHandler<2> &);

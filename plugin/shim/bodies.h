@@ -7,8 +7,32 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
 
+#include <vector>
+
 namespace abut::shim
 {
+  /** The connected parts of a mesh, in the order of its coarse cells, of which
+   * all ranks know all. */
+  template <int dim> class BodyNumbers
+  {
+  public:
+    using Cell = typename dealii::Triangulation<dim>::cell_iterator;
+
+    explicit BodyNumbers(const dealii::Triangulation<dim> &triangulation);
+
+    unsigned int n_bodies() const
+    {
+      return n_bodies_;
+    }
+
+    /** Number of the body of a cell of any level. */
+    unsigned int of(Cell cell) const;
+
+  private:
+    std::vector<unsigned int> body_; ///< by index of the coarse cell
+    unsigned int n_bodies_ = 0;
+  };
+
   /** Bodies are the connected parts of the mesh. Component, body and place of
    * each owned unknown of a field with support points. One pass over the
    * cells. Collective. */

@@ -3,6 +3,7 @@
 #include "contact_implementation.h"
 
 #include "deformation.h"
+#include "obstacle_in_bodies.h"
 #include "solve/floating_bodies.h"
 
 #include <abut/dealii/coded.h>
@@ -31,8 +32,11 @@ namespace abut
     /** Error of gaps that is worth a word, by what bodies are deformed. */
     constexpr double visible_gap_error = 0.05;
 
-    /** Depth of an obstacle in a facet without contact, in sizes of the facet,
-     * that is no matter of its curvature. */
+    /** Bodies in obstacles where no surface meets them, likewise. */
+    constexpr double visible_inside = 0.01;
+
+    /** Depth of an obstacle in a facet without contact, in sizes of the facet
+     * or of the obstacle, that is no matter of its curvature. */
     constexpr double missed_part = 0.05;
 
     /** Depths of this part of a facet are round-off of coordinates. */
@@ -175,7 +179,7 @@ namespace abut
 
     template <int dim>
     void judge_between(const PairResult<dim> &pair, const bool is_obstacle,
-                       const double facet, const Scale &scale,
+                       const double peak, const double size, const Scale &scale,
                        Findings &findings)
     {
       // Rows that are soft are told of by themselves.
@@ -192,14 +196,18 @@ namespace abut
                              "secondary.");
         return;
       }
-      const bool missed = pair.missed_depth > missed_part * facet
+      const bool missed = pair.missed_depth > missed_part * size
                           && scale.is_more(pair.missed_depth, useless);
+      const bool hidden = scale.is_more(std::min(peak, between), useless);
       if (missed || scale.is_more(between, useless))
-        findings.add(ABUT_FAILURE_UNSEEN, missed,
+        findings.add(ABUT_FAILURE_UNSEEN, missed || hidden,
                      pair.name
                          + ": the obstacle is in the body between nodes, "
                            "by up to "
                          + scale.compared(pair.between_rows)
+                         + (hidden ? ", of which no node knows "
+                                         + number(std::min(peak, between))
+                                   : std::string())
                          + (missed ? ", and facets that it is in by up to "
                                          + number(pair.missed_depth)
                                          + " have no contact at all"
@@ -208,22 +216,65 @@ namespace abut
                            "do not help.");
     }
 
-    /** The deepest of all ranks, missed ones before others. */
+    void judge_width(const std::string &pair, const double width,
+                     const double facet, Findings &findings)
+    {
+      if (width < 2. * facet)
+        findings.add(ABUT_FAILURE_UNSEEN, false,
+                     pair + ": the obstacle is only " + number(width)
+                         + " wide where facets of size " + number(facet)
+                         + " are near it: single nodes know of it, and its "
+                           "force is theirs. Refine the surface there.");
+    }
+
+    /** Bodies in the obstacle elsewhere than at the surface of the pair: the
+     * depth there is no more than that at the surface if that is what holds
+     * the obstacle. */
+    template <int dim>
+    void judge_inside(const std::string &pair,
+                      const shim::ObstacleInBodies<dim> &found,
+                      const double facet, const Scale &scale,
+                      Findings &findings)
+    {
+      constexpr double more = 1.5, round_off_of_facets = 1e-6, near = 1e-3;
+      if (!(found.elsewhere > round_off_of_facets * facet)
+          || found.elsewhere <= more * found.at_surface)
+        return;
+      const bool is_seen = found.at_surface > -near * facet;
+      const bool is_error = !is_seen || scale.is_more(found.elsewhere, useless);
+      std::ostringstream place;
+      place.precision(3);
+      place << found.place;
+      if (is_error || scale.is_more(found.elsewhere, visible_inside))
+        findings.add(
+            ABUT_FAILURE_WRONG_SIDE, is_error,
+            pair + ": the body is in the obstacle by "
+                + scale.compared(found.elsewhere) + ", at (" + place.str()
+                + "), where the surface of the pair is not: nothing keeps it "
+                  "out there. Move the obstacle, or let the surface have all "
+                  "sides that it may meet.");
+    }
+
+    /** The deepest of all ranks. */
     struct Deepest
     {
-      double missed = 0., any = 0.;
+      double missed = 0., peak = 0., any = 0.;
 
-      Deepest(const std::vector<shim::Unseen> &unseen,
+      /** Of the cells or of the facets of a @p pair. Collective. */
+      Deepest(const std::vector<shim::Unseen> &unseen, const std::size_t pair,
               const MPI_Comm communicator)
       {
         for (const shim::Unseen &found : unseen)
         {
+          if (found.pair != pair)
+            continue;
           any = std::max(any, found.depth);
+          peak = std::max(peak, found.peak);
           if (found.is_missed)
             missed = std::max(missed, found.depth);
         }
-        missed = MPI::max(missed, communicator);
-        any = MPI::max(any, communicator);
+        for (double *value : {&missed, &peak, &any})
+          *value = MPI::max(*value, communicator);
       }
     };
   } // namespace
@@ -249,12 +300,21 @@ namespace abut
   }
 
   template <int dim>
+  double ContactAssembler<dim>::Implementation::deformation(
+      const la::Vector &displacement) const
+  {
+    return surfaces == nullptr ? displacement.linfty_norm()
+                               : shim::deformation(near_null_space(),
+                                                   displacement, communicator);
+  }
+
+  template <int dim>
   void ContactAssembler<dim>::Implementation::examine_membrane(
       const la::Vector &displacement, const double penetration,
       ContactExamination &result)
   {
-    const Deepest deepest(find_unseen(displacement), communicator);
-    result.deformation = displacement.linfty_norm();
+    const Deepest deepest(find_unseen(displacement), 0, communicator);
+    result.deformation = deformation(displacement);
     result.missed_depth = deepest.missed;
     double cell = 0.;
     for (const auto &some : dof_handler->active_cell_iterators())
@@ -262,11 +322,16 @@ namespace abut
     const Scale scale{result.deformation, result.deformation,
                       round_off_of_places * MPI::max(cell, communicator)};
     const bool missed = scale.is_more(deepest.missed, missed_part);
-    if (missed || scale.is_more(deepest.any - penetration, useless))
+    const double between = deepest.any - penetration;
+    const double peak = std::min(deepest.peak, between);
+    const bool hidden = scale.is_more(peak, useless);
+    if (missed || scale.is_more(between, useless))
       Findings(result).add(
-          ABUT_FAILURE_UNSEEN, missed,
+          ABUT_FAILURE_UNSEEN, missed || hidden,
           "The obstacle is above the membrane between nodes, by up to "
               + scale.compared(deepest.any)
+              + (hidden ? ", of which no node knows " + number(peak)
+                        : std::string())
               + (missed
                      ? ", and cells that it is in by up to "
                            + number(deepest.missed) + " have no contact at all"
@@ -307,10 +372,10 @@ namespace abut
     judge_strain(result, allow_large_strain, findings);
     if (!can_touch)
       return result;
+    const std::vector<shim::Unseen> unseen = i.find_unseen(displacement);
     i.surfaces->examine(displacement, i.gap.data(), i.row_states().data(),
-                        i.find_unseen(displacement));
-    result.deformation =
-        shim::deformation(i.near_null_space(), displacement, i.communicator);
+                        unseen);
+    result.deformation = i.deformation(displacement);
     const std::vector<PairCheck> checks = pair_checks();
     const std::vector<PairResult<dim>> pairs = pair_results();
     for (std::size_t p = 0; p < pairs.size(); ++p)
@@ -321,8 +386,16 @@ namespace abut
       judge_sliding(pairs[p], checks[p], is_obstacle, scale, findings);
       judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
                    findings);
-      judge_between(pairs[p], is_obstacle, checks[p].facet_size, scale,
-                    findings);
+      const auto &narrow = i.surfaces->narrow(p);
+      judge_between(
+          pairs[p], is_obstacle, Deepest(unseen, p, i.communicator).peak,
+          std::min(checks[p].facet_size, narrow.width), scale, findings);
+      judge_width(pairs[p].name, narrow.width, narrow.facet, findings);
+      if (is_obstacle && i.pairs[p].geometric_gap)
+        judge_inside(pairs[p].name,
+                     shim::find_obstacle_in_bodies(*i.mapping, *i.dof_handler,
+                                                   displacement, i.pairs[p]),
+                     checks[p].facet_size, scale, findings);
       result.missed_depth =
           std::max(result.missed_depth, pairs[p].missed_depth);
     }
@@ -337,13 +410,15 @@ namespace abut
     i.check_rows("missed_depth()");
     i.check_size("missed_depth()", "displacement", displacement.size());
     depth.reinit(i.dof_handler->get_triangulation().n_active_cells());
+    const double least_peak = useless * i.deformation(displacement);
     double largest = 0.;
     for (const shim::Unseen &found : i.find_unseen(displacement))
-      if (found.is_missed)
+      if (found.is_missed || found.peak > least_peak)
       {
+        const double here = found.is_missed ? found.depth : found.peak;
         depth(found.cell) =
-            std::max(depth(found.cell), static_cast<float>(found.depth));
-        largest = std::max(largest, found.depth);
+            std::max(depth(found.cell), static_cast<float>(here));
+        largest = std::max(largest, here);
       }
     return MPI::max(largest, i.communicator);
   }
@@ -364,6 +439,8 @@ namespace abut
 #define ABUT_INSTANTIATE(dim)                                                  \
   template std::vector<shim::Unseen>                                           \
   ContactAssembler<dim>::Implementation::find_unseen(const la::Vector &);      \
+  template double ContactAssembler<dim>::Implementation::deformation(          \
+      const la::Vector &) const;                                               \
   template void ContactAssembler<dim>::Implementation::examine_membrane(       \
       const la::Vector &, double, ContactExamination &);                       \
   template void ContactAssembler<dim>::check_supports(const la::Matrix &)      \

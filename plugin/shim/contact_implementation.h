@@ -118,6 +118,9 @@ namespace abut
     std::vector<shim::Unseen> find_unseen(const la::Vector &displacement);
     void examine_membrane(const la::Vector &displacement, double penetration,
                           ContactExamination &result);
+    /** What depths are compared with: how far bodies are deformed, or the
+     * membrane is moved. Collective. */
+    double deformation(const la::Vector &displacement) const;
     /** Penetration that the law is meant to have, length. */
     double soft_on_purpose() const;
     /** How far a row's pressure and a gap are from the law, length. */

@@ -81,6 +81,23 @@ namespace abut
            + i.method.options.allowed_penetration * i.length_scale();
   }
 
+  template <int dim>
+  void ContactAssembler<dim>::add_forces_on_supports(la::Vector &forces) const
+  {
+    const Implementation &i = *implementation;
+    i.check_rows("add_forces_on_supports()");
+    i.check_size("add_forces_on_supports()", "force", forces.size());
+    if (i.surfaces == nullptr)
+      return;
+    la::Vector all(forces);
+    all = 0.;
+    i.surfaces->find_forces(i.row_pressures(), all);
+    for (const auto dof : all.locally_owned_elements())
+      if (i.constraints->is_constrained(dof))
+        forces(dof) += all(dof);
+    forces.compress(dealii::VectorOperation::add);
+  }
+
   template <int dim> double ContactAssembler<dim>::penetration() const
   {
     const Implementation &i = *implementation;
@@ -194,6 +211,8 @@ namespace abut
   template double ContactAssembler<dim>::complementarity() const;              \
   template double ContactAssembler<dim>::complementarity_error() const;        \
   template double ContactAssembler<dim>::allowed_penetration() const;          \
+  template void ContactAssembler<dim>::add_forces_on_supports(la::Vector &)    \
+      const;                                                                   \
   template double ContactAssembler<dim>::penetration() const;                  \
   template double ContactAssembler<dim>::imbalance(const la::Vector &, double) \
       const;                                                                   \

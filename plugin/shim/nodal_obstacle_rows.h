@@ -78,6 +78,11 @@ namespace abut::shim
      * Not collective. */
     void find_depth(const std::vector<dealii::Point<dim>> &points,
                     const std::vector<double> &values, Unseen &found) const;
+    /** And how far it is higher there than at these @p nodes. */
+    void find_peak(const std::vector<dealii::Point<dim>> &points,
+                   const std::vector<double> &values,
+                   const std::vector<dealii::Point<dim>> &nodes,
+                   Unseen &found) const;
 
     const dealii::Mapping<dim> &mapping_;
     const dealii::DoFHandler<dim> &dof_handler_;

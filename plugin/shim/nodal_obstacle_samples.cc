@@ -65,6 +65,35 @@ namespace abut::shim
   }
 
   template <int dim>
+  void NodalObstacleRows<dim>::find_peak(
+      const std::vector<dealii::Point<dim>> &points,
+      const std::vector<double> &values,
+      const std::vector<dealii::Point<dim>> &nodes, Unseen &found) const
+  {
+    std::vector<double> height(points.size()), known(nodes.size());
+    const auto compare =
+        [&](const dealii::Function<dim> *obstacle, const double sign)
+    {
+      if (obstacle == nullptr)
+        return;
+      obstacle->value_list(points, height);
+      obstacle->value_list(nodes, known);
+      double highest = -INFINITY;
+      for (const double value : known)
+        highest = std::max(highest, sign * value);
+      for (std::size_t q = 0; q < points.size(); ++q)
+      {
+        const double level = sign * height[q];
+        const double peak = std::min(level - highest, level - sign * values[q]);
+        if (std::isfinite(peak))
+          found.peak = std::max(found.peak, peak);
+      }
+    };
+    compare(obstacle_.lower.get(), 1.);
+    compare(obstacle_.upper.get(), -1.);
+  }
+
+  template <int dim>
   std::vector<Unseen>
   NodalObstacleRows<dim>::unseen(const la::Vector &displacement,
                                  const std::uint8_t *row_state)
@@ -96,8 +125,12 @@ namespace abut::shim
     dealii::FEValues<dim> in_cell(mapping_, fe, regular_points<dim>(n), flags);
     dealii::FEFaceValues<dim> on_face(mapping_, fe, regular_points<dim - 1>(n),
                                       flags);
+    dealii::FEValues<dim> at_nodes(
+        mapping_, fe, dealii::Quadrature<dim>(fe.get_unit_support_points()),
+        dealii::update_quadrature_points);
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
     std::vector<double> values;
+    std::vector<dealii::Point<dim>> nodes;
     std::vector<Unseen> result;
     const auto look = [&](const auto &cell,
                           const dealii::FEValuesBase<dim> &points,
@@ -111,9 +144,16 @@ namespace abut::shim
       if (found.depth <= 0.)
         return;
       cell->get_dof_indices(dofs);
+      at_nodes.reinit(cell);
+      nodes.clear();
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (is_there(i) && touches(dofs[i]))
-          found.is_missed = false;
+        if (is_there(i))
+        {
+          nodes.push_back(at_nodes.quadrature_point(i));
+          if (touches(dofs[i]))
+            found.is_missed = false;
+        }
+      find_peak(points.get_quadrature_points(), values, nodes, found);
       result.push_back(found);
     };
     run_everywhere<ObstacleError>(
@@ -149,6 +189,9 @@ namespace abut::shim
   template void NodalObstacleRows<dim>::find_depth(                            \
       const std::vector<dealii::Point<dim>> &, const std::vector<double> &,    \
       Unseen &) const;                                                         \
+  template void NodalObstacleRows<dim>::find_peak(                             \
+      const std::vector<dealii::Point<dim>> &, const std::vector<double> &,    \
+      const std::vector<dealii::Point<dim>> &, Unseen &) const;                \
   template std::vector<Unseen> NodalObstacleRows<dim>::unseen(                 \
       const la::Vector &, const std::uint8_t *);
 

@@ -18,10 +18,13 @@ namespace abut::shim
   /** A facet, or a cell of a membrane, that an obstacle is in. */
   struct Unseen
   {
-    std::size_t pair = 0;             ///< 0 of membranes
-    unsigned int cell = 0;            ///< index of the active cell
-    double depth = 0.;                ///< of the deepest sample, length > 0
-    double size = 0.;                 ///< of the facet, length; 0 of membranes
+    std::size_t pair = 0;  ///< 0 of membranes
+    unsigned int cell = 0; ///< index of the active cell
+    double depth = 0.;     ///< of the deepest sample, length > 0
+    double size = 0.;      ///< of the facet, length; 0 of membranes
+    /** Of that, how much the nodes know nothing of: gaps at zero displacement
+     * are that much smaller there than at all nodes of the facet or cell. */
+    double peak = 0.;
     bool is_missed = true;            ///< there is no contact at all
     std::array<double, 3> place = {}; ///< of that sample, where it is now
   };

@@ -20,22 +20,66 @@ namespace abut::shim
 
   namespace
   {
-    /** Shape functions of a facet at the points of a regular grid:
-     * [points][nodes]. */
-    std::vector<std::vector<double>> grid_of_facet(const abut_facet_kind kind,
-                                                   const int dim, const int n)
+    /** A regular grid of points in facets. */
+    template <int dim> class FacetGrid
     {
-      std::vector<std::vector<double>> result;
-      const auto coordinate = [&](const int k)
-      { return (2. * k + 1.) / n - 1.; };
-      for (int j = 0; j < (dim == 2 ? 1 : n); ++j)
-        for (int i = 0; i < n; ++i)
-        {
-          const double local[2] = {coordinate(i), coordinate(j)};
-          result.emplace_back(abut_facet_n_nodes(kind));
-          abut_facet_shape(kind, local, result.back().data(), nullptr, nullptr);
-        }
-      return result;
+    public:
+      FacetGrid(const abut_facet_kind kind, const unsigned int n)
+          : n_nodes_(static_cast<unsigned int>(abut_facet_n_nodes(kind)))
+      {
+        const auto coordinate = [&](const unsigned int k)
+        { return (2. * k + 1.) / n - 1.; };
+        for (unsigned int j = 0; j < (dim == 2 ? 1 : n); ++j)
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            const double local[2] = {coordinate(i), coordinate(j)};
+            shape_.emplace_back(n_nodes_);
+            abut_facet_shape(kind, local, shape_.back().data(), nullptr,
+                             nullptr);
+          }
+      }
+
+      /** The points of a facet whose node a is at place_of(a). */
+      template <typename PlaceOf>
+      std::vector<dealii::Point<dim>> points(const PlaceOf &place_of) const
+      {
+        std::vector<dealii::Point<dim>> result(shape_.size());
+        for (std::size_t q = 0; q < shape_.size(); ++q)
+          for (unsigned int a = 0; a < n_nodes_; ++a)
+            result[q] += shape_[q][a] * dealii::Tensor<1, dim>(place_of(a));
+        return result;
+      }
+
+    private:
+      unsigned int n_nodes_;
+      std::vector<std::vector<double>> shape_; ///< [points][nodes]
+    };
+
+    /** Of depths that obstacles have at points now, how much the nodes know
+     * nothing of: there, gaps were no less than @p known, and at the points
+     * they were @p before. */
+    double peak_of(const std::vector<double> &depth,
+                   const std::vector<double> &before, const double known)
+    {
+      double peak = 0.;
+      for (std::size_t q = 0; q < depth.size(); ++q)
+        peak = std::max(peak, std::min(known - before[q], depth[q]));
+      return peak;
+    }
+
+    /** Unit normal of a facet by three of its nodes, of either sign. */
+    dealii::Tensor<1, 2> normal_of(const dealii::Point<2> *node)
+    {
+      const dealii::Tensor<1, 2> normal =
+          dealii::cross_product_2d(node[1] - node[0]);
+      return normal / normal.norm();
+    }
+
+    dealii::Tensor<1, 3> normal_of(const dealii::Point<3> *node)
+    {
+      const dealii::Tensor<1, 3> normal =
+          dealii::cross_product_3d(node[1] - node[0], node[2] - node[0]);
+      return normal / normal.norm();
     }
   } // namespace
 
@@ -83,8 +127,8 @@ namespace abut::shim
     const bool is_distance = obstacle.view().kind != ABUT_OBSTACLE_FUNCTION;
     const auto me = MPI::this_mpi_process(communicator_);
     const unsigned int n_nodes = surface_.nodes_per_facet();
-    const auto grid = grid_of_facet(
-        surface_.kind, dim,
+    const FacetGrid<dim> grid(
+        surface_.kind,
         samples_per_direction(pair.secondary.everywhere.n_facets, dim - 1));
 
     std::vector<dealii::Point<dim>> points;
@@ -104,6 +148,8 @@ namespace abut::shim
       double nearest = INFINITY, size = 0.;
       const auto place_of = [&](const unsigned int a)
       { return surface_.nodes[facet.node[a]].point + u[facet.node[a]]; };
+      const auto origin_of = [&](const unsigned int a)
+      { return surface_.nodes[facet.node[a]].point; };
       for (unsigned int a = 0; a < n_nodes; ++a)
       {
         nearest = std::min(nearest, at_node[facet.node[a]]);
@@ -111,24 +157,31 @@ namespace abut::shim
       }
       if (is_distance && nearest + pair.data.gap > size)
         continue;
-      points.assign(grid.size(), dealii::Point<dim>());
-      for (std::size_t q = 0; q < grid.size(); ++q)
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          points[q] += grid[q][a] * dealii::Tensor<1, dim>(place_of(a));
+      points = grid.points(place_of);
       obstacle.distance(points, distance);
 
       Unseen here;
       here.pair = number;
       here.size = size;
+      std::vector<double> depth(distance.size());
       for (std::size_t q = 0; q < points.size(); ++q)
-        if (-distance[q] - pair.data.gap > here.depth)
-        {
-          here.depth = -distance[q] - pair.data.gap;
-          for (unsigned int d = 0; d < dim; ++d)
-            here.place[d] = points[q][d];
-        }
+      {
+        depth[q] = -distance[q] - pair.data.gap;
+        if (depth[q] <= here.depth)
+          continue;
+        here.depth = depth[q];
+        for (unsigned int d = 0; d < dim; ++d)
+          here.place[d] = points[q][d];
+      }
       if (here.depth <= 0.)
         continue;
+      points = grid.points(origin_of);
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        points.push_back(origin_of(a));
+      obstacle.distance(points, distance);
+      here.peak =
+          peak_of(depth, distance,
+                  *std::min_element(distance.end() - n_nodes, distance.end()));
       here.is_missed = touching_facets[f] == 0;
       for (unsigned int a = 0; a < n_nodes; ++a)
         if (touching[number * surface_.nodes.size() + facet.node[a]] != 0)
@@ -139,6 +192,41 @@ namespace abut::shim
                       ->active_cell_index();
       found.push_back(here);
     }
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::find_narrow(Pair &pair,
+                                         const std::vector<Direction> &u) const
+  {
+    const auto me = MPI::this_mpi_process(communicator_);
+    Narrow narrow;
+    std::vector<dealii::Point<dim>> nodes;
+    std::vector<double> distance;
+    for (const std::int32_t f : pair.secondary.facet)
+    {
+      const auto &facet = surface_.facets[f];
+      if (facet.owner != me)
+        continue;
+      nodes.clear();
+      double size = 0.;
+      for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)
+      {
+        const Node node = facet.node[a];
+        nodes.push_back(surface_.nodes[node].point + u[node]);
+        size = std::max(size, nodes[a].distance(nodes[0]));
+      }
+      pair.data.obstacle->distance(nodes, distance);
+      const double gap =
+          *std::min_element(distance.begin(), distance.end()) + pair.data.gap;
+      const double width = pair.data.obstacle->width(normal_of(nodes.data()));
+      if (gap <= size && width / size < narrow.width / narrow.facet)
+        narrow = {width, size};
+    }
+    for (const auto &[width, size] : MPI::all_gather(
+             communicator_, std::make_pair(narrow.width, narrow.facet)))
+      if (width / size < narrow.width / narrow.facet)
+        narrow = {width, size};
+    pair.narrow = narrow;
   }
 
   template <int dim>
@@ -184,8 +272,10 @@ namespace abut::shim
     for (Pair &pair : pairs_)
     {
       pair.slip = pair.gap_error = pair.missed_depth = 0.;
-      if (pair.data.obstacle)
-        pair.between_rows = 0.;
+      if (!pair.data.obstacle)
+        continue;
+      pair.between_rows = 0.;
+      find_narrow(pair, u);
     }
     for_each_component(
         [&](const Component &row)
@@ -304,6 +394,8 @@ namespace abut::shim
       std::size_t, const std::vector<Direction> &,                             \
       const std::vector<std::uint8_t> &, const std::vector<std::uint8_t> &,    \
       std::vector<Unseen> &) const;                                            \
+  template void SurfacePairRows<dim>::find_narrow(                             \
+      Pair &, const std::vector<Direction> &) const;                           \
   template std::vector<Unseen> SurfacePairRows<dim>::unseen(                   \
       const la::Vector &, const std::uint8_t *);                               \
   template void SurfacePairRows<dim>::examine(                                 \

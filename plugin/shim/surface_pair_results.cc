@@ -266,6 +266,31 @@ namespace abut::shim
   }
 
   template <int dim>
+  void
+  SurfacePairRows<dim>::find_forces(const std::vector<double> &row_pressure,
+                                    la::Vector &forces) const
+  {
+    std::vector<Direction> force(surface_.nodes.size());
+    for_each_component(
+        [&](const Component &row)
+        {
+          const double p = view_.weight[row.point] * row_pressure[row.row];
+          const auto add = [&](const Node node, const double c)
+          { force[node] -= p * c * row.direction; };
+          for_each_secondary(row.point, add);
+          for_each_primary(row.point, add);
+        });
+    for (std::size_t n = 0; n < force.size(); ++n)
+      for (const auto &parent : surface_.parents[n])
+        force[parent.index] += parent.factor * force[n];
+    for (std::size_t n = 0; n < force.size(); ++n)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (surface_.parents[n].empty() && force[n][d] != 0.)
+          forces(surface_.nodes[n].dof[d]) += force[n][d];
+    forces.compress(dealii::VectorOperation::add);
+  }
+
+  template <int dim>
   void SurfacePairRows<dim>::make_uniform(std::vector<double> &value) const
   {
     std::vector<double> sum(pairs_.size(), 0.), count(pairs_.size(), 0.);
@@ -286,6 +311,8 @@ namespace abut::shim
   template void SurfacePairRows<dim>::make_uniform(std::vector<double> &)      \
       const;                                                                   \
   template void SurfacePairRows<dim>::make_check(std::size_t, unsigned int);   \
+  template void SurfacePairRows<dim>::find_forces(const std::vector<double> &, \
+                                                  la::Vector &) const;         \
   template std::vector<PairResult<dim>> SurfacePairRows<dim>::results(         \
       const double *, const double *, const std::uint8_t *) const;
 

@@ -96,6 +96,21 @@ namespace abut::shim
                  const std::uint8_t *row_state,
                  const std::vector<Unseen> &unseen);
 
+    /** An obstacle beside a facet near it. */
+    struct Narrow
+    {
+      /** See RigidObstacle::width(); infinite where there is none. */
+      double width = INFINITY;
+      double facet = 1.; ///< size, length
+    };
+
+    /** The obstacle of a pair where it is narrowest for the facets, by the last
+     * examine(). */
+    const Narrow &narrow(std::size_t pair) const
+    {
+      return pairs_[pair].narrow;
+    }
+
     /** States to start from when a pair that must hold a body has no closed
      * row: closed are then the rows with pressure, or those of the smallest
      * gaps. Empty if there is no such pair. Collective.
@@ -143,6 +158,12 @@ namespace abut::shim
 
     /** Give the tangents of a point the value [rows] of its normal. */
     void copy_to_tangents(std::vector<double> &value) const;
+
+    /** Forces of [rows] pressures at all unknowns, be they prescribed or not,
+     * those of hanging nodes by their parents; @p forces is 0 before.
+     * Collective. */
+    void find_forces(const std::vector<double> &row_pressure,
+                     la::Vector &forces) const;
 
     /** Whether some pair has rows at quadrature points. */
     bool has_points() const;
@@ -197,6 +218,7 @@ namespace abut::shim
       // As in PairResult.
       double between_rows = 0., held_inside = 0.;
       double slip = 0., gap_error = 0., missed_depth = 0.;
+      Narrow narrow;
     };
 
     /** What the points of a pair depend on that may change from one find() to
@@ -276,6 +298,7 @@ namespace abut::shim
                        const std::vector<std::uint8_t> &touching,
                        const std::vector<std::uint8_t> &touching_facets,
                        std::vector<Unseen> &found) const;
+    void find_narrow(Pair &pair, const std::vector<Direction> &u) const;
     std::string wrong_side(const Pair &pair) const;
 
     void create_pair(const ContactPair<dim> &data);

@@ -95,6 +95,35 @@ adaptive = expect(run(plate, *ball, "Refinement/Adaptive cycles=8"), 0,
 near(adaptive["contact_force"], fine["contact_force"], 0.05,
      "force on the ball, found by adaptive meshes")
 
+# A ball narrower than a facet, at a node, is met, but its force is that of a
+# mesh.
+ball = kind("sphere", Radius=0.1, Centre="0.5, 1.1", Motion="0, -0.005*t")
+expect(run(plate, *ball), 0, "ABUT-F37", "only 0.2 wide")
+expect(run(plate, *ball, "Refinement/Level=5"), 0, without=("ABUT-F37",))
+
+# A needle that is in the block through a facet: no place of it is deep.
+expect(run(plate, *kind("box", Centre="0.625, 1.1", Size="0.01, 1")), 3,
+       "ABUT-F37", "no contact at all")
+
+# Things in the inside of the block, which its upper side does not see, however
+# small they are; beside it they are none of its business.
+for shape in (kind("box", Centre="0.63, 0.52", Size="0.003, 0.001"),
+              kind("sphere", Centre="1, 0.5", Radius=0.2)):
+    expect(run(plate, *shape, "Obstacle 1/Motion=", "Load steps/Steps=1"), 3,
+           "ABUT-F23", "the body is in the obstacle")
+for shape in (kind("box", Centre="1, -0.03", Size="10, 0.05"),
+              kind("sphere", Centre="3, 0.5", Radius=0.2)):
+    expect(run(plate, *shape, "Obstacle 1/Motion=", "Load steps/Steps=1"), 0,
+           "within reach", without=("the body is in the obstacle",))
+
+# What contact presses on a node that a support holds is no reaction: the ball
+# beside the held side of a block pushes its corner sideways.
+beside = kind("sphere", Radius=1, Centre="0.1, 2", Motion="0, -0.05*t")
+summary = expect(run(plate, *beside, "Load steps/Steps=1", "Refinement/Level=3",
+                     "Body 1/Support=0: 0, free; 2: 0, 0"), 0)
+for force, reaction in zip(summary["pair_1_force"], summary["reaction_1"]):
+    near(reaction, -force, 1e-7, "reaction and contact force")
+
 # A peak of an obstacle between the nodes of a membrane.
 peak = ("-1 + 1.4*exp(-((x - 0.1)^2 + (y - 0.06)^2)/0.002)")
 membrane = p.write("peak.prm", "set Scene = obstacle\nset Dimension = 2\n"
@@ -111,6 +140,18 @@ target = expect(run(membrane, "Refinement/Target error=0.1"), 0,
                 without=("ABUT-F37",))
 near(target["contact_force"], fine["contact_force"], 0.15,
      "force on the peak, found with a target error")
+
+# A pin at 0.51 under a string on the floor, between nodes in contact: it bears
+# the load of 10, less the slopes 5 * 0.51 - 0.4 / 0.51 and likewise at the ends.
+pin = ["Contact/Obstacle=-0.2+0.6*exp(-((x-0.51)/0.004)^2)"] + [
+    f"Exact solution/{name}=" for name in (
+        "Displacement", "Gradient", "Energy", "Contact force")]
+string = p.source / "prm/string.prm"
+summary = expect(run(string, *pin), 3, "ABUT-F37", "of which no node knows")
+p.expect(summary["active"] > 0, "the string is on the floor")
+near(expect(run(string, *pin, "Refinement/Target error=0.05"), 0,
+            without=("ABUT-F37",))["contact_force"],
+     5 + 0.4 / 0.51 + 0.4 / 0.49, 0.02, "force of the pin")
 
 # A plate that is so thin that nodes come out of its far side: the force of a
 # thick one.

@@ -116,6 +116,12 @@ refused("cantilever.prm", {
 refused("cantilever.prm",
         ("Body 1/Mesh/Arguments", "2, 1, 5 : 0, 0 : 2, 1 : true"),
         "3 repetitions for 2 directions")
+refused("cantilever.prm",
+        ("Body 1/Mesh/Arguments", "2 : 0, 0 : 2, 1 : true"),
+        "1 repetitions for 2 directions")
+refused("cantilever.prm",
+        ("Body 1/Mesh/Arguments", "1.4, 1 : 0, 0 : 2, 1 : true"),
+        "'1.4' is not a number of repetitions")
 
 # Found before the solve, by `abut check` too.
 for command in "run", "check":

@@ -1,16 +1,49 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Entries of the failure atlas show what their files expect: each third of
-them is a test of its own (--part 1, 2 or 3)."""
+"""Entries of the failure atlas show what their files expect, and the page
+doc/failures.md has the numbers that they show: each third of them is a test of
+its own (--part 1, 2 or 3)."""
+import math
+import re
+
 from program import Program
 
 p = Program()
 failures = p.source / "prm/failures"
+
+
+def numbers(page):
+    """What is measured, by title of the entry and name: failing and cured."""
+    result = {}
+    for part in re.split(r"^## ", page, flags=re.M)[1:]:
+        title = part.split("\n", 1)[0]
+        for name, *values in re.findall(
+                r"^\| `(.*?)` \| (.*?) \|.*?\| (\S*) \|[^|]*\|$", part, re.M):
+            result[title, name] = values
+    return result
+
+
+def same(one, other):
+    """Three digits are printed, and small numbers are round-off."""
+    try:
+        a, b = float(one), float(other)
+    except ValueError:
+        return one == other
+    return math.isclose(a, b, rel_tol=0.02) or max(abs(a), abs(b)) < 1e-8
+
+
 names = sorted(file.name.replace(".cure.prm", "")
                for file in failures.glob("*.cure.prm"))
 p.expect(len(names) >= 20, f"{len(names)} entries only")
+written = numbers((p.source / "doc/failures.md").read_text())
 for name in names[p.part - 1::3]:
     result = p.call("atlas", failures / f"{name}.prm", "--output", name,
                     timeout=250)
     p.expect(result.returncode == 0,
              f"{name}: {result.stdout}{result.stderr}")
+    found = numbers((p.folder / name / "failures.md").read_text())
+    p.expect(found, f"{name}: no numbers on its page")
+    for key, values in found.items():
+        p.expect(all(map(same, values, written.get(key, ["", ""]))),
+                 f"doc/failures.md: {key}: {written.get(key)} is {values}: "
+                 "write it by abut atlas")
 p.finish()

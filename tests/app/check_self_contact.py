@@ -47,6 +47,49 @@ for ranks in (2, 3):
     same(first, solve("self-contact.prm", {}, ranks)[0], f"{ranks} ranks", 1e-8)
 
 
+# Closed form: two blocks of 3 and 4 cells, one on the other, in one file. The
+# sides that meet are one surface. On a height of 2 the strain is uniform, and
+# the stress is E / (1 - nu^2) times it, whatever meets whatever.
+def layer(cells, low, high, first):
+    """Nodes and cells of a row of cells, of width 1."""
+    nodes = [(k / cells, y) for y in (low, high) for k in range(cells + 1)]
+    above = first + cells + 1
+    return nodes, [(first + k, first + k + 1, above + k + 1, above + k)
+                   for k in range(cells)]
+
+
+def blocks():
+    """A mesh file in the format UCD."""
+    nodes, cells = [], []
+    for number, low in ((3, 0), (4, 1)):
+        new = layer(number, low, low + 1, len(nodes) + 1)
+        nodes += new[0]
+        cells += new[1]
+    lines = [f"{len(nodes)} {len(cells)} 0 0 0"]
+    lines += [f"{i + 1} {x:.17g} {y} 0" for i, (x, y) in enumerate(nodes)]
+    lines += [f"{i + 1} 0 quad " + " ".join(map(str, cell))
+              for i, cell in enumerate(cells)]
+    return "\n".join(lines) + "\n"
+
+
+p.write("blocks.inp", blocks())
+SIDES = {"Body 1/Mesh/File": p.folder / "blocks.inp",
+         "Body 1/Mesh/Boundary ids": "1: abs(y - 1) < 1e-6; 2: x < 1e-6; "
+                                     "4: y < 1e-6; 5: y > 1.999999",
+         "Body 1/Support": "2: 0, free; 4: free, 0; 5: free, -0.02",
+         "Body 1/Pressure": "",
+         "Pair 1/Secondary": "1: 1", "Pair 1/Primary": "1: 1",
+         "Output/Points": "1: 1, 2", "Refinement/Level": 1}
+for settings in ({"Method/Discretisation": "dual mortar"},
+                 {"Method/Discretisation": "mortar"}):
+    summary, _ = solve("self-contact.prm", {**SIDES, **settings})
+    for key in ("contact_force", "pair_1_pressure"):
+        p.close(summary[key], 1000. / (1 - 0.3**2) * 0.01, 1e-9,
+                f"blocks, {settings}: {key}")
+    p.close(summary["point_1"][0], 0.3 / (1 - 0.3) * 0.01, 1e-9,
+            f"blocks, {settings}: widening")
+
+
 # Mistakes.
 def refused(*settings):
     return p.call("run", p.source / "prm/self-contact.prm", "--output", "out",

@@ -444,8 +444,7 @@ static void
 reasons_have_texts(void **unused)
 {
   (void)unused;
-  for (int reason = ABUT_REASON_NONE; reason <= ABUT_REASON_UNHELD;
-       ++reason)
+  for (int reason = ABUT_REASON_NONE; reason <= ABUT_REASON_UNHELD; ++reason)
     assert_string_not_equal(abut_reason_text((abut_reason)reason),
                             "unknown reason");
   assert_string_equal(abut_reason_text((abut_reason)99), "unknown reason");

@@ -288,10 +288,15 @@ class MembraneJudge:
                                 "the target error sets the tolerances")
             return
         limit = THRESHOLDS["tension"]
+        # quadratic interpolation between parents overshoots
+        hanging = (self.between_sizes(self.single_sides())[2]
+                   if self.degree > 1 else set())
         for name, values in (("pressure", self.p),
                              ("contact force", self.contact)):
             pull = 0.
-            for value, state in zip(values, self.status):
+            for i, (value, state) in enumerate(zip(values, self.status)):
+                if i in hanging:
+                    continue
                 if not self.upper:
                     pull = max(pull, -value)
                 elif not self.lower:

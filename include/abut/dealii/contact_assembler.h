@@ -427,7 +427,8 @@ namespace abut
      * strains that are not small (a warning from 5 %, an error from 50 %, or
      * from a third in the mean of a body, unless @p allow_large_strain),
      * surfaces that slide by more than a facet, obstacles that pass between
-     * nodes, penetrations beside what bodies are deformed by, and, if
+     * nodes, are narrower than facets or in the inside of bodies, penetrations
+     * beside what bodies are deformed by, and, if
      * @p residual is given (of the host, at @p displacement), forces out of
      * balance, as after a residual of wrong sign. Whatever contradicts itself
      * by more than a tenth is an error. Measures go into pair_results(), too.
@@ -442,7 +443,9 @@ namespace abut
 
     /** How deep obstacles are in what has no contact, by active cell of this
      * rank: the depth at facets without contact, or of a membrane in cells
-     * without. Error estimates that only look at nodes know nothing of it. 0
+     * without; and where there is contact, how much of an obstacle no node
+     * knows of, if that is more than a tenth of what bodies are deformed by.
+     * Error estimates that only look at nodes know nothing of it. 0
      * elsewhere. Resizes @p depth; returns the largest on all ranks. See
      * examine(). Collective. */
     virtual double missed_depth(const la::Vector &displacement,
@@ -479,6 +482,13 @@ namespace abut
      * the penetration allowed. 0 for exact and interior laws, and for
      * multipliers that an outer iteration has brought to their end. */
     virtual double allowed_penetration() const;
+
+    /** Add what contact does at unknowns that are prescribed, where
+     * add_contact_forces() has nothing: the pressures' forces there, hanging
+     * nodes by their parents. What is left of a support's reaction holds the
+     * body against all else. Nothing for membranes, which have no contact
+     * there; for nitsche that of its pressures. Collective. */
+    virtual void add_forces_on_supports(la::Vector &forces) const;
 
   private:
     struct Implementation;

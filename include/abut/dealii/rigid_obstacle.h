@@ -110,6 +110,12 @@ namespace abut
     /** Where it is. */
     virtual RigidPose<dim> pose() const;
 
+    /** How wide a bounded shape is for a surface with this unit @p normal,
+     * length > 0: the least length of it through its centre along the surface.
+     * Facets larger than that know of it by single nodes.
+     * Infinite for planes, cones, holes, functions and surfaces of facets. */
+    virtual double width(const dealii::Tensor<1, dim> &normal) const;
+
   private:
     class Implementation;
     std::unique_ptr<Implementation> implementation;

@@ -49,15 +49,28 @@ namespace abut::app
       return;
     const std::vector<std::string> all = split_list(parameters.arguments, ':');
     const std::string first = all.empty() ? "" : all[0];
+    // Sizes of steps: a list for each direction.
+    const bool are_sizes = first.find(';') != std::string::npos;
     double n_cells = 1.;
-    const std::vector<std::string> words = split_list(first, ',');
-    if (!is_cube && words.size() > dim)
+    const std::vector<std::string> words =
+        split_list(first, are_sizes ? ';' : ',');
+    // deal.II's release library reads beyond the end of shorter lists.
+    if (!is_cube && words.size() != dim)
       throw InputError(parameters.section + "/Arguments",
                        "'" + first + "' are " + std::to_string(words.size())
-                           + " repetitions for " + std::to_string(dim)
-                           + " directions.");
+                           + (are_sizes ? " lists of sizes" : " repetitions")
+                           + " for " + std::to_string(dim) + " directions.");
     for (const std::string &word : words)
-      n_cells *= std::max(1., std::atof(word.c_str()));
+    {
+      if (!are_sizes
+          && word.find_first_not_of("0123456789") != std::string::npos)
+        throw InputError(parameters.section + "/Arguments",
+                         "'" + word
+                             + "' is not a number of repetitions, which "
+                               "is whole and positive.");
+      n_cells *= are_sizes ? double(split_list(word, ',').size())
+                           : std::max(1., std::atof(word.c_str()));
+    }
     check_memory(dim, is_cube ? std::pow(n_cells, dim) : n_cells, 1,
                  MPI_COMM_SELF, parameters.section + "/Arguments");
   }

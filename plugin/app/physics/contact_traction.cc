@@ -167,7 +167,7 @@ namespace abut::app
                    const dealii::AffineConstraints<double> &hanging,
                    const Materials<dim> &materials,
                    const std::set<dealii::types::boundary_id> &contact,
-                   const la::Vector &force)
+                   const la::Vector &force, const la::Vector *status)
   {
     const Recovery<dim> recovery(mapping, dof_handler, contact);
     const la::Vector weights = recovery.weights(hanging, materials);
@@ -176,13 +176,16 @@ namespace abut::app
     la::Vector known = recovery.vector();
     const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
     for (int i = 0; i < la::n_owned(traction); ++i)
-      if (la::data(weights)[i] > nothing
-          && !constraints.is_constrained(owned.nth_index_in_set(
-              static_cast<dealii::types::global_dof_index>(i))))
-      {
-        la::data(known)[i] = 1.;
+    {
+      const bool is_free = !constraints.is_constrained(owned.nth_index_in_set(
+          static_cast<dealii::types::global_dof_index>(i)));
+      const bool is_open = status != nullptr && la::data(*status)[i] == 0.;
+      if (la::data(weights)[i] <= nothing || !(is_free || is_open))
+        continue;
+      la::data(known)[i] = 1.;
+      if (is_free)
         la::data(traction)[i] = la::data(force)[i] / la::data(weights)[i];
-      }
+    }
     known.compress(dealii::VectorOperation::insert);
     traction.compress(dealii::VectorOperation::insert);
     recovery.fill(known, traction);
@@ -195,7 +198,8 @@ namespace abut::app
       const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &,           \
       const dealii::AffineConstraints<double> &,                               \
       const dealii::AffineConstraints<double> &, const Materials<dim> &,       \
-      const std::set<dealii::types::boundary_id> &, const la::Vector &);
+      const std::set<dealii::types::boundary_id> &, const la::Vector &,        \
+      const la::Vector *);
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -25,7 +25,8 @@ namespace abut::app
    * over the contact boundary), which for dual multipliers is the multiplier
    * itself. Where a component is constrained the force is a reaction of the
    * support too; there, and where the integral of phi is nothing, the mean of
-   * the other nodes of the facets around takes its place.
+   * the other nodes of the facets around takes its place. Where all rows of
+   * the node are open, nothing presses there, whatever the support does.
    *
    * @param constraints all of the problem, closed
    * @param hanging the hanging nodes alone, closed
@@ -33,6 +34,8 @@ namespace abut::app
    * @param contact ids of the contact boundaries
    * @param force contact force at the unknowns, owned entries: internal minus
    * external forces in equilibrium; not read at constrained unknowns
+   * @param status states of the rows by unknown (ContactAssembler::status()),
+   * or null: not known
    * @return the field with ghosts, 0 off the contact boundaries.
    *
    * Collective. Two passes over the cells at the boundary. */
@@ -44,7 +47,7 @@ namespace abut::app
                    const dealii::AffineConstraints<double> &hanging,
                    const Materials<dim> &materials,
                    const std::set<dealii::types::boundary_id> &contact,
-                   const la::Vector &force);
+                   const la::Vector &force, const la::Vector *status = nullptr);
 } // namespace abut::app
 
 #endif

@@ -21,6 +21,13 @@ namespace abut::app
     else if (has_contact)
       run.contact.add_contact_forces(contact);
     problem.constraints.set_zero(contact);
+    if (has_contact)
+    {
+      la::Vector on_supports = problem.vector();
+      run.contact.add_forces_on_supports(on_supports);
+      contact += on_supports;
+      reaction -= on_supports;
+    }
 
     la::Vector held = problem.vector();
     for (const auto dof : problem.dof_handler.locally_owned_dofs())

@@ -18,10 +18,9 @@ namespace abut::app
   /** Columns `load`, `contact`, `reaction` and `held` (1 where a value is
    * prescribed): forces on the body at the
    * present displacement of @p run, hanging nodes by their parents, so that the
-   * sums are those of the bodies. Where a support holds a direction what
-   * contact presses there is part of the reaction. Laws that need the stress
-   * have no forces of their own: theirs are what is left of balance at free
-   * nodes. @p has_contact: whether there are rows at all. Collective. */
+   * sums are those of the bodies. Laws that need the stress have no forces of
+   * their own at free nodes: theirs are what is left of balance there. @p
+   * has_contact: whether there are rows at all. Collective. */
   template <int dim>
   std::vector<NodalColumn> force_columns(const DiscreteProblem<dim> &problem,
                                          const ContactRunState<dim> &run,

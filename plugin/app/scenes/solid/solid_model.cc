@@ -253,16 +253,16 @@ namespace abut::app
   {
     if (pairs->empty())
       return {};
+    const la::Vector status = run.contact.status();
     return {contact_traction(elasticity.mapping, elasticity.dof_handler,
                              elasticity.constraints, elasticity.hanging,
                              data.materials, pairs->surfaces(),
-                             elasticity.unbalanced_forces(run.u)),
+                             elasticity.unbalanced_forces(run.u), &status),
             elasticity.ghosted_field(run.contact.pressure()),
             elasticity.ghosted_field(run.contact.gap()),
-            elasticity.ghosted_field(mark_rows(elasticity.dof_handler,
-                                               run.contact.gap(),
-                                               run.contact.status())),
-            elasticity.ghosted_field(run.contact.status())};
+            elasticity.ghosted_field(
+                mark_rows(elasticity.dof_handler, run.contact.gap(), status)),
+            elasticity.ghosted_field(status)};
   }
 
   template <int dim>

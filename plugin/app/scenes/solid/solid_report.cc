@@ -79,7 +79,13 @@ namespace abut::app
 
   template <int dim> void SolidReport<dim>::report_reactions() const
   {
-    const la::Vector forces = elasticity.unbalanced_forces(u);
+    la::Vector forces = elasticity.unbalanced_forces(u);
+    if (!pairs.empty())
+    {
+      la::Vector contact_there = elasticity.vector();
+      contact.add_forces_on_supports(contact_there);
+      forces -= contact_there;
+    }
     const dealii::IndexSet &owned = elasticity.dof_handler.locally_owned_dofs();
     std::vector<bool> seen(owned.n_elements(), false);
     std::vector<double> sums(dim * bodies.size(), 0.);

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A grid of points in each cell near the obstacle, the deepest of which is
+// followed to the deepest of the cell: the distance of a convex obstacle is
+// convex, so that thin ones are found between the points as well.
+#include "obstacle_in_bodies.h"
+
+#include "agree.h"
+#include "bodies.h"
+#include "sampling.h"
+
+#include <abut/dealii/rigid_obstacle.h>
+
+#include <deal.II/base/quadrature.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::shim
+{
+  namespace
+  {
+    /** Points of a grid with @p n spaces in each direction of a box, its ends
+     * in it, as far as they are in the unit cell. */
+    template <int dim>
+    std::vector<dealii::Point<dim>> grid_about(const dealii::Point<dim> &centre,
+                                               const double half_width,
+                                               const unsigned int n)
+    {
+      std::vector<dealii::Point<dim>> points;
+      unsigned int n_points = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        n_points *= n + 1;
+      for (unsigned int i = 0; i < n_points; ++i)
+      {
+        dealii::Point<dim> point;
+        for (unsigned int d = 0, k = i; d < dim; ++d, k /= n + 1)
+          point[d] = std::clamp(
+              centre[d] + half_width * (2. * (k % (n + 1)) / n - 1.), 0., 1.);
+        points.push_back(point);
+      }
+      return points;
+    }
+
+    /** The deepest point of a cell in the obstacle. */
+    template <int dim> struct DeepestPoint
+    {
+      double depth = -INFINITY;
+      dealii::Point<dim> unit, place;
+    };
+
+    /** Looks at the deformed cells of some bodies. */
+    template <int dim> class CellProbe
+    {
+    public:
+      using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+      CellProbe(const dealii::Mapping<dim> &mapping,
+                const dealii::DoFHandler<dim> &dof_handler,
+                const la::Vector &displacement, const ContactPair<dim> &pair)
+          : mapping_(mapping),
+            fe_(dof_handler.get_fe()),
+            pair_(pair),
+            corners_(mapping, fe_, of(grid_about(middle(), 0.5, 1)), flags())
+      {
+        // No closer than this pays: the deepest point is followed from there.
+        constexpr unsigned int most = 16;
+        n_ = std::min(
+            most,
+            samples_per_direction(
+                dof_handler.get_triangulation().n_global_active_cells(), dim));
+        grid_ = std::make_unique<dealii::FEValues<dim>>(
+            mapping, fe_, of(grid_about(middle(), 0.5, n_)), flags());
+        dealii::IndexSet relevant;
+        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+        u_.reinit(dof_handler.locally_owned_dofs(), relevant,
+                  dof_handler.get_communicator());
+        u_ = displacement;
+      }
+
+      void look(const Cell &cell, ObstacleInBodies<dim> &found)
+      {
+        corners_.reinit(cell);
+        sample(corners_);
+        if (nearest() > extent())
+          return;
+        grid_->reinit(cell);
+        DeepestPoint<dim> deepest = take(cell, *grid_, found);
+        if (is_on_surface(cell, deepest.unit))
+          return;
+        for (double width = 1. / n_; width > least_width; width /= 2.)
+        {
+          dealii::FEValues<dim> closer(
+              mapping_, fe_, of(grid_about(deepest.unit, width, 4)), flags());
+          closer.reinit(cell);
+          const DeepestPoint<dim> better = take(cell, closer, found);
+          if (better.depth > deepest.depth)
+            deepest = better;
+        }
+      }
+
+    private:
+      /** Of a cell, that the deepest point is followed to. */
+      static constexpr double least_width = 1e-3;
+
+      static dealii::UpdateFlags flags()
+      {
+        return dealii::update_values | dealii::update_quadrature_points;
+      }
+
+      static dealii::Point<dim> middle()
+      {
+        dealii::Point<dim> point;
+        for (unsigned int d = 0; d < dim; ++d)
+          point[d] = 0.5;
+        return point;
+      }
+
+      static dealii::Quadrature<dim>
+      of(const std::vector<dealii::Point<dim>> &points)
+      {
+        return dealii::Quadrature<dim>(points);
+      }
+
+      /** Places and distances of the points of a cell. */
+      void sample(const dealii::FEValues<dim> &points)
+      {
+        motion_.resize(points.n_quadrature_points);
+        points[dealii::FEValuesExtractors::Vector(0)].get_function_values(
+            u_, motion_);
+        places_ = points.get_quadrature_points();
+        for (std::size_t q = 0; q < places_.size(); ++q)
+          places_[q] += motion_[q];
+        pair_.obstacle->distance(places_, distance_);
+      }
+
+      double nearest() const
+      {
+        return *std::min_element(distance_.begin(), distance_.end())
+               + pair_.gap;
+      }
+
+      /** Longest of the distances from the first point. */
+      double extent() const
+      {
+        double longest = 0.;
+        for (const auto &place : places_)
+          longest = std::max(longest, place.distance(places_[0]));
+        return longest;
+      }
+
+      bool is_on_surface(const Cell &cell, const dealii::Point<dim> &unit) const
+      {
+        constexpr double on_it = 1e-10;
+        for (const unsigned int f : cell->face_indices())
+          if (std::abs(unit[f / 2] - f % 2) < on_it
+              && cell->face(f)->at_boundary()
+              && pair_.secondary.count(cell->face(f)->boundary_id()) > 0)
+            return true;
+        return false;
+      }
+
+      /** Note what the points of a cell show. Returns the deepest. */
+      DeepestPoint<dim> take(const Cell &cell,
+                             const dealii::FEValues<dim> &points,
+                             ObstacleInBodies<dim> &found)
+      {
+        sample(points);
+        DeepestPoint<dim> deepest;
+        for (std::size_t q = 0; q < places_.size(); ++q)
+        {
+          const double depth = -distance_[q] - pair_.gap;
+          const dealii::Point<dim> &unit = points.get_quadrature().point(q);
+          if (depth > deepest.depth)
+            deepest = {depth, unit, places_[q]};
+          if (is_on_surface(cell, unit))
+            found.at_surface = std::max(found.at_surface, depth);
+          else if (depth > found.elsewhere)
+          {
+            found.elsewhere = depth;
+            found.place = places_[q];
+          }
+        }
+        return deepest;
+      }
+
+      const dealii::Mapping<dim> &mapping_;
+      const dealii::FiniteElement<dim> &fe_;
+      const ContactPair<dim> &pair_;
+      dealii::FEValues<dim> corners_;
+      unsigned int n_ = 1;
+      std::unique_ptr<dealii::FEValues<dim>> grid_;
+      la::Vector u_;
+      std::vector<dealii::Tensor<1, dim>> motion_;
+      std::vector<dealii::Point<dim>> places_;
+      std::vector<double> distance_;
+    };
+
+    /** Bodies that have a face of the secondary surface. Collective. */
+    template <int dim>
+    std::vector<int> bodies_of(const dealii::DoFHandler<dim> &dof_handler,
+                               const BodyNumbers<dim> &bodies,
+                               const ContactPair<dim> &pair)
+    {
+      std::vector<int> mine(bodies.n_bodies(), 0);
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->at_boundary())
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary()
+                && pair.secondary.count(cell->face(f)->boundary_id()) > 0)
+              mine[bodies.of(cell)] = 1;
+      dealii::Utilities::MPI::max(mine, dof_handler.get_communicator(), mine);
+      return mine;
+    }
+
+    /** The deepest of all ranks. Collective. */
+    template <int dim>
+    ObstacleInBodies<dim> of_all_ranks(const ObstacleInBodies<dim> &mine,
+                                       const MPI_Comm communicator)
+    {
+      using Item = std::tuple<double, double, dealii::Point<dim>>;
+      ObstacleInBodies<dim> all = mine;
+      for (const auto &[at_surface, elsewhere, place] :
+           dealii::Utilities::MPI::all_gather(
+               communicator, Item(mine.at_surface, mine.elsewhere, mine.place)))
+      {
+        all.at_surface = std::max(all.at_surface, at_surface);
+        if (elsewhere > all.elsewhere)
+        {
+          all.elsewhere = elsewhere;
+          all.place = place;
+        }
+      }
+      return all;
+    }
+  } // namespace
+
+  template <int dim>
+  ObstacleInBodies<dim>
+  find_obstacle_in_bodies(const dealii::Mapping<dim> &mapping,
+                          const dealii::DoFHandler<dim> &dof_handler,
+                          const la::Vector &displacement,
+                          const ContactPair<dim> &pair)
+  {
+    ObstacleInBodies<dim> found;
+    found.at_surface = found.elsewhere = -INFINITY;
+    const abut_obstacle_view view = pair.obstacle->view();
+    const bool is_bounded = view.kind == ABUT_OBSTACLE_SPHERE
+                            || view.kind == ABUT_OBSTACLE_BOX
+                            || view.kind == ABUT_OBSTACLE_CYLINDER;
+    if (!is_bounded || view.hollow)
+      return found;
+    const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
+    const std::vector<int> is_meant = bodies_of(dof_handler, bodies, pair);
+    CellProbe<dim> probe(mapping, dof_handler, displacement, pair);
+    run_everywhere<ContactError>(
+        dof_handler.get_communicator(),
+        [&]
+        {
+          for (const auto &cell : dof_handler.active_cell_iterators())
+            if (cell->is_locally_owned() && is_meant[bodies.of(cell)] != 0)
+              probe.look(cell, found);
+        });
+    return of_all_ranks(found, dof_handler.get_communicator());
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template ObstacleInBodies<dim> find_obstacle_in_bodies(                      \
+      const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &,           \
+      const la::Vector &, const ContactPair<dim> &);
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut::shim

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_OBSTACLE_IN_BODIES_H
+#define ABUT_SHIM_OBSTACLE_IN_BODIES_H
+
+#include <abut/dealii/contact_pair.h>
+#include <abut/dealii/linear_algebra.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+
+namespace abut::shim
+{
+  /** How deep deformed bodies are in an obstacle. */
+  template <int dim> struct ObstacleInBodies
+  {
+    /** At samples of the secondary surface: length, < 0 if none is inside. */
+    double at_surface = 0.;
+    /** Anywhere else in the bodies of that surface, likewise. */
+    double elsewhere = 0.;
+    /** Where that is deepest. */
+    dealii::Point<dim> place;
+  };
+
+  /** Look for the obstacle of @p pair in the bodies that its secondary surface
+   * belongs to, everywhere and not only where that surface would meet it. Only
+   * shapes that are bounded are looked for: of them all of the material is
+   * known, while planes and formulas are often meant for a part of the body
+   * alone. One pass over the cells, and more of those near the obstacle.
+   * Collective. */
+  template <int dim>
+  ObstacleInBodies<dim>
+  find_obstacle_in_bodies(const dealii::Mapping<dim> &mapping,
+                          const dealii::DoFHandler<dim> &dof_handler,
+                          const la::Vector &displacement,
+                          const ContactPair<dim> &pair);
+} // namespace abut::shim
+
+#endif
