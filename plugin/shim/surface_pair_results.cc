@@ -271,7 +271,7 @@ namespace abut::shim
                                     la::Vector &forces) const
   {
     std::vector<Direction> force(surface_.nodes.size());
-    for_each_component(
+    for_each_row(
         [&](const Component &row)
         {
           const double p = view_.weight[row.point] * row_pressure[row.row];

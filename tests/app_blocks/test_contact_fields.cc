@@ -366,7 +366,7 @@ namespace
     std::istringstream table(content(folder / "line.csv"));
     std::string row;
     std::getline(table, row);
-    Expect::that(row == "line,arc,x,y,pressure,gap,status", "columns");
+    Expect::that(row == "line,arc,x,y,pressure,gap,status,friction", "columns");
     unsigned int rows = 0;
     while (std::getline(table, row))
       ++rows;

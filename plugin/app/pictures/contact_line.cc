@@ -28,8 +28,8 @@ namespace abut::app
   namespace
   {
     using Key = dealii::types::global_dof_index;
-    /** x, y, pressure, gap, status */
-    using Values = std::array<double, 5>;
+    /** x, y, pressure, gap, status, traction in x and y */
+    using Values = std::array<double, 7>;
     using Node = std::pair<Key, Values>;
     using Edge = std::pair<Node, Node>;
 
@@ -98,8 +98,8 @@ namespace abut::app
                 : 0.;
         const double status =
             fields.status != nullptr ? (*fields.status)(node[0]) : 0.;
-        return {
-            {x[0], x[1], -length(fields.traction, node, outward), gap, status}};
+        return {{x[0], x[1], -length(fields.traction, node, outward), gap,
+                 status, fields.traction(node[0]), fields.traction(node[1])}};
       }
 
       const dealii::Mapping<2> &mapping;
@@ -107,6 +107,24 @@ namespace abut::app
       const ContactLineFields &fields;
       std::vector<Key> dofs;
     };
+
+    /** Tell pressure and friction apart, by tangents from neighbour to
+     * neighbour. */
+    void split(ContactLine &line,
+               const std::vector<dealii::Tensor<1, 2>> &traction)
+    {
+      for (std::size_t i = 0; i < line.size(); ++i)
+      {
+        dealii::Tensor<1, 2> along =
+            line[std::min(i + 1, line.size() - 1)].place
+            - line[i > 0 ? i - 1 : 0].place;
+        if (along.norm() > 0.)
+          along /= along.norm();
+        line[i].friction = traction[i] * along;
+        line[i].pressure = std::copysign(
+            (traction[i] - line[i].friction * along).norm(), line[i].pressure);
+      }
+    }
 
     /** Nodes and who is next to whom. */
     struct Graph
@@ -126,9 +144,10 @@ namespace abut::app
       }
 
       /** Walk from @p start over edges not used so far, which are removed. */
-      ContactLine walk(const Key start)
+      ContactLine walk(const Key start, const bool has_friction)
       {
         ContactLine line;
+        std::vector<dealii::Tensor<1, 2>> traction;
         for (Key at = start;;)
         {
           const Values &v = node.at(at);
@@ -138,9 +157,14 @@ namespace abut::app
                   ? 0.
                   : line.back().arc + line.back().place.distance(place);
           line.push_back({arc, place, v[2], v[3], v[4]});
+          traction.push_back(dealii::Tensor<1, 2>({v[5], v[6]}));
           std::vector<Key> &next = neighbors.at(at);
           if (next.empty())
+          {
+            if (has_friction)
+              split(line, traction);
             return line;
+          }
           const Key to = next.back();
           next.pop_back();
           std::vector<Key> &back = neighbors.at(to);
@@ -189,7 +213,7 @@ namespace abut::app
     Graph graph(edges);
     std::vector<ContactLine> lines;
     while (const Key *start = graph.next_start())
-      lines.push_back(graph.walk(*start));
+      lines.push_back(graph.walk(*start, fields.has_friction));
     std::stable_sort(lines.begin(), lines.end(),
                      [](const ContactLine &a, const ContactLine &b)
                      { return a.back().arc > b.back().arc; });
@@ -200,12 +224,13 @@ namespace abut::app
                            const std::vector<ContactLine> &lines)
   {
     std::ostringstream out;
-    out << "line,arc,x,y,pressure,gap,status\n" << std::setprecision(17);
+    out << "line,arc,x,y,pressure,gap,status,friction\n"
+        << std::setprecision(17);
     for (std::size_t i = 0; i < lines.size(); ++i)
       for (const ContactLineNode &node : lines[i])
         out << i + 1 << ',' << node.arc << ',' << node.place[0] << ','
             << node.place[1] << ',' << node.pressure << ',' << node.gap << ','
-            << node.status << '\n';
+            << node.status << ',' << node.friction << '\n';
     write_file(file, out.str());
   }
 } // namespace abut::app

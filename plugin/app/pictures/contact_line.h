@@ -28,6 +28,9 @@ namespace abut::app
     double pressure = 0.;   /**< > 0: compression */
     double gap = 0.;        /**< > 0: open; NaN where there is no row */
     double status = 0.;     /**< as ContactAssembler::status() */
+    /** Traction on the body along the line, towards its end; 0 unless it is
+     * asked for. */
+    double friction = 0.;
   };
 
   /** A connected piece of boundary; a closed one ends where it begins. */
@@ -41,6 +44,9 @@ namespace abut::app
     /** As mark_rows() and ContactAssembler::status(); null: 0. */
     const la::Vector *gap;
     const la::Vector *status;
+    /** Whether the traction has a part along the line. If not, its length is
+     * the pressure, whatever the normals of facets. */
+    bool has_friction = false;
   };
 
   /** The pieces of the boundary with ids @p ids, in walking order, longest
@@ -53,8 +59,8 @@ namespace abut::app
                 const ContactLineFields &fields);
 
   /** Write pieces one after the other as the table @p file with the columns
-   * line, arc, x, y, pressure, gap, status. Throws where the file cannot be
-   * written. Not collective: for the rank that has them. */
+   * line, arc, x, y, pressure, gap, status, friction. Throws where the file
+   * cannot be written. Not collective: for the rank that has them. */
   void write_contact_lines(const std::filesystem::path &file,
                            const std::vector<ContactLine> &lines);
 } // namespace abut::app

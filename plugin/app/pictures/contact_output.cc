@@ -37,6 +37,31 @@ namespace abut::app
   }
 
   template <int dim>
+  TractionPart<dim>::TractionPart(const std::string &name, const Part part)
+      : dealii::DataPostprocessorScalar<dim>(
+          name, dealii::update_values | dealii::update_normal_vectors),
+        part(part)
+  {
+  }
+
+  template <int dim>
+  void TractionPart<dim>::evaluate_vector_field(
+      const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+      std::vector<dealii::Vector<double>> &results) const
+  {
+    for (unsigned int q = 0; q < results.size(); ++q)
+    {
+      dealii::Tensor<1, dim> traction;
+      for (unsigned int d = 0; d < dim; ++d)
+        traction[d] = inputs.solution_values[q][d];
+      const double along = traction * inputs.normals[q];
+      results[q][0] = part == Part::pressure
+                          ? -along
+                          : (traction - along * inputs.normals[q]).norm();
+    }
+  }
+
+  template <int dim>
   FirstComponent<dim>::FirstComponent(const std::string &name)
       : dealii::DataPostprocessorScalar<dim>(name, dealii::update_values)
   {
@@ -110,6 +135,7 @@ namespace abut::app
   template la::Vector mark_rows<dim>(const dealii::DoFHandler<dim> &,          \
                                      const la::Vector &, const la::Vector &);  \
   template class SignedLength<dim>;                                            \
+  template class TractionPart<dim>;                                            \
   template class FirstComponent<dim>;                                          \
   template class NumberOfBoundary<dim>;
   ABUT_INSTANTIATE(2)

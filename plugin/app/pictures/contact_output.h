@@ -37,6 +37,28 @@ namespace abut::app
     const double outward;
   };
 
+  /** From tractions on the body, the pressure, which is what is along the
+   * normal of a facet, or the friction, the length of the rest. For faces. */
+  template <int dim>
+  class TractionPart : public dealii::DataPostprocessorScalar<dim>
+  {
+  public:
+    enum class Part
+    {
+      pressure,
+      friction
+    };
+
+    TractionPart(const std::string &name, Part part);
+
+    void evaluate_vector_field(
+        const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
+        std::vector<dealii::Vector<double>> &results) const override;
+
+  private:
+    const Part part;
+  };
+
   /** From a field that is the same number in all components that number. */
   template <int dim>
   class FirstComponent : public dealii::DataPostprocessorScalar<dim>

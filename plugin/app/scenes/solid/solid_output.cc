@@ -83,6 +83,10 @@ namespace abut::app
   {
     const ContactFields contact_values = model.contact_fields();
     const SignedLength<dim> pressures("pressure", -1.);
+    const bool has_friction = model.pairs->has_friction();
+    using Traction = TractionPart<dim>;
+    const Traction normal("pressure", Traction::Part::pressure);
+    const Traction tangential("friction", Traction::Part::friction);
     const GapOfRows<dim> gaps("gap");
     const FirstComponent<dim> states("status");
     const NumberOfBoundary<dim> numbers_of_bodies(
@@ -96,11 +100,17 @@ namespace abut::app
                        {{"displacement", &displacement},
                         {"traction", &contact_values.traction}},
                        {}};
-    fields.derived = {{&contact_values.traction, &pressures},
-                      {&contact_values.row_gap, &gaps},
-                      {&contact_values.status, &states},
-                      {&displacement, &numbers_of_bodies},
-                      {&displacement, &ids}};
+    fields.derived = {
+        {&contact_values.traction,
+         has_friction
+             ? static_cast<const dealii::DataPostprocessor<dim> *>(&normal)
+             : &pressures},
+        {&contact_values.row_gap, &gaps},
+        {&contact_values.status, &states},
+        {&displacement, &numbers_of_bodies},
+        {&displacement, &ids}};
+    if (has_friction)
+      fields.derived.emplace_back(&contact_values.traction, &tangential);
     fields.faces = model.pairs->surfaces();
     contact_series.write(time(), fields);
     if constexpr (dim == 2)
@@ -132,10 +142,10 @@ namespace abut::app
       for (const ContactPair<dim> &pair : model.pairs->pairs())
         curves.push_back(
             {pair.name,
-             contact_lines(
-                 model.elasticity.mapping, model.elasticity.dof_handler,
-                 pair.secondary,
-                 {fields.traction, &fields.row_gap, &fields.status})});
+             contact_lines(model.elasticity.mapping,
+                           model.elasticity.dof_handler, pair.secondary,
+                           {fields.traction, &fields.row_gap, &fields.status,
+                            pair.friction != nullptr})});
     }
     return curves;
   }
