@@ -17,7 +17,7 @@ sys.path.insert(0, str(p.source / "tests" / "bench"))
 sys.path.insert(0, str(p.source / "tests" / "scenes"))
 import kill_and_resume  # noqa: E402
 
-SECONDS = 120
+SECONDS = 600
 OUT = p.folder / "out"
 EVERY = section("Checkpoint", "Every steps = 1")
 BODIES = (p.source / "tests/bench/restart/rolling-press.prm").read_text()

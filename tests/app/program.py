@@ -41,7 +41,7 @@ class Program:
         self.folder = pathlib.Path(self._folder.name)
         self.failures = 0
 
-    def call(self, *words, ranks=0, environment=None, timeout=120,
+    def call(self, *words, ranks=0, environment=None, timeout=600,
              ordinary=False, before=(), at_start=None):
         """Run `abut words`; ranks > 0: under mpirun; ordinary: obeying the
         permissions of files, as root otherwise does not; before: words before

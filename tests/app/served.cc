@@ -6,9 +6,11 @@
  * begun, that enters the program's main().
  *
  * A request on standard input: how many words follow, the folder to run in,
- * files for output and errors, and the words of the command line, each ended by
- * a zero byte. The answer is a line with the exit code, or minus the number of
- * the signal that has ended the run. tests/app/served.py speaks to it. */
+ * files for output and errors, the seconds of processor time and the bytes of
+ * memory that it may take (0: any), and the words of the command line, each
+ * ended by a zero byte. The answer is a line with the exit code, or minus the
+ * number of the signal that has ended the run. tests/app/served.py speaks to
+ * it. */
 #define main program_main
 #include "app/command/main.cc"
 #undef main
@@ -16,6 +18,7 @@
 #include <fcntl.h>
 #include <iostream>
 #include <string>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
@@ -25,6 +28,7 @@ namespace
   struct Request
   {
     std::string folder, output, errors;
+    unsigned long seconds = 0, memory = 0;
     std::vector<std::string> words;
   };
 
@@ -33,10 +37,12 @@ namespace
   {
     const auto next = [&in](std::string &word)
     { return static_cast<bool>(std::getline(in, word, '\0')); };
-    std::string number;
+    std::string number, seconds, memory;
     if (!next(number) || !next(request.folder) || !next(request.output)
-        || !next(request.errors))
+        || !next(request.errors) || !next(seconds) || !next(memory))
       return false;
+    request.seconds = std::stoul(seconds);
+    request.memory = std::stoul(memory);
     request.words.resize(std::stoul(number));
     for (std::string &word : request.words)
       if (!next(word))
@@ -51,6 +57,15 @@ namespace
            && close(opened) == 0;
   }
 
+  /** Limits of this process; the system's own end comes two seconds later. */
+  bool limit(const Request &request)
+  {
+    const rlimit time = {request.seconds, request.seconds + 2};
+    const rlimit memory = {request.memory, request.memory};
+    return (request.seconds == 0 || setrlimit(RLIMIT_CPU, &time) == 0)
+           && (request.memory == 0 || setrlimit(RLIMIT_AS, &memory) == 0);
+  }
+
   /** What the new process does. */
   [[noreturn]] void run(const char *name, Request &request)
   {
@@ -58,7 +73,7 @@ namespace
     if (!redirect(0, "/dev/null", O_RDONLY)
         || !redirect(1, request.output, flags)
         || !redirect(2, request.errors, flags)
-        || chdir(request.folder.c_str()) != 0)
+        || chdir(request.folder.c_str()) != 0 || !limit(request))
       _exit(127);
     std::string first = name;
     std::vector<char *> words = {first.data()};

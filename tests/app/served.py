@@ -14,9 +14,6 @@ class Served:
     def __init__(self, program, environment=None):
         self._program, self._environment = str(program), environment
         self._process = None
-        self._folder = tempfile.TemporaryDirectory(prefix="abut-served-")
-        self._texts = [pathlib.Path(self._folder.name) / name
-                       for name in ("output", "errors")]
 
     def _start(self):
         self._process = subprocess.Popen(
@@ -25,21 +22,28 @@ class Served:
 
     def run(self, words, folder, timeout):
         """Run the program with these words in the folder."""
+        words = list(map(str, words))
+        with tempfile.TemporaryDirectory(prefix="abut-served-") as own:
+            texts = [pathlib.Path(own) / name for name in ("output", "errors")]
+            code = self.code(words, folder, timeout, texts)
+            output, errors = (path.read_text(encoding="utf-8", errors="replace")
+                              for path in texts)
+        return subprocess.CompletedProcess([self._program, *words], code,
+                                           output, errors)
+
+    def code(self, words, folder, timeout, texts, seconds=0, memory=0):
+        """Exit code of a run that writes output and errors into two files and
+        may take so many seconds of processor time and bytes, or any."""
         if self._process is None:
             self._start()
-        words = list(map(str, words))
-        request = [str(len(words)), str(folder), *map(str, self._texts), *words]
+        request = [len(words), folder, *texts, seconds, memory, *words]
         self._process.stdin.write(
-            b"".join(os.fsencode(field) + b"\0" for field in request))
+            b"".join(os.fsencode(str(field)) + b"\0" for field in request))
         self._process.stdin.flush()
         if not select.select([self._process.stdout], [], [], timeout)[0]:
             self._end()
             raise subprocess.TimeoutExpired(words, timeout)
-        code = int(self._process.stdout.readline())
-        output, errors = (path.read_text(encoding="utf-8", errors="replace")
-                          for path in self._texts)
-        return subprocess.CompletedProcess([self._program, *words], code,
-                                           output, errors)
+        return int(self._process.stdout.readline())
 
     def _end(self):
         """With the run that it has; else it ends when nobody can ask it."""
