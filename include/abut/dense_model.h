@@ -47,8 +47,9 @@ extern "C"
    * system. CALLBACK_FAILED if K is singular with what is closed in some step:
    * then begin with a state that holds the body. If points slip then, that is
    * the reason UNHELD instead, unless @p reason is NULL: friction does not hold
-   * the body, and u is that of the step before. In the rows of tangents the pressure is the
-   * traction, and the gap is the slip since the last accepted step.
+   * the body, and u is that of the step before. In the rows of tangents the
+   * pressure is the traction, and the gap is the slip since the last accepted
+   * step.
    * @param displacement [n] in: start; out: solution
    * @param pressure [n_components] in: start (may be all 0); out: pressure
    * @param state [n_components] starting set on entry, final set on return;

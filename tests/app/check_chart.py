@@ -57,7 +57,7 @@ def run(file, *words, code=0):
 # A chart with everything: a list that is multiplied, an axis of a curve's own,
 # a run without an answer, one that is refused, one that takes too long.
 file = chart(
-    "set Values = 2 | 3 | 4\nset Time limit = 1",
+    "set Values = 2 | 3 | 4\nset Time limit = 5",
     f"set Quantity = energy\nset Reference = {EXACT!r}",
     curve("lagrange", {"Method/Enforcement": "lagrange"})
     + curve("soft", {"Method/Enforcement": "penalty",

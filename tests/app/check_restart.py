@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs that are killed or stopped, and resumed: the results of a run that was
-left alone; and what is refused."""
+left alone; and what is refused. Part 1: on one rank; part 2: on two, or from one
+on to two."""
 import pathlib
 import shutil
 import signal
@@ -16,7 +17,7 @@ sys.path.insert(0, str(p.source / "tests" / "bench"))
 sys.path.insert(0, str(p.source / "tests" / "scenes"))
 import kill_and_resume  # noqa: E402
 
-SECONDS = 120
+SECONDS = 600
 OUT = p.folder / "out"
 EVERY = section("Checkpoint", "Every steps = 1")
 BODIES = (p.source / "tests/bench/restart/rolling-press.prm").read_text()
@@ -35,7 +36,7 @@ def ranked(command, ranks):
         return command
     # Time for a checkpoint between SIGTERM and SIGKILL. mpirun waits all of it,
     # twice, after a rank has ended with a code of its own.
-    return ["mpirun", "--mca", "odls_base_sigkill_timeout", "3",
+    return ["mpirun", "--mca", "odls_base_sigkill_timeout", "1",
             "--oversubscribe", "-n", str(ranks)] + command
 
 
@@ -180,59 +181,79 @@ membrane = p.write("membrane.prm", MEMBRANE)
 steps = ["Load steps/Steps=8", "Refinement/Level=3"]
 cycles = ["Refinement/Adaptive cycles=6", "Refinement/Refine fraction=0.4"]
 
-for name, settings in ((bodies, steps), (membrane, cycles)):
+
+def check_one_rank(name, settings):
     expected = alone(name, settings)
     for number in (1, 5):
         killed(name, number, expected, settings)
     stopped(name, 2, signal.SIGTERM, expected, settings)
     stopped(name, 3, signal.SIGINT, expected, settings)
-    check_other_ranks(name, expected, settings)
     check_refusals(name, settings)
     check_new_begin(name, expected, settings)
     # One checkpoint less often: the step in work is lost, no figure.
     killed(name, 1, expected, [*settings, "Checkpoint/Every steps=3"])
+
+
+def check_two_ranks(name, settings):
+    check_other_ranks(name, alone(name, settings), settings)
     expected = alone(name, settings, ranks=2)
     killed(name, 4, expected, settings, ranks=2)
     stopped(name, 2, signal.SIGTERM, expected, settings, ranks=2)
 
-# To a target error, and in three dimensions.
-target = ["Refinement/Target error=0.05", "Refinement/Refine fraction=0.4",
-          "Refinement/Coarsest level=2"]
-expected = alone(membrane, target)
-killed(membrane, 3, expected, target)
 
-# A disc from a file: resumed, refinement goes on along the circle, on two ranks
-# too, whose mesh p4est has made anew.
-corners = [(x * r, y * r) for r in (0.4, 0.5**0.5)
-           for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-cells = [(1, 2, 3, 4), *((k + 1, k + 5, (k + 1) % 4 + 5, (k + 1) % 4 + 1)
-                         for k in range(4))]
-p.write("disc.inp", f"8 {len(cells)} 0 0 0\n"
-        + "".join(f"{i} {x!r} {y!r} 0\n"
-                  for i, (x, y) in enumerate(corners, start=1))
-        + "".join(f"{i} 0 quad {' '.join(map(str, cell))}\n"
-                  for i, cell in enumerate(cells, start=1)))
-file = ["Mesh/Generator=", "Mesh/Arguments=", "Mesh/File=disc.inp", *cycles]
-disc = [*file, "Mesh/Curved sides=0: circle: 0, 0"]
-expected = alone(membrane, disc)
-killed(membrane, 3, expected, disc)
-check_other_ranks(membrane, expected, disc)
-chords = alone(membrane, file)
-p.expect(kill_and_resume.compare_coarsely(expected, chords, 1e-3, ""),
-         "a disc as a square")
+def check_target():
+    """To a target error, and in three dimensions."""
+    target = ["Refinement/Target error=0.05", "Refinement/Refine fraction=0.4",
+              "Refinement/Coarsest level=2"]
+    expected = alone(membrane, target)
+    killed(membrane, 3, expected, target)
 
-# Files that parameters name count with their content.
-mesh = p.source / "prm/slotted-block.inp"
-shutil.copy(mesh, p.folder)
-slot = p.write("slot.prm", (p.source / "prm/self-contact.prm").read_text()
-               + EVERY)
-few = ["Refinement/Level=2", "Load steps/Steps=6"]
-interrupt(slot, 2, signal.SIGTERM, few)
-p.write(mesh.name, mesh.read_text() + "\n")
-refused(slot, "content of Body 1/Mesh/File was", settings=few)
-shutil.copy(mesh, p.folder)
-p.expect(run(slot, "--resume", settings=few).returncode == 0, "the old mesh")
 
-scene = p.write("search.prm", (p.source / "prm/search-flat.prm").read_text())
-p.expect_error(run(scene, "--resume"), "write no checkpoints")
+def check_disc():
+    """A disc from a file: resumed, refinement goes on along the circle, on two
+    ranks too, whose mesh p4est has made anew."""
+    corners = [(x * r, y * r) for r in (0.4, 0.5**0.5)
+               for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    cells = [(1, 2, 3, 4), *((k + 1, k + 5, (k + 1) % 4 + 5, (k + 1) % 4 + 1)
+                             for k in range(4))]
+    p.write("disc.inp", f"8 {len(cells)} 0 0 0\n"
+            + "".join(f"{i} {x!r} {y!r} 0\n"
+                      for i, (x, y) in enumerate(corners, start=1))
+            + "".join(f"{i} 0 quad {' '.join(map(str, cell))}\n"
+                      for i, cell in enumerate(cells, start=1)))
+    file = ["Mesh/Generator=", "Mesh/Arguments=", "Mesh/File=disc.inp", *cycles]
+    disc = [*file, "Mesh/Curved sides=0: circle: 0, 0"]
+    expected = alone(membrane, disc)
+    killed(membrane, 3, expected, disc)
+    check_other_ranks(membrane, expected, disc)
+    chords = alone(membrane, file)
+    p.expect(kill_and_resume.compare_coarsely(expected, chords, 1e-3, ""),
+             "a disc as a square")
+
+
+def check_files():
+    """Files that parameters name count with their content."""
+    mesh = p.source / "prm/slotted-block.inp"
+    shutil.copy(mesh, p.folder)
+    slot = p.write("slot.prm", (p.source / "prm/self-contact.prm").read_text()
+                   + EVERY)
+    few = ["Refinement/Level=2", "Load steps/Steps=6"]
+    interrupt(slot, 2, signal.SIGTERM, few)
+    p.write(mesh.name, mesh.read_text() + "\n")
+    refused(slot, "content of Body 1/Mesh/File was", settings=few)
+    shutil.copy(mesh, p.folder)
+    p.expect(run(slot, "--resume", settings=few).returncode == 0, "the old mesh")
+
+
+if p.part == 1:
+    check_one_rank(bodies, steps)
+    check_one_rank(membrane, cycles)
+    check_target()
+    check_files()
+    scene = p.write("search.prm", (p.source / "prm/search-flat.prm").read_text())
+    p.expect_error(run(scene, "--resume"), "write no checkpoints")
+else:
+    check_two_ranks(bodies, steps)
+    check_two_ranks(membrane, cycles)
+    check_disc()
 p.finish()

@@ -9,6 +9,7 @@ import pathlib
 import subprocess
 import tempfile
 
+from served import Served
 
 def set_words(settings):
     """Words of the command line that set parameters: a dict by path, or a
@@ -29,20 +30,25 @@ class Program:
         parser = argparse.ArgumentParser()
         parser.add_argument("--abut", required=True)
         parser.add_argument("--source", required=True)
+        parser.add_argument("--served", help="the program for many runs")
         parser.add_argument("--part", type=int, help="of a test in parts")
         arguments = parser.parse_args()
         self.abut = arguments.abut
         self.part = arguments.part
+        self._served = arguments.served and Served(arguments.served)
         self.source = pathlib.Path(arguments.source)
         self._folder = tempfile.TemporaryDirectory(prefix="abut-test-")
         self.folder = pathlib.Path(self._folder.name)
         self.failures = 0
 
-    def call(self, *words, ranks=0, environment=None, timeout=120,
+    def call(self, *words, ranks=0, environment=None, timeout=600,
              ordinary=False, before=(), at_start=None):
         """Run `abut words`; ranks > 0: under mpirun; ordinary: obeying the
         permissions of files, as root otherwise does not; before: words before
         all others; at_start: called by the new process."""
+        if self._served and not (ranks or environment or ordinary or before
+                                 or at_start):
+            return self._served.run(words, self.folder, timeout)
         command = [self.abut, *map(str, words)]
         if ordinary and os.geteuid() == 0:
             command = ["setpriv", f"--bounding-set={NO_OVERRIDE}",

@@ -2,6 +2,7 @@
 // The patch test on meshes that are not distributed: each rank has its own,
 // and solves alone.
 #include "patch.h"
+#include "two_blocks_members.h"
 
 using namespace abut;
 

@@ -12,18 +12,10 @@
 
 #include <abut/dealii/contact_assembler.h>
 
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/distributed/tria.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/lac/sparsity_tools.h>
-#include <deal.II/numerics/vector_tools.h>
 
 #include <array>
 #include <cmath>
@@ -186,157 +178,32 @@ namespace abut::hosts
   public:
     /** @p communicator of a distributed mesh. */
     explicit TwoBlocks(const Case &run,
-                       const MPI_Comm communicator = MPI_COMM_WORLD)
-        : run_(run),
-          triangulation_(make_triangulation(communicator)),
-          communicator_(triangulation_->get_communicator()),
-          fe_(dealii::FE_Q<dim>(run.degree), dim),
-          mapping_(1),
-          rotation_(rotation<dim>(!run.pressed)),
-          dof_handler_(*triangulation_),
-          contact_(communicator_)
-    {
-    }
+                       const MPI_Comm communicator = MPI_COMM_WORLD);
 
     /** The pair of the two faces of the interface. */
-    ContactPair<dim> pair() const
-    {
-      ContactPair<dim> pair;
-      pair.name = "interface";
-      pair.secondary = {run_.upper_is_secondary ? upper_interface
-                                                : lower_interface};
-      pair.primary = {run_.upper_is_secondary ? lower_interface
-                                              : upper_interface};
-      pair.tied = run_.tied;
-      pair.holds_body = run_.pressed;
-      return pair;
-    }
+    ContactPair<dim> pair() const;
 
     /** All up to the search for pairs. */
-    void prepare(const std::vector<ContactPair<dim>> &pairs)
-    {
-      make_mesh();
-      setup();
-      assemble();
-      contact_.set_pairs(pairs);
-      SolverParameters solver;
-      solver.linear = SolverParameters::Linear::direct;
-      contact_.set_parameters(run_.method, solver);
-      contact_.reinit(mapping_, dof_handler_, constraints_);
-    }
+    void prepare(const std::vector<ContactPair<dim>> &pairs);
 
     /** Displacement 0, or @p lift of the upper block along the normal. */
-    la::Vector displacement(const double lift = 0.) const
-    {
-      la::Vector u(owned_, communicator_);
-      Tensor<1, dim> normal;
-      normal[dim - 1] = lift;
-      normal = rotation_ * normal;
-      std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_cell());
-      for (const auto &cell : dof_handler_.active_cell_iterators())
-        if (!cell->is_artificial() && cell->material_id() == 1)
-        {
-          cell->get_dof_indices(dofs);
-          for (unsigned int i = 0; i < dofs.size(); ++i)
-            if (owned_.is_element(dofs[i]))
-              u(dofs[i]) = normal[fe_.system_to_component_index(i).first];
-        }
-      u.compress(dealii::VectorOperation::insert);
-      return u;
-    }
+    la::Vector displacement(const double lift = 0.) const;
 
     /** The patch test. */
-    Errors solve()
-    {
-      prepare({pair()});
-      la::Vector u = start();
-      return solve(u);
-    }
+    Errors solve();
 
     /** Solve from the displacement @p u on, and put the solution there. */
-    Errors solve(la::Vector &u)
-    {
-      la::Vector residual(u), increment(u);
-      contact_.detect(u);
-      Errors errors;
-      const auto find_residual = [&]
-      {
-        stiffness_.vmult(residual, u);
-        residual -= load_;
-        constraints_.set_zero(residual);
-      };
-      const abut_law *law = run_.method.options.law;
-      if (law != nullptr && law->outer == ABUT_OUTER_BARRIER)
-      {
-        find_residual();
-        contact_.relax(stiffness_, residual, 1, u);
-        constraints_.distribute(u);
-      }
-      do
-      {
-        find_residual();
-        errors.steps +=
-            contact_.solve(stiffness_, residual, increment).n_systems;
-        u += increment;
-        constraints_.distribute(u);
-      } while (contact_.update(u));
-      measure(u, errors);
-      return errors;
-    }
+    Errors solve(la::Vector &u);
 
     /** Cut the mesh anew, with another weight of the cells of the upper block
      * (those of the lower one have 1000), and take displacement and pressures
      * along. If @p refine, cells on part of the interface are refined, too. */
     la::Vector repartition(const la::Vector &u, const unsigned int weight,
-                           const bool refine = false)
-    {
-      la::Vector displacement(owned_, relevant_, communicator_),
-          pressure(displacement);
-      // Copied, because a temporary would be moved, and the ghosts be lost.
-      const la::Vector present = contact_.pressure();
-      displacement = u;
-      pressure = present;
-      if (refine)
-      {
-        flag(0.5, 0.25);
-        triangulation_->prepare_coarsening_and_refinement();
-      }
-      dealii::parallel::distributed::SolutionTransfer<dim, la::Vector> transfer(
-          dof_handler_);
-      transfer.prepare_for_coarsening_and_refinement(
-          std::vector<const la::Vector *>{&displacement, &pressure});
-      const auto connection = triangulation_->signals.weight.connect(
-          [weight](const auto &cell, const auto) -> unsigned int
-          { return cell->material_id() == 1 ? weight : 1000; });
-      if (refine)
-        triangulation_->execute_coarsening_and_refinement();
-      else
-        triangulation_->repartition();
-      connection.disconnect();
-      setup();
-      assemble();
-      la::Vector moved(owned_, communicator_), p(moved);
-      std::vector<la::Vector *> targets = {&moved, &p};
-      transfer.interpolate(targets);
-      constraints_.distribute(moved);
-      forget();
-      contact_.set_pressure(p);
-      return moved;
-    }
+                           const bool refine = false);
 
     /** Prescribe displacements that are larger by @p lift along the normal
      * wherever the upper block is held. */
-    void lift_supports(const double lift)
-    {
-      la::Vector shift(owned_, relevant_, communicator_);
-      const la::Vector owned_shift = displacement(lift);
-      shift = owned_shift;
-      for (const auto dof : relevant_)
-        if (constraints_.is_constrained(dof)
-            && constraints_.get_constraint_entries(dof)->empty())
-          constraints_.set_inhomogeneity(
-              dof, constraints_.get_inhomogeneity(dof) + shift(dof));
-    }
+    void lift_supports(const double lift);
 
     /** Forget what contact has found. */
     void forget()
@@ -345,12 +212,7 @@ namespace abut::hosts
     }
 
     /** Start from 0, with the prescribed displacements. */
-    la::Vector start() const
-    {
-      la::Vector u(owned_, communicator_);
-      constraints_.distribute(u);
-      return u;
-    }
+    la::Vector start() const;
 
     ContactAssembler<dim> &contact()
     {
@@ -363,22 +225,7 @@ namespace abut::hosts
     }
 
     /** The upper block moved along the first axis. */
-    la::Vector sideways(const double way) const
-    {
-      la::Vector u(owned_, communicator_);
-      std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_cell());
-      for (const auto &cell : dof_handler_.active_cell_iterators())
-        if (!cell->is_artificial() && cell->material_id() == 1)
-        {
-          cell->get_dof_indices(dofs);
-          for (unsigned int i = 0; i < dofs.size(); ++i)
-            if (owned_.is_element(dofs[i])
-                && fe_.system_to_component_index(i).first == 0)
-              u(dofs[i]) = way;
-        }
-      u.compress(dealii::VectorOperation::insert);
-      return u;
-    }
+    la::Vector sideways(const double way) const;
 
     const la::Vector &load() const
     {
@@ -401,334 +248,43 @@ namespace abut::hosts
       return run_.materials[upper ? 1 : 0];
     }
 
-    void make_mesh()
-    {
-      std::vector<Point<dim>> vertices;
-      std::vector<dealii::CellData<dim>> cells;
-      dealii::SubCellData faces;
-      for (int block = 0; block < 2; ++block)
-      {
-        Point<dim> lower, upper;
-        for (int d = 0; d < dim; ++d)
-          upper[d] = 1.;
-        lower[dim - 1] = block - 1;
-        upper[dim - 1] = block;
-        dealii::Triangulation<dim> part;
-        dealii::GridGenerator::subdivided_hyper_rectangle(
-            part, std::vector<unsigned int>(dim, run_.cells[block]), lower,
-            upper);
-        for (const auto &face : part.active_face_iterators())
-          if (face->at_boundary())
-          {
-            const double z = face->center()[dim - 1];
-            if (std::abs(z - lower[dim - 1]) < 1e-12)
-              face->set_boundary_id(block == 0 ? bottom : upper_interface);
-            if (std::abs(z - upper[dim - 1]) < 1e-12)
-              face->set_boundary_id(block == 0 ? lower_interface : top);
-          }
-        part.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
-        auto [v, c, f] = dealii::GridTools::get_coarse_mesh_description(part);
-        if (block == 1)
-          for (Point<dim> &p : v)
-            p[dim - 1] += run_.separation + run_.tilt * p[0];
-        const auto shift = [&](auto &list)
-        {
-          for (auto &entity : list)
-            for (auto &vertex : entity.vertices)
-              vertex += vertices.size();
-        };
-        shift(c);
-        shift(f.boundary_lines);
-        shift(f.boundary_quads);
-        for (auto &cell : c)
-          cell.material_id = block;
-        cells.insert(cells.end(), c.begin(), c.end());
-        faces.boundary_lines.insert(faces.boundary_lines.end(),
-                                    f.boundary_lines.begin(),
-                                    f.boundary_lines.end());
-        faces.boundary_quads.insert(faces.boundary_quads.end(),
-                                    f.boundary_quads.begin(),
-                                    f.boundary_quads.end());
-        vertices.insert(vertices.end(), v.begin(), v.end());
-      }
-      for (Point<dim> &p : vertices)
-        p = Point<dim>(rotation_ * Tensor<1, dim>(p));
-      triangulation_->create_triangulation(vertices, cells, faces);
-      if (!run_.pressed)
-        refine();
-    }
+    void make_mesh();
 
     /** Flag cells of both blocks up to @p towards along the interface and up to
      * @p depth from it. */
-    void flag(const double towards, const double depth)
-    {
-      const Tensor<2, dim> back = transpose(rotation_);
-      for (const auto &cell : triangulation_->active_cell_iterators())
-        if (cell->is_locally_owned())
-        {
-          const Tensor<1, dim> x = back * Tensor<1, dim>(cell->center());
-          if (x[0] < towards && x[0] > 0.2 && std::abs(x[dim - 1]) < depth)
-            cell->set_refine_flag();
-        }
-    }
+    void flag(const double towards, const double depth);
 
     /** Some cells at the interface and in the bulk of both blocks. */
-    void refine()
-    {
-      for (int cycle = 0; cycle < 2; ++cycle)
-      {
-        flag(cycle == 0 ? 0.9 : 0.35, 0.5);
-        triangulation_->execute_coarsening_and_refinement();
-        if (dim == 3)
-          return;
-      }
-    }
+    void refine();
 
-    void setup()
-    {
-      dof_handler_.distribute_dofs(fe_);
-      owned_ = dof_handler_.locally_owned_dofs();
-      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant_);
-      constraints_.reinit(relevant_);
-      dealii::DoFTools::make_hanging_node_constraints(dof_handler_,
-                                                      constraints_);
-      n_hanging_ = MPI::sum(constraints_.n_constraints(), communicator_);
-      if (run_.pressed)
-        let_slide();
-      else
-        move_ends();
-      constraints_.close();
-      dealii::DynamicSparsityPattern pattern(relevant_);
-      dealii::DoFTools::make_sparsity_pattern(dof_handler_, pattern,
-                                              constraints_, false);
-      dealii::SparsityTools::distribute_sparsity_pattern(
-          pattern, owned_, communicator_, relevant_);
-      stiffness_.reinit(owned_, owned_, pattern, communicator_);
-      load_.reinit(owned_, communicator_);
-    }
+    void setup();
 
     /** Top and bottom follow the exact displacement. */
-    void move_ends()
-    {
-      dealii::VectorTools::interpolate_boundary_values(
-          mapping_, dof_handler_, bottom,
-          ExactDisplacement<dim>(material(false)), constraints_);
-      dealii::VectorTools::interpolate_boundary_values(
-          mapping_, dof_handler_, top, ExactDisplacement<dim>(material(true)),
-          constraints_);
-      if (run_.is_die)
-        dealii::VectorTools::interpolate_boundary_values(
-            mapping_, dof_handler_, upper_interface,
-            dealii::Functions::ZeroFunction<dim>(dim), constraints_);
-    }
+    void move_ends();
 
     /** The bottom slides; a corner of each block does not move sideways. */
-    void let_slide()
-    {
-      dealii::ComponentMask up(dim, false);
-      up.set(dim - 1, true);
-      dealii::VectorTools::interpolate_boundary_values(
-          mapping_, dof_handler_, bottom,
-          dealii::Functions::ZeroFunction<dim>(dim), constraints_, up);
-      for (const auto &cell : dof_handler_.active_cell_iterators())
-        if (!cell->is_artificial())
-          for (const unsigned int v : cell->vertex_indices())
-          {
-            const Point<dim> &x = cell->vertex(v);
-            Point<dim> corner;
-            corner[dim - 1] = cell->material_id() == 1 ? 1. : -1.;
-            if (x.distance(corner) < 1e-10
-                && !(run_.slides && cell->material_id() == 1))
-              for (int d = 0; d < dim - 1; ++d)
-                constraints_.add_line(cell->vertex_dof_index(v, d));
-          }
-    }
+    void let_slide();
 
     /** Pressure 1 on the top. */
-    void press()
-    {
-      const dealii::QGauss<dim - 1> quadrature(run_.degree + 1);
-      dealii::FEFaceValues<dim> values(mapping_, fe_, quadrature,
-                                       dealii::update_values
-                                           | dealii::update_JxW_values);
-      dealii::Vector<double> force(fe_.n_dofs_per_cell());
-      std::vector<dealii::types::global_dof_index> dofs(force.size());
-      for (const auto &cell : dof_handler_.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const auto &face : cell->face_iterators())
-            if (face->at_boundary() && face->boundary_id() == top)
-            {
-              values.reinit(cell, face);
-              force = 0.;
-              for (unsigned int i = 0; i < force.size(); ++i)
-                for (unsigned int q = 0; q < quadrature.size(); ++q)
-                  force(i) -= values.shape_value_component(i, q, dim - 1)
-                              * values.JxW(q);
-              cell->get_dof_indices(dofs);
-              constraints_.distribute_local_to_global(force, dofs, load_);
-            }
-    }
+    void press();
 
-    void assemble()
-    {
-      const dealii::QGauss<dim> quadrature(run_.degree + 1);
-      dealii::FEValues<dim> values(mapping_, fe_, quadrature,
-                                   dealii::update_gradients
-                                       | dealii::update_JxW_values);
-      const dealii::FEValuesExtractors::Vector displacement(0);
-      const unsigned int n = fe_.n_dofs_per_cell();
-      dealii::FullMatrix<double> matrix(n, n);
-      std::vector<dealii::types::global_dof_index> dofs(n);
-      dealii::AffineConstraints<double> homogeneous(relevant_);
-      for (const auto &cell : dof_handler_.active_cell_iterators())
-        if (cell->is_locally_owned())
-        {
-          const Material &m = material(cell->material_id() == 1);
-          values.reinit(cell);
-          matrix = 0.;
-          for (unsigned int q = 0; q < quadrature.size(); ++q)
-            for (unsigned int i = 0; i < n; ++i)
-            {
-              const auto e = values[displacement].symmetric_gradient(i, q);
-              for (unsigned int j = 0; j < n; ++j)
-              {
-                const auto f = values[displacement].symmetric_gradient(j, q);
-                matrix(i, j) +=
-                    (2. * m.mu() * (e * f) + m.lambda() * trace(e) * trace(f))
-                    * values.JxW(q);
-              }
-            }
-          cell->get_dof_indices(dofs);
-          constraints_.distribute_local_to_global(matrix, dofs, stiffness_);
-          // What prescribed displacements add to the load of free unknowns.
-          dealii::Vector<double> prescribed(n), force(n);
-          for (unsigned int i = 0; i < n; ++i)
-            if (constraints_.is_inhomogeneously_constrained(dofs[i]))
-              prescribed(i) = constraints_.get_inhomogeneity(dofs[i]);
-          matrix.vmult(force, prescribed);
-          force *= -1.;
-          constraints_.distribute_local_to_global(force, dofs, load_);
-        }
-      if (run_.pressed)
-        press();
-      stiffness_.compress(dealii::VectorOperation::add);
-      load_.compress(dealii::VectorOperation::add);
-      constraints_.set_zero(load_);
-    }
+    void assemble();
 
-    void measure(const la::Vector &u, Errors &errors) const
-    {
-      la::Vector ghosted(owned_, relevant_, communicator_);
-      ghosted = u;
-      const auto results = contact_.pair_results();
-      errors.reason = contact_.reason();
-      errors.area = results[0].covered_area;
-      errors.force = results[0].secondary_force.norm();
-      errors.imbalance = results[0].force_imbalance;
-      errors.moment_imbalance = results[0].moment_imbalance;
-      errors.n_rows = results[0].n_rows;
-      errors.n_active = results[0].n_active;
-      errors.hanging = n_hanging_;
-      measure_stress(ghosted, errors);
-      measure_pressure(errors);
-      if (run_.yields)
-        errors.displacement = 0.;
-    }
+    void measure(const la::Vector &u, Errors &errors) const;
 
     double mean_pressure(const Errors &errors) const
     {
       return run_.yields ? errors.force : 1.;
     }
 
-    void measure_stress(const la::Vector &u, Errors &errors) const
-    {
-      const double p = mean_pressure(errors);
-      const dealii::QGauss<dim> quadrature(run_.degree + 1);
-      dealii::FEValues<dim> values(mapping_, fe_, quadrature,
-                                   dealii::update_gradients
-                                       | dealii::update_values
-                                       | dealii::update_quadrature_points);
-      const dealii::FEValuesExtractors::Vector displacement(0);
-      std::vector<dealii::SymmetricTensor<2, dim>> strain(quadrature.size());
-      std::vector<Tensor<1, dim>> value(quadrature.size());
-      Tensor<1, dim> normal;
-      normal[dim - 1] = 1.;
-      normal = rotation_ * normal;
-      double scale = 0.;
-      for (const auto &cell : dof_handler_.active_cell_iterators())
-        if (cell->is_locally_owned())
-        {
-          const Material &m = material(cell->material_id() == 1);
-          const ExactDisplacement<dim> exact(m);
-          values.reinit(cell);
-          values[displacement].get_function_symmetric_gradients(u, strain);
-          values[displacement].get_function_values(u, value);
-          for (unsigned int q = 0; q < quadrature.size(); ++q)
-          {
-            dealii::SymmetricTensor<2, dim> stress = 2. * m.mu() * strain[q];
-            for (int i = 0; i < dim; ++i)
-              stress[i][i] += m.lambda() * trace(strain[q]);
-            errors.normal_stress = std::max(
-                errors.normal_stress, std::abs(normal * stress * normal + p));
-            for (int i = 0; i < dim; ++i)
-              for (int j = 0; j < dim; ++j)
-                errors.stress = std::max(
-                    errors.stress,
-                    std::abs(stress[i][j] + p * normal[i] * normal[j]));
-            const auto e = exact.displacement(values.quadrature_point(q));
-            scale = std::max(scale, e.norm());
-            errors.displacement =
-                std::max(errors.displacement, (value[q] - e).norm());
-          }
-        }
-      errors.stress = MPI::max(errors.stress, communicator_);
-      errors.normal_stress = MPI::max(errors.normal_stress, communicator_);
-      errors.displacement = MPI::max(errors.displacement, communicator_)
-                            / MPI::max(scale, communicator_);
-    }
+    void measure_stress(const la::Vector &u, Errors &errors) const;
 
     /** p n must be the secondary's outward normal wherever there is a row. */
-    void measure_pressure(Errors &errors) const
-    {
-      const la::Vector p = contact_.pressure(), status = contact_.status();
-      const double mean = mean_pressure(errors);
-      la::Vector pressure(owned_, relevant_, communicator_), has(pressure);
-      pressure = p;
-      has = status;
-      Tensor<1, dim> normal;
-      normal[dim - 1] = run_.upper_is_secondary ? -1. : 1.;
-      normal = rotation_ * normal;
-      const auto side =
-          run_.upper_is_secondary ? upper_interface : lower_interface;
-      std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_face());
-      for (const auto &cell : dof_handler_.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const auto &face : cell->face_iterators())
-            if (face->at_boundary() && face->boundary_id() == side)
-            {
-              face->get_dof_indices(dofs);
-              for (unsigned int i = 0; i < dofs.size(); ++i)
-                if (has(dofs[i]) > 0.)
-                  errors.pressure = std::max(
-                      errors.pressure,
-                      std::abs(
-                          pressure(dofs[i])
-                          - mean
-                                * normal[fe_.face_system_to_component_index(i)
-                                             .first]));
-            }
-      errors.pressure = MPI::max(errors.pressure, communicator_);
-    }
+    void measure_pressure(Errors &errors) const;
 
     /** A mesh that is not distributed is that of each rank alone. */
     static std::unique_ptr<Mesh>
-    make_triangulation([[maybe_unused]] const MPI_Comm communicator)
-    {
-      if constexpr (std::is_constructible_v<Mesh, MPI_Comm>)
-        return std::make_unique<Mesh>(communicator);
-      else
-        return std::make_unique<Mesh>();
-    }
+    make_triangulation([[maybe_unused]] const MPI_Comm communicator);
 
     const Case run_;
     const std::unique_ptr<Mesh> triangulation_;
@@ -755,6 +311,10 @@ namespace abut::hosts
                 << bound << std::endl;
     return good;
   }
+
+  // Compiled once, in two_blocks.cc.
+  extern template class TwoBlocks<2>;
+  extern template class TwoBlocks<3>;
 } // namespace abut::hosts
 
 #endif

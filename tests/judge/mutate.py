@@ -29,7 +29,8 @@ import time
 
 import judge
 from grammar import Mutation, read_reference
-from runs import QUIET, ROOT, base_scenes, find_level, run, small, words_of
+from runs import (QUIET, ROOT, base_scenes, find_level, run, small, stand_in,
+                  words_of)
 from scene import Scene
 
 SECONDS = 20  # of processor time
@@ -201,6 +202,8 @@ def main():
     parser.add_argument("--abut", type=pathlib.Path,
                         default=ROOT / "build/release/abut")
     parser.add_argument("--sanitized", type=pathlib.Path)
+    parser.add_argument("--served", type=pathlib.Path,
+                        help="the program for many runs")
     parser.add_argument("--seeds", default="0:200", help="FIRST:END")
     parser.add_argument("--list", type=pathlib.Path,
                         help="cases in place of seeds")
@@ -211,6 +214,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
     abut = options.abut.resolve()
+    stand_in(abut, options.served)
     trial = Trial(abut, options.sanitized and options.sanitized.resolve())
     first, _, end = options.seeds.partition(":")
     listed = read_list(options.list) if options.list else []

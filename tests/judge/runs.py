@@ -6,11 +6,15 @@ import re
 import resource
 import signal
 import subprocess
+import sys
 import tempfile
 
 from scene import Scene
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests/app"))
+from served import Served  # noqa: E402
+
 MOST_UNKNOWNS = 2000
 WAITING = 15  # real by processor time, on a machine with other work
 MEMORY = 6 * 2**30
@@ -28,6 +32,22 @@ def base_scenes():
     return result
 
 
+def environment():
+    return dict(os.environ, OMP_NUM_THREADS="1", DEAL_II_NUM_THREADS="1",
+                OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+
+
+# Programs that are loaded once, by what they stand for.
+STAND_INS = {}
+
+
+def stand_in(abut, served):
+    """Runs of `abut` on one rank are those of a program that is loaded once;
+    said before processes are forked, each of which has its own."""
+    if served:
+        STAND_INS[str(abut)] = Served(served.resolve(), environment())
+
+
 def limits(seconds, memory):
     """What a child does before it becomes the program."""
     def of_child():
@@ -38,31 +58,35 @@ def limits(seconds, memory):
     return of_child
 
 
-def run(words, seconds, folder, memory=MEMORY):
-    """Exit code ("time" if it took too long), and what it printed as output
-    and as errors."""
-    environment = dict(os.environ, OMP_NUM_THREADS="1",
-                       DEAL_II_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
-                       OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    with open(folder / "stdout", "w+", encoding="utf-8",
-              errors="replace") as output, open(
-                  folder / "stderr", "w+", encoding="utf-8",
-                  errors="replace") as errors:
+def code_of(words, seconds, folder, memory, texts):
+    """Exit code of a run that writes output and errors into these files."""
+    if words[0] in STAND_INS:
+        return STAND_INS[words[0]].code(words[1:], folder, WAITING * seconds,
+                                        texts, seconds, memory or 0)
+    with open(texts[0], "wb") as output, open(texts[1], "wb") as errors:
         child = subprocess.Popen(
-            list(map(str, words)), stdout=output, stderr=errors, cwd=folder,
-            env=environment, preexec_fn=limits(seconds, memory))
+            words, stdout=output, stderr=errors, cwd=folder,
+            env=environment(), preexec_fn=limits(seconds, memory))
         try:
-            code = child.wait(WAITING * seconds)
+            return child.wait(WAITING * seconds)
         except subprocess.TimeoutExpired:
             os.killpg(child.pid, signal.SIGKILL)
             child.wait()
-            code = "time"
-        output.seek(0)
-        errors.seek(0)
-        texts = output.read(), errors.read()
+            raise
+
+
+def run(words, seconds, folder, memory=MEMORY):
+    """Exit code ("time" if it took too long), and what it printed as output
+    and as errors."""
+    texts = [folder / name for name in ("stdout", "stderr")]
+    try:
+        code = code_of(list(map(str, words)), seconds, folder, memory, texts)
+    except subprocess.TimeoutExpired:
+        code = "time"
     if code in (-signal.SIGXCPU, -signal.SIGKILL):
         code = "time"
-    return code, *texts
+    return code, *(text.read_text(encoding="utf-8", errors="replace")
+                   for text in texts)
 
 
 def words_of(abut, scene, ranks, overrides=()):

@@ -14,7 +14,8 @@ import sys
 import tempfile
 
 import judge
-from runs import QUIET, ROOT, base_scenes, find_level, run, small, words_of
+from runs import (QUIET, ROOT, base_scenes, find_level, run, small, stand_in,
+                  words_of)
 from scene import Scene
 
 SECONDS = 120
@@ -115,9 +116,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--abut", type=pathlib.Path,
                         default=ROOT / "build/release/abut")
+    parser.add_argument("--served", type=pathlib.Path,
+                        help="the program for many runs")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--only", default="")
     options = parser.parse_args()
+    stand_in(options.abut.resolve(), options.served)
     trial = Trial(options.abut.resolve())
     chosen = [case for case in cases() if options.only in case.name]
     n_right = faults = 0

@@ -3,6 +3,7 @@
 """Run a scene and compare its results with figures known beforehand.
 
     run_scene.py --abut build/release/abut tests/scenes/NAME.json [--keep DIR]
+                 [--served build/release/abut_served]
 
 An expectation file holds these keys; `cases` holds a list of objects with the
 same keys, each of which is merged over the top ones and run by itself.
@@ -50,6 +51,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests/app"))
+from served import Served  # noqa: E402
+
 RUN_SECONDS = 900
 
 
@@ -163,18 +167,16 @@ def edited_scene(case, folder):
     return copy
 
 
-def command_line(abut, case, n_ranks, folder, output):
-    """The words of a run."""
+def command_line(case, folder, output):
+    """The words of a run, after the program's name."""
     if "arguments" in case:
-        words = [abut, *case["arguments"]]
+        words = list(case["arguments"])
     else:
-        words = [abut, "run", edited_scene(case, folder), "--output", output]
+        words = ["run", edited_scene(case, folder), "--output", output]
     for name, value in case.get("set", {}).items():
         if isinstance(value, bool):
             value = "true" if value else "false"
         words += ["--set", f"{name}={value}"]
-    if n_ranks > 1:
-        words = ["mpirun", "--oversubscribe", "-n", n_ranks] + words
     return [str(word) for word in words]
 
 
@@ -186,6 +188,24 @@ def environment():
         result["OMPI_ALLOW_RUN_AS_ROOT"] = "1"
         result["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
     return result
+
+
+class Program:
+    """The program; runs on one rank are those of one that is loaded once, if it
+    is given (tests/app/served.cc)."""
+
+    def __init__(self, abut, served=None):
+        self.abut = str(abut)
+        self.served = served and Served(served, environment())
+
+    def run(self, words, n_ranks, folder):
+        if n_ranks == 1 and self.served:
+            return self.served.run(words, folder, RUN_SECONDS)
+        start = (["mpirun", "--oversubscribe", "-n", str(n_ranks)]
+                 if n_ranks > 1 else [])
+        return subprocess.run([*start, self.abut, *words], capture_output=True,
+                              text=True, env=environment(),
+                              timeout=RUN_SECONDS, cwd=folder)
 
 
 def check_streams(case, done, faults):
@@ -221,7 +241,7 @@ def check_files(case, output, faults):
                       f"{pattern} was written")
 
 
-def run_once(abut, case, n_ranks, folder):
+def run_once(program, case, n_ranks, folder):
     """Run and check; returns faults and summary."""
     faults = Faults()
     folder.mkdir(parents=True, exist_ok=True)
@@ -229,11 +249,9 @@ def run_once(abut, case, n_ranks, folder):
     if case.get("blocked"):
         output.write_text("in the way")
         output = output / "folder"
-    words = command_line(abut, case, n_ranks, folder, output)
+    words = command_line(case, folder, output)
     try:
-        done = subprocess.run(words, capture_output=True, text=True,
-                              env=environment(), timeout=RUN_SECONDS,
-                              cwd=folder)
+        done = program.run(words, n_ranks, folder)
     except subprocess.TimeoutExpired:
         faults.append(f"not finished after {RUN_SECONDS} s")
         return faults, {}
@@ -254,12 +272,12 @@ def run_once(abut, case, n_ranks, folder):
     return faults, summary
 
 
-def run_case(abut, case, folder):
+def run_case(program, case, folder):
     """One case on all its numbers of ranks; returns faults and the summary on
     the first number."""
     all_faults, first = [], None
     for n_ranks in case.get("ranks", [1]):
-        faults, summary = run_once(abut, case, n_ranks,
+        faults, summary = run_once(program, case, n_ranks,
                                    folder / f"{n_ranks}-ranks")
         if first is None:
             first = summary
@@ -299,7 +317,7 @@ def case_label(case, index):
     return case.get("name", settings or f"case {index + 1}")
 
 
-def run_file(abut, path, folder):
+def run_file(program, path, folder):
     """All cases of an expectation file; returns faults."""
     expectation = json.loads(path.read_text(encoding="utf-8"))
     cases = expectation.pop("cases", [{}])
@@ -310,7 +328,7 @@ def run_file(abut, path, folder):
         for key in ("set", "summary"):
             if key in expectation and key in own:
                 case[key] = {**expectation[key], **own[key]}
-        found, summary = run_case(abut, case, folder / str(index + 1))
+        found, summary = run_case(program, case, folder / str(index + 1))
         label = case_label(case, index)
         print(f"{'ok    ' if not found else 'FAILED'} {label}", flush=True)
         faults += [f"{label}: {fault}" for fault in found]
@@ -323,15 +341,18 @@ def main():
     parser.add_argument("expectation", type=pathlib.Path)
     parser.add_argument("--abut", type=pathlib.Path,
                         default=ROOT / "build/release/abut")
+    parser.add_argument("--served", type=pathlib.Path,
+                        help="the program for many runs")
     parser.add_argument("--keep", type=pathlib.Path,
                         help="keep the output folders in this folder")
     options = parser.parse_args()
-    abut = options.abut.resolve()
+    program = Program(options.abut.resolve(),
+                      options.served and options.served.resolve())
     if options.keep:
-        faults = run_file(abut, options.expectation, options.keep.resolve())
+        faults = run_file(program, options.expectation, options.keep.resolve())
     else:
         with tempfile.TemporaryDirectory(prefix="abut-scene-") as folder:
-            faults = run_file(abut, options.expectation, pathlib.Path(folder))
+            faults = run_file(program, options.expectation, pathlib.Path(folder))
     for fault in faults:
         print(f"FAILED {fault}", file=sys.stderr)
     return 1 if faults else 0
