@@ -10,6 +10,10 @@ namespace abut::app
    * or = 0, all given as numbers, by the same methods that large scenes use.
    * @p dimension is not used. */
   std::unique_ptr<Scene> make_point_mass(unsigned int dimension);
+
+  /** The scene `chain of masses`: masses in a row on a rigid plane, held and
+   * drawn by springs, with friction, in load steps. */
+  std::unique_ptr<Scene> make_chain(unsigned int dimension);
 } // namespace abut::app
 
 #endif
