@@ -16,13 +16,15 @@ import argparse
 import pathlib
 import sys
 
+from masses import MassesJudge
 from membrane import MembraneJudge
 from run_files import read_summary
 from scene import Scene
 from solid import SolidJudge
 from verdict import CannotJudge, Findings, Wrong
 
-JUDGES = {"solid": SolidJudge, "obstacle": MembraneJudge}
+JUDGES = {"solid": SolidJudge, "obstacle": MembraneJudge,
+          "chain of masses": MassesJudge}
 
 
 def judge(folder, scene, findings):

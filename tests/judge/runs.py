@@ -27,7 +27,7 @@ def base_scenes():
     """Scenes of prm/ that the judge knows, by name."""
     result = {}
     for path in sorted((ROOT / "prm").glob("*.prm")):
-        if Scene(path).get("Scene", "obstacle") in ("solid", "obstacle"):
+        if has_mesh(Scene(path)):
             result[path.name] = path
     return result
 
@@ -46,6 +46,11 @@ def stand_in(abut, served):
     said before processes are forked, each of which has its own."""
     if served:
         STAND_INS[str(abut)] = Served(served.resolve(), environment())
+
+
+def has_mesh(scene):
+    """Whether a scene has what cuts it to a size, and fields."""
+    return scene.get("Scene", "obstacle") in ("solid", "obstacle")
 
 
 def limits(seconds, memory):
@@ -110,6 +115,8 @@ def find_level(abut, path, overrides=(), most=MOST_UNKNOWNS):
     so many unknowns: from their number on a coarse one, by `abut check`."""
     overrides = dict(overrides)
     scene = Scene(path)
+    if not has_mesh(scene):
+        return 0
     kind = scene.get("Scene", "obstacle")
     own = int(overrides.get("Refinement/Level") or scene.get(
         "Refinement/Level", "2" if kind == "solid" else "5"))

@@ -14,8 +14,8 @@ import sys
 import tempfile
 
 import judge
-from runs import (QUIET, ROOT, base_scenes, find_level, run, small, stand_in,
-                  words_of)
+from runs import (QUIET, ROOT, base_scenes, find_level, has_mesh, run, small,
+                  stand_in, words_of)
 from scene import Scene
 
 SECONDS = 120
@@ -97,8 +97,10 @@ class Trial:
             cycles = min(2, int(case.overrides.get(
                 "Refinement/Adaptive cycles", Scene(scene).get(
                     "Refinement/Adaptive cycles", "0"))))
-            overrides = {**case.overrides, **small(level), **QUIET,
-                         "Refinement/Adaptive cycles": cycles}
+            overrides = case.overrides
+            if has_mesh(Scene(scene)):
+                overrides = {**overrides, **small(level), **QUIET,
+                             "Refinement/Adaptive cycles": cycles}
             code, _, errors = run(
                 words_of(self.abut, scene, case.ranks, overrides.items()),
                 SECONDS, folder)

@@ -43,6 +43,13 @@ THRESHOLDS = {
     "gap": Threshold(
         1e-9, "of the largest value: displacement minus obstacle, by the "
         "judge's own evaluation of the formula"),
+    "friction": Threshold(
+        1e-8, "of the largest force, and of the largest force times the largest "
+        "slip: Coulomb's law at a mass, whose dense problems are solved to "
+        "round-off"),
+    "springs": Threshold(
+        1e-4, "of the largest displacement: what sticks may move and what "
+        "presses may penetrate by the tolerance of methods of multipliers"),
     "weights": Threshold(
         1e-3, "of the contact force: weight times pressure, with the judge's "
         "own integrals of the shape functions"),

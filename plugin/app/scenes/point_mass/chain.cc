@@ -375,14 +375,13 @@ namespace abut::app
     void write_mass(std::ostream &out, const ChainState &state,
                     const unsigned int dim, const std::size_t i)
     {
-      static const char *const words[] = {"open", "stick", "slip"};
       for (unsigned int d = 0; d < dim; ++d)
         out << "," << json_number(state.displacement[i * dim + d]);
       for (unsigned int d = 0; d < dim; ++d)
         out << "," << json_number(state.pressure[i * dim + d]);
       for (unsigned int t = 0; t + 1 < dim; ++t)
         out << "," << json_number(state.slip[i * (dim - 1) + t]);
-      out << "," << words[state.state[i]] << "\n";
+      out << "," << static_cast<int>(state.state[i]) << "\n";
     }
 
     void write_header(std::ostream &out, const unsigned int dim)
