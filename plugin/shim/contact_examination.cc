@@ -236,23 +236,13 @@ namespace abut
                       const double facet, const Scale &scale,
                       Findings &findings)
     {
-      constexpr double more = 1.5, round_off_of_facets = 1e-6, near = 1e-3;
-      if (!(found.elsewhere > round_off_of_facets * facet)
-          || found.elsewhere <= more * found.at_surface)
+      if (!found.is_inside(facet))
         return;
-      const bool is_seen = found.at_surface > -near * facet;
-      const bool is_error = !is_seen || scale.is_more(found.elsewhere, useless);
-      std::ostringstream place;
-      place.precision(3);
-      place << found.place;
+      const bool is_error =
+          !found.is_met(facet) || scale.is_more(found.elsewhere, useless);
       if (is_error || scale.is_more(found.elsewhere, visible_inside))
-        findings.add(
-            ABUT_FAILURE_WRONG_SIDE, is_error,
-            pair + ": the body is in the obstacle by "
-                + scale.compared(found.elsewhere) + ", at (" + place.str()
-                + "), where the surface of the pair is not: nothing keeps it "
-                  "out there. Move the obstacle, or let the surface have all "
-                  "sides that it may meet.");
+        findings.add(ABUT_FAILURE_WRONG_SIDE, is_error,
+                     pair + ": " + found.text(scale.compared(found.elsewhere)));
     }
 
     /** The deepest of all ranks. */

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace abut::shim
 {
@@ -238,6 +239,32 @@ namespace abut::shim
   } // namespace
 
   template <int dim>
+  bool ObstacleInBodies<dim>::is_inside(const double facet) const
+  {
+    constexpr double more = 1.5, round_off = 1e-6;
+    return elsewhere > round_off * facet && elsewhere > more * at_surface;
+  }
+
+  template <int dim>
+  bool ObstacleInBodies<dim>::is_met(const double facet) const
+  {
+    constexpr double near = 1e-3;
+    return at_surface > -near * facet;
+  }
+
+  template <int dim>
+  std::string ObstacleInBodies<dim>::text(const std::string &depth) const
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "the body is in the obstacle by " << depth << ", at (" << place
+         << "), where the surface of the pair is not: nothing keeps it out "
+            "there. Move the obstacle, or let the surface have all sides that "
+            "it may meet.";
+    return text.str();
+  }
+
+  template <int dim>
   ObstacleInBodies<dim>
   find_obstacle_in_bodies(const dealii::Mapping<dim> &mapping,
                           const dealii::DoFHandler<dim> &dof_handler,
@@ -267,6 +294,7 @@ namespace abut::shim
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
+  template struct ObstacleInBodies<dim>;                                       \
   template ObstacleInBodies<dim> find_obstacle_in_bodies(                      \
       const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &,           \
       const la::Vector &, const ContactPair<dim> &);

@@ -8,6 +8,8 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
 
+#include <string>
+
 namespace abut::shim
 {
   /** How deep deformed bodies are in an obstacle. */
@@ -19,6 +21,16 @@ namespace abut::shim
     double elsewhere = 0.;
     /** Where that is deepest. */
     dealii::Point<dim> place;
+
+    /** Whether it is deeper there than the surface could hold it off, and by
+     * more than the round-off of facets of size @p facet. */
+    bool is_inside(double facet) const;
+
+    /** Whether the surface meets the obstacle at all. */
+    bool is_met(double facet) const;
+
+    /** What is wrong and what to do, with the depth in words. */
+    std::string text(const std::string &depth) const;
   };
 
   /** Look for the obstacle of @p pair in the bodies that its secondary surface

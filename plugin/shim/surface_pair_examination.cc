@@ -4,6 +4,7 @@
 #include "surface_pair_rows.h"
 
 #include "agree.h"
+#include "obstacle_in_bodies.h"
 #include "sampling.h"
 
 #include <abut/dealii/coded.h>
@@ -55,16 +56,59 @@ namespace abut::shim
       std::vector<std::vector<double>> shape_; ///< [points][nodes]
     };
 
-    /** Of depths that obstacles have at points now, how much the nodes know
-     * nothing of: there, gaps were no less than @p known, and at the points
-     * they were @p before. */
-    double peak_of(const std::vector<double> &depth,
-                   const std::vector<double> &before, const double known)
+    /** How far the facet of these nodes with these outward normals is at the
+     * most before the curve through them, where that is hollow: all of
+     * an obstacle that fits is in the facet that far. */
+    template <int dim>
+    double hollow_of(const std::vector<dealii::Point<dim>> &node,
+                     const std::vector<dealii::Tensor<1, dim>> &normal)
     {
+      // h^2 / (8 R), by what the normals turn; at the ends of a surface they
+      // are those of one facet and turn by half.
+      constexpr double rough = 2.;
+      double hollow = 0.;
+      for (std::size_t a = 0; a < node.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+          hollow = std::max(hollow, -rough / 8. * (normal[a] - normal[b])
+                                        * (node[a] - node[b]));
+      return hollow;
+    }
+
+    /** Of the @p depth that an obstacle has now at the points of a facet, what
+     * its nodes know nothing of: where they were, their gaps are larger than at
+     * the point. */
+    template <int dim>
+    double peak_of(const RigidObstacle<dim> &obstacle,
+                   const FacetGrid<dim> &grid,
+                   const std::vector<dealii::Point<dim>> &nodes,
+                   const std::vector<dealii::Tensor<1, dim>> &normal,
+                   const std::vector<double> &depth)
+    {
+      std::vector<double> gap, gap_of_nodes;
+      obstacle.distance(nodes, gap_of_nodes);
+      obstacle.distance(
+          grid.points([&](const unsigned int a) { return nodes[a]; }), gap);
+      const double known =
+          *std::min_element(gap_of_nodes.begin(), gap_of_nodes.end())
+          - hollow_of(nodes, normal);
       double peak = 0.;
       for (std::size_t q = 0; q < depth.size(); ++q)
-        peak = std::max(peak, std::min(known - before[q], depth[q]));
+        peak = std::max(peak, std::min(known - gap[q], depth[q]));
       return peak;
+    }
+
+    /** Note the deepest of points. */
+    template <int dim>
+    void take_deepest(const std::vector<dealii::Point<dim>> &points,
+                      const std::vector<double> &depth, Unseen &found)
+    {
+      for (std::size_t q = 0; q < points.size(); ++q)
+        if (depth[q] > found.depth)
+        {
+          found.depth = depth[q];
+          for (unsigned int d = 0; d < dim; ++d)
+            found.place[d] = points[q][d];
+        }
     }
 
     /** Unit normal of a facet by three of its nodes, of either sign. */
@@ -136,9 +180,17 @@ namespace abut::shim
     for (const Node node : pair.secondary.node)
       points.push_back(surface_.nodes[node].point + u[node]);
     obstacle.distance(points, distance);
+    const double *normals = nullptr;
+    check(context_,
+          abut_surface_normals(pair.secondary.surface.get(), &normals));
     std::vector<double> at_node(surface_.nodes.size(), INFINITY);
+    std::vector<Direction> normal_at(surface_.nodes.size());
     for (std::size_t n = 0; n < points.size(); ++n)
+    {
       at_node[pair.secondary.node[n]] = distance[n];
+      for (unsigned int d = 0; d < dim; ++d)
+        normal_at[pair.secondary.node[n]][d] = normals[n * dim + d];
+    }
 
     for (const std::int32_t f : pair.secondary.facet)
     {
@@ -148,8 +200,6 @@ namespace abut::shim
       double nearest = INFINITY, size = 0.;
       const auto place_of = [&](const unsigned int a)
       { return surface_.nodes[facet.node[a]].point + u[facet.node[a]]; };
-      const auto origin_of = [&](const unsigned int a)
-      { return surface_.nodes[facet.node[a]].point; };
       for (unsigned int a = 0; a < n_nodes; ++a)
       {
         nearest = std::min(nearest, at_node[facet.node[a]]);
@@ -163,25 +213,20 @@ namespace abut::shim
       Unseen here;
       here.pair = number;
       here.size = size;
-      std::vector<double> depth(distance.size());
-      for (std::size_t q = 0; q < points.size(); ++q)
-      {
-        depth[q] = -distance[q] - pair.data.gap;
-        if (depth[q] <= here.depth)
-          continue;
-        here.depth = depth[q];
-        for (unsigned int d = 0; d < dim; ++d)
-          here.place[d] = points[q][d];
-      }
+      std::vector<double> depth;
+      for (const double value : distance)
+        depth.push_back(-value - pair.data.gap);
+      take_deepest(points, depth, here);
       if (here.depth <= 0.)
         continue;
-      points = grid.points(origin_of);
+      std::vector<dealii::Point<dim>> nodes;
+      std::vector<Direction> normal;
       for (unsigned int a = 0; a < n_nodes; ++a)
-        points.push_back(origin_of(a));
-      obstacle.distance(points, distance);
-      here.peak =
-          peak_of(depth, distance,
-                  *std::min_element(distance.end() - n_nodes, distance.end()));
+      {
+        nodes.push_back(surface_.nodes[facet.node[a]].point);
+        normal.push_back(normal_at[facet.node[a]]);
+      }
+      here.peak = peak_of(obstacle, grid, nodes, normal, depth);
       here.is_missed = touching_facets[f] == 0;
       for (unsigned int a = 0; a < n_nodes; ++a)
         if (touching[number * surface_.nodes.size() + facet.node[a]] != 0)
@@ -387,6 +432,25 @@ namespace abut::shim
                        + "': " + coded(ABUT_FAILURE_WRONG_SIDE, text.str()));
   }
 
+  template <int dim>
+  void SurfacePairRows<dim>::refuse_inside(const Pair &pair,
+                                           const la::Vector &displacement) const
+  {
+    if (!pair.data.geometric_gap)
+      return;
+    const double facet = pair.secondary.everywhere.median;
+    const ObstacleInBodies<dim> found = find_obstacle_in_bodies(
+        mapping_, dof_handler_, displacement, pair.data);
+    if (!found.is_inside(facet) || found.is_met(facet))
+      return;
+    std::ostringstream depth;
+    depth.precision(3);
+    depth << found.elsewhere;
+    throw ContactError(
+        "Pair '" + pair.data.name
+        + "': " + coded(ABUT_FAILURE_WRONG_SIDE, found.text(depth.str())));
+  }
+
 #define ABUT_INSTANTIATE(dim)                                                  \
   template std::vector<std::uint8_t> SurfacePairRows<dim>::touching_nodes(     \
       const std::uint8_t *) const;                                             \
@@ -401,7 +465,9 @@ namespace abut::shim
   template void SurfacePairRows<dim>::examine(                                 \
       const la::Vector &, const double *, const std::uint8_t *,                \
       const std::vector<Unseen> &);                                            \
-  template std::string SurfacePairRows<dim>::wrong_side(const Pair &) const;
+  template std::string SurfacePairRows<dim>::wrong_side(const Pair &) const;   \
+  template void SurfacePairRows<dim>::refuse_inside(const Pair &,              \
+                                                    const la::Vector &) const;
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

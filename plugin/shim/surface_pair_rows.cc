@@ -470,7 +470,11 @@ namespace abut::shim
     check(context_, abut_points_clear(points_));
     std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
       find_pair(p, motion(pairs_[p], u), taken);
+      if (pairs_[p].data.obstacle && checks_[p].n_rows == 0)
+        refuse_inside(pairs_[p], displacement);
+    }
     origins_ = std::move(wanted);
     return Change::points;
   }

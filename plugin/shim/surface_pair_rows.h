@@ -300,6 +300,7 @@ namespace abut::shim
                        std::vector<Unseen> &found) const;
     void find_narrow(Pair &pair, const std::vector<Direction> &u) const;
     std::string wrong_side(const Pair &pair) const;
+    void refuse_inside(const Pair &pair, const la::Vector &displacement) const;
 
     void create_pair(const ContactPair<dim> &data);
     void gather();

@@ -106,11 +106,20 @@ expect(run(plate, *kind("box", Centre="0.625, 1.1", Size="0.01, 1")), 3,
        "ABUT-F37", "no contact at all")
 
 # Things in the inside of the block, which its upper side does not see, however
-# small they are; beside it they are none of its business.
+# small they are; beside the block they are none of its business.
 for shape in (kind("box", Centre="0.63, 0.52", Size="0.003, 0.001"),
-              kind("sphere", Centre="1, 0.5", Radius=0.2)):
-    expect(run(plate, *shape, "Obstacle 1/Motion=", "Load steps/Steps=1"), 3,
-           "ABUT-F23", "the body is in the obstacle")
+              kind("sphere", Centre="1, 0.3", Radius=0.1)):
+    for command in ("run", "check"):
+        p.expect_error(run(plate, *shape, "Obstacle 1/Motion=",
+                           "Load steps/Steps=1", command=command), "Pair 1",
+                       "ABUT-F23", "the body is in the obstacle")
+# Others come in through another side: during the motion, and where the upper
+# side has a corner in it, but not as deep.
+p.expect_error(run(plate, *kind("box", Centre="2.2, 0.97", Size="0.3, 0.02",
+                                Motion="-0.1*t, 0")), "ABUT-F23",
+               "the body is in the obstacle")
+expect(run(plate, *kind("sphere", Centre="2.45, 0.8", Radius=0.5),
+           "Obstacle 1/Motion="), 3, "ABUT-F23", "the body is in the obstacle")
 for shape in (kind("box", Centre="1, -0.03", Size="10, 0.05"),
               kind("sphere", Centre="3, 0.5", Radius=0.2)):
     expect(run(plate, *shape, "Obstacle 1/Motion=", "Load steps/Steps=1"), 0,
@@ -152,6 +161,17 @@ p.expect(summary["active"] > 0, "the string is on the floor")
 near(expect(run(string, *pin, "Refinement/Target error=0.05"), 0,
             without=("ABUT-F37",))["contact_force"],
      5 + 0.4 / 0.51 + 0.4 / 0.49, 0.02, "force of the pin")
+
+# A shaft that is 0.001 too thick for a ring: between nodes it is in all facets,
+# by five times as much, because they are chords. That is no peak of it: the
+# pressure is that of the exact solution of pipe.prm.
+shaft = ["Solid/Obstacles=1", "Solid/Pairs=1", "Body 1/Pressure=",
+         "Exact solution/Displacement=", "Obstacle 1/Kind=sphere",
+         "Obstacle 1/Radius=1.001", "Pair 1/Secondary=1: 0", "Pair 1/Obstacle=1"]
+summary = expect(run(p.source / "prm/pipe.prm", *shaft), 0, "ABUT-F37",
+                 without=("no node knows",))
+near(summary["contact_force"], 0.001 / (1.3 / 3 * 4.4) * 3.14159265 / 2, 0.02,
+     "force of the shaft on a quarter")
 
 # A plate that is so thin that nodes come out of its far side: the force of a
 # thick one.
