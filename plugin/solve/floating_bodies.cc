@@ -258,12 +258,30 @@ namespace abut::solve
 
   void FloatingBodies::check(const PointOperator &rows,
                              const std::vector<std::uint8_t> &resists,
-                             const std::string &which,
-                             const std::string &or_else) const
+                             const std::vector<std::uint8_t> &sticks) const
+  {
+    double n_rows = 0.;
+    const auto free = free_motions(rows, resists, n_rows);
+    if (free.empty())
+      return;
+    if (!free_motions(rows, sticks, n_rows).empty())
+      check(rows, resists);
+    throw SolverFailure(coded(
+        ABUT_FAILURE_FREE_SLIDING,
+        "Friction does not hold the bodies: " + describe(free[0])
+            + " once its contacts slip. Support the body in that direction, "
+              "load it less along the surface, or give the pair a larger "
+              "coefficient of friction."));
+  }
+
+  std::vector<std::vector<double>>
+  FloatingBodies::free_motions(const PointOperator &rows,
+                               const std::vector<std::uint8_t> &resists,
+                               double &n_rows) const
   {
     const unsigned int n = static_cast<unsigned int>(motions_.size());
     if (n == 0)
-      return;
+      return {};
     // Energies of unit springs on the rows, then weight and number of rows.
     std::vector<double> sums(n * n + 2, 0.);
     for (int i = 0; i < rows.n_rows(); ++i)
@@ -280,7 +298,17 @@ namespace abut::solve
     const double weight = sums[n * n];
     for (unsigned int k = 0; weight > 0. && k < n * n; ++k)
       sums[k] /= weight;
-    const auto free = null_space(n, sums.data(), free_gap);
+    n_rows = sums[n * n + 1];
+    return null_space(n, sums.data(), free_gap);
+  }
+
+  void FloatingBodies::check(const PointOperator &rows,
+                             const std::vector<std::uint8_t> &resists,
+                             const std::string &which,
+                             const std::string &or_else) const
+  {
+    double n_rows = 0.;
+    const auto free = free_motions(rows, resists, n_rows);
     if (free.empty())
       return;
     std::ostringstream text;
@@ -289,8 +317,8 @@ namespace abut::solve
       text << ", and " << free.size() - 1 << " more such motion"
            << (free.size() > 2 ? "s" : "") << " meet";
     text << (free.size() > 1 ? "" : ", which meets")
-         << " no resistance from supports or from the " << sums[n * n + 1]
-         << ' ' << which
+         << " no resistance from supports or from the " << n_rows << ' '
+         << which
          << ". Support the body in that direction (contact without friction "
             "holds it along the normal only), "
          << or_else << '.';

@@ -30,6 +30,12 @@ namespace abut::solve
     void check(const PointOperator &rows,
                const std::vector<std::uint8_t> &resists) const;
 
+    /** The same with friction: where rows with @p sticks nonzero would hold
+     * what the others do not, the message says that friction is too weak. */
+    void check(const PointOperator &rows,
+               const std::vector<std::uint8_t> &resists,
+               const std::vector<std::uint8_t> &sticks) const;
+
     /** The same if all rows resisted: what is free then no set of rows holds.
      */
     void check_all(const PointOperator &rows) const;
@@ -46,6 +52,11 @@ namespace abut::solve
     void check(const PointOperator &rows,
                const std::vector<std::uint8_t> &resists,
                const std::string &which, const std::string &or_else) const;
+    /** Combinations of motions that no resisting row feels. Collective. */
+    std::vector<std::vector<double>>
+    free_motions(const PointOperator &rows,
+                 const std::vector<std::uint8_t> &resists,
+                 double &n_rows) const;
     std::string describe(const std::vector<double> &combination) const;
 
     NearNullSpace space_;
