@@ -10,7 +10,7 @@
 
 enum
 {
-  N_CHANGED = 500, /* inputs from each file */
+  N_CHANGED = 200, /* inputs from each file */
   ROOM = 4096
 };
 
