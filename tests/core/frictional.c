@@ -97,8 +97,8 @@ frictional_start(const frictional *problem, uint64_t *seed,
     answer->u[i] = normal(seed);
     answer->p[i] = sqrt(problem->condition) * normal(seed);
   }
-  for (int32_t i = 0; i < problem->n; i += problem->dimension)
-    answer->state[i] = (uint8_t)(3 * uniform(seed));
+  for (int32_t i = 0; i < problem->n_points && i < FRICTIONAL_POINTS; ++i)
+    answer->state[i * problem->dimension] = (uint8_t)(3 * uniform(seed));
 }
 
 static abut_status
