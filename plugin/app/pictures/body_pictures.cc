@@ -94,7 +94,7 @@ namespace abut::app
       for (const ContactLine &line : lines)
       {
         for (const ContactLineNode &node : line)
-          rows.push_back({node.arc, node.pressure});
+          rows.push_back({node.arc, node.pressure, node.friction});
         rows.push_back(interruption);
       }
       return rows;
@@ -210,7 +210,10 @@ namespace abut::app
       for (const PressureCurve &curve : pressures)
         for (const ContactLine &line : curve.lines)
           for (const ContactLineNode &node : line)
+          {
             values.push_back(node.pressure);
+            values.push_back(node.friction);
+          }
       std::ostringstream script;
       script << "set origin 0, 0\nset size noratio 1, " << top
              << "\nset autoscale\n"
@@ -219,9 +222,16 @@ namespace abut::app
              << "set xlabel 'length along the contact line'\n"
              << "set ylabel 'contact pressure'\n";
       for (std::size_t i = 0; i < pressures.size(); ++i)
+      {
         script << (i == 0 ? "plot $pressure" : ", $pressure") << i + 1
                << " using 1:2 with linespoints ls " << i % 8 + 1 << " title "
                << quoted(pressures[i].label);
+        if (pressures[i].has_friction)
+          script << ", $pressure" << i + 1
+                 << " using 1:3 with lines dashtype 2 linewidth 2 linecolor "
+                    "rgb '#555555' title "
+                 << quoted(pressures[i].label + ", friction");
+      }
       script << '\n';
       return script.str();
     }

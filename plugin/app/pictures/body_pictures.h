@@ -28,6 +28,7 @@ namespace abut::app
   {
     std::string label;
     std::vector<ContactLine> lines; /**< on rank 0 */
+    bool has_friction = false;      /**< draw that, too */
   };
 
   /** A rigid obstacle in a picture, at its present place. */

@@ -145,7 +145,8 @@ namespace abut::app
              contact_lines(model.elasticity.mapping,
                            model.elasticity.dof_handler, pair.secondary,
                            {fields.traction, &fields.row_gap, &fields.status,
-                            pair.friction != nullptr})});
+                            pair.friction != nullptr}),
+             pair.friction != nullptr});
     }
     return curves;
   }
