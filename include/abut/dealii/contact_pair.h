@@ -164,9 +164,10 @@ namespace abut
     double initial_gap_work = 0.;
     /** With friction: rows in contact that slip, the rest sticks. */
     dealii::types::global_dof_index n_slipping = 0;
-    /** Sums of the pressures and of the magnitudes of the tractions along the
-     * surface, force >= 0; normal_force counts pressures alone. */
-    double normal_force = 0., friction_force = 0.;
+    /** With friction: sum of the pressures, force. */
+    double normal_force = 0.;
+    /** Sum of the magnitudes of the tractions along the surface, force >= 0. */
+    double friction_force = 0.;
     /** Resultant of the tractions along the surface on the secondary side; it
      * is a part of @ref secondary_force. */
     dealii::Tensor<1, dim> secondary_friction;
