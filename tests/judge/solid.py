@@ -544,9 +544,22 @@ class SolidJudge:
                             limit.value * size + law,
                             limit.reason)
 
+    def has_friction(self):
+        return any(f"pair_{pair.number}_friction_force" in self.summary
+                   for pair in self.pairs)
+
+    def slips_at_once(self):
+        """Whether all that slips does so in one step, against what stays: then
+        what is dissipated is the work of the last tractions on all slips."""
+        moves = any(self.scene.get(f"Obstacle {pair.obstacle}/Motion", "")
+                    for pair in self.pairs if pair.obstacle)
+        return (not moves and self.summary["method"] == "lagrange"
+                and int(self.scene.get("Load steps/Steps", "1")) == 1
+                and not self.summary.get("load_steps_cut_back"))
+
     def initial_gaps(self):
-        """The work of contact is that on the initial gaps, but for what the law
-        leaves open."""
+        """The work of contact is that on the initial gaps, and what friction
+        dissipates, but for what the law leaves open."""
         name = "work of contact is that of the initial gaps"
         limit = of_energy(self.scene, self.summary)
         if limit is None:
@@ -556,6 +569,11 @@ class SolidJudge:
             return
         given = math.fsum(self.summary[f"pair_{pair.number}_initial_gap_work"]
                           for pair in self.pairs)
+        if self.has_friction():
+            if not self.slips_at_once():
+                self.findings.leave(name, "friction dissipates along the way")
+                return
+            given += self.summary["dissipation"]
         contact, _ = self.works(self.contact)
         law = self.summary["max_complementarity"] * self.magnitude()
         self.findings.check(name, abs(contact + given),
