@@ -208,7 +208,11 @@ namespace abut::app
     // only formulas are found wrong after an obstacle has been made
     if (pair.obstacle > 0 && message.find("its obstacle") != std::string::npos)
       return parameters.obstacles[pair.obstacle - 1].parameter("Expression");
-    return pair.parameter("Secondary");
+    if (message.find("its largest traction") != std::string::npos)
+      return pair.parameter("Largest friction");
+    return pair.parameter(message.find("friction") != std::string::npos
+                              ? "Friction"
+                              : "Secondary");
   }
 
   template class SolidPairs<2>;
