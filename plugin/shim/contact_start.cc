@@ -11,6 +11,8 @@
 //   commit()     the trial version is kept; rollback() brings it back
 #include "contact_implementation.h"
 
+#include <algorithm>
+
 namespace abut
 {
   template <int dim>
@@ -160,12 +162,18 @@ namespace abut
     i.check_size("commit()", "displacement", displacement.size());
     i.record_present();
     i.history.commit();
-    i.committed = i.has_friction ? displacement : la::Vector();
-    i.committed_is_lost = false;
-    if (!i.has_friction || !i.has_rows)
+    // Pairs with friction may be out of reach of each other as yet. Those that
+    // get it later must be told what slips are measured from.
+    const bool wants_slips = std::any_of(i.pairs.begin(), i.pairs.end(),
+                                         [](const ContactPair<dim> &pair)
+                                         { return pair.friction != nullptr; });
+    i.committed = wants_slips ? displacement : la::Vector();
+    i.committed_is_lost = !wants_slips;
+    if (!wants_slips)
       return;
     i.note_poses();
-    i.find_slip_reference();
+    if (i.has_rows)
+      i.find_slip_reference();
   }
 
   template <int dim>
