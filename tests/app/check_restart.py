@@ -122,6 +122,14 @@ def refused(scene, *texts, settings=()):
     p.expect(before == after, f"files changed by a refused --resume: {texts}")
 
 
+def is_locked_by(pid):
+    """The file is there before it is locked; it is signed when it is."""
+    try:
+        return f"process {pid} " in (OUT / ".abut-lock").read_text()
+    except FileNotFoundError:
+        return False
+
+
 def check_refusals(scene, settings):
     shutil.rmtree(OUT, ignore_errors=True)
     refused(scene, "no checkpoint", settings=settings)
@@ -143,7 +151,7 @@ def check_refusals(scene, settings):
     process = subprocess.Popen(
         [p.abut, *words(scene, "--resume", settings=settings)], cwd=p.folder,
         stdout=subprocess.DEVNULL)
-    while process.poll() is None and not (OUT / ".abut-lock").exists():
+    while process.poll() is None and not is_locked_by(process.pid):
         time.sleep(0.002)
     process.send_signal(signal.SIGSTOP)  # however fast it is
     for more in ((), ("--resume",)):
