@@ -71,7 +71,7 @@ def start(settings, ranks=1):
     process = subprocess.Popen(command, cwd=p.folder, text=True,
                                stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE)
-    end = time.monotonic() + 60
+    end = time.monotonic() + 300
     while (not list(OUT.glob("*.pvd")) and process.poll() is None
            and time.monotonic() < end):
         time.sleep(0.01)
@@ -81,7 +81,7 @@ def start(settings, ranks=1):
 def finish(process, what):
     """What it says; it ends by itself and soon."""
     try:
-        return process.communicate(timeout=60)[1]
+        return process.communicate(timeout=300)[1]
     except subprocess.TimeoutExpired:
         process.kill()
         p.expect(False, f"{what}: does not end")
@@ -120,7 +120,7 @@ p.expect(len(pids) == 3, f"ranks: {pids}")
 os.kill(pids[1], signal.SIGKILL)
 finish(running, "a rank killed")
 p.expect(running.returncode != 0, "a rank killed: exit code 0")
-deadline = time.monotonic() + 20
+deadline = time.monotonic() + 120
 while any(map(is_running, pids)) and time.monotonic() < deadline:
     time.sleep(0.1)
 p.expect(not any(map(is_running, pids)),

@@ -25,7 +25,7 @@ def main():
         text = subprocess.run(
             ["mpirun", "--oversubscribe", "-n", str(ranks), arguments.program,
              arguments.plugin, str(n), *words], text=True, check=True,
-            capture_output=True, timeout=200).stdout
+            capture_output=True, timeout=600).stdout
         return [json.loads(line) for line in text.splitlines()]
 
     serial = cycles(1, 4, "--tolerance", "1e-8")

@@ -23,7 +23,7 @@ def main():
         with tempfile.TemporaryDirectory(prefix="abut-test-") as folder:
             text = subprocess.run([arguments.program, str(level)], cwd=folder,
                                   text=True, check=True, capture_output=True,
-                                  timeout=100).stdout
+                                  timeout=600).stdout
         found = re.search(r"(\d+) steps, size of active set: (\d+), contact "
                           r"force: ([-0-9.e+]+), .*converged", text)
         print(f"level {level}:", found and found.groups())

@@ -18,7 +18,7 @@ def cycles(program, words, ranks, folder):
     """Figures of each cycle: dofs, active, rows, steps, force, imbalance."""
     command = ["mpirun", "--oversubscribe", "-n", str(ranks), program, *words]
     text = subprocess.run(command, cwd=folder, text=True, check=True,
-                          capture_output=True, timeout=120).stdout
+                          capture_output=True, timeout=600).stdout
     return [(int(m[2]), int(m[3]), int(m[4]), int(m[5]), float(m[6]),
              float(m[7])) for m in LINE.finditer(text)]
 
@@ -67,7 +67,7 @@ def main():
             if dim == "2":
                 subprocess.run([arguments.abut, "run", arguments.scene,
                                 "--output", "scene"], cwd=folder, check=True,
-                               capture_output=True, timeout=120)
+                               capture_output=True, timeout=600)
                 with open(os.path.join(folder, "scene/summary.json")) as file:
                     summary = json.load(file)
                 dofs, active, rows, _, force, _ = serial[0]
