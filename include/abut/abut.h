@@ -29,6 +29,7 @@
 #include <abut/status.h>
 #include <abut/strategy.h>
 #include <abut/surface.h>
+#include <abut/time.h>
 #include <abut/version.h>
 
 #endif

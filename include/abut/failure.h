@@ -82,7 +82,11 @@ extern "C"
   X(STICK_SLIP, 41, "no state of stick and slip is found",                     \
     "smaller load steps, or a smaller coefficient of friction")                \
   X(FREE_SLIDING, 42, "friction does not hold a body",                         \
-    "give the body a support, or less load along the surface")
+    "give the body a support, or less load along the surface")                 \
+  X(ENERGY_GAIN, 43, "a time scheme makes energy",                             \
+    "modified mass with hht, or contact stabilised; smaller time steps")       \
+  X(BLOW_UP, 44, "a motion blows up",                                          \
+    "time steps below the limit of the scheme, or an implicit scheme")
 
   /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
   typedef enum abut_failure

@@ -498,6 +498,23 @@ dense_models(world *w)
   return ABUT_SUCCESS;
 }
 
+static abut_status
+masses(world *w)
+{
+  /* Two elements of length 1: node 0 hands all of its 2/3 to node 1. */
+  const int64_t start[] = {0, 2, 5, 7};
+  const int32_t column[] = {0, 1, 0, 1, 2, 1, 2};
+  double value[] = {2. / 6, 1. / 6, 1. / 6, 4. / 6, 1. / 6, 1. / 6, 2. / 6};
+  const double place[] = {0, 1, 2};
+  const uint8_t candidate[] = {1, 0, 0};
+  const abut_mass_matrix mass = {sizeof(mass), 3,     1,    start,
+                                 column,       value, place};
+  TRY(abut_mass_modify(w->context, &mass, candidate, ABUT_MASS_NEIGHBOURS));
+  assert_close(value[3], 4. / 6 + 2. / 3, 1e-15);
+  note(w, value[3]);
+  return ABUT_SUCCESS;
+}
+
 static void
 surfaces_without_memory(void **unused)
 {
@@ -579,6 +596,13 @@ dense_models_without_memory(void **unused)
   deny_each(dense_models, 0, 5);
 }
 
+static void
+masses_without_memory(void **unused)
+{
+  (void)unused;
+  deny_each(masses, 0, 2);
+}
+
 int
 main(void)
 {
@@ -593,6 +617,7 @@ main(void)
       cmocka_unit_test(strategies_without_memory),
       cmocka_unit_test(frictions_without_memory),
       cmocka_unit_test(dense_models_without_memory),
+      cmocka_unit_test(masses_without_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

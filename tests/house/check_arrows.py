@@ -17,6 +17,7 @@ ROOMS = [
     ("core/geometry", "core/base"),
     ("core/search", "core/base core/geometry"),
     ("core/law", "core/base"),
+    ("core/time", "core/base"),
     ("core/constraint", "core/base core/geometry core/search core/law"),
     ("core/history", "core/base"),
     ("core/contact", "core/base core/geometry core/search core/law "

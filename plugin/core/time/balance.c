@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* The energy balance of a motion and what it says of the scheme. */
+#include "base/sized.h"
+#include "time/scheme.h"
+
+#include <math.h>
+
+/* A motion with so many times the energy that there was has blown up: plain
+ * trapezoid with exact contact, the worst scheme that still means something,
+ * makes eight of one. */
+static const double blow_up = 100;
+
+static double
+sum_of(const abut_time_energy *e)
+{
+  return e->kinetic + e->strain + e->contact + e->dissipated - e->external_work;
+}
+
+static void
+add(abut_time_balance *balance, const abut_time_energy *energy, double sum)
+{
+  if (balance->n == 0)
+  {
+    balance->first = balance->highest = sum;
+    balance->scale = energy->kinetic + energy->strain + energy->contact;
+  }
+  balance->n += 1;
+  balance->last = sum;
+  balance->highest = fmax(balance->highest, sum);
+  balance->scale = fmax(balance->scale, fabs(energy->external_work));
+  balance->gain = balance->scale > 0
+                      ? (balance->highest - balance->first) / balance->scale
+                      : 0;
+}
+
+abut_status
+abut_time_judge(const abut_time_scheme *given, const abut_time_energy *energy,
+                abut_time_balance *balance, abut_time_verdict *verdict)
+{
+  abut_time_scheme scheme;
+  const abut_status status = abut_time_scheme_take(given, &scheme);
+  if (status != ABUT_SUCCESS)
+    return status;
+  abut_time_energy now = {.struct_size = sizeof(now)};
+  abut_time_balance sums = {.struct_size = sizeof(sums)};
+  if (energy == NULL || balance == NULL || verdict == NULL
+      || abut_sized_read(&now, sizeof(now), energy) != NULL
+      || abut_sized_read(&sums, sizeof(sums), balance) != NULL || sums.n < 0)
+    return ABUT_INVALID_ARGUMENT;
+  const double sum = sum_of(&now);
+  if (!isfinite(sum))
+  {
+    *verdict = ABUT_TIME_BLOWS_UP;
+    return ABUT_SUCCESS;
+  }
+  add(&sums, &now, sum);
+  *verdict = sums.gain > blow_up         ? ABUT_TIME_BLOWS_UP
+             : sums.gain > scheme.growth ? ABUT_TIME_GAINS
+                                         : ABUT_TIME_STEADY;
+  return abut_sized_write(balance, sizeof(sums), &sums) == NULL
+             ? ABUT_SUCCESS
+             : ABUT_INVALID_ARGUMENT;
+}
