@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Cattaneo and Mindlin: a cylinder pressed on a block, pulled, and pulled back.
+"""Cattaneo and Mindlin: a cylinder pressed on a block, pulled, and pulled back, in
+part and as far the other way.
 Stick, slip, reverse slip and tractions against the closed forms (Johnson, Contact
 Mechanics, 7.2 and 7.4) with the forces that the run has."""
 import math
@@ -10,7 +11,7 @@ p = Program()
 
 MU, RADIUS = 0.2, 8.
 MODULUS = 200. / (2. * (1. - 0.3 ** 2))
-PULL = "(t > 1 ? (t > 2 ? 0.035 - 0.03*(t - 2) : 0.035*(t - 1)) : 0)"
+PULL = "(t > 1 ? (t > 2 ? 0.035 - %g*(t - 2) : 0.035*(t - 1)) : 0)"
 
 
 def root(x):
@@ -36,11 +37,11 @@ class Closed:
                                - c / self.a * root(1. - (x / c) ** 2))
 
 
-def run(steps):
+def run(steps, back=0.03):
     summary, _ = p.solve_with("cattaneo.prm", {
         "Load steps/Steps": steps, "Load steps/End time": steps,
         "Output/Pictures": "false",
-        "Body 2/Support": f"1: {PULL}, (t < 1 ? -0.12*t : -0.12)"})
+        "Body 2/Support": f"1: {PULL % back}, (t < 1 ? -0.12*t : -0.12)"})
     return summary, [node for node in p.table("pair_1.csv")
                      if node["status"] > 0]
 
@@ -88,6 +89,15 @@ def main():
                               - closed.traction(x, first - force, 2. * MU)),
             0.06 * MU * closed.p0)
     p.expect(back["dissipation"] > pulled["dissipation"] > 0., "dissipation")
+
+    # To -Q1, as far to the other side: minus what the pull has left.
+    turned, nodes = run(3, 0.07)
+    p.close(-sign * turned["pair_1_friction"][0], first, 1e-3, "-Q1")
+    p.close(max(abs(n["x"]) for n in nodes if n["status"] == 1.), c, 0.1,
+            "stick zone at -Q1")
+    compare("at -Q1", nodes, lambda x: -sign * closed.traction(x, first),
+            0.06 * MU * closed.p0)
+    p.expect(turned["dissipation"] > back["dissipation"], "dissipation")
 
 
 main()

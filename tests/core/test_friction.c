@@ -351,6 +351,16 @@ opposed_tractions(void **unused)
   assert_close(determinant_at(0, 0), 1, 1e-14);
 }
 
+/* |x| = rho in a state of slip, as round-off may leave it: the spring rho/|s|
+ * across the slip stays finite, and the block regular. */
+static void
+the_border_of_stick(void **unused)
+{
+  (void)unused;
+  assert_close(determinant_at(1, 1) * 1e8, 1, 1e-6);
+  assert_true(determinant_at(1, 1 - 1e-15) > 1e-9);
+}
+
 static void
 bounds(void **unused)
 {
@@ -538,6 +548,7 @@ main(void)
       cmocka_unit_test(differences_at_slip),
       cmocka_unit_test(the_block_is_regular),
       cmocka_unit_test(opposed_tractions),
+      cmocka_unit_test(the_border_of_stick),
       cmocka_unit_test(bounds),
       cmocka_unit_test(bad_input),
       cmocka_unit_test(a_mass_on_springs),

@@ -126,6 +126,36 @@ subsection Refinement
   set Level = 0
 end
 """,
+    "dragged": """
+set Scene = solid
+set Dimension = 2
+subsection Solid
+  set Obstacles = 1
+  set Pairs = 1
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 16, 8 : 0, 0 : 2, 1 : true
+  end
+  set Young modulus = 100
+  set Support = 1: 0, free
+  set Traction = 3: 0, -5; 0: 15, 0
+end
+subsection Obstacle 1
+  set Kind = plane
+  set Point = 0, 0
+  set Normal = 0, 1
+end
+subsection Pair 1
+  set Secondary = 1: 2
+  set Obstacle = 1
+  set Friction = 0.7
+end
+subsection Refinement
+  set Level = 0
+end
+""",
     "membrane": """
 set Scene = obstacle
 set Dimension = 2
@@ -143,6 +173,12 @@ subsection Refinement
   set Level = 3
 end
 """,
+    "rubbed": BLOCKS.format(
+        dim=3, degree=1, below="3, 3, 2 : 0, 0, 0 : 1.5, 1.5, 1",
+        floor="4: 0, 0, 0", above="2, 2, 2 : 0.2, 0.3, 1 : 1.2, 1.3, 2",
+        walls="5: 0.05, 0.02, -0.02", top=5, bottom=4).replace(
+            "  set Pressure = 5: 1\n", "").replace(
+                "  set Primary", "  set Friction = 0.3\n  set Primary"),
     "masses": """
 set Scene = chain of masses
 set Dimension = 3
@@ -353,6 +389,33 @@ def moved_reaction(rows):
     b["reaction_y"] -= 0.01
 
 
+def on_plane(row, state):
+    return row["y"] == 0. and row["status"] == state
+
+
+def moved_friction(rows):
+    """From what sticks to what slips: all sums stay as they were."""
+    slip = next(row for row in rows if on_plane(row, 2))
+    stick = next(row for row in rows if on_plane(row, 1))
+    stick["contact_x"] -= 0.1 * slip["contact_x"]
+    slip["contact_x"] *= 1.1
+
+
+def turned_friction(rows):
+    """Along the slip, the difference given to what sticks."""
+    slip = next(row for row in rows if on_plane(row, 2))
+    stick = next(row for row in rows if on_plane(row, 1))
+    stick["contact_x"] += 2. * slip["contact_x"]
+    slip["contact_x"] *= -1.
+
+
+def friction_sums(copy):
+    """More friction than mu N in the tables, the ratio as well."""
+    for name in ("friction_force", "friction_ratio"):
+        key(f"pair_1_{name}", lambda v: 1.2 * v)(copy)
+    key("pair_1_friction", lambda v: [1.2 * x for x in v])(copy)
+
+
 def closed(row):
     return row.get("status", 0) > 0.5
 
@@ -447,6 +510,33 @@ FALSIFICATIONS = [
      lambda c: c.edit("-0.3 - 0.2*x^2", "-0.25 - 0.2*x^2")),
     ("load of the membrane forgotten", "membrane",
      lambda c: c.nodes(scale("load", 0.))),
+    ("traction above mu p, sums kept", "dragged",
+     lambda c: c.nodes(moved_friction)),
+    ("traction along the slip, sums kept", "dragged",
+     lambda c: c.nodes(turned_friction)),
+    ("a node that slips told as stick", "dragged",
+     lambda c: c.nodes(first(lambda r: on_plane(r, 2),
+                             status=lambda r: 1.))),
+    ("a node that sticks told as slip", "dragged",
+     lambda c: c.nodes(first(lambda r: on_plane(r, 1),
+                             status=lambda r: 2.))),
+    ("more dissipation of the bodies", "dragged",
+     key("dissipation", lambda v: 1.01 * v)),
+    ("dissipation of the bodies of the other sign", "dragged",
+     key("dissipation", lambda v: -v)),
+    ("dissipation of the other sign between bodies", "rubbed",
+     key("dissipation", lambda v: -v)),
+    ("less friction of the plane in the scene", "dragged",
+     lambda c: c.edit("Friction = 0.7", "Friction = 0.69")),
+    ("more friction of the plane in the scene", "dragged",
+     lambda c: c.edit("Friction = 0.7", "Friction = 0.71")),
+    ("more friction between bodies in the scene", "rubbed",
+     lambda c: c.edit("Friction = 0.3", "Friction = 0.31")),
+    ("friction above mu N in the summary", "rubbed", friction_sums),
+    ("ratio of friction in the summary", "rubbed",
+     key("pair_1_friction_ratio", lambda v: 1.01 * v)),
+    ("a resultant of friction above its sum", "rubbed",
+     key("pair_1_friction_force", lambda v: 0.9 * v)),
     ("friction of one mass scaled", "masses",
      lambda c: c.table("masses.csv", first(
          slips, friction_x=lambda r: 1.01 * r["friction_x"]))),

@@ -31,6 +31,42 @@ def _choices(text):
             f"{_choices(text[end:])}")
 
 
+def _ternary(text):
+    """a ? b : c as Python has it, the innermost parentheses first."""
+    depth, start, colon = 0, -1, 0
+    for i, c in enumerate(text):
+        depth += (c == "(") - (c == ")")
+        if depth > 0:
+            continue
+        if c == "?" and start < 0:
+            start = i
+        elif c == "?":
+            colon += 1
+        elif c == ":" and colon > 0:
+            colon -= 1
+        elif c == ":" and start >= 0:
+            return (f"(({_ternary(text[start + 1:i])}) if "
+                    f"({_ternary(text[:start])}) else "
+                    f"({_ternary(text[i + 1:])}))")
+    return _inside(text)
+
+
+def _inside(text):
+    """The same in what stands in parentheses, at commas."""
+    result, depth, begin = "", 0, 0
+    for i, c in enumerate(text):
+        if c == "(" and depth == 0:
+            begin = i + 1
+        depth += (c == "(") - (c == ")")
+        if c == ")" and depth == 0:
+            parts = split(text[begin:i], ",") if "?" in text[begin:i] else [
+                text[begin:i]]
+            result += "(" + ", ".join(map(_ternary, parts)) + ")"
+        elif depth == 0:
+            result += c
+    return result
+
+
 def _domain(function):
     """A function that answers nan outside of its domain."""
     def guarded(*values):
@@ -56,7 +92,9 @@ class Formula:
 
     def __init__(self, text):
         self.text = text
-        words = _choices(text).replace("^", "**")
+        words = _choices(text)
+        words = _ternary(words) if "?" in words else words
+        words = words.replace("^", "**")
         words = words.replace("&&", " and ").replace("||", " or ")
         words = " ".join(words.replace("\\\n", " ").split())
         try:

@@ -2,6 +2,7 @@
 """Judges elastic bodies in contact."""
 import math
 
+from coulomb import judge_friction
 from elements import corners, gauss, interpolate, shapes
 from formula import Formula, split
 from obstacles import Obstacle
@@ -88,6 +89,7 @@ class SolidJudge:
         self.pair_forces()
         self.complementarity()
         self.initial_gaps()
+        judge_friction(self)
 
     def round_off(self):
         """Of forces, where bodies move and are hardly deformed, or touch by the

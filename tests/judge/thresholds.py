@@ -47,6 +47,9 @@ THRESHOLDS = {
         1e-8, "of the largest force, and of the largest force times the largest "
         "slip: Coulomb's law at a mass, whose dense problems are solved to "
         "round-off"),
+    "coulomb": Threshold(
+        1e-6, "of the largest nodal force, and of that times the largest "
+        "displacement: |tau| <= mu p, and tau against the slip"),
     "springs": Threshold(
         1e-4, "of the largest displacement: what sticks may move and what "
         "presses may penetrate by the tolerance of methods of multipliers"),

@@ -148,10 +148,15 @@ safeguard(const contact *at, const double *e, double *inside)
   return a < 0 ? 1 / (1 - a * d) : 1;
 }
 
+/* On the border to stick the spring across the slip, rho/|s|, would be infinite
+ * and A singular: it is that of |x| = rho (1 + this) at most. */
+static const double border = 1e-8;
+
 static void
 slip(const contact *at, double d_bound, const double *e, const target *to)
 {
   const int32_t t = at->t;
+  const double length = fmax(at->length, at->rho * (1 + border));
   double inside[MAX_T];
   /* Without a direction there is nothing to slip against: as if open. */
   if (!(at->length > 0))
@@ -165,7 +170,7 @@ slip(const contact *at, double d_bound, const double *e, const target *to)
     for (int32_t j = 0; j < t; ++j)
     {
       const double unit = i == j ? 1 : 0;
-      const double m = beta / at->length * (at->rho * unit - inside[i] * e[j]);
+      const double m = beta / length * (at->rho * unit - inside[i] * e[j]);
       to->a[i * t + j] = unit - m * kept;
       to->b[i * t + j] = at->c * m;
     }

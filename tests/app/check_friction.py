@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Friction: without a coefficient it is not there at all, the frame and the
+number of ranks do not matter, and the moments of bodies that are turned on each other
+are those of closed forms."""
+import math
+
+from program import Program
+
+p = Program()
+QUIET = {"Output/Fields": "false", "Output/Pictures": "false"}
+
+
+def rotation(*degrees):
+    """About x, then y, then z."""
+    result = [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.]]
+    for axis, angle in enumerate(degrees):
+        c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        result[i], result[j] = (
+            [c * a - s * b for a, b in zip(result[i], result[j])],
+            [s * a + c * b for a, b in zip(result[i], result[j])])
+    return result
+
+
+def times(matrix, vector):
+    return [sum(a * b for a, b in zip(row, vector)) for row in matrix]
+
+
+def distance(one, two):
+    return math.dist(one, two) / math.hypot(*one)
+
+
+def words(vector):
+    return ", ".join(f"{v:.17g}" for v in vector)
+
+
+def without_coefficient():
+    """Bit by bit the run of a scene that does not know of friction."""
+    for name, more in (("greco.prm", {}),
+                       ("dragged-block.prm", {}),
+                       ("cattaneo.prm", {"Refinement/Adaptive cycles": 2})):
+        text = (p.source / "prm" / name).read_text()
+        bare = "".join(line for line in text.splitlines(keepends=True)
+                       if "set Friction" not in line)
+        p.expect(bare != text, f"{name} has no friction")
+        p.write(name, bare)
+        found = []
+        for scene, settings in ((name,
+                                 {"Pair 1/Friction": 0}), (p.folder / name, {})):
+            summary, _ = p.solve_with(scene, {
+                **settings, **more, "Output/Nodal values": "true"})
+            p.expect("pair_1_friction_force" not in summary,
+                     f"{name} has friction")
+            found.append([(p.folder / "out" / file).read_bytes()
+                          for file in ("nodal.csv", "pair_1.csv")])
+        p.expect(found[0] == found[1], f"{name}: mu = 0 is not the "
+                 "frictionless answer")
+
+
+# Two cubes pressed and moved aside, so that some of the nodes stick and others slip.
+CUBES = {**QUIET, "Refinement/Level": 1, "Pair 1/Friction": 0.3,
+         "Load steps/Steps": 2, "Solid/Allow large strain": "true",
+         "Refinement/Nested iteration": "false",
+         "Method/Final linear tolerance": 1e-12}
+ASIDE = [0.025, 0.01, -0.02]
+SUMS = ("pair_1_force", "pair_1_friction", "reaction_1")
+
+
+def cubes(angles=(0., 0., 0.), ranks=0):
+    turn = rotation(*angles)
+    return p.solve_with("two-blocks-3d.prm", {
+        **CUBES, "Body 1/Mesh/Rotate": words(angles),
+        "Body 2/Mesh/Rotate": words(angles),
+        "Body 2/Mesh/Move": words(times(turn, [0., 0., 1.])),
+        "Body 2/Support": "5: " + ", ".join(f"({u:.17g})*t" for u in
+                                            times(turn, ASIDE))}, ranks)[0]
+
+
+def frames_and_ranks():
+    one = cubes()
+    p.expect(0 < one["pair_1_slipping"] < one["pair_1_active"],
+             f"{one['pair_1_slipping']} of {one['pair_1_active']} slip")
+    runs = [(f"turned by {a}", cubes(a), rotation(*a))
+            for a in ((90., 0., 0.), (0., 0., 33.), (20., 50., -70.))]
+    runs += [(f"{n} ranks", cubes(ranks=n), rotation()) for n in (2, 3, 5)]
+    for name, other, turn in runs:
+        for key in ("pair_1_active", "pair_1_slipping"):
+            p.expect(one[key] == other[key],
+                     f"{name}: {key} {one[key]} and {other[key]}")
+        for key in SUMS:
+            error = distance(times(turn, one[key]), other[key])
+            p.expect(error < 1e-8, f"{name}: {key} differs by {error}")
+        p.close(other["dissipation"], one["dissipation"], 1e-8,
+                f"{name}: dissipation")
+
+
+def cylinder():
+    """Uniform pressure: 2/3 mu P a once all slides, from one increment to
+    the next."""
+    moments = []
+    for end in (4, 6):
+        summary, _ = p.solve_with("torsion.prm", {
+            **QUIET, "Load steps/Steps": end, "Load steps/End time": end})
+        force = summary["pair_1_normal_force"]
+        moments.append(abs(summary["pair_1_moment"][0]) / (0.3 * force))
+    print("cylinder: moment of mu P a", *moments)
+    p.close(moments[1], 2. / 3., 1e-3, "moment of the cylinder")
+    p.close(moments[0], moments[1], 1e-4, "the moment has settled")
+
+
+def ball():
+    """Hertz: 3 pi/16 mu P a."""
+    summary, _ = p.solve_with("torsion-hertz.prm", QUIET)
+    force = summary["pair_1_normal_force"]
+    radius = (0.75 * (1. - 0.3 ** 2) * force) ** (1. / 3.)
+    moment = abs(summary["pair_1_moment"][2]) / (0.3 * force * radius)
+    print("ball: moment of mu P a", moment)
+    p.close(moment, 3. * math.pi / 16., 0.01, "moment of the ball")
+    p.expect(summary["pair_1_slipping"] == summary["pair_1_active"] - 1,
+             "more than the middle sticks")
+
+
+without_coefficient()
+frames_and_ranks()
+cylinder()
+ball()
+p.finish()
