@@ -220,6 +220,25 @@ expect(run(blocks, "Method/Enforcement=penalty", "Method/Penalty=1e-3"), 3,
        "ABUT-F06", "penetrate each other", without=("ABUT-F34",))
 expect(run(blocks, "Method/Enforcement=penalty"), 0, without=("ABUT-F",))
 
+# The plate goes down by 0.01, the block by d, and both exchange the force k d:
+# 2 * energy = k d^2, the work on the initial gap is k d * 0.01.
+for law, end, code, words in (("barrier", 1e-2, 0, ()),
+                              ("barrier", 0.3, 3, ("ABUT-F38", "across")),
+                              ("penalty", 30, 0, ()),
+                              ("penalty", 1, 3, ("ABUT-F06", "Twice the"))):
+    name = "Barrier end" if law == "barrier" else "Penalty"
+    start = ["Method/Barrier start=1"] if law == "barrier" else []
+    summary = expect(run(plate, f"Method/Enforcement={law}",
+                         f"Method/{name}={end}", "Load steps/Steps=1", *start),
+                     code, *words, without=() if words else ("Twice the",))
+    near(summary["work_error"],
+         abs(1 - 2 * modulus * 0.01 / summary["contact_force"]), 1e-6,
+         f"works of a {law} of {end}")
+# Nothing is stored, and what tolerances leave of gaps is no work.
+pressed = p.source / "prm/failures/barrier-closed.cure.prm"
+p.expect(expect(run(pressed), 0, without=("Twice the",))["work_error"] == 0,
+         "works of a membrane that does not move")
+
 # A block that slides by half its length, four facets.
 slide = "Body 2/Support=3: 0.5*t, -0.01"
 summary = expect(run(blocks, slide), 0, "ABUT-F36", "slide")

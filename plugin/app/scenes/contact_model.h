@@ -138,6 +138,14 @@ namespace abut::app
     /** Energy norm of the solution. */
     virtual double solution_norm() const = 0;
 
+    /** Work of the contact forces on the gaps that are left, 0 for exact
+     * multipliers; nothing if contact stores or dissipates by itself. Called
+     * after a solve with contact.
+     * @param forces of contact at the nodes, owned
+     * @param work of these on the displacement */
+    virtual std::optional<double> work_on_gaps(const la::Vector &forces,
+                                               double work) const = 0;
+
     /** Errors against the exact solution, if there is one. */
     virtual std::optional<ErrorNorms> errors() const = 0;
     virtual bool has_exact_solution() const = 0;

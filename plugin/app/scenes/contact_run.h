@@ -111,6 +111,8 @@ namespace abut::app
     void add_missed_contact();
     /** Look at the answer of the last mesh; whether it may be used. */
     bool examine();
+    /** The same for works and energy, in linear statics without friction. */
+    std::optional<ContactFinding> examine_works();
     void judge();
     void finish_result();
 

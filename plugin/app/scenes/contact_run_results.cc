@@ -2,8 +2,10 @@
 // What a run measures of each answer, and whether it may be used.
 #include "contact_run.h"
 
+#include "diagnosis.h"
 #include "name_parameter.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut::app
@@ -62,6 +64,37 @@ namespace abut::app
         before * before + dealii::Utilities::MPI::sum(sum, state.communicator));
   }
 
+  template <int dim>
+  std::optional<ContactFinding> ContactRun<dim>::examine_works()
+  {
+    const MethodParameters &method = state.method;
+    const DiscreteProblem<dim> &problem = model.problem();
+    // What a law stores on purpose is no contradiction, and Nitsche's method
+    // has no nodal forces of its own.
+    const bool stores = method.user_law != nullptr
+                        || method.options.allowed_penetration > 0.
+                        || abut_law_needs_stress(method.options.law);
+    if (!problem.is_linear() || (model.has_contact() && stores))
+      return {};
+    la::Vector forces;
+    Works works = find_works(problem, state, model.has_contact(), forces);
+    if (model.has_contact())
+    {
+      const std::optional<double> open =
+          model.work_on_gaps(forces, works.contact);
+      if (!open)
+        return {};
+      works.open_gaps = *open;
+    }
+    double length = 0.;
+    for (const auto &cell : model.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        length = std::max(length, cell->diameter());
+    length = dealii::Utilities::MPI::max(length, state.communicator);
+    return diagnose_works(report, works, length,
+                          state.contact.progress().penalty);
+  }
+
   template <int dim> bool ContactRun<dim>::examine()
   {
     SectionTimes::Scope scope(report.times, "results");
@@ -80,6 +113,8 @@ namespace abut::app
     report.set("largest_strain", examination.strain);
     report.set("deformation", examination.deformation);
     report.set("missed_depth", examination.missed_depth);
+    if (const std::optional<ContactFinding> found = examine_works())
+      examination.findings.push_back(*found);
     return examination.is_usable();
   }
 
@@ -125,11 +160,13 @@ namespace abut::app
   template double ContactRun<2>::counted_seconds() const;
   template void ContactRun<2>::judge();
   template void ContactRun<2>::add_missed_contact();
+  template std::optional<ContactFinding> ContactRun<2>::examine_works();
   template bool ContactRun<2>::examine();
   template void ContactRun<2>::finish_result();
   template double ContactRun<3>::counted_seconds() const;
   template void ContactRun<3>::judge();
   template void ContactRun<3>::add_missed_contact();
+  template std::optional<ContactFinding> ContactRun<3>::examine_works();
   template bool ContactRun<3>::examine();
   template void ContactRun<3>::finish_result();
 } // namespace abut::app

@@ -17,6 +17,11 @@ namespace abut::app
      * answer useless. */
     constexpr double visible_imbalance = 1e-6, useless_imbalance = 1e-2;
 
+    /** Part of the energy by which works may be off, and what tolerances leave
+     * of works that cancel each other, and of gaps in sizes of a cell. */
+    constexpr double visible_work = 0.05, useless_work = 0.1,
+                     tolerance_of_works = 1e-6;
+
     /** Order below which an energy converges slowly: smooth data gives 2, the
      * corners of bodies some 1.4. */
     constexpr double slow_order = 1.25;
@@ -115,6 +120,44 @@ namespace abut::app
     }
     report.warn(text);
     return true;
+  }
+
+  std::optional<ContactFinding> diagnose_works(Report &report,
+                                               const Works &works,
+                                               const double length,
+                                               const double penalty)
+  {
+    // Balance is a matter of the linear solver, gaps are one of the law.
+    const double unbalanced = works.stored - works.given - works.contact;
+    const double off = std::abs(unbalanced + works.open_gaps);
+    const double part = off == 0. ? 0. : off / std::abs(works.stored);
+    const double least =
+        tolerance_of_works * (works.size + length * works.force);
+    report.set("work_error", off > least ? part : 0.);
+    if (part <= visible_work || off <= least)
+      return {};
+    const bool is_law = std::abs(works.open_gaps) > std::abs(unbalanced);
+    const bool is_soft = is_law && works.open_gaps < 0. && penalty > 0.;
+    ContactFinding finding;
+    finding.failure = is_soft ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_UNBALANCED;
+    finding.is_error = part > useless_work;
+    finding.text = coded(
+        finding.failure,
+        "Twice the energy, " + short_number(works.stored, 4)
+            + ", is not the work of loads, supports and contact on its initial "
+              "gaps: it is off by "
+            + short_number(100. * part, 2) + " %. "
+            + (!is_law ? "Forces are not in balance where the body moves: use "
+                         "a smaller Method/Final linear tolerance, or "
+                         "Solver/Linear solver = direct."
+               : works.open_gaps > 0.
+                   ? "Contact pushes across gaps that are open: use a smaller "
+                     "Method/Barrier end or Gap tolerance, or the method "
+                     "lagrange."
+                   : "Contact lets bodies penetrate: use a larger "
+                     "Method/Penalty or a smaller Gap tolerance, or the "
+                     "method lagrange."));
+    return finding;
   }
 
   void diagnose_order(Report &report, const std::vector<double> &energies)

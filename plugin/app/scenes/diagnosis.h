@@ -8,10 +8,13 @@
  */
 
 #include "app/report/report.h"
+#include "works.h"
 
+#include <abut/dealii/contact_examination.h>
 #include <abut/dealii/method_parameters.h>
 #include <abut/strategy.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +39,14 @@ namespace abut::app
    * @param penalty of the law, 0 if none */
   bool diagnose_balance(Report &report, double imbalance, double penalty,
                         std::string &failure);
+
+  /** Of what is stored and what the forces do, see find_works(), in linear
+   * statics without friction: a finding if they contradict each other.
+   * @param length of the largest cell
+   * @param penalty of the law, 0 if none */
+  std::optional<ContactFinding> diagnose_works(Report &report,
+                                               const Works &works,
+                                               double length, double penalty);
 
   /** Of the energies on meshes each twice as fine as the one before: at which
    * order of the mesh size they converge, and whether that is so slow that

@@ -175,6 +175,19 @@ namespace abut::app
   }
 
   template <int dim>
+  std::optional<double>
+  MembraneModel<dim>::work_on_gaps(const la::Vector &forces, const double) const
+  {
+    // Obstacles push up from below and down from above, and gaps are counted
+    // from each.
+    const la::Vector gap = run.contact.gap();
+    double sum = 0.;
+    for (int i = 0; i < la::n_owned(gap); ++i)
+      sum += std::abs(la::data(forces)[i]) * la::data(gap)[i];
+    return dealii::Utilities::MPI::sum(sum, run.communicator);
+  }
+
+  template <int dim>
   std::optional<ErrorNorms> MembraneModel<dim>::errors() const
   {
     if (!exact)

@@ -69,6 +69,8 @@ namespace abut::app
       return conductivity->value(cell->center());
     }
     double solution_norm() const override;
+    std::optional<double> work_on_gaps(const la::Vector &forces,
+                                       double work) const override;
     std::optional<ErrorNorms> errors() const override;
     bool has_exact_solution() const override
     {

@@ -305,6 +305,17 @@ namespace abut::app
     return std::sqrt(std::max(0., twice));
   }
 
+  template <int dim>
+  std::optional<double> SolidModel<dim>::work_on_gaps(const la::Vector &,
+                                                      double work) const
+  {
+    if (pairs->has_friction())
+      return {};
+    for (const PairResult<dim> &pair : run.contact.pair_results())
+      work += pair.initial_gap_work;
+    return work;
+  }
+
   template <int dim> std::optional<ErrorNorms> SolidModel<dim>::errors() const
   {
     if (!exact)

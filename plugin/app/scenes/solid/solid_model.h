@@ -70,6 +70,9 @@ namespace abut::app
       return parameters.large_strain;
     }
     double solution_norm() const override;
+    /** With the initial gaps as the rows have them. */
+    std::optional<double> work_on_gaps(const la::Vector &forces,
+                                       double work) const override;
     std::optional<ErrorNorms> errors() const override;
     bool has_exact_solution() const override
     {

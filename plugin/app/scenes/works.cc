@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "works.h"
+
+#include "nodal_forces.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Work of @p forces on @p u; adds its magnitudes on this rank to @p size.
+     * Collective. */
+    double work(const la::Vector &forces, const la::Vector &u, double &size)
+    {
+      const double *f = la::data(forces), *d = la::data(u);
+      for (int i = 0; i < la::n_owned(u); ++i)
+        size += std::abs(f[i] * d[i]);
+      return forces * u;
+    }
+  } // namespace
+
+  template <int dim>
+  Works find_works(const DiscreteProblem<dim> &problem,
+                   const ContactRunState<dim> &run, const bool has_contact,
+                   la::Vector &contact)
+  {
+    la::Vector u(run.u);
+    problem.constraints.distribute(u);
+    // Forces at hanging nodes are those of their parents.
+    problem.hanging.set_zero(u);
+    Works works;
+    works.stored = problem.nodal_forces(run.u).internal * u;
+    for (const NodalColumn &column : force_columns(problem, run, has_contact))
+      if (column.name == "contact")
+      {
+        contact = column.values;
+        works.force = contact.l1_norm();
+        works.contact = work(contact, u, works.size);
+      }
+      else if (column.name != "held")
+        works.given += work(column.values, u, works.size);
+    works.size = dealii::Utilities::MPI::sum(works.size, run.communicator);
+    return works;
+  }
+
+  template Works find_works(const DiscreteProblem<2> &,
+                            const ContactRunState<2> &, bool, la::Vector &);
+  template Works find_works(const DiscreteProblem<3> &,
+                            const ContactRunState<3> &, bool, la::Vector &);
+} // namespace abut::app
