@@ -136,8 +136,10 @@ namespace abut
           check.size_ratio > 0.
               ? check.facet_size / std::min(1., check.size_ratio)
               : check.facet_size;
+      // Surfaces that slide by their own length do not meet any more.
+      const double length = std::pow(pair.covered_area, 1. / (dim - 1));
       if (!is_obstacle && pair.slip > facet)
-        findings.add(ABUT_FAILURE_SLIDING, false,
+        findings.add(ABUT_FAILURE_SLIDING, pair.slip > length,
                      pair.name + ": the surfaces slide on each other by "
                          + number(pair.slip) + ", more than a facet, "
                          + number(facet)

@@ -2,6 +2,7 @@
 // What a contact solve found, as numbers and as nodal fields.
 #include "contact_implementation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut
@@ -175,7 +176,9 @@ namespace abut
     const std::vector<std::uint8_t> state = i.row_states();
     auto results =
         i.surfaces->results(pressure.data(), i.gap.data(), state.data());
-    if (i.has_friction)
+    // Also where supports leave nothing that could slide.
+    if (std::any_of(i.pairs.begin(), i.pairs.end(),
+                    [](const auto &pair) { return pair.friction != nullptr; }))
       i.surfaces->add_friction(pressure.data(), i.gap.data(), state.data(),
                                results);
     return results;

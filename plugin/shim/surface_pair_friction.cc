@@ -5,8 +5,10 @@
 
 #include <abut/strategy.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace abut::shim
@@ -30,6 +32,32 @@ namespace abut::shim
       return 0.;
     }
 
+    /** Sum of factors by unknown. */
+    using Motion = std::map<dealii::types::global_dof_index, double>;
+
+    double product(const Motion &a, const Motion &b)
+    {
+      double sum = 0.;
+      for (const auto &[unknown, factor] : a)
+        if (const auto other = b.find(unknown); other != b.end())
+          sum += factor * other->second;
+      return sum;
+    }
+
+    /** The angle that a rigid body has turned by, radian; whole turns are not
+     * seen. */
+    template <int dim>
+    double angle_between(const RigidPose<dim> &then, const RigidPose<dim> &now)
+    {
+      const double t = trace(transpose(then.rotation) * now.rotation);
+      return std::acos(
+          std::clamp(dim == 2 ? 0.5 * t : 0.5 * (t - 1.), -1., 1.));
+    }
+
+    /** From here on the chord, which slips are measured by, is 1 % shorter than
+     * the way along the surface, sin(a) / a. */
+    constexpr double largest_turn = 15.01 * M_PI / 180.;
+
     /** How far the point of a rigid body that is at @p place now has come. */
     template <int dim>
     dealii::Tensor<1, dim> way_of(const dealii::Point<dim> &place,
@@ -42,6 +70,45 @@ namespace abut::shim
       return x - (then.rotation * own + then.translation);
     }
   } // namespace
+
+  template <int dim>
+  bool SurfacePairRows<dim>::is_guided(const std::size_t point) const
+  {
+    constexpr double small = 1e-8;
+    const std::int32_t first = view_.component_start[point];
+    std::vector<Motion> seen;
+    for (std::int32_t row = first; row < view_.component_start[point + 1];
+         ++row)
+    {
+      Motion motion;
+      double whole = 0.;
+      const auto add = [&](const Node node, const double c)
+      {
+        whole += c * c;
+        for (unsigned int d = 0; d < dim; ++d)
+          surface_.map.for_each_term(
+              node, d,
+              [&](const auto unknown, const double factor) {
+                motion[unknown] +=
+                    c * factor * view_.frame[row * std::size_t(dim) + d];
+              });
+      };
+      for_each_secondary(point, add);
+      for_each_primary(point, add);
+      if (product(motion, motion) <= small * whole)
+        continue; // held, and so there is nothing to hold
+      for (const Motion &other : seen)
+      {
+        const double part = product(motion, other) / product(other, other);
+        for (const auto &[unknown, factor] : other)
+          motion[unknown] -= part * factor;
+      }
+      if (product(motion, motion) <= small * whole)
+        return true;
+      seen.push_back(std::move(motion));
+    }
+    return false;
+  }
 
   template <int dim>
   RowSource::FrictionalPoints SurfacePairRows<dim>::friction() const
@@ -61,9 +128,11 @@ namespace abut::shim
       std::string wrong;
       result.first.push_back(first);
       result.n_tangents.push_back(static_cast<std::uint8_t>(n - 1));
-      result.coefficient.push_back(
+      const double coefficient =
           value_of<dim>(friction.coefficient, places_[i].position,
-                        "coefficient of friction", wrong));
+                        "coefficient of friction", wrong);
+      // Stick and contact would be two conditions for one way that is left.
+      result.coefficient.push_back(is_guided(i) ? 0. : coefficient);
       result.cap.push_back(
           friction.cap ? value_of<dim>(friction.cap, places_[i].position,
                                        "largest traction", wrong)
@@ -73,6 +142,28 @@ namespace abut::shim
     }
     throw_everywhere<ContactError>(communicator_, message);
     return result;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::refuse_turns(
+      const std::vector<RigidPose<dim>> &then,
+      const std::vector<RigidPose<dim>> &now) const
+  {
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
+      const double angle = angle_between(then[p], now[p]);
+      if (pairs_[p].data.friction == nullptr
+          || pairs_[p].data.obstacle == nullptr || angle <= largest_turn)
+        continue;
+      std::ostringstream text;
+      text.precision(3);
+      text << "Pair '" << pairs_[p].data.name << "': its obstacle turns by "
+           << angle * 180. / M_PI
+           << " degrees within a load step, and friction takes the chord for "
+              "the way along the surface: use load steps of at most 15 degrees "
+              "(Load steps/Steps).";
+      throw ContactError(text.str());
+    }
   }
 
   template <int dim>
@@ -92,6 +183,7 @@ namespace abut::shim
         then[p] = committed_poses_[p];
       else if (pairs_[p].data.first_pose)
         then[p] = *pairs_[p].data.first_pose;
+    refuse_turns(then, now);
     std::vector<double> result(view_.n_components, 0.);
     for_each_row(
         [&](const Component &row)
@@ -173,6 +265,10 @@ namespace abut::shim
   template RowSource::FrictionalPoints SurfacePairRows<dim>::friction() const; \
   template std::vector<double> SurfacePairRows<dim>::slip_reference(           \
       const la::Vector &);                                                     \
+  template bool SurfacePairRows<dim>::is_guided(std::size_t) const;            \
+  template void SurfacePairRows<dim>::refuse_turns(                            \
+      const std::vector<RigidPose<dim>> &,                                     \
+      const std::vector<RigidPose<dim>> &) const;                              \
   template void SurfacePairRows<dim>::copy_to_tangents(std::vector<double> &)  \
       const;                                                                   \
   template void SurfacePairRows<dim>::add_friction(                            \

@@ -281,6 +281,13 @@ namespace abut::shim
      * this node of its secondary, or none can. Collective. */
     std::vector<std::uint8_t> held_nodes();
     std::string turning_facets(const Pair &pair) const;
+    /** Throws for obstacles with friction that turn too far for the chord to be
+     * their way. */
+    void refuse_turns(const std::vector<RigidPose<dim>> &then,
+                      const std::vector<RigidPose<dim>> &now) const;
+    /** Whether what supports leave free at a point moves it along a tangent
+     * only as it moves along the normal or the other tangent. */
+    bool is_guided(std::size_t point) const;
     void check_obstacle(Pair &pair, const std::uint8_t *held,
                         const std::vector<dealii::Point<dim>> &present,
                         double tolerance,

@@ -18,6 +18,9 @@ namespace abut::solve
      * far above round-off. */
     constexpr double free_energy = 1e-11;
 
+    /** Part of its modes that a sum of them moves at the least, squared. */
+    constexpr double no_motion = 1e-13;
+
     /** Gaps are known to some 1e-12 of the displacement, energies to the
      * square of it. */
     constexpr double free_gap = 1e-14;
@@ -144,8 +147,8 @@ namespace abut::solve
     const std::vector<double> diagonal =
         la::diagonal(la::local_rows(stiffness));
 
-    // Per body: energies of pairs of modes, then the size of each mode.
-    const std::size_t stride = n * n + n;
+    // Per body: energies of pairs of modes, then their products.
+    const std::size_t stride = 2 * n * n;
     std::vector<double> sums(space.n_bodies * stride, 0.);
     la::Vector mode(rows.owned(), communicator), force(mode);
     for (unsigned int m = 0; m < n; ++m)
@@ -157,21 +160,39 @@ namespace abut::solve
       {
         double *const sum = &sums[motions.body(i) * stride];
         for (unsigned int k = 0; k < n; ++k)
-          sum[m * n + k] += motions.value(k, i) * la::data(force)[i];
-        sum[n * n + m] += la::data(mode)[i] * la::data(mode)[i] * diagonal[i];
+        {
+          const double other = motions.value(k, i);
+          sum[m * n + k] += other * la::data(force)[i];
+          sum[n * n + m * n + k] += other * la::data(mode)[i] * diagonal[i];
+        }
       }
     }
     MPI::sum(sums, communicator, sums);
     for (unsigned int b = 0; b < space.n_bodies; ++b)
     {
       double *const sum = &sums[b * stride];
-      const double *const size = sum + n * n;
-      // A mode that a body does not have counts as held.
+      double *const gram = sum + n * n;
+      std::vector<double> size(n);
       for (unsigned int m = 0; m < n; ++m)
-        for (unsigned int k = 0; k < n; ++k)
-          sum[m * n + k] = size[m] > 0. && size[k] > 0.
-                               ? sum[m * n + k] / std::sqrt(size[m] * size[k])
-                               : (m == k ? 1. : 0.);
+        size[m] = gram[m * n + m];
+      const auto scale = [&](double *const matrix)
+      {
+        for (unsigned int m = 0; m < n; ++m)
+          for (unsigned int k = 0; k < n; ++k)
+            matrix[m * n + k] =
+                size[m] > 0. && size[k] > 0.
+                    ? matrix[m * n + k] / std::sqrt(size[m] * size[k])
+                    : (m == k ? 1. : 0.);
+      };
+      scale(sum);
+      scale(gram);
+      // A mode that a body does not have counts as held, and so does a sum of
+      // modes that moves nothing: a translation and a rotation are the same
+      // for nodes in a row.
+      for (const std::vector<double> &nothing : null_space(n, gram, no_motion))
+        for (unsigned int m = 0; m < n; ++m)
+          for (unsigned int k = 0; k < n; ++k)
+            sum[m * n + k] += nothing[m] * nothing[k];
       for (std::vector<double> &motion : null_space(n, sum, free_energy))
       {
         for (unsigned int m = 0; m < n; ++m)

@@ -42,19 +42,22 @@ namespace abut::app
     template <int dim>
     std::vector<Box<dim>>
     bounding_boxes(const dealii::DoFHandler<dim> &dof_handler,
-                   const unsigned int n_bodies)
+                   const unsigned int n_bodies, const BodyOfCell<dim> &body_of)
     {
       // Negative minima and maxima in one reduction.
       std::vector<double> bounds(2 * dim * n_bodies, -1e300);
       for (const auto &cell : dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
+        {
+          const unsigned int body = body_of(cell);
           for (const unsigned int v : cell->vertex_indices())
             for (unsigned int d = 0; d < dim; ++d)
             {
-              double *own = &bounds[2 * (dim * cell->material_id() + d)];
+              double *own = &bounds[2 * (dim * body + d)];
               own[0] = std::max(own[0], -cell->vertex(v)[d]);
               own[1] = std::max(own[1], cell->vertex(v)[d]);
             }
+        }
       MPI::max(bounds, dof_handler.get_communicator(), bounds);
       std::vector<Box<dim>> result(n_bodies);
       for (unsigned int body = 0; body < n_bodies; ++body)
@@ -114,15 +117,15 @@ namespace abut::app
   } // namespace
 
   template <int dim>
-  std::vector<RigidFreedom>
-  rigid_freedom(const dealii::Mapping<dim> &mapping,
-                const dealii::DoFHandler<dim> &dof_handler,
-                const unsigned int n_bodies, const PlaneModel plane,
-                const std::map<dealii::types::boundary_id,
-                               dealii::ComponentMask> &supports)
+  std::vector<RigidFreedom> rigid_freedom(
+      const dealii::Mapping<dim> &mapping,
+      const dealii::DoFHandler<dim> &dof_handler, const unsigned int n_bodies,
+      const BodyOfCell<dim> &body_of, const PlaneModel plane,
+      const std::map<dealii::types::boundary_id, dealii::ComponentMask>
+          &supports)
   {
     const bool rings = dim == 2 && plane == PlaneModel::axisymmetric;
-    const auto boxes = bounding_boxes(dof_handler, n_bodies);
+    const auto boxes = bounding_boxes(dof_handler, n_bodies, body_of);
     const auto &element = dof_handler.get_fe().base_element(0);
     dealii::FEFaceValues<dim> nodes(
         mapping, element,
@@ -142,7 +145,7 @@ namespace abut::app
               static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
                   cell),
               f);
-          const unsigned int body = cell->material_id();
+          const unsigned int body = body_of(cell);
           for (const dealii::Point<dim> &point : nodes.get_quadrature_points())
             for (unsigned int c = 0; c < dim; ++c)
               if (held->second[c])
@@ -169,10 +172,10 @@ namespace abut::app
 
   template std::vector<RigidFreedom> rigid_freedom<2>(
       const dealii::Mapping<2> &, const dealii::DoFHandler<2> &, unsigned int,
-      PlaneModel,
+      const BodyOfCell<2> &, PlaneModel,
       const std::map<dealii::types::boundary_id, dealii::ComponentMask> &);
   template std::vector<RigidFreedom> rigid_freedom<3>(
       const dealii::Mapping<3> &, const dealii::DoFHandler<3> &, unsigned int,
-      PlaneModel,
+      const BodyOfCell<3> &, PlaneModel,
       const std::map<dealii::types::boundary_id, dealii::ComponentMask> &);
 } // namespace abut::app

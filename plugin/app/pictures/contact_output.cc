@@ -32,7 +32,12 @@ namespace abut::app
         square += component * component;
         along += component * inputs.normals[q][d];
       }
-      results[q][0] = outward * std::copysign(std::sqrt(square), along);
+      // Across an edge of the surface it is the other facet's vector.
+      const double length = std::sqrt(square);
+      results[q][0] =
+          outward
+          * (std::abs(along) < 0.5 * length ? along
+                                            : std::copysign(length, along));
     }
   }
 

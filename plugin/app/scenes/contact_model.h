@@ -85,8 +85,14 @@ namespace abut::app
     /** The parameter that a message about contact belongs to. */
     virtual std::string parameter_of(const std::string &message) const = 0;
 
-    /** The parameter that a message about a body without support belongs to.
-     */
+    /** A message of a solver with the scene's names of bodies. */
+    virtual std::string with_names(const std::string &message) const
+    {
+      return message;
+    }
+
+    /** The parameter that a message about a body without support, with_names(),
+     * belongs to. */
     virtual std::string support_of(const std::string &) const
     {
       return "";

@@ -93,7 +93,7 @@ namespace abut::app
     }
     catch (const SolverFailure &failure)
     {
-      return failure.what();
+      return model.with_names(failure.what());
     }
     return "";
   }
@@ -235,10 +235,10 @@ namespace abut::app
                        + std::to_string(state.present.steps)
                        + " steps: " + state.contact.explanation());
     case NewtonReason::linear_solve:
-      return diagnose_solver_failure(result.explanation,
+      return diagnose_solver_failure(model.with_names(result.explanation),
                                      state.contact.progress().penalty);
     default:
-      return coded(result.failure, result.explanation);
+      return coded(result.failure, model.with_names(result.explanation));
     }
   }
 

@@ -9,6 +9,7 @@
 #include "app/physics/elastic_normal_stress.h"
 #include "app/pictures/contact_output.h"
 #include "app/restart/archive.h"
+#include "shim/bodies.h"
 #include "solid_report.h"
 
 #include <algorithm>
@@ -99,25 +100,29 @@ namespace abut::app
     std::map<boundary_id, dealii::ComponentMask> held;
     for (const auto &[id, support] : data.supports)
       held[id] = support.components;
-    freedom = rigid_freedom(elasticity.mapping, elasticity.dof_handler,
-                            bodies.size(), parameters.plane, held);
-    std::set<unsigned int> touched, floating;
-    for (const boundary_id id : pairs->surfaces())
-      touched.insert(bodies.body_of(id));
-    for (unsigned int body = 0; body < bodies.size(); ++body)
+    const shim::BodyNumbers<dim> numbers(this->triangulation);
+    parts = find_parts(this->triangulation);
+    freedom = rigid_freedom<dim>(
+        elasticity.mapping, elasticity.dof_handler, parts.size(),
+        [&numbers](const auto &cell) { return numbers.of(cell); },
+        parameters.plane, held);
+    const std::set<boundary_id> touched = pairs->surfaces();
+    for (unsigned int k = 0; k < parts.size(); ++k)
     {
-      if (freedom[body].n_modes == 0)
+      if (freedom[k].n_modes == 0)
         continue;
-      floating.insert(body);
-      if (touched.count(body) == 0)
-        throw InputError(bodies[body].parameter("Support"),
+      const std::set<boundary_id> &ids = parts[k].ids;
+      if (std::none_of(ids.begin(), ids.end(),
+                       [&](const boundary_id id)
+                       { return touched.count(id) > 0; }))
+        throw InputError(bodies[parts[k].body].parameter("Support"),
                          coded(ABUT_FAILURE_FLOATING_BODY,
-                               "body " + std::to_string(body + 1)
+                               parts[k].name()
                                    + " is held too little: its supports allow "
-                                   + freedom[body].description
+                                   + freedom[k].description
                                    + ", and it is in no contact pair."));
+      pairs->hold(ids, parts[k].n_parts > 1);
     }
-    pairs->hold(bodies, floating);
     check_points(points, elasticity);
     look_for_chords();
   }
@@ -198,10 +203,9 @@ namespace abut::app
   template <int dim>
   std::string SolidModel<dim>::support_of(const std::string &message) const
   {
-    for (unsigned int body = bodies.size(); body > 0; --body)
-      if (message.find("body " + std::to_string(body) + " can")
-          != std::string::npos)
-        return bodies[body - 1].parameter("Support");
+    for (const BodyPart<dim> &part : parts)
+      if (message.find(part.name() + " can") != std::string::npos)
+        return bodies[part.body].parameter("Support");
     return "";
   }
 
@@ -217,35 +221,35 @@ namespace abut::app
 
   template <int dim>
   bool
-  SolidModel<dim>::is_held(const unsigned int body,
+  SolidModel<dim>::is_held(const BodyPart<dim> &part,
                            const std::vector<PairResult<dim>> &results) const
   {
     bool held = false;
     for (std::size_t i = 0; i < results.size(); ++i)
     {
       const ContactPair<dim> &pair = pairs->pairs()[i];
-      if (pair.secondary == pair.primary)
+      // nobody holds itself, but parts may hold each other
+      if (pair.secondary == pair.primary && part.n_parts == 1)
         continue;
       for (const auto *side : {&pair.secondary, &pair.primary})
-        for (const dealii::types::boundary_id id : *side)
-          held =
-              held || (bodies.body_of(id) == body && results[i].n_active > 0);
+        for (const boundary_id id : *side)
+          held = held || (part.ids.count(id) > 0 && results[i].n_active > 0);
     }
     return held;
   }
 
   template <int dim> std::string SolidModel<dim>::refuse() const
   {
-    for (unsigned int body = 0; body < bodies.size(); ++body)
-      if (freedom[body].n_modes > 0
-          && !is_held(body, run.contact.pair_results()))
+    for (unsigned int k = 0; k < parts.size(); ++k)
+      if (freedom[k].n_modes > 0
+          && !is_held(parts[k], run.contact.pair_results()))
         return coded(
             ABUT_FAILURE_FLOATING_BODY,
-            "Nothing holds body " + std::to_string(body + 1)
-                + ": its supports allow " + freedom[body].description
+            "Nothing holds " + parts[k].name() + ": its supports allow "
+                + freedom[k].description
                 + ", and it touches nothing. Press it against something, or "
-                  "give it a support (Body "
-                + std::to_string(body + 1) + "/Support).");
+                  "give it a support ("
+                + bodies[parts[k].body].parameter("Support") + ").");
     return "";
   }
 

@@ -4,6 +4,7 @@
 
 #include "app/physics/rigid_modes.h"
 #include "app/scenes/contact_model.h"
+#include "body_parts.h"
 #include "solid_functions.h"
 #include "solid_output.h"
 #include "solid_pairs.h"
@@ -54,6 +55,10 @@ namespace abut::app
       return pairs->parameter_of(message);
     }
     std::string support_of(const std::string &message) const override;
+    std::string with_names(const std::string &message) const override
+    {
+      return app::with_names(parts, message);
+    }
     void look_at_rows(bool is_last) override;
     /** Names a body that nothing holds. */
     std::string refuse() const override;
@@ -121,12 +126,13 @@ namespace abut::app
     SearchParameters numbered_search() const;
     /** Whether refinement keeps the chords of a round side in contact. */
     void look_for_chords() const;
-    bool is_held(unsigned int body,
+    bool is_held(const BodyPart<dim> &part,
                  const std::vector<PairResult<dim>> &results) const;
 
     const SearchParameters &search;
     ContactAssembler<dim> &assembler;
-    std::vector<RigidFreedom> freedom; ///< by body
+    std::vector<BodyPart<dim>> parts;
+    std::vector<RigidFreedom> freedom; ///< by part
     SolidOutput<dim> output;
     bool has_warned = false;
   };

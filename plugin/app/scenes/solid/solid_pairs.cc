@@ -115,15 +115,15 @@ namespace abut::app
   }
 
   template <int dim>
-  void SolidPairs<dim>::hold(const Bodies<dim> &bodies,
-                             const std::set<unsigned int> &floating)
+  void SolidPairs<dim>::hold(const std::set<boundary_id> &surface,
+                             const bool has_others)
   {
     for (ContactPair<dim> &pair : all)
       for (const auto *side : {&pair.secondary, &pair.primary})
         for (const boundary_id id : *side)
           // nobody holds itself
-          if (floating.count(bodies.body_of(id)) > 0
-              && pair.secondary != pair.primary)
+          if (surface.count(id) > 0
+              && (has_others || pair.secondary != pair.primary))
             pair.holds_body = true;
   }
 

@@ -40,9 +40,11 @@ namespace abut::app
                       const std::map<dealii::types::boundary_id,
                                      BoundaryCondition<dim>> &supports) const;
 
-    /** Say that pairs with a surface of these bodies hold them. */
-    void hold(const Bodies<dim> &bodies,
-              const std::set<unsigned int> &floating);
+    /** Say that pairs with one of these surfaces of a body hold it.
+     * @param has_others the body has other parts, which a pair of its surface
+     * with itself may hold it by */
+    void hold(const std::set<dealii::types::boundary_id> &surface,
+              bool has_others);
 
     /** Time of gaps and obstacles. */
     void set_time(double time);

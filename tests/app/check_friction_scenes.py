@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Scenes with friction that were made to break the program: obstacles that turn
+too far in a step, supports that leave a node one way only, and bodies of
+several parts that hold each other. What they end with is known from formulas
+or is an error that says what to do."""
+import json
+
+from block_scene import section
+from program import Program, set_words
+
+p = Program()
+quiet = ("Output/Fields=false", "Output/Pictures=false")
+
+
+def run(scene, *settings):
+    return p.call("run", scene, "--output", "out", "--quiet",
+                  *set_words(settings + quiet))
+
+
+def solved(scene, *settings):
+    result = run(scene, *settings)
+    p.expect(result.returncode == 0,
+             f"{scene} {settings}: exit code {result.returncode}\n"
+             + result.stderr)
+    return json.loads((p.folder / "out/summary.json").read_text())
+
+
+# A shaft of radius 1.01 in a ring of radius 1 that turns until all slips: the
+# moment is mu times the normal force times the radius of the ring.
+shaft = p.write("shaft.prm", "set Scene = solid\nset Dimension = 2\n" + "".join([
+    section("Solid", "Obstacles = 1", "Pairs = 1"),
+    section("Body 1", section("Mesh", "Generator = hyper_shell",
+                              "Arguments = 0, 0 : 1 : 2 : 24 : true"),
+            "Young modulus = 1000", "Support = 1: 0, 0"),
+    section("Obstacle 1", "Kind = sphere", "Centre = 0, 0", "Radius = 1.01",
+            "Rotation angle = 5*t"),
+    section("Pair 1", "Secondary = 1: 0", "Obstacle = 1", "Friction = 0.2"),
+    section("Load steps", "Steps = 2"), section("Refinement", "Level = 1")]))
+for way in (1, -1):
+    summary = solved(shaft, f"Obstacle 1/Rotation angle={way * 5}*t")
+    p.close(summary["pair_1_moment"][2],
+            way * 0.2 * summary["pair_1_normal_force"], 1e-6,
+            f"moment of a shaft that turns by {way * 5} degrees")
+# 185 degrees in a step look like 175 the other way.
+for turns in ("370*t", "-370*t", "31*t"):
+    p.expect_error(run(shaft, f"Obstacle 1/Rotation angle={turns}"), "Pair 1",
+                   "degrees within a load step", "Load steps/Steps")
+
+# Where supports hold all nodes sideways, there is nothing to rub: a uniform
+# strain of 0.01 along the height, E (1 - nu) / ((1 + nu) (1 - 2 nu)) times that
+# on a length of 2.
+plate = p.source / "prm/rigid-plate.prm"
+held = solved(plate, "Pair 1/Friction=0.3",
+              "Body 1/Support=2: 0, 0; 0, 1, 3: 0, free")
+p.close(held["pair_1_normal_force"], 2 * 0.01 * 1000 * 0.7 / (1.3 * 0.4), 1e-9,
+        "normal force where nothing can slide")
+# The same along the normal: no row is left, and the body is held all the same.
+solved(plate, "Body 1/Support=2: 0, 0; 3: free, 0", "Refinement/Level=0")
+
+# A cone on an axisymmetric body: the node on the axis moves along it only, and
+# contact and stick would be two conditions for that.
+frictionless = solved(p.source / "prm/cone.prm")
+for mu in (0.01, 0.3):
+    summary = solved(p.source / "prm/cone.prm", f"Pair 1/Friction={mu}")
+    p.close(summary["contact_force"], frictionless["contact_force"], 0.05,
+            f"force of a cone with friction {mu}")
+    p.expect(summary["pair_1_friction_force"]
+             <= mu * summary["pair_1_normal_force"] * (1 + 1e-9),
+             f"friction of a cone with friction {mu}")
+
+# A cube of edge 1 that slides by 5 is not on the other one any more.
+blocks = p.source / "prm/two-blocks-3d.prm"
+for way, code in ((5, 3), (0.6, 0)):
+    result = run(blocks, "Pair 1/Friction=0.3", "Refinement/Level=1",
+                 "Solid/Allow large strain=true",
+                 f"Body 2/Support=5: {way}, 0, -0.02")
+    p.expect(result.returncode == code and "ABUT-F36" in result.stderr,
+             f"a cube that slides by {way}: {result.returncode} "
+             + result.stderr)
+
+# Two blocks in one mesh file, the upper one held by contact and by its side.
+nodes, cells, lines = [], [], []
+for y, bottom, top in ((0, 1, 2), (1, 3, 4)):
+    first = len(nodes) + 1
+    nodes += [(i / 2, y + j / 2) for j in range(3) for i in range(3)]
+    at = [[first + 3 * j + i for i in range(3)] for j in range(3)]
+    cells += [(at[j][i], at[j][i + 1], at[j + 1][i + 1], at[j + 1][i])
+              for j in range(2) for i in range(2)]
+    lines += [(bottom, at[0][i], at[0][i + 1]) for i in range(2)]
+    lines += [(top, at[2][i], at[2][i + 1]) for i in range(2)]
+    lines += [(5, at[j][i], at[j + 1][i]) for j in range(2) for i in (0, 2)]
+elements = ([f"1 2 {b} {b} {i} {j}" for b, i, j in lines]
+            + [f"3 2 0 0 {' '.join(map(str, cell))}" for cell in cells])
+p.write("two.msh", "\n".join([
+    "$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(nodes)),
+    *(f"{i} {x} {y} 0" for i, (x, y) in enumerate(nodes, 1)), "$EndNodes",
+    "$Elements", str(len(elements)),
+    *(f"{i} {text}" for i, text in enumerate(elements, 1)), "$EndElements"])
+    + "\n")
+parts = p.write("parts.prm", "set Scene = solid\nset Dimension = 2\n"
+                + section("Solid", "Pairs = 1")
+                + section("Body 1", section("Mesh", "File = two.msh"),
+                          "Young modulus = 1000", "Poisson ratio = 0",
+                          "Support = 1: 0, 0; 4: 0, free", "Pressure = 4: 1")
+                + section("Pair 1", "Secondary = 1: 3", "Primary = 1: 2"))
+for settings in ((), ("Pair 1/Secondary=1: 2, 3", "Pair 1/Primary=1: 2, 3")):
+    summary = solved(parts, *settings)
+    p.close(summary["contact_force"], 1., 1e-9,
+            f"force on a part of a body {settings}")
+    # two blocks of height 1 under the stress 1
+    p.close(summary["energy"], -0.5 * 2 / 1000, 1e-9,
+            f"energy of two parts of a body {settings}")
+result = run(parts, "Body 1/Support=1: 0, 0")
+p.expect(result.returncode == 3
+         and "body 1, of whose 2 parts the one with the corner (0 1), can slide"
+         in result.stderr, f"a part that slides: {result.stderr}")
+p.expect_error(run(parts, "Pair 1/Secondary=1: 1", "Pair 1/Primary=1: 2",
+                   "Body 1/Support=1: free, 0; 2: 0, free"),
+               "Body 1/Support", "(0 1)", "ABUT-F12", "in no contact pair")
+p.finish()
