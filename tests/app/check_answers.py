@@ -238,6 +238,11 @@ for law, end, code, words in (("barrier", 1e-2, 0, ()),
 pressed = p.source / "prm/failures/barrier-closed.cure.prm"
 p.expect(expect(run(pressed), 0, without=("Twice the",))["work_error"] == 0,
          "works of a membrane that does not move")
+lifted = run(p.source / "prm/curved-obstacle.prm", "Membrane/Dirichlet=*: 1",
+             "Mesh/Rotate=-16.6", "Method/Enforcement=penalty",
+             "Refinement/Adaptive cycles=0", "Refinement/Level=4")
+p.expect(expect(lifted, 0, without=("Twice the",))["work_error"] == 0,
+         "works of a membrane that nothing loads")
 
 # A block that slides by half its length, four facets.
 slide = "Body 2/Support=3: 0.5*t, -0.01"

@@ -22,6 +22,10 @@ namespace abut::app
     constexpr double visible_work = 0.05, useless_work = 0.1,
                      tolerance_of_works = 1e-6;
 
+    /** Digits that the energy of a body loses that moves and is hardly
+     * deformed. */
+    constexpr double round_off_of_works = 1e-12;
+
     /** Order below which an energy converges slowly: smooth data gives 2, the
      * corners of bodies some 1.4. */
     constexpr double slow_order = 1.25;
@@ -132,7 +136,8 @@ namespace abut::app
     const double off = std::abs(unbalanced + works.open_gaps);
     const double part = off == 0. ? 0. : off / std::abs(works.stored);
     const double least =
-        tolerance_of_works * (works.size + length * works.force);
+        tolerance_of_works * (works.size + length * works.force)
+        + round_off_of_works * works.apart;
     report.set("work_error", off > least ? part : 0.);
     if (part <= visible_work || off <= least)
       return {};

@@ -33,6 +33,14 @@ namespace abut::app
     problem.hanging.set_zero(u);
     Works works;
     works.stored = problem.nodal_forces(run.u).internal * u;
+    for (int i = 0; i < la::n_owned(u); ++i)
+    {
+      const double d = la::data(u)[i];
+      works.apart += d * d
+                     * std::abs(problem.stiffness.diag_element(
+                         u.locally_owned_elements().nth_index_in_set(
+                             static_cast<dealii::types::global_dof_index>(i))));
+    }
     for (const NodalColumn &column : force_columns(problem, run, has_contact))
       if (column.name == "contact")
       {
@@ -43,6 +51,7 @@ namespace abut::app
       else if (column.name != "held")
         works.given += work(column.values, u, works.size);
     works.size = dealii::Utilities::MPI::sum(works.size, run.communicator);
+    works.apart = dealii::Utilities::MPI::sum(works.apart, run.communicator);
     return works;
   }
 

@@ -20,6 +20,7 @@ namespace abut::app
     double contact = 0.;   ///< by contact
     double size = 0.;      ///< sum of the magnitudes of these two, by unknown
     double force = 0.;     ///< sum of the magnitudes of forces of contact
+    double apart = 0.;     ///< if each unknown moved by itself
     double open_gaps = 0.; ///< by contact on gaps that are left at the end
   };
 
