@@ -226,21 +226,6 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::add_to_sparsity(
-      dealii::DynamicSparsityPattern &pattern) const
-  {
-    const Implementation &i = *implementation;
-    i.check_rows("add_to_sparsity()");
-    std::vector<global_dof_index> columns;
-    for (int row = 0; row < i.coefficients.n_rows(); ++row)
-    {
-      i.coefficients.get_columns(row, columns);
-      for (const global_dof_index dof : columns)
-        pattern.add_entries(dof, columns.begin(), columns.end());
-    }
-  }
-
-  template <int dim>
   void ContactAssembler<dim>::relax(const la::Matrix &matrix,
                                     const la::Vector &residual,
                                     const unsigned int n_sweeps,
@@ -296,53 +281,6 @@ namespace abut
     report.tolerance = tolerance;
     i.report += report;
     return report;
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::add(la::Matrix &matrix, la::Vector &residual)
-  {
-    Implementation &i = *implementation;
-    i.check_rows("add()");
-    i.check_size("add()", "matrix", matrix.m());
-    i.check_size("add()", "residual", residual.size());
-    AssertThrow(abut_law_has_penalty(i.method.options.law)
-                    && !abut_law_needs_stress(i.method.options.law),
-                ExcMessage(std::string("The law '") + i.method.options.law->name
-                           + "' cannot be added to a matrix row by row: use "
-                             "ContactAssembler::solve()."));
-    if (!i.is_started)
-    {
-      i.take_matrix(matrix);
-      i.begin(matrix, residual);
-    }
-    AssertThrow(!i.has_friction,
-                ExcMessage("Contact with friction cannot be added to a matrix "
-                           "row by row: use ContactAssembler::solve()."));
-    const solve::PointOperator &rows = i.coefficients;
-    i.local.reinit(i.request, rows.n_rows(), rows.weights(), i.communicator);
-    std::vector<global_dof_index> columns;
-    std::vector<double> values;
-    for (int row = 0; row < rows.n_rows(); ++row)
-    {
-      const double stiffness = i.local.spring()[row];
-      const double force = i.local.force()[row];
-      const auto begin = rows.begin(row);
-      rows.get_columns(row, columns);
-      values.resize(columns.size());
-      for (std::size_t j = 0; j < columns.size(); ++j)
-      {
-        const double b = rows.coefficient(begin + j);
-        residual(columns[j]) -= force * b;
-        if (stiffness == 0.)
-          continue;
-        for (std::size_t k = 0; k < columns.size(); ++k)
-          values[k] = stiffness * b * rows.coefficient(begin + k);
-        matrix.add(columns[j], columns.size(), columns.data(), values.data());
-      }
-    }
-    matrix.compress(dealii::VectorOperation::add);
-    residual.compress(dealii::VectorOperation::add);
-    i.was_added = true;
   }
 
   template <int dim>

@@ -295,7 +295,8 @@ namespace abut
   {
     make_operator();
     // Rows between nodes that cannot move say nothing.
-    const std::vector<std::uint8_t> rows = coefficients.rows_with_columns();
+    std::vector<std::uint8_t> rows = coefficients.rows_with_columns();
+    source->drop_held_tangents(rows);
     if (MPI::logical_or(std::count(rows.begin(), rows.end(), 0) > 0,
                         communicator))
     {
@@ -343,8 +344,9 @@ namespace abut
       return;
     AssertThrow(!committed_is_lost,
                 ExcMessage("Slips with friction are measured from the last "
-                           "commit(), which was on another mesh: call "
-                           "set_committed() after reinit()."));
+                           "commit(), whose displacement is not known any more "
+                           "after reinit() or load(): tell it by "
+                           "set_committed() before detect()."));
     surfaces->set_committed_poses(committed_poses);
     slip_reference = source->slip_reference(committed);
   }

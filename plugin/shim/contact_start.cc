@@ -209,7 +209,13 @@ namespace abut
     i.check_mesh("load()");
     if (i.source_is_outdated)
       i.create_source();
-    i.history.load(stream, i.source->mesh_signature());
+    const std::uint64_t mesh = i.source->mesh_signature();
+    i.history.load(stream, mesh);
+    // Displacements are the host's to keep: that of the commit() must come from
+    // there, or slips would be measured from an undeformed body.
+    if (i.committed.size() == 0
+        && i.history.knows(ABUT_HISTORY_COMMITTED, mesh))
+      i.committed_is_lost = true;
     i.return_to_history();
   }
 

@@ -300,10 +300,6 @@ namespace abut
       return "friction needs points that last: on the common parts of facets "
              "they change with the pairs. Use Method/Segments = false, or dual "
              "mortar.";
-    if (info.couples_rows || method.system == System::saddle_point)
-      return "friction is eliminated point by point, which standard mortar "
-             "multipliers and Method/System = saddle point do not allow. Use "
-             "dual mortar or node to segment, with System = auto.";
     return "";
   }
 

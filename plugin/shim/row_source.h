@@ -55,6 +55,14 @@ namespace abut::shim
     virtual Change find(const la::Vector &displacement,
                         abut_points *points) = 0;
 
+    /** Mark with 0 the rows that are no constraints although they have
+     * unknowns: tangents along which supports hold the node of the point, where
+     * the unknowns are those of its neighbours. With them standard multipliers
+     * would outnumber what they hold. Not collective. */
+    virtual void drop_held_tangents(std::vector<std::uint8_t> &) const
+    {
+    }
+
     /** Keep those rows only; see abut_points_filter(). */
     virtual void filter(const std::vector<std::uint8_t> &keep) = 0;
 

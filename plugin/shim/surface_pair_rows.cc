@@ -103,11 +103,20 @@ namespace abut::shim
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
       throw ContactError("Pair '" + data.name + "': " + reason);
-    const std::string no_friction =
+    std::string no_friction =
         data.friction == nullptr
             ? ""
             : friction_refusal(law, pair.discretisation, settings_.method,
                                data.tied, data.obstacle != nullptr);
+    // Where its two sides meet, a node would be held by its own side, too.
+    if (data.friction != nullptr && SelfContact<dim>::is_split(data)
+        && !abut_law_has_penalty(&law))
+      no_friction = "a surface that touches itself has friction with penalty, "
+                    "quadratic penalty and augmented lagrangian only, not with "
+                    "Method/Enforcement = "
+                    + std::string(law.name)
+                    + ". Use one of these, or give its two sides boundary ids "
+                      "of their own.";
     if (!no_friction.empty())
       throw ContactError("Pair '" + data.name + "': " + no_friction);
     for (const Pair &other : pairs_)
@@ -477,6 +486,22 @@ namespace abut::shim
     }
     origins_ = std::move(wanted);
     return Change::points;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::drop_held_tangents(
+      std::vector<std::uint8_t> &keep) const
+  {
+    for_each_row(
+        [&](const Component &row)
+        {
+          const Pair &pair = pairs_[row.place.pair];
+          if (is_tangent(row) && row.place.node >= 0
+              && discretisation_info(pair.discretisation).couples_rows
+              && freedom(static_cast<Node>(row.place.node), row.direction)
+                     < least_freedom)
+            keep[row.row] = 0;
+        });
   }
 
   template <int dim>

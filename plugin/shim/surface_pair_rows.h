@@ -53,6 +53,8 @@ namespace abut::shim
       return dim;
     }
     Change find(const la::Vector &displacement, abut_points *points) override;
+    void drop_held_tangents(std::vector<std::uint8_t> &keep) const override;
+
     void filter(const std::vector<std::uint8_t> &keep) override;
 
     /** Take the gaps of @p pairs, which differ in nothing else from those given

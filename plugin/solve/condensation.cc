@@ -188,15 +188,6 @@ namespace abut::solve
       local_.recover(request);
   }
 
-  std::vector<std::uint8_t>
-  Condensation::closed_rows(const abut_request &request) const
-  {
-    std::vector<std::uint8_t> result(rows_->n_rows());
-    for (int i = 0; i < rows_->n_rows(); ++i)
-      result[i] = request.state[i] != ABUT_STATE_OPEN;
-    return result;
-  }
-
   LinearReport Condensation::solve(const la::Vector &residual,
                                    const abut_request &request,
                                    const double smallest_residual,
@@ -204,10 +195,7 @@ namespace abut::solve
   {
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
-    if (local_.blocks().empty())
-      floating_.check(*rows_, local_.resisting());
-    else
-      floating_.check(*rows_, local_.resisting(), closed_rows(request));
+    floating_.check(*rows_, local_, request);
     if (!condense())
     {
       if (saddle_point_ == nullptr)

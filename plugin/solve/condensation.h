@@ -55,7 +55,6 @@ namespace abut::solve
     bool condense();
     la::Vector right_hand_side(const la::Vector &residual,
                                const la::Vector &lift) const;
-    std::vector<std::uint8_t> closed_rows(const abut_request &request) const;
     la::Vector lift() const;
     void add_spring_forces(const abut_request &request,
                            la::Vector &reaction) const;

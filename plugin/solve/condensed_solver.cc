@@ -8,6 +8,7 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut::solve
@@ -59,6 +60,28 @@ namespace abut::solve
               soft.spring[blocks.at[block] + r * k + c] *=
                   std::sqrt(wanted / (stiff.stiffness[i] * stiff.stiffness[j]));
           }
+    }
+  } // namespace
+
+  namespace
+  {
+    /** Whether the blocks of the point with row @p i first differ: a slip that
+     * turns changes neither pivots nor diagonals. */
+    bool differ_in_block(const Condensate &a, const Condensate &b, const int i)
+    {
+      if (a.blocks.empty() || b.blocks.empty())
+        return a.blocks.empty() != b.blocks.empty();
+      const std::vector<int> &first = a.blocks.first;
+      const auto block = std::lower_bound(first.begin(), first.end(), i);
+      if (block == first.end() || *block != i)
+        return false;
+      const auto at = a.blocks.at[block - first.begin()];
+      const auto end = a.blocks.at[block - first.begin() + 1];
+      const auto differ =
+          [&](const std::vector<double> &x, const std::vector<double> &y)
+      { return !std::equal(x.begin() + at, x.begin() + end, y.begin() + at); };
+      return differ(a.spring, b.spring) || differ(a.trial, b.trial)
+             || differ(a.test, b.test);
     }
   } // namespace
 
@@ -127,7 +150,8 @@ namespace abut::solve
           (unit + now.stiffness[i]) / (unit + built_.stiffness[i]);
       const bool changed =
           now.pivot[i] != built_.pivot[i]
-          || PreconditionerKeeper::is_change(ratio, is_direct());
+          || PreconditionerKeeper::is_change(ratio, is_direct())
+          || (is_direct() && differ_in_block(now, built_, i));
       const bool any = now.pivot[i] != Condensate::none
                        || built_.pivot[i] != Condensate::none
                        || now.stiffness[i] > 0. || built_.stiffness[i] > 0.;

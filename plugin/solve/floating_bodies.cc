@@ -271,6 +271,21 @@ namespace abut::solve
           "or a prescribed displacement in place of a force");
   }
 
+  void FloatingBodies::check(const PointOperator &rows,
+                             const LocalElimination &local,
+                             const abut_request &request) const
+  {
+    if (local.blocks().empty())
+    {
+      check(rows, local.resisting());
+      return;
+    }
+    std::vector<std::uint8_t> closed(rows.n_rows());
+    for (int i = 0; i < rows.n_rows(); ++i)
+      closed[i] = request.state[i] != ABUT_STATE_OPEN;
+    check(rows, local.resisting(), closed);
+  }
+
   void FloatingBodies::check_all(const PointOperator &rows) const
   {
     check(rows, std::vector<std::uint8_t>(rows.n_rows(), 1),

@@ -2,6 +2,7 @@
 #ifndef ABUT_SOLVE_FLOATING_BODIES_H
 #define ABUT_SOLVE_FLOATING_BODIES_H
 
+#include "local_elimination.h"
 #include "near_null_space.h"
 #include "point_operator.h"
 
@@ -35,6 +36,12 @@ namespace abut::solve
     void check(const PointOperator &rows,
                const std::vector<std::uint8_t> &resists,
                const std::vector<std::uint8_t> &sticks) const;
+
+    /** The same with what constraints and springs of a @p request resist; if
+     * it has friction, points that are not open are what would stick.
+     * Collective. */
+    void check(const PointOperator &rows, const LocalElimination &local,
+               const abut_request &request) const;
 
     /** The same if all rows resisted: what is free then no set of rows holds.
      */

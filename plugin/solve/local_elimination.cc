@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace abut::solve
 {
   void LocalElimination::reinit(const abut_request &request, const int n,
@@ -66,6 +68,34 @@ namespace abut::solve
       if (spring_[i] != 0.)
         result[i] = 1;
     return result;
+  }
+
+  void LocalElimination::project(std::vector<double> &gap_change) const
+  {
+    for (int b = 0; !blocks_.empty() && b < blocks_.n_blocks(); ++b)
+    {
+      const int k = blocks_.size(b);
+      double *const value = &gap_change[blocks_.first[b]];
+      double result[ABUT_CONDENSE_COMPONENTS] = {};
+      for (int h = 0; h < k; ++h)
+        for (int c = 0; c < k; ++c)
+          result[h] += trial_[blocks_.at[b] + h * k + c] * value[c];
+      std::copy_n(result, k, value);
+    }
+  }
+
+  void LocalElimination::distribute(std::vector<double> &force) const
+  {
+    for (int b = 0; !blocks_.empty() && b < blocks_.n_blocks(); ++b)
+    {
+      const int k = blocks_.size(b);
+      double *const value = &force[blocks_.first[b]];
+      double result[ABUT_CONDENSE_COMPONENTS] = {};
+      for (int h = 0; h < k; ++h)
+        for (int c = 0; c < k; ++c)
+          result[c] += test_[blocks_.at[b] + h * k + c] * value[h];
+      std::copy_n(result, k, value);
+    }
   }
 
   void LocalElimination::recover(const abut_request &request) const

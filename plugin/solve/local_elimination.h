@@ -82,6 +82,14 @@ namespace abut::solve
       return test_;
     }
 
+    /** [rows] changes of the gaps, in place: at constraints what they hold,
+     * which with friction are combinations of the rows of a point. */
+    void project(std::vector<double> &gap_change) const;
+
+    /** [rows] forces of constraints, 0 elsewhere, in place: with friction,
+     * which grows with the pressure, each acts on all rows of its point. */
+    void distribute(std::vector<double> &force) const;
+
     /** Write the pressure changes of springs into the request, whose gap
      * changes are known; constraints keep theirs. */
     void recover(const abut_request &request) const;

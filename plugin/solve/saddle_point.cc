@@ -19,9 +19,10 @@ namespace abut::solve
     std::vector<double> scale;
     std::vector<double> right; ///< h
     std::vector<double> schur; ///< 3 w / ((1 + gamma) s)
-    std::vector<double> soft;  ///< [rows] w b/a where condensed, else 0
-    std::vector<double> stiff; ///< [rows] soft, and gamma w s on constraints
-    la::Vector force;          ///< f, augmented
+    /** What is condensed into the first equation: D, augmented for
+     * iterations. */
+    Condensate leading;
+    la::Vector force; ///< f
     dealii::types::global_dof_index n_constraints = 0;
     dealii::types::global_dof_index first_constraint = 0;
   };
@@ -47,8 +48,13 @@ namespace abut::solve
     {
     public:
       AugmentedOperator(const CondensedMatrix &leading,
-                        const PointOperator &rows, const System &system)
-          : leading_(leading), rows_(rows), system_(system), gap_(rows.n_rows())
+                        const PointOperator &rows,
+                        const LocalElimination &local, const System &system)
+          : leading_(leading),
+            rows_(rows),
+            local_(local),
+            system_(system),
+            gap_(rows.n_rows())
       {
       }
 
@@ -56,6 +62,7 @@ namespace abut::solve
       {
         leading_.vmult(dst.block(0), src.block(0));
         rows_.times(src.block(0), gap_.data());
+        local_.project(gap_);
         double *out = la::data(dst.block(1));
         for (std::size_t k = 0; k < system_.row.size(); ++k)
           out[k] = -system_.scale[k] * rows_.weight(system_.row[k])
@@ -64,12 +71,14 @@ namespace abut::solve
         std::fill(gap_.begin(), gap_.end(), 0.);
         for (std::size_t k = 0; k < system_.row.size(); ++k)
           gap_[system_.row[k]] = -rows_.weight(system_.row[k]) * p[k];
+        local_.distribute(gap_);
         rows_.add_transposed(gap_.data(), dst.block(0));
       }
 
     private:
       const CondensedMatrix &leading_;
       const PointOperator &rows_;
+      const LocalElimination &local_;
       const System &system_;
       mutable std::vector<double> gap_;
     };
@@ -79,13 +88,15 @@ namespace abut::solve
     {
     public:
       TriangularPreconditioner(const CondensedSolver &leading,
-                               const PointOperator &rows, const System &system,
-                               const la::Vector &model)
+                               const PointOperator &rows,
+                               const LocalElimination &local,
+                               const System &system, const la::Vector &model)
           : leading_(leading),
             rows_(rows),
+            local_(local),
             system_(system),
             force_(model),
-            factor_(rows.n_rows(), 0.)
+            factor_(rows.n_rows())
       {
       }
 
@@ -93,11 +104,13 @@ namespace abut::solve
       {
         const double *gap = la::data(src.block(1));
         double *p = la::data(dst.block(1));
+        std::fill(factor_.begin(), factor_.end(), 0.);
         for (std::size_t k = 0; k < system_.row.size(); ++k)
         {
           p[k] = -gap[k] / (system_.scale[k] * system_.schur[k]);
           factor_[system_.row[k]] = rows_.weight(system_.row[k]) * p[k];
         }
+        local_.distribute(factor_);
         force_ = src.block(0);
         rows_.add_transposed(factor_.data(), force_);
         leading_.precondition(dst.block(0), force_);
@@ -106,6 +119,7 @@ namespace abut::solve
     private:
       const CondensedSolver &leading_;
       const PointOperator &rows_;
+      const LocalElimination &local_;
       const System &system_;
       mutable la::Vector force_;
       mutable std::vector<double> factor_;
@@ -153,25 +167,39 @@ namespace abut::solve
     leading_.restore(state.at(0));
   }
 
+  Condensate SaddlePoint::springs() const
+  {
+    Condensate result(local_.spring(), std::vector<std::int64_t>(
+                                           rows_->n_rows(), Condensate::none));
+    result.blocks = local_.blocks();
+    result.spring = local_.spring_blocks();
+    // No row determines an unknown.
+    result.trial.assign(result.spring.size(), 0.);
+    result.test = result.trial;
+    return result;
+  }
+
   SaddlePoint::System SaddlePoint::assemble(const la::Vector &residual,
                                             const abut_request &request) const
   {
     System system;
-    const double gamma = parameters_.augmentation;
-    std::vector<double> force = local_.force();
-    system.soft = system.stiff = local_.spring();
+    system.leading = springs();
+    std::vector<double> force(rows_->n_rows(), 0.);
     for (int i = 0; i < rows_->n_rows(); ++i)
       if (local_.is_held(i))
       {
         const double w = rows_->weight(i);
         const double s = leading_.row_stiffness()[i];
-        system.stiff[i] = gamma * w * s;
-        force[i] = w * (request.pressure[i] + gamma * s * local_.value()[i]);
+        force[i] = w * request.pressure[i];
         system.row.push_back(i);
         system.right.push_back(-w * local_.value()[i]);
         system.scale.push_back(s);
-        system.schur.push_back(schur_factor * w / ((1. + gamma) * s));
+        system.schur.push_back(schur_factor * w
+                               / ((1. + parameters_.augmentation) * s));
       }
+    local_.distribute(force);
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      force[i] += local_.force()[i];
     system.force = residual;
     system.force *= -1.;
     rows_->add_transposed(force.data(), system.force);
@@ -184,7 +212,38 @@ namespace abut::solve
     return system;
   }
 
+  void SaddlePoint::augment(System &system, la::Vector &force) const
+  {
+    std::vector<double> factor(rows_->n_rows(), 0.);
+    std::vector<double> push(rows_->n_rows(), 0.);
+    for (const int i : system.row)
+    {
+      factor[i] = parameters_.augmentation * rows_->weight(i)
+                  * leading_.row_stiffness()[i];
+      push[i] = factor[i] * local_.value()[i];
+    }
+    local_.distribute(push);
+    rows_->add_transposed(push.data(), force);
+
+    Condensate &leading = system.leading;
+    const RowBlocks &blocks = leading.blocks;
+    for (int i = 0; blocks.empty() && i < rows_->n_rows(); ++i)
+      leading.stiffness[i] += factor[i];
+    for (int b = 0; !blocks.empty() && b < blocks.n_blocks(); ++b)
+      for (int r = 0, k = blocks.size(b); r < k; ++r)
+      {
+        double *const spring = &leading.spring[blocks.at[b] + r * k];
+        for (int h = 0; h < k; ++h)
+          for (int c = 0; c < k; ++c)
+            spring[c] += local_.test()[blocks.at[b] + h * k + r]
+                         * factor[blocks.first[b] + h]
+                         * local_.trial()[blocks.at[b] + h * k + c];
+        leading.stiffness[blocks.first[b] + r] = spring[r];
+      }
+  }
+
   unsigned int SaddlePoint::solve_iteratively(const System &system,
+                                              const la::Vector &force,
                                               const double tolerance,
                                               la::Vector &increment,
                                               std::vector<double> &multiplier)
@@ -195,15 +254,16 @@ namespace abut::solve
     const MPI_Comm communicator = stiffness_->get_mpi_communicator();
     BlockVector right({stiffness_->locally_owned_range_indices(), constraints},
                       communicator);
-    right.block(0) = system.force;
+    right.block(0) = force;
     for (std::size_t k = 0; k < system.row.size(); ++k)
       la::data(right.block(1))[k] = system.scale[k] * system.right[k];
     BlockVector solution(right);
     solution = 0.;
 
-    const AugmentedOperator<System> matrix(leading_.matrix(), *rows_, system);
-    const TriangularPreconditioner<System> preconditioner(leading_, *rows_,
-                                                          system, increment);
+    const AugmentedOperator<System> matrix(leading_.matrix(), *rows_, local_,
+                                           system);
+    const TriangularPreconditioner<System> preconditioner(
+        leading_, *rows_, local_, system, increment);
     unsigned int n_iterations = 0;
     const double attainable = std::max(tolerance, 1e-14 * right.l2_norm());
     bool again = right.l2_norm() > tolerance;
@@ -235,6 +295,31 @@ namespace abut::solve
     return n_iterations;
   }
 
+  template <typename Function>
+  void SaddlePoint::for_each_constraint(const System &system,
+                                        const Function &function) const
+  {
+    auto line = stiffness_->m() + system.first_constraint;
+    const RowBlocks &blocks = local_.blocks();
+    for (std::size_t k = 0; blocks.empty() && k < system.row.size(); ++k)
+      function(line++, system.row[k], 1., 1.);
+    for (int b = 0; !blocks.empty() && b < blocks.n_blocks(); ++b)
+      for (int h = 0, k = blocks.size(b); h < k; ++h)
+      {
+        if (!local_.is_held(blocks.first[b] + h))
+          continue;
+        for (int c = 0; c < k; ++c)
+        {
+          const auto number = blocks.at[b] + h * k + c;
+          const double trial = local_.trial()[number];
+          const double test = local_.test()[number];
+          if (trial != 0. || test != 0.)
+            function(line, blocks.first[b] + c, trial, test);
+        }
+        ++line;
+      }
+  }
+
   la::Matrix SaddlePoint::assemble_matrix(const System &system) const
   {
     const auto n = stiffness_->m();
@@ -245,10 +330,14 @@ namespace abut::solve
 
     dealii::IndexSet ghosts(owned.size());
     ghosts.add_indices(rows_->ghosts());
-    const la::LocalRows stiffness = la::local_rows(*stiffness_);
-    std::vector<int> constraint(rows_->n_rows(), -1);
-    for (std::size_t k = 0; k < system.row.size(); ++k)
-      constraint[system.row[k]] = static_cast<int>(k);
+    CondensedMatrix leading;
+    leading.reinit(*stiffness_, *rows_);
+    leading.set(system.leading);
+    std::unique_ptr<la::Matrix> with_springs;
+    if (!leading.is_plain())
+      with_springs = std::make_unique<la::Matrix>(leading.assemble());
+    const la::Matrix &first = with_springs ? *with_springs : *stiffness_;
+    const la::LocalRows stiffness = la::local_rows(first);
 
     std::vector<dealii::types::global_dof_index> columns;
     std::vector<double> values;
@@ -258,43 +347,25 @@ namespace abut::solve
       {
         columns.clear();
         for (int e = stiffness.start[i]; e < stiffness.start[i + 1]; ++e)
-          columns.push_back(
-              la::global_column(*stiffness_, stiffness.column[e]));
+          columns.push_back(la::global_column(first, stiffness.column[e]));
         values.assign(stiffness.value + stiffness.start[i],
                       stiffness.value + stiffness.start[i + 1]);
         visit(rows_->global_column(i), columns, values);
       }
-      for (int i = 0; i < rows_->n_rows(); ++i)
-      {
-        if (system.soft[i] == 0. && constraint[i] < 0)
-          continue;
-        columns.clear();
-        for (auto e = rows_->begin(i); e < rows_->end(i); ++e)
-          columns.push_back(rows_->global_column(rows_->column(e)));
-        const auto unknowns = columns;
-        if (constraint[i] >= 0)
-        {
-          const auto line = n + system.first_constraint + constraint[i];
-          values.clear();
-          for (auto e = rows_->begin(i); e < rows_->end(i); ++e)
-            values.push_back(-rows_->weight(i) * rows_->coefficient(e));
-          const auto coupling = values;
-          columns.push_back(line);
-          values.push_back(0.);
-          visit(line, columns, values);
-          for (std::size_t e = 0; e < unknowns.size(); ++e)
-            visit(unknowns[e], {line}, {coupling[e]});
-        }
-        else
-          for (auto e = rows_->begin(i); e < rows_->end(i); ++e)
+      for_each_constraint(
+          system,
+          [&](const dealii::types::global_dof_index line, const int row,
+              const double trial, const double test)
           {
-            values.clear();
-            for (auto f = rows_->begin(i); f < rows_->end(i); ++f)
-              values.push_back(system.soft[i] * rows_->coefficient(e)
-                               * rows_->coefficient(f));
-            visit(unknowns[e - rows_->begin(i)], unknowns, values);
-          }
-      }
+            for (auto e = rows_->begin(row); e < rows_->end(row); ++e)
+            {
+              const auto unknown = rows_->global_column(rows_->column(e));
+              const double b = rows_->weight(row) * rows_->coefficient(e);
+              visit(line, {unknown}, {-trial * b});
+              visit(unknown, {line}, {-test * b});
+            }
+            visit(line, {line}, {0.});
+          });
     };
     return la::assemble(owned, ghosts, rows_->communicator(), for_each_line);
   }
@@ -307,18 +378,9 @@ namespace abut::solve
     const MPI_Comm communicator = stiffness_->get_mpi_communicator();
     la::Vector right(owned, communicator), solution(owned, communicator);
     const int n_unknowns = la::n_owned(increment);
-
-    // Without augmentation here: a factorisation has no use for it.
-    la::Vector force(system.force);
-    std::vector<double> augmentation(rows_->n_rows(), 0.);
-    for (std::size_t k = 0; k < system.row.size(); ++k)
-    {
-      const int i = system.row[k];
-      augmentation[i] = system.stiff[i] * system.right[k] / rows_->weight(i);
-      la::data(right)[n_unknowns + k] = system.right[k];
-    }
-    rows_->add_transposed(augmentation.data(), force);
-    std::copy_n(la::data(force), n_unknowns, la::data(right));
+    std::copy(system.right.begin(), system.right.end(),
+              la::data(right) + n_unknowns);
+    std::copy_n(la::data(system.force), n_unknowns, la::data(right));
 
     const DirectSolver solver(matrix);
     solver.solve(solution, right);
@@ -357,7 +419,7 @@ namespace abut::solve
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
     System system = assemble(residual, request);
-    floating_.check(*rows_, local_.resisting());
+    floating_.check(*rows_, local_, request);
 
     std::vector<double> multiplier;
     LinearReport report;
@@ -371,22 +433,21 @@ namespace abut::solve
       recover(request, system, multiplier, increment);
       return report;
     }
-    report = leading_.prepare(
-        {system.stiff,
-         std::vector<std::int64_t>(rows_->n_rows(), Condensate::none)});
-    const double tolerance =
-        std::max(request.linear_tolerance * leading_.load(system.force),
-                 smallest_residual);
+    la::Vector force(system.force);
+    augment(system, force);
+    report = leading_.prepare(system.leading);
+    const double tolerance = std::max(
+        request.linear_tolerance * leading_.load(force), smallest_residual);
     if (system.n_constraints > 0)
     {
       report.method = "saddle point, FGMRES, ML";
       report.n_iterations =
-          solve_iteratively(system, tolerance, increment, multiplier);
+          solve_iteratively(system, force, tolerance, increment, multiplier);
       report.n_matvecs = report.n_iterations;
       report.solve_seconds = timer.wall_time() - report.setup_seconds;
     }
     else
-      report += leading_.solve(system.force, tolerance, increment);
+      report += leading_.solve(force, tolerance, increment);
     recover(request, system, multiplier, increment);
     return report;
   }

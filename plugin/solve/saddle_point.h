@@ -15,7 +15,9 @@ namespace abut::solve
    *     [  -C      0   ] [dp] = [ h ],      C = W B on constraints (a = 0);
    *
    * rows whose pressure follows from the gap (a != 0) are condensed into
-   * D = B^T diag(w b/a) B.
+   * D = B^T diag(w b/a) B. With friction the point is what is condensed: D has
+   * a block for each, and the forces of constraints are C'^T dp, which have
+   * the friction of what slips, while C has not; the matrix is unsymmetric.
    * Iteratively: FGMRES with the block-triangular preconditioner of the
    * augmented system, one ML cycle for K + D + gamma s W B^T B and the
    * diagonal 3 w / ((1 + gamma) s) for the Schur complement, s being the local
@@ -46,10 +48,19 @@ namespace abut::solve
 
     System assemble(const la::Vector &residual,
                     const abut_request &request) const;
-    unsigned int solve_iteratively(const System &system, double tolerance,
+    void augment(System &system, la::Vector &force) const;
+    /** D alone. */
+    Condensate springs() const;
+    unsigned int solve_iteratively(const System &system,
+                                   const la::Vector &force, double tolerance,
                                    la::Vector &increment,
                                    std::vector<double> &multiplier);
     la::Matrix assemble_matrix(const System &system) const;
+    /** Call function(line, row, trial, test) for each row that is in the
+     * trial or the test direction of a constraint. */
+    template <typename Function>
+    void for_each_constraint(const System &system,
+                             const Function &function) const;
     void solve_directly(const System &system, la::Vector &increment,
                         std::vector<double> &multiplier) const;
     void recover(const abut_request &request, const System &system,

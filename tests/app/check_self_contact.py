@@ -89,6 +89,33 @@ for settings in ({"Method/Discretisation": "dual mortar"},
     p.close(summary["point_1"][0], 0.3 / (1 - 0.3) * 0.01, 1e-9,
             f"blocks, {settings}: widening")
 
+# Friction: what two surfaces of their own have, and in the blocks, whose upper
+# one is moved aside until all of it slides, mu times the pressure.
+MU = 0.02
+RUBS = {"Pair 1/Friction": MU, "Refinement/Level": 3}
+for law in ("penalty", "augmented lagrangian"):
+    rubs = {**RUBS, "Method/Enforcement": law}
+    one, _ = solve("self-contact.prm", rubs)
+    two, _ = solve("self-contact.prm", {**rubs, **LIPS})
+    same(two, one, f"slot with friction, {law}", 1e-6)
+    for key in ("pair_1_friction_force", "dissipation"):
+        p.close(one[key] / two[key], 1., 1e-4, f"slot, {law}: {key}")
+    p.expect(0 < one["pair_1_slipping"] < one["active"],
+             f"slot, {law}: {one['pair_1_slipping']} slip")
+    p.expect(one["dissipation"] > 0, f"slot, {law}: no dissipation")
+    p.expect(0 < one["pair_1_friction_force"]
+             <= MU * one["pair_1_normal_force"] * (1 + 1e-9),
+             f"slot, {law}: more friction than the pressure allows")
+    slides, _ = solve("self-contact.prm", {
+        **SIDES, **rubs, "Refinement/Level": 1,
+        "Body 1/Support": "4: 0, 0; 5: 0.1, -0.02",
+        "Solid/Allow large strain": "true"})
+    p.expect(slides["pair_1_slipping"] == slides["active"] > 0,
+             f"blocks, {law}: {slides['pair_1_slipping']} slip of "
+             f"{slides['active']}")
+    p.close(slides["pair_1_friction_force"] / slides["pair_1_normal_force"],
+            MU, 1e-9, f"blocks, {law}: T/N")
+
 
 # Mistakes.
 def refused(*settings):
@@ -98,6 +125,8 @@ def refused(*settings):
 
 p.expect_error(refused("Pair 1/Reach=0.001", "Refinement/Level=5"),
                "Pair 1/Secondary", "face each other", "reach")
+p.expect_error(refused("Pair 1/Friction=0.3"), "Pair 1/Friction",
+               "touches itself", "penalty")
 p.expect_error(refused("Pair 1/Tied=true"), "Pair 1/Secondary",
                "tied to itself")
 p.expect_error(refused("Pair 1/Primary=1: 1, 2"), "Pair 1/Primary",

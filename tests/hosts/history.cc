@@ -50,10 +50,12 @@ namespace
   {
   public:
     explicit Steps(const hosts::Case &run,
-                   const MPI_Comm communicator = MPI_COMM_WORLD)
+                   const MPI_Comm communicator = MPI_COMM_WORLD,
+                   std::shared_ptr<const Friction<dim>> friction = nullptr)
         : blocks_(run, communicator), pair_(blocks_.pair())
     {
       pair_.reach = 1.;
+      pair_.friction = std::move(friction);
       blocks_.prepare({pair_});
       displacement = blocks_.start();
     }
@@ -218,6 +220,44 @@ namespace
     expect_force(together, "on all ranks again");
   }
 
+  /** With friction the host tells the displacement of the commit(): slips must
+   * not be measured from an undeformed body without a word. */
+  template <int dim> void check_slips_after_load(const hosts::Case &run)
+  {
+    const std::string name = run.name + ", friction: ";
+    auto friction = std::make_shared<Friction<dim>>();
+    friction->coefficient = [](const dealii::Point<dim> &) { return 0.05; };
+    Steps<dim> first(run, MPI_COMM_WORLD, friction);
+    first.step(0.01);
+    first.commit();
+    std::stringstream file;
+    first.contact().save(file);
+
+    Steps<dim> second(run, MPI_COMM_WORLD, friction);
+    second.displacement = first.displacement;
+    second.contact().load(file);
+    std::string message;
+    try
+    {
+      second.contact().detect(second.displacement);
+    }
+    catch (const std::exception &error)
+    {
+      message = error.what();
+    }
+    expect(message.find("set_committed()") != std::string::npos,
+           name + "load() without set_committed() says '" + message + "'");
+    second.contact().set_committed(first.displacement);
+    for (Steps<dim> *steps : {&first, &second})
+    {
+      steps->step(0.015);
+      expect(steps->contact().pair_results()[0].friction_force > 0.,
+             name + "no friction");
+    }
+    expect(are_same(first.displacement, second.displacement),
+           name + "another displacement after load() and set_committed()");
+  }
+
   template <int dim>
   std::string refusal_of(Steps<dim> &steps, const std::string &bytes)
   {
@@ -349,5 +389,6 @@ main(int argc, char **argv)
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_all<2>();
   check_all<3>();
+  check_slips_after_load<2>(wedge("lagrange", ABUT_DISCRETISATION_DUAL_MORTAR));
   return good ? 0 : 1;
 }

@@ -102,12 +102,17 @@ namespace abut::hosts
     return r;
   }
 
-  /** Displacement of one block under unit pressure. */
+  /** Displacement of one block under unit pressure, which is moved by @p shift
+   * in its own frame, too. */
   template <int dim> class ExactDisplacement : public dealii::Function<dim>
   {
   public:
-    explicit ExactDisplacement(const Material &material)
-        : dealii::Function<dim>(dim), material_(material), r_(rotation<dim>())
+    explicit ExactDisplacement(const Material &material,
+                               const Tensor<1, dim> &shift = {})
+        : dealii::Function<dim>(dim),
+          material_(material),
+          shift_(shift),
+          r_(rotation<dim>())
     {
     }
 
@@ -117,7 +122,7 @@ namespace abut::hosts
       for (int d = 0; d < dim; ++d)
         x[d] *= d == dim - 1 ? material_.normal_strain(dim)
                              : material_.lateral_strain(dim);
-      return r_ * x;
+      return r_ * (x + shift_);
     }
 
     double value(const Point<dim> &p, const unsigned int c) const override
@@ -127,6 +132,7 @@ namespace abut::hosts
 
   private:
     const Material material_;
+    const Tensor<1, dim> shift_;
     const Tensor<2, dim> r_;
   };
 
@@ -146,6 +152,9 @@ namespace abut::hosts
     /** The upper block is lifted by separation + tilt times the first
      * coordinate of its own frame; 0 for the patch test. */
     double separation = 0., tilt = 0.;
+    /** The top is moved by this along the first axis of the blocks' own frame,
+     * too. */
+    double aside = 0.;
     /** The upper block of pressed ones is not held sideways. */
     bool slides = false;
     /** Lower and upper block. */

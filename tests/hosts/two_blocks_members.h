@@ -301,9 +301,11 @@ namespace abut::hosts
     dealii::VectorTools::interpolate_boundary_values(
         mapping_, dof_handler_, bottom, ExactDisplacement<dim>(material(false)),
         constraints_);
+    Tensor<1, dim> shift;
+    shift[0] = run_.aside;
     dealii::VectorTools::interpolate_boundary_values(
-        mapping_, dof_handler_, top, ExactDisplacement<dim>(material(true)),
-        constraints_);
+        mapping_, dof_handler_, top,
+        ExactDisplacement<dim>(material(true), shift), constraints_);
     if (run_.is_die)
       dealii::VectorTools::interpolate_boundary_values(
           mapping_, dof_handler_, upper_interface,

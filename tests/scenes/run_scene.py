@@ -31,6 +31,8 @@ same keys, each of which is merged over the top ones and run by itself.
               cases' values of a summary key, all but the first `skip` of them;
               "of": v compares |value - v| instead of the value; "entry": i
               takes the i-th entry of a list
+    same      {"as": name of a case before, "keys": {key: relative tolerance}}:
+              summary against that of the other case
     relations {key: {"of": other key, "factor": f, "relative": r}}: a value of
               summary.json is f times another one
 
@@ -311,6 +313,19 @@ def check_orders(orders, summaries):
     return faults
 
 
+def check_same(same, summary, others):
+    """A case's summary against that of one before."""
+    faults = Faults()
+    if same:
+        other = others[same["as"]]
+        for key, tolerance in same["keys"].items():
+            faults.expect(key in other and close(summary.get(key), other[key],
+                                                 tolerance),
+                          f"{key} is {summary.get(key)!r}, in case "
+                          f"'{same['as']}' {other.get(key)!r}")
+    return faults
+
+
 def case_label(case, index):
     settings = ", ".join(f"{k.split('/')[-1]}={v}"
                          for k, v in case.get("set", {}).items())
@@ -322,7 +337,7 @@ def run_file(program, path, folder):
     expectation = json.loads(path.read_text(encoding="utf-8"))
     cases = expectation.pop("cases", [{}])
     orders = expectation.pop("orders", {})
-    faults, summaries = [], []
+    faults, summaries, others = [], [], {}
     for index, own in enumerate(cases):
         case = {**expectation, **own}
         for key in ("set", "summary"):
@@ -330,6 +345,8 @@ def run_file(program, path, folder):
                 case[key] = {**expectation[key], **own[key]}
         found, summary = run_case(program, case, folder / str(index + 1))
         label = case_label(case, index)
+        found += check_same(case.get("same"), summary or {}, others)
+        others[label] = summary or {}
         print(f"{'ok    ' if not found else 'FAILED'} {label}", flush=True)
         faults += [f"{label}: {fault}" for fault in found]
         summaries.append(summary or {})

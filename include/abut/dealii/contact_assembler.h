@@ -216,7 +216,8 @@ namespace abut
     /** Begin with what save() wrote, read from @p stream of rank 0: it counts
      * as committed. Call after reinit() and before detect(), with the same mesh
      * and pairs; of pairs the number of ranks may be another, rows on single
-     * unknowns of an obstacle need the same numbers of unknowns. Throws
+     * unknowns of an obstacle need the same numbers of unknowns. With friction
+     * call set_committed(), too: without it detect() throws. Throws
      * HistoryError, and nothing changes, for anything else. */
     virtual void load(std::istream &stream);
 
@@ -260,9 +261,10 @@ namespace abut
 
     /** For hosts with a linear solver of their own: add the condensed contact
      * terms to @p matrix and @p residual, so that matrix increment =
-     * -residual is the step with contact; then call update(). Throws for laws
-     * with true constraints (lagrange), for interior point and for nitsche,
-     * which need solve(). */
+     * -residual is the step with contact; then call update(). With friction
+     * the matrix is not symmetric any more: solve it by what can do that.
+     * Throws for laws with true constraints (lagrange), for interior point and
+     * for nitsche, which need solve(). */
     virtual void add(la::Matrix &matrix, la::Vector &residual);
 
     /** The contact problem of one linearisation, from the displacement of the

@@ -146,12 +146,13 @@ namespace abut::app
   {
     std::istringstream stream(resumed->contact, std::ios::binary);
     state.contact.load(stream);
-    if (state.load_steps.n_accepted() > 0)
-    {
-      model.set_contact(state.contact, state.load_steps.time());
-      state.contact.set_committed(state.u);
-      model.set_contact(state.contact, state.present.time);
-    }
+    // Before the first step nothing has moved.
+    la::Vector committed(state.u);
+    if (state.load_steps.n_accepted() == 0)
+      committed = 0.;
+    model.set_contact(state.contact, state.load_steps.time());
+    state.contact.set_committed(committed);
+    model.set_contact(state.contact, state.present.time);
     if (state.options.restart->has_same_ranks())
       load_preconditioner(*resumed);
     resumed.reset();

@@ -32,13 +32,15 @@ place_arrays(abut_strategy *s)
   abut_friction_rows *f = &s->friction;
   const int64_t n = f->n, m = f->m, rows = s->n;
   count_blocks(s, &f->n_blocks, &f->block_numbers);
+  /* One more of each: without rows on this rank a request has blocks, too. */
   abut_status status = abut_array_reserve(s->context, &f->numbers, 0,
-                                          6 * n + 7 * m + 2 * (int64_t)f->blocks
+                                          1 + 6 * n + 7 * m
+                                              + 2 * (int64_t)f->blocks
                                               + 2 * f->block_numbers + rows);
   if (status == ABUT_SUCCESS)
     status = abut_array_reserve(s->context, &f->bytes, 0,
-                                f->n_blocks + 2 * n + 3 * rows);
-  if (status != ABUT_SUCCESS || rows == 0)
+                                1 + f->n_blocks + 2 * n + 3 * rows);
+  if (status != ABUT_SUCCESS)
     return status;
   double *next = f->numbers.data;
   double **by_point[] = {&f->pressure, &f->scale,   &f->compliance,

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Contact added to the matrix of a host with a linear solver of its own: the
+// pressures of each point are condensed, and leave springs and forces.
+#include "contact_implementation.h"
+
+#include <algorithm>
+
+namespace abut
+{
+  using dealii::ExcMessage;
+  using dealii::types::global_dof_index;
+
+  namespace
+  {
+    /** Springs and forces of the rows of one point; a block of springs that is
+     * not symmetric if they have friction. */
+    struct CondensedPoint
+    {
+      int first, n_rows;
+      const double *spring; ///< [n_rows^2]
+      const double *force;  ///< [n_rows]
+    };
+
+    template <typename Function>
+    void for_each_point(const solve::LocalElimination &local, const int n_rows,
+                        const Function &function)
+    {
+      const solve::RowBlocks &blocks = local.blocks();
+      const double *const force = local.force().data();
+      for (int row = 0; blocks.empty() && row < n_rows; ++row)
+        function(CondensedPoint{row, 1, &local.spring()[row], force + row});
+      for (int b = 0; !blocks.empty() && b < blocks.n_blocks(); ++b)
+        function(CondensedPoint{blocks.first[b], blocks.size(b),
+                                local.spring_blocks().data() + blocks.at[b],
+                                force + blocks.first[b]});
+    }
+
+    /** matrix += B^T Z B, residual -= B^T f. */
+    class Addition
+    {
+    public:
+      Addition(const solve::PointOperator &rows, la::Matrix &matrix,
+               la::Vector &residual)
+          : rows_(rows), matrix_(matrix), residual_(residual)
+      {
+      }
+
+      void add(const CondensedPoint &point)
+      {
+        for (int r = 0; r < point.n_rows; ++r)
+        {
+          const int row = point.first + r;
+          rows_.get_columns(row, lines_);
+          for (std::size_t j = 0; j < lines_.size(); ++j)
+            residual_(lines_[j]) -=
+                point.force[r] * rows_.coefficient(rows_.begin(row) + j);
+          for (int c = 0; c < point.n_rows; ++c)
+            add_spring(row, point.first + c,
+                       point.spring[r * point.n_rows + c]);
+        }
+      }
+
+    private:
+      /** The force on @p row that the gap of @p other makes. */
+      void add_spring(const int row, const int other, const double stiffness)
+      {
+        if (stiffness == 0.)
+          return;
+        rows_.get_columns(other, columns_);
+        values_.resize(columns_.size());
+        for (std::size_t j = 0; j < lines_.size(); ++j)
+        {
+          const double b = rows_.coefficient(rows_.begin(row) + j);
+          for (std::size_t k = 0; k < columns_.size(); ++k)
+            values_[k] =
+                stiffness * b * rows_.coefficient(rows_.begin(other) + k);
+          matrix_.add(lines_[j], columns_.size(), columns_.data(),
+                      values_.data());
+        }
+      }
+
+      const solve::PointOperator &rows_;
+      la::Matrix &matrix_;
+      la::Vector &residual_;
+      std::vector<global_dof_index> lines_, columns_;
+      std::vector<double> values_;
+    };
+  } // namespace
+
+  template <int dim>
+  void ContactAssembler<dim>::add_to_sparsity(
+      dealii::DynamicSparsityPattern &pattern) const
+  {
+    const Implementation &i = *implementation;
+    i.check_rows("add_to_sparsity()");
+    const solve::PointOperator &rows = i.coefficients;
+    std::vector<global_dof_index> columns, all;
+    for (int row = 0; row < rows.n_rows(); ++row)
+    {
+      if (!rows.is_tangent(row))
+        all.clear();
+      rows.get_columns(row, columns);
+      all.insert(all.end(), columns.begin(), columns.end());
+      // Friction couples the rows of a point.
+      if (row + 1 < rows.n_rows() && rows.is_tangent(row + 1))
+        continue;
+      std::sort(all.begin(), all.end());
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+      for (const global_dof_index dof : all)
+        pattern.add_entries(dof, all.begin(), all.end(), true);
+    }
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::add(la::Matrix &matrix, la::Vector &residual)
+  {
+    Implementation &i = *implementation;
+    i.check_rows("add()");
+    i.check_size("add()", "matrix", matrix.m());
+    i.check_size("add()", "residual", residual.size());
+    AssertThrow(abut_law_has_penalty(i.method.options.law)
+                    && !abut_law_needs_stress(i.method.options.law),
+                ExcMessage(std::string("The law '") + i.method.options.law->name
+                           + "' cannot be added to a matrix row by row: use "
+                             "ContactAssembler::solve()."));
+    if (!i.is_started)
+    {
+      i.take_matrix(matrix);
+      i.begin(matrix, residual);
+    }
+    const solve::PointOperator &rows = i.coefficients;
+    i.local.reinit(i.request, rows.n_rows(), rows.weights(), i.communicator);
+    Addition addition(rows, matrix, residual);
+    for_each_point(i.local, rows.n_rows(),
+                   [&](const CondensedPoint &point) { addition.add(point); });
+    matrix.compress(dealii::VectorOperation::add);
+    residual.compress(dealii::VectorOperation::add);
+    i.was_added = true;
+  }
+
+  template void
+  ContactAssembler<2>::add_to_sparsity(dealii::DynamicSparsityPattern &) const;
+  template void
+  ContactAssembler<3>::add_to_sparsity(dealii::DynamicSparsityPattern &) const;
+  template void ContactAssembler<2>::add(la::Matrix &, la::Vector &);
+  template void ContactAssembler<3>::add(la::Matrix &, la::Vector &);
+} // namespace abut
