@@ -273,9 +273,9 @@ extern "C"
     /** To neighbours that are no candidates, in proportion to the entries of
      * the mass matrix: least noise of the pressure. */
     ABUT_MASS_NEIGHBOURS,
-    /** The same, and then the least change (in the sum of squares) of the
-     * diagonal of these nodes and of their neighbours that are no candidates
-     * such that the centre of mass stays. */
+    /** The same, and then the least change (in squares, as parts of what was
+     * there) of the diagonal of these nodes and of their neighbours that are no
+     * candidates such that the centre of mass stays. */
     ABUT_MASS_CENTRE
   } abut_mass_rule;
 

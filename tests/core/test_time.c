@@ -132,11 +132,410 @@ bar_on_a_wall_is_that_of_the_table(void **unused)
   }
 }
 
+/* A bar of wave speed 20 falls from height 10 under gravity 5 and bounces:
+ * contacts in [2 + 4.8 k, 2.8 + 4.8 k] with impulse 192 each. What the first
+ * one leaves in the bar as waves comes back late: errors of the later ones
+ * grow. */
+typedef struct bounces
+{
+  int n;
+  double begin[6], end[6], impulse[6]; /* errors */
+} bounces;
+
+static bounces
+bounce(int elements)
+{
+  static bar b;
+  bar_open(&b, elements, 8, 400, 1);
+  b.wall = -10;
+  b.load = -5;
+  const double dt = 0.4 / elements;
+  bar_use(&b, "hht", dt, ABUT_TIME_MASS_MODIFIED, ABUT_MASS_NEIGHBOURS);
+  bounces found = {.n = 0};
+  double end = -1, before = 0;
+  for (int step = 1; step * dt < 23; ++step)
+  {
+    bar_step(&b);
+    if (b.lambda <= 1e-7)
+      continue;
+    const double t = step * dt;
+    if (found.n == 0 || t > end + 1)
+    {
+      assert_true(found.n < 5);
+      before = b.impulse - dt * b.lambda;
+      found.begin[found.n] = fabs(t - 2 - 4.8 * found.n);
+      ++found.n;
+    }
+    end = t;
+    found.end[found.n - 1] = fabs(end - 2.8 - 4.8 * (found.n - 1));
+    found.impulse[found.n - 1] = fabs((b.impulse - before) / 192 - 1);
+  }
+  return found;
+}
+
+static void
+falling_bar_bounces_in_time(void **unused)
+{
+  (void)unused;
+  const bounces found = bounce(100);
+  assert_int_equal(found.n, 5);
+  assert_true(found.begin[0] <= 2.001 * 0.4 / 100);
+  assert_true(found.end[0] <= 2.001 * 0.4 / 100);
+  assert_true(found.impulse[0] <= 0.01);
+  for (int k = 1; k < 5; ++k)
+  {
+    assert_true(found.begin[k] < 0.02 * (2 + 4.8 * k));
+    assert_true(found.impulse[k] < 0.05);
+  }
+}
+
+/* Unknowns of both bars, the first one's first, for the host with a dense
+ * matrix; its last node meets the second one's first. */
+enum
+{
+  TWO = 42
+};
+
+static void
+add_force_of_both(const bar *b, const double *m, const double *k,
+                  const double *am, const double *uf, double *r)
+{
+  for (int32_t i = 0; i < TWO; ++i)
+    for (int32_t j = 0; j < TWO; ++j)
+      if (i / b->n == j / b->n)
+        r[i] -= m[i % b->n * b->n + j % b->n] * am[j]
+                + k[i % b->n * b->n + j % b->n] * uf[j];
+}
+
+/* Equal bars that meet with +-v: in contact for 2 L / c with stress rho c v,
+ * then each has the other's velocity. */
+static void
+equal_bars_swap_velocities(void **unused)
+{
+  (void)unused;
+  static bar b;
+  bar_open(&b, TWO / 2 - 1, 4, 400, 1);
+  abut_time_options options = abut_time_defaults();
+  options.name = "contact stabilised";
+  abut_time_scheme scheme;
+  assert_ok(abut_time_scheme_make(&options, &scheme));
+  abut_context *context = fixture_context();
+  const int32_t nodes[] = {TWO / 2, TWO / 2 - 1};
+  const double sides[] = {1, -1}, dt = 0.01;
+  static double u[TWO], v[TWO], a[TWO], matrix[2][TWO * TWO];
+  for (int32_t i = 0; i < TWO; ++i)
+    v[i] = i < TWO / 2 ? 3 : -3;
+  const abut_time_state state = {sizeof(state), &scheme, dt, TWO, u, v, a,
+                                 NULL};
+  for (int stage = 0; stage < 2; ++stage)
+  {
+    abut_time_weights w;
+    assert_ok(abut_time_weigh(&scheme, dt, (abut_time_stage)stage, &w));
+    for (int32_t i = 0; i < TWO * TWO; ++i)
+    {
+      const int32_t r = i / TWO, c = i % TWO;
+      const int32_t at = r % b.n * b.n + c % b.n;
+      matrix[stage][i] =
+          r / b.n == c / b.n ? w.mass * b.m[at] + w.stiffness * b.k[at] : 0;
+    }
+  }
+  double impulse = 0;
+  int released = 0;
+  const abut_strategy_options exact = exact_options();
+  for (int step = 1; step <= 60; ++step)
+  {
+    double x[TWO], place[TWO], am[TWO], uf[TWO], force = 0;
+    assert_ok(abut_time_begin(&state, x));
+    for (int stage = 0; stage < 2; ++stage)
+    {
+      double r[TWO] = {0}, y[TWO] = {0}, p = 0;
+      const abut_time_arguments arguments = {sizeof(arguments), am, NULL, uf};
+      assert_ok(abut_time_evaluate(&state, x, &arguments));
+      if (stage == ABUT_TIME_STEP)
+        add_force_of_both(&b, b.m, b.k, am, uf, r);
+      abut_points *points = NULL;
+      assert_ok(abut_points_create(context, 1, &points));
+      assert_ok(abut_points_append_scalar(points, 0, 1,
+                                          x[TWO / 2] - x[TWO / 2 - 1],
+                                          ABUT_POINT_CONTACT, 2, nodes, sides));
+      const abut_dense_model model = {sizeof(model), TWO, matrix[stage], r,
+                                      points,        NULL};
+      abut_reason reason;
+      assert_ok(abut_dense_model_solve(context, &model, &exact, y, &p, NULL,
+                                       NULL, NULL, NULL, &reason));
+      assert_int_equal(reason, ABUT_REASON_CONVERGED);
+      assert_ok(abut_points_destroy(&points));
+      for (int32_t i = 0; i < TWO; ++i)
+        place[i] = x[i] + y[i];
+      if (stage == ABUT_TIME_PROJECTION)
+        assert_ok(abut_time_project(&state, x, place));
+      memcpy(x, place, sizeof(x));
+      force += p;
+    }
+    assert_ok(abut_time_end(&state, x));
+    impulse += dt * force;
+    if (force > 1e-7)
+      released = step;
+    /* rho c v = 60. */
+    if (step == 20)
+      assert_close(force / 60, 1, 0.03);
+  }
+  assert_close(released * dt, 0.4, 0.051);
+  assert_close(impulse / 24, 1, 0.02);
+  double momentum[2] = {0, 0};
+  for (int32_t i = 0; i < TWO; ++i)
+    momentum[i / b.n] += b.full_mass[i % b.n] * v[i];
+  assert_close(momentum[0], -momentum[1], 1e-12);
+  assert_close(momentum[1] / 12, 1, 0.04);
+  assert_ok(abut_context_destroy(&context));
+}
+
+/* Contact is always closed: a linear system, whose limit is known for a bar
+ * without end. */
+static abut_time_verdict
+vibrate(double part_of_limit, int steps)
+{
+  static bar b;
+  bar_open(&b, 50, 10, 900, 1);
+  /* Fixed at its far end, and so stretched that contact never opens. */
+  b.clamped = true;
+  b.wall = 1;
+  b.penalty = 900 / b.h;
+  const double pressed = b.penalty * b.wall / (b.penalty + 90);
+  for (int32_t i = 0; i < b.n; ++i)
+    b.u[i] = pressed * (1 - i * b.h / 10);
+  for (int32_t i = 0; i + 1 < b.n; ++i)
+    b.v[i] = i % 2 ? 0.1 : -0.1;
+  const double limit = 2 / sqrt(2 + 2 * sqrt(2.)) * b.h / 30;
+  bar_use(&b, "central difference", part_of_limit * limit,
+          ABUT_TIME_MASS_LUMPED, ABUT_MASS_NEIGHBOURS);
+  abut_time_balance balance = {.struct_size = sizeof(balance)};
+  abut_time_verdict verdict = ABUT_TIME_STEADY;
+  for (int step = 0; step <= steps && verdict != ABUT_TIME_BLOWS_UP; ++step)
+  {
+    const abut_time_energy now = {
+        sizeof(now), bar_kinetic(&b), bar_strain(&b), bar_contact(&b), 0, 0};
+    assert_ok(abut_time_judge(&b.scheme, &now, &balance, &verdict));
+    bar_step(&b);
+  }
+  /* Energy swings with the step, and is not made. */
+  assert_true(verdict == ABUT_TIME_BLOWS_UP || balance.gain < 1);
+  return verdict;
+}
+
+static void
+central_difference_has_its_limit(void **unused)
+{
+  (void)unused;
+  assert_int_not_equal(vibrate(0.98, 4000), ABUT_TIME_BLOWS_UP);
+  assert_int_equal(vibrate(1.02, 4000), ABUT_TIME_BLOWS_UP);
+}
+
+/* The error of u'' = -u - v/5 at t = 1 in so many steps; damping and stiffness
+ * are numbers, so that the step is a division. */
+static double
+oscillator_error(const abut_time_scheme *scheme, int steps)
+{
+  const double c = 0.2, decay = c / 2, omega = sqrt(1 - decay * decay);
+  double u = 1, v = 0, a = -1;
+  const double dt = 1. / steps;
+  const abut_time_state state = {sizeof(state), scheme, dt, 1, &u, &v, &a,
+                                 NULL};
+  abut_time_weights w;
+  assert_ok(abut_time_weigh(scheme, dt, ABUT_TIME_STEP, &w));
+  const double tangent = w.mass + c * w.damping + w.stiffness;
+  for (int k = 0; k < steps; ++k)
+  {
+    double x, am, vf, uf;
+    assert_ok(abut_time_begin(&state, &x));
+    if (scheme->beta == 0)
+      x = 0;
+    const abut_time_arguments arguments = {sizeof(arguments), &am, &vf, &uf};
+    assert_ok(abut_time_evaluate(&state, &x, &arguments));
+    x -= (am + c * vf + uf) / tangent;
+    assert_ok(abut_time_end(&state, &x));
+  }
+  const double exact = exp(-decay) * (cos(omega) + decay / omega * sin(omega));
+  return fabs(u - exact);
+}
+
+static void
+schemes_are_of_second_order(void **unused)
+{
+  (void)unused;
+  int n = 0;
+  for (int32_t i = 0; abut_time_scheme_name(i) != NULL; ++i, ++n)
+  {
+    abut_time_options options = abut_time_defaults();
+    options.name = abut_time_scheme_name(i);
+    abut_time_scheme scheme;
+    assert_ok(abut_time_scheme_make(&options, &scheme));
+    const double rate =
+        log2(oscillator_error(&scheme, 100) / oscillator_error(&scheme, 200));
+    /* The damping of explicit schemes lags by half a step. */
+    const double order = scheme.beta == 0 ? 1 : 2;
+    assert_close(rate, order, 0.06);
+  }
+  assert_int_equal(n, 9);
+}
+
+/* One step of the contact problem of a single mass with friction, unknown is
+ * the increment of the displacement. */
+static double
+friction_step(abut_context *context, double matrix, double residual,
+              double slip, double *traction)
+{
+  const double stiffness[] = {matrix, 0, 0, matrix}, load[] = {residual, -1};
+  const double frame[] = {0, -1, 1, 0}, gap[] = {0, slip}, one = 1, mu = 0.1;
+  const int32_t node = 0, first = 0;
+  const uint8_t tangents = 1;
+  abut_points *points = NULL;
+  assert_ok(abut_points_create(context, 2, &points));
+  abut_point point = abut_point_defaults();
+  point.n_components = 2;
+  point.frame = frame;
+  point.gap = gap;
+  point.n_nodes = point.n_secondary = 1;
+  point.node = &node;
+  point.coefficient = &one;
+  assert_ok(abut_points_append(points, &point));
+  abut_strategy_friction friction = {.struct_size = sizeof(friction)};
+  friction.n = 1;
+  friction.first = &first;
+  friction.n_tangents = &tangents;
+  friction.coefficient = &mu;
+  const abut_dense_model model = {sizeof(model), 2,      stiffness,
+                                  load,          points, &friction};
+  abut_strategy_options options = exact_options();
+  options.gap_tolerance = options.pressure_tolerance = 1e-12;
+  double y[2] = {0, 0}, p[2] = {1, 0};
+  abut_reason reason;
+  assert_ok(abut_dense_model_solve(context, &model, &options, y, p, NULL, NULL,
+                                   NULL, NULL, &reason));
+  assert_int_equal(reason, ABUT_REASON_CONVERGED);
+  assert_ok(abut_points_destroy(&points));
+  *traction = p[1];
+  return y[0];
+}
+
+/* m = k = 1, friction 0.1, let go at 1. */
+static void
+mass_on_a_spring_comes_to_rest(void **unused)
+{
+  (void)unused;
+  const int steps[] = {314, 629, 943, 1257};
+  const double turns[] = {-0.79999882074, 0.59999644629, -0.400007694498,
+                          0.200007301401};
+  abut_time_options options = abut_time_defaults();
+  options.name = "velocity level";
+  abut_time_scheme scheme;
+  assert_ok(abut_time_scheme_make(&options, &scheme));
+  abut_context *context = fixture_context();
+  double u = 1, v = 0, a = 0, largest = 0, dissipated = 0;
+  const double dt = 0.01;
+  const abut_time_state state = {sizeof(state), &scheme, dt, 1, &u, &v, &a,
+                                 NULL};
+  abut_time_weights w;
+  assert_ok(abut_time_weigh(&scheme, dt, ABUT_TIME_STEP, &w));
+  int turn = 0;
+  for (int step = 1; step <= 1700; ++step)
+  {
+    double x, am, uf, traction;
+    const double before = u, v_before = v;
+    assert_ok(abut_time_begin(&state, &x));
+    const abut_time_arguments arguments = {sizeof(arguments), &am, NULL, &uf};
+    assert_ok(abut_time_evaluate(&state, &x, &arguments));
+    x += friction_step(context, w.mass + w.stiffness, -am - uf, dt * v / 2,
+                       &traction);
+    assert_ok(abut_time_end(&state, &x));
+    dissipated -= dt * traction * (v + v_before) / 2;
+    largest = fmax(largest, (u * u + v * v) / 2 + dissipated - 0.5);
+    /* A turning point is where the displacement turns back. */
+    if (turn < 4 && v * v_before < 0)
+    {
+      const bool is_here = fabs(before) >= fabs(u);
+      assert_int_equal(is_here ? step - 1 : step, steps[turn]);
+      assert_close(is_here ? before : u, turns[turn], 1e-9);
+      ++turn;
+    }
+    if (step >= 1572)
+      assert_close(u, -9.62192652e-6, 1e-12);
+    if (step >= 1572)
+      assert_true(fabs(v) < 1e-12);
+  }
+  assert_int_equal(turn, 4);
+  assert_true(largest < 1e-12);
+  assert_ok(abut_context_destroy(&context));
+}
+
+static abut_status
+make(const char *name, double alpha, double rho, double beta)
+{
+  abut_time_options options = abut_time_defaults();
+  options.name = name;
+  options.alpha = alpha;
+  options.rho_infinity = rho;
+  options.beta = beta;
+  abut_time_scheme scheme;
+  return abut_time_scheme_make(&options, &scheme);
+}
+
+static void
+arguments_are_checked(void **unused)
+{
+  (void)unused;
+  assert_ok(make("hht", -1. / 3, 2, 0));
+  assert_int_equal(make("hht", 0.1, 0, 1), ABUT_INVALID_ARGUMENT);
+  assert_int_equal(make("hht", NAN, 0, 1), ABUT_INVALID_ARGUMENT);
+  assert_int_equal(make("generalised alpha", 0, 1.1, 1), ABUT_INVALID_ARGUMENT);
+  assert_int_equal(make("newmark", 0, 0, 0), ABUT_INVALID_ARGUMENT);
+  assert_int_equal(make("runge kutta", 0, 0, 1), ABUT_UNSUPPORTED);
+  assert_int_equal(make(NULL, 0, 0, 1), ABUT_INVALID_ARGUMENT);
+
+  abut_time_scheme scheme;
+  abut_time_weights weights;
+  assert_ok(abut_time_scheme_make(NULL, &scheme));
+  assert_string_equal(scheme.name, abut_time_scheme_name(0));
+  assert_null(abut_time_scheme_name(-1));
+  assert_int_equal(
+      abut_time_weigh(&scheme, 0.1, ABUT_TIME_PROJECTION, &weights),
+      ABUT_UNSUPPORTED);
+  assert_int_equal(abut_time_weigh(&scheme, 0, ABUT_TIME_STEP, &weights),
+                   ABUT_INVALID_ARGUMENT);
+  double u = 1, v = 2, a = 3, x = 4;
+  abut_time_state state = {sizeof(state), &scheme, 0.1, 1, &u, &v, &a, NULL};
+  assert_int_equal(abut_time_project(&state, &x, &x), ABUT_WRONG_ORDER);
+  x = NAN;
+  assert_int_equal(abut_time_end(&state, &x), ABUT_NOT_FINITE);
+  assert_true(u == 1 && v == 2 && a == 3);
+  state.dt = -1;
+  assert_int_equal(abut_time_begin(&state, &x), ABUT_INVALID_ARGUMENT);
+  state.dt = 0.1;
+  state.velocity = NULL;
+  assert_int_equal(abut_time_begin(&state, &x), ABUT_INVALID_ARGUMENT);
+  state.scheme = NULL;
+  assert_int_equal(abut_time_begin(&state, &x), ABUT_INVALID_ARGUMENT);
+
+  abut_time_balance balance = {.struct_size = sizeof(balance)};
+  abut_time_verdict verdict;
+  const abut_time_energy none = {.struct_size = sizeof(none), .kinetic = NAN};
+  assert_ok(abut_time_judge(&scheme, &none, &balance, &verdict));
+  assert_int_equal(verdict, ABUT_TIME_BLOWS_UP);
+  assert_int_equal(abut_time_judge(&scheme, &none, NULL, &verdict),
+                   ABUT_INVALID_ARGUMENT);
+}
+
 int
 main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(bar_on_a_wall_is_that_of_the_table),
+      cmocka_unit_test(falling_bar_bounces_in_time),
+      cmocka_unit_test(equal_bars_swap_velocities),
+      cmocka_unit_test(central_difference_has_its_limit),
+      cmocka_unit_test(schemes_are_of_second_order),
+      cmocka_unit_test(mass_on_a_spring_comes_to_rest),
+      cmocka_unit_test(arguments_are_checked),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,11 +25,11 @@ typedef struct redistribution
   abut_context *context;
   abut_mass_matrix mass;
   const uint8_t *candidate;
-  abut_array block; /* of the arrays below */
-  double *added;    /* [n] to the diagonal */
-  int32_t *part;    /* [n] number of the connected part, -1: not yet */
-  int32_t *stack;   /* [n] */
-  uint8_t *may;     /* [n] whether the diagonal may change */
+  abut_array doubles, integers, bytes; /* of the arrays below */
+  double *added;                       /* [n] to the diagonal */
+  int32_t *part;  /* [n] number of the connected part, -1: not yet */
+  int32_t *stack; /* [n] */
+  uint8_t *may;   /* [n] whether the diagonal may change */
 } redistribution;
 
 static abut_status
@@ -91,19 +91,23 @@ check_matrix(abut_context *context, const abut_mass_matrix *m,
 static abut_status
 reserve(redistribution *r)
 {
-  const size_t n = (size_t)r->mass.n;
-  r->block.element = 1;
-  const abut_status status = abut_array_reserve(
-      r->context, &r->block, 0,
-      (int64_t)(n * (sizeof(double) + 2 * sizeof(int32_t) + 1)));
+  const int64_t n = r->mass.n;
+  r->doubles.element = sizeof(double);
+  r->integers.element = sizeof(int32_t);
+  r->bytes.element = 1;
+  abut_status status = abut_array_reserve(r->context, &r->doubles, 0, n);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(r->context, &r->integers, 0, 2 * n);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(r->context, &r->bytes, 0, n);
   if (status != ABUT_SUCCESS)
     return status;
-  r->added = r->block.data;
-  r->part = (int32_t *)(r->added + n);
+  r->added = r->doubles.data;
+  r->part = r->integers.data;
   r->stack = r->part + n;
-  r->may = (uint8_t *)(r->stack + n);
-  memset(r->added, 0, n * sizeof(double));
-  memset(r->may, 0, n);
+  r->may = r->bytes.data;
+  memset(r->added, 0, (size_t)n * sizeof(double));
+  memset(r->may, 0, (size_t)n);
   return ABUT_SUCCESS;
 }
 
@@ -199,8 +203,18 @@ add_lacking(const redistribution *r, int32_t i, const double *moments,
     lacking[k] += lost * moments[k];
 }
 
-/* The least change of a part's diagonal that restores its moments: D = sum_k
- * c_k moment_k on the nodes that may change, from the normal equations. */
+static double
+diagonal(const abut_mass_matrix *m, int32_t i)
+{
+  for (int64_t e = m->start[i]; e < m->start[i + 1]; ++e)
+    if (m->column[e] == i)
+      return m->value[e];
+  return 0;
+}
+
+/* The least change of a part's diagonal D, as part of it, that restores its
+ * moments: D_i sum_k c_k moment_k on the nodes that may change, from the normal
+ * equations. */
 static bool
 centre_part(redistribution *r, int32_t number, int32_t first)
 {
@@ -220,7 +234,7 @@ centre_part(redistribution *r, int32_t number, int32_t first)
     add_lacking(r, i, moments, x);
     changes |= r->may[i] != 0;
     for (int32_t k = 0; k < size * size && r->may[i]; ++k)
-      matrix[k] += moments[k / size] * moments[k % size];
+      matrix[k] += diagonal(m, i) * moments[k / size] * moments[k % size];
   }
   if (!changes)
     return true;
@@ -233,7 +247,7 @@ centre_part(redistribution *r, int32_t number, int32_t first)
       continue;
     moments_at(m, origin, length, i, moments);
     for (int32_t k = 0; k < size; ++k)
-      r->added[i] += x[k] * moments[k];
+      r->added[i] += diagonal(m, i) * x[k] * moments[k];
   }
   return true;
 }
@@ -262,12 +276,11 @@ check_diagonal(const redistribution *r)
 {
   const abut_mass_matrix *m = &r->mass;
   for (int32_t i = 0; i < m->n; ++i)
-    for (int64_t e = m->start[i]; e < m->start[i + 1] && !r->candidate[i]; ++e)
-      if (m->column[e] == i && !(m->value[e] + r->added[i] > 0)
-          && r->added[i] != 0)
-        return complain(r->context, ABUT_UNSUPPORTED, i,
-                        " would have no positive mass: hand mass to "
-                        "neighbours without keeping its centre");
+    if (!r->candidate[i] && r->added[i] != 0
+        && !(diagonal(m, i) + r->added[i] > 0))
+      return complain(r->context, ABUT_UNSUPPORTED, i,
+                      " would have no positive mass: hand mass to "
+                      "neighbours without keeping its centre");
   return ABUT_SUCCESS;
 }
 
@@ -319,7 +332,9 @@ abut_mass_modify(abut_context *context, const abut_mass_matrix *mass,
     status = reserve(&r);
   if (status == ABUT_SUCCESS)
     status = redistribute(&r, rule);
-  abut_array_release(context, &r.block);
+  abut_array_release(context, &r.doubles);
+  abut_array_release(context, &r.integers);
+  abut_array_release(context, &r.bytes);
   return status;
 }
 
