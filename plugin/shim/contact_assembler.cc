@@ -30,7 +30,8 @@ namespace abut
                    && x.primary == y.primary && x.obstacle == y.obstacle
                    && x.friction == y.friction
                    && x.geometric_gap == y.geometric_gap && x.tied == y.tied
-                   && x.holds_body == y.holds_body && x.reach == y.reach;
+                   && x.holds_body == y.holds_body
+                   && x.may_be_apart == y.may_be_apart && x.reach == y.reach;
           });
     }
   } // namespace

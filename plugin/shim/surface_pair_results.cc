@@ -153,6 +153,11 @@ namespace abut::shim
               + " degrees at a node in the contact zone: normals and gaps "
                 "there are those of a polygon, and so are the pressures. "
                 "Refine the surface, or leave the corner out of the pair."));
+    if (result.n_rows == 0 && pair.data.may_be_apart)
+    {
+      checks_.push_back(result);
+      return;
+    }
     if (result.n_rows == 0 && pair.data.obstacle)
     {
       const std::string side = wrong_side(pair);

@@ -253,8 +253,22 @@ def check_files():
     p.expect(run(slot, "--resume", settings=few).returncode == 0, "the old mesh")
 
 
+def check_motion():
+    """A bar on its way, in contact and on its way back: velocities and
+    accelerations go on, too."""
+    bar = p.write("bar.prm", (p.source / "prm/bar-impact.prm").read_text()
+                  + EVERY)
+    short = ["Obstacle 1/Expression=-0.05", "Time/End=0.12", "Output/Every=4",
+             "Body 1/Mesh/Arguments=10, 1 : 0, 0 : 1, 1 : true"]
+    expected = alone(bar, short)
+    for number in (1, 9):
+        killed(bar, number, expected, short)
+    stopped(bar, 3, signal.SIGTERM, expected, short)
+
+
 if p.part == 1:
     check_one_rank(bodies, steps)
+    check_motion()
     check_one_rank(membrane, cycles)
     check_target()
     check_files()

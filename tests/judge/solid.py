@@ -5,6 +5,7 @@ import math
 from coulomb import judge_friction
 from elements import corners, gauss, interpolate, shapes
 from formula import Formula, split
+from motion import MotionJudge, in_motion
 from obstacles import Obstacle
 from run_files import Fields, last_row, read_nodes
 from surfaces import Facet, Tree, Volume, set_chords
@@ -75,9 +76,14 @@ class SolidJudge:
     def judge(self):
         self.fields = Fields(self.folder, "fields", self.nodes)
         self.files_agree()
-        self.balance()
         self.loads()
-        self.energies()
+        if in_motion(self.scene):
+            # inertia is not among the forces of nodal.csv
+            self.work_size = self.works(self.contact)[1]
+            MotionJudge(self).judge()
+        else:
+            self.balance()
+            self.energies()
         if not self.pairs:
             return
         self.read_surfaces()
@@ -555,7 +561,8 @@ class SolidJudge:
         what is dissipated is the work of the last tractions on all slips."""
         moves = any(self.scene.get(f"Obstacle {pair.obstacle}/Motion", "")
                     for pair in self.pairs if pair.obstacle)
-        return (not moves and self.summary["method"] == "lagrange"
+        return (not moves and not in_motion(self.scene)
+                and self.summary["method"] == "lagrange"
                 and int(self.scene.get("Load steps/Steps", "1")) == 1
                 and not self.summary.get("load_steps_cut_back"))
 

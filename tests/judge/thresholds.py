@@ -38,6 +38,12 @@ THRESHOLDS = {
         "quadrature on curved cells"),
     "agreement": Threshold(
         1e-6, "of the largest value: fields are written as 32-bit numbers"),
+    "momentum": Threshold(
+        1e-7, "of the largest momentum that the kinetic energy could be: what a "
+        "step changes of it is the outer forces times the step"),
+    "gain": Threshold(
+        2e-3, "of the energy at the start or the work done: what implicit "
+        "schemes with modified mass may gain"),
     "tables": Threshold(
         1e-12, "the same number in two files with all digits"),
     "gap": Threshold(

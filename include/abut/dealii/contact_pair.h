@@ -80,6 +80,10 @@ namespace abut
      * start, the nearest ones are taken to be. */
     bool holds_body = false;
 
+    /** Whether the surfaces may be out of each other's reach: with inertia,
+     * bodies fly, and a pair without a point is no error. */
+    bool may_be_apart = false;
+
     /** Distance within which the surfaces are looked for, length; 0: half a
      * facet, or one and a half times the motion since the last search if that
      * is more. */

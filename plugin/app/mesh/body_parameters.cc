@@ -27,7 +27,8 @@ namespace abut::app
                       "displacements alone cannot describe.");
     prm.declare_entry("Density", "0", NumberPattern::between(0., largest_value),
                       "Mass per volume; its weight is density times "
-                      "`Solid/Gravity`.");
+                      "`Solid/Gravity`, and its inertia that of section "
+                      "`Time`.");
     prm.declare_entry("Support", "", Patterns::Anything(),
                       "Prescribed displacements by boundary id, `3: 0, 0; 1, "
                       "2: free, -0.1*t`: a formula in x, y, z, t for each "
@@ -42,6 +43,11 @@ namespace abut::app
     prm.declare_entry("Body force", "", Patterns::Anything(),
                       "Force per volume: a formula for each component, "
                       "separated by commas. Adds to the weight.");
+    prm.declare_entry("Initial displacement", "", Patterns::Anything(),
+                      "Where the motion begins: a formula in x, y, z for each "
+                      "component, separated by commas. Empty: undeformed.");
+    prm.declare_entry("Initial velocity", "", Patterns::Anything(),
+                      "Written like it. Empty: at rest.");
     prm.leave_subsection();
   }
 
@@ -61,6 +67,8 @@ namespace abut::app
     traction = prm.get("Traction");
     pressure = prm.get("Pressure");
     body_force = prm.get("Body force");
+    initial_displacement = prm.get("Initial displacement");
+    initial_velocity = prm.get("Initial velocity");
     prm.leave_subsection();
   }
 } // namespace abut::app

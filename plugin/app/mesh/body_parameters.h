@@ -20,6 +20,7 @@ namespace abut::app
     double poisson_ratio = 0.3;
     double density = 0.;
     std::string support, traction, pressure, body_force;
+    std::string initial_displacement, initial_velocity;
 
     /** Declare the section of this name. */
     static void declare(dealii::ParameterHandler &prm,

@@ -353,21 +353,29 @@ namespace abut::app
       const la::Vector &u, const dealii::AffineConstraints<double> &rules) const
   {
     const la::Vector ghosted = this->ghosted(u);
+    if (is_linear())
+      return linear_forces(ghosted, rules);
+    la::Vector open = this->open_load();
+    dealii::Vector<double> force(this->fe.n_dofs_per_cell());
+    for_each_state(*this, ghosted,
+                   [&](const auto &cell, const auto &points, const auto &state,
+                       const auto &dofs)
+                   {
+                     materials->at(cell->material_id())
+                         ->cell_forces(points, this->fe, state, force);
+                     rules.distribute_local_to_global(force, dofs, open);
+                   });
+    return this->close_load(open);
+  }
+
+  template <int dim>
+  la::Vector Elasticity<dim>::linear_forces(
+      const la::Vector &ghosted,
+      const dealii::AffineConstraints<double> &rules) const
+  {
     la::Vector open = this->open_load();
     const unsigned int n = this->fe.n_dofs_per_cell();
     dealii::Vector<double> values(n), force(n);
-    if (!is_linear())
-    {
-      for_each_state(*this, ghosted,
-                     [&](const auto &cell, const auto &points,
-                         const auto &state, const auto &dofs)
-                     {
-                       materials->at(cell->material_id())
-                           ->cell_forces(points, this->fe, state, force);
-                       rules.distribute_local_to_global(force, dofs, open);
-                     });
-      return this->close_load(open);
-    }
     std::vector<global_dof_index> dofs(n);
     for (const auto &cell : this->dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -379,6 +387,12 @@ namespace abut::app
         rules.distribute_local_to_global(force, dofs, open);
       }
     return this->close_load(open);
+  }
+
+  template <int dim>
+  la::Vector Elasticity<dim>::stiffness_times(const la::Vector &u) const
+  {
+    return linear_forces(this->ghosted_field(u), this->hanging);
   }
 
   template <int dim>

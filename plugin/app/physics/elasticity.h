@@ -58,6 +58,12 @@ namespace abut::app
 
     void residual(const la::Vector &u, la::Vector &result) const override;
     const la::Matrix &tangent(const la::Vector &u) override;
+
+    const Materials<dim> &all_materials() const
+    {
+      return *materials;
+    }
+
     NodalForces nodal_forces(const la::Vector &u) const override;
 
     /** Whether all materials are. */
@@ -71,6 +77,11 @@ namespace abut::app
      * unknowns but hanging ones, supported ones included: what supports and
      * contact have to hold. Needs assemble_load(). Collective. */
     la::Vector unbalanced_forces(const la::Vector &u) const;
+
+    /** K u over all unknowns but hanging ones, whatever supports prescribe
+     * now: of displacements at any time, velocities, motions. Linear materials
+     * only. Collective. */
+    la::Vector stiffness_times(const la::Vector &u) const;
 
     /** Stored energy minus the work of external forces, supports included.
      * Collective. */
@@ -94,6 +105,10 @@ namespace abut::app
     la::Vector
     internal_forces(const la::Vector &u,
                     const dealii::AffineConstraints<double> &rules) const;
+    /** The same of linear materials, for values with ghosts. */
+    la::Vector
+    linear_forces(const la::Vector &ghosted,
+                  const dealii::AffineConstraints<double> &rules) const;
     double stored_energy(const la::Vector &u) const;
     void assemble_tangent(const la::Vector &u);
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace abut::app
 {
@@ -58,6 +59,21 @@ namespace abut::app
     virtual void declare_tables() = 0;
     /** @} */
 
+    /** Whether it moves by inertia: then nothing has to be held, and the first
+     * solve is on the last mesh. */
+    virtual bool has_inertia() const
+    {
+      return false;
+    }
+
+    /** The displacement that the run begins with, on a new mesh and at time 0.
+     */
+    virtual la::Vector start()
+    {
+      return problem().vector();
+    }
+    /** @} */
+
     /** @name A load step on a mesh @{ */
     /** Time of all formulas, with what they prescribe. */
     virtual void set_time(double)
@@ -66,6 +82,46 @@ namespace abut::app
 
     /** Tangent and loads of the present mesh and time. */
     virtual void assemble() = 0;
+
+    /** Begin a solve from @p u, which may be improved, to what was assembled.
+     * Returns whether tangent() has another value than before. */
+    virtual bool begin_solve(la::Vector &)
+    {
+      return false;
+    }
+
+    /** Forces of the present step without those of contact, 0 at constrained
+     * unknowns. */
+    virtual void residual(const la::Vector &u, la::Vector &result) const
+    {
+      problem().residual(u, result);
+    }
+
+    /** Forces that are small beside those of the present step, as a norm over
+     * all unknowns: contact forces below say nothing of the balance. */
+    virtual double small_force() const
+    {
+      return 1e-4 * problem().load.l2_norm();
+    }
+
+    /** Its derivative. */
+    virtual const la::Matrix &tangent(const la::Vector &u)
+    {
+      return problem().tangent(u);
+    }
+
+    /** The solve has led to the displacement of the run's state, which results
+     * are now asked of. */
+    virtual void end_solve()
+    {
+    }
+
+    /** Its load step is accepted. Returns why the run must end here, or
+     * nothing. */
+    virtual std::string commit()
+    {
+      return "";
+    }
 
     virtual DiscreteProblem<dim> &problem() = 0;
     virtual const DiscreteProblem<dim> &problem() const = 0;
@@ -81,6 +137,11 @@ namespace abut::app
 
     /** Tell the assembler what can touch at @p time. */
     virtual void set_contact(ContactAssembler<dim> &contact, double time) = 0;
+
+    /** The assembler has a new mesh. */
+    virtual void prepare_contact(ContactAssembler<dim> &)
+    {
+    }
 
     /** The parameter that a message about contact belongs to. */
     virtual std::string parameter_of(const std::string &message) const = 0;
@@ -141,6 +202,12 @@ namespace abut::app
       return false;
     }
 
+    /** What is stored, and what external forces could still do. */
+    virtual double energy(const la::Vector &u) const
+    {
+      return problem().energy(u);
+    }
+
     /** Energy norm of the solution. */
     virtual double solution_norm() const = 0;
 
@@ -180,6 +247,23 @@ namespace abut::app
 
     /** Go on from what save_state() returned; not collective. */
     virtual void load_state(const std::string &bytes) = 0;
+
+    /** Fields on the mesh that a checkpoint keeps beside the displacement: of
+     * the last load step that was accepted. Always as many. */
+    virtual std::vector<la::Vector> history() const
+    {
+      return {};
+    }
+    virtual unsigned int n_history() const
+    {
+      return 0;
+    }
+
+    /** Go on from them and from the displacement of the run's state, at the
+     * time reached. */
+    virtual void resume(std::vector<la::Vector>)
+    {
+    }
 
     /** Files and figures of the end that need the time's sections closed. */
     virtual void finish()

@@ -87,6 +87,8 @@ namespace abut::app
     marked.has_start = state.control.start().size() > 0;
     if (marked.has_start)
       fields.push_back(state.control.start());
+    for (la::Vector &field : model.history())
+      fields.push_back(std::move(field));
     std::ostringstream contact(std::ios::binary);
     if (marked.has_contact)
     {
@@ -128,10 +130,13 @@ namespace abut::app
     };
     std::vector<la::Vector> fields = load_mesh<dim>(
         restart.source(), restart.has_same_ranks() ? &saved.mesh : nullptr,
-        1u + saved.has_pressure + saved.has_start, model.triangulation,
-        mesh_history, model.problem().dof_handler, setup);
+        1u + saved.has_pressure + saved.has_start + model.n_history(),
+        model.triangulation, mesh_history, model.problem().dof_handler, setup);
     model.check_setup();
     state.u = fields.front();
+    const std::size_t n_history = model.n_history();
+    model.resume({fields.end() - n_history, fields.end()});
+    fields.resize(fields.size() - n_history);
     if (saved.has_start)
       state.control.restore_start(fields.back());
     if (saved.has_pressure)

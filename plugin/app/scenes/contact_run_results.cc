@@ -70,11 +70,13 @@ namespace abut::app
     const MethodParameters &method = state.method;
     const DiscreteProblem<dim> &problem = model.problem();
     // What a law stores on purpose is no contradiction, and Nitsche's method
-    // has no nodal forces of its own.
+    // has no nodal forces of its own. Energies of motions have a balance of
+    // their own.
     const bool stores = method.user_law != nullptr
                         || method.options.allowed_penetration > 0.
                         || abut_law_needs_stress(method.options.law);
-    if (!problem.is_linear() || (model.has_contact() && stores))
+    if (!problem.is_linear() || model.has_inertia()
+        || (model.has_contact() && stores))
       return {};
     la::Vector forces;
     Works works = find_works(problem, state, model.has_contact(), forces);
@@ -121,6 +123,7 @@ namespace abut::app
   template <int dim> void ContactRun<dim>::finish_result()
   {
     ContactResult &present = state.present;
+    model.end_solve();
     const ContactAssembler<dim> &contact = state.contact;
     if (state.settings.refinement.is_adaptive(state.mesh_number))
     {
@@ -137,7 +140,7 @@ namespace abut::app
     SectionTimes::Scope scope(report.times, "results");
     present.cells = model.triangulation.n_global_active_cells();
     present.dofs = model.problem().dof_handler.n_dofs();
-    present.energy = model.problem().energy(state.u);
+    present.energy = model.energy(state.u);
     if (model.has_contact())
     {
       present.progress = contact.progress();

@@ -6,11 +6,14 @@ namespace abut::app
   template <int dim>
   std::vector<NodalColumn> force_columns(const DiscreteProblem<dim> &problem,
                                          const ContactRunState<dim> &run,
-                                         const bool has_contact)
+                                         const bool has_contact,
+                                         const la::Vector *unbalanced)
   {
     const NodalForces forces = problem.nodal_forces(run.u);
     la::Vector reaction(forces.internal);
     reaction.add(-1., forces.external);
+    if (unbalanced != nullptr)
+      reaction = *unbalanced;
     la::Vector free(reaction);
     problem.constraints.set_zero(free);
     reaction.add(-1., free);
@@ -42,8 +45,10 @@ namespace abut::app
             {"held", held}};
   }
 
-  template std::vector<NodalColumn>
-  force_columns(const DiscreteProblem<2> &, const ContactRunState<2> &, bool);
-  template std::vector<NodalColumn>
-  force_columns(const DiscreteProblem<3> &, const ContactRunState<3> &, bool);
+  template std::vector<NodalColumn> force_columns(const DiscreteProblem<2> &,
+                                                  const ContactRunState<2> &,
+                                                  bool, const la::Vector *);
+  template std::vector<NodalColumn> force_columns(const DiscreteProblem<3> &,
+                                                  const ContactRunState<3> &,
+                                                  bool, const la::Vector *);
 } // namespace abut::app

@@ -35,6 +35,11 @@ namespace abut::app
       return !values("Solid/Gravity").empty();
     }
 
+    bool has_motion(const SceneValues &values)
+    {
+      return values("Time/Scheme") != "none";
+    }
+
     bool has_pairs(const SceneValues &values)
     {
       return values.number("Solid/Pairs") > 0.;
@@ -88,7 +93,11 @@ namespace abut::app
     {
       return {data("Solid/Gravity", any_has_weight,
                    "no body has a weight: set Body 1/Density."),
-              setting("Body */Density", has_gravity, "Solid/Gravity is empty."),
+              setting(
+                  "Body */Density",
+                  [](const SceneValues &values)
+                  { return has_gravity(values) || has_motion(values); },
+                  "Solid/Gravity is empty, and nothing moves."),
               data(
                   "Solid/Plane",
                   [](const SceneValues &values)
@@ -201,6 +210,42 @@ namespace abut::app
           { return values.is_true("Load steps/Cut back"); },
           "it belongs to Load steps/Cut back = true.")};
     }
+
+    /** A number of a time scheme. */
+    EffectRule of_scheme(const std::string &name, const std::string &scheme)
+    {
+      return data(
+          "Time/" + name,
+          [scheme](const SceneValues &values)
+          { return values("Time/Scheme") == scheme; },
+          "it belongs to Time/Scheme = " + scheme + ".");
+    }
+
+    EffectRules of_motion()
+    {
+      const std::string at_rest =
+          "nothing moves: Time/Scheme is none. hht is the one to begin with.";
+      EffectRules rules = {of_scheme("Alpha", "hht"),
+                           of_scheme("Rho infinity", "generalised alpha"),
+                           of_scheme("Beta", "newmark"),
+                           of_scheme("Gamma", "newmark")};
+      for (const char *name : {"Time/Step", "Time/End", "Time/Mass*",
+                               "Time/Stiffness damping", "Body */Initial*"})
+        rules.push_back(data(name, has_motion, at_rest));
+      rules.push_back(setting("Output/Every", has_motion, at_rest));
+      const auto in_steps = [](const SceneValues &values)
+      { return !has_motion(values); };
+      for (const char *name : {"Load steps/Steps", "Load steps/End time"})
+        rules.push_back(
+            data(name, in_steps,
+                 "a motion has the steps of Time/Step to Time/End."));
+      for (const char *name :
+           {"Refinement/Nested iteration", "Refinement/Coarsest level",
+            "Refinement/Coarse level tolerance"})
+        rules.push_back(setting(
+            name, in_steps, "a motion begins on the mesh that it ends on."));
+      return rules;
+    }
   } // namespace
 
   EffectRules solid_effects()
@@ -208,6 +253,6 @@ namespace abut::app
     return joined({of_loads(), of_contact(), of_obstacles(), of_search(),
                    mesh_effects("Body */Mesh"), mesh_effects("Obstacle *"),
                    law_effects(), solver_effects(), refinement_effects(),
-                   of_load_steps(), result_effects()});
+                   of_load_steps(), of_motion(), result_effects()});
   }
 } // namespace abut::app

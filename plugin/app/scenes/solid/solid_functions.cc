@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_functions.h"
 
+#include "app/input/collective.h"
 #include "app/input/input_error.h"
 #include "app/physics/hooke.h"
 
@@ -17,6 +18,18 @@ namespace abut::app
     if (!parameters.gravity.empty())
       gravity = std::make_unique<Expression<dim>>(parameters.gravity,
                                                   "Solid/Gravity", dim);
+    const auto initial =
+        [](const std::string &text, const std::string &parameter)
+    {
+      std::unique_ptr<Expression<dim>> made;
+      if (!text.empty())
+        made = std::make_unique<Expression<dim>>(text, parameter, dim);
+      if (made && made->depends_on_time())
+        throw InputError(parameter, "'" + text
+                                        + "' depends on t; it is about time "
+                                          "0.");
+      return made;
+    };
     for (const BodyParameters &body : parameters.bodies)
       of_body.push_back(
           {BoundaryExpressions<dim>(body.support, body.parameter("Support"),
@@ -26,7 +39,10 @@ namespace abut::app
            BoundaryExpressions<dim>(body.pressure, body.parameter("Pressure")),
            std::make_unique<VolumeForce<dim>>(body.density, gravity.get(),
                                               body.body_force,
-                                              body.parameter("Body force"))});
+                                              body.parameter("Body force")),
+           initial(body.initial_displacement,
+                   body.parameter("Initial displacement")),
+           initial(body.initial_velocity, body.parameter("Initial velocity"))});
   }
 
   template <int dim>
@@ -105,6 +121,62 @@ namespace abut::app
     };
     require(of_body[body].traction, data.tractions, "Traction");
     require(of_body[body].pressure, data.pressures, "Pressure");
+  }
+
+  template <int dim>
+  std::map<dealii::types::material_id, double>
+  SolidFunctions<dim>::densities() const
+  {
+    std::map<dealii::types::material_id, double> result;
+    for (unsigned int body = 0; body < parameters.bodies.size(); ++body)
+      result[body] = parameters.bodies[body].density;
+    return result;
+  }
+
+  template <int dim>
+  std::pair<la::Vector, la::Vector>
+  SolidFunctions<dim>::initial_motion(const DiscreteProblem<dim> &problem) const
+  {
+    std::pair<la::Vector, la::Vector> result{problem.vector(),
+                                             problem.vector()};
+    const dealii::FiniteElement<dim> &fe = problem.fe;
+    const dealii::FiniteElement<dim> &element = fe.base_element(0);
+    const auto &owned = problem.dof_handler.locally_owned_dofs();
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    const auto put = [&](const auto &cell, const Expression<dim> *formula,
+                         la::Vector &values)
+    {
+      if (formula == nullptr)
+        return;
+      cell->get_dof_indices(dofs);
+      std::vector<dealii::Point<dim>> places;
+      for (const auto &point : element.get_unit_support_points())
+        places.push_back(
+            problem.mapping.transform_unit_to_real_cell(cell, point));
+      for (unsigned int c = 0; c < dim; ++c)
+      {
+        const std::vector<double> value = formula->evaluate(places, c);
+        for (unsigned int i = 0; i < value.size(); ++i)
+        {
+          const auto dof = dofs[fe.component_to_system_index(c, i)];
+          if (owned.is_element(dof))
+            la::data(values)[owned.index_within_set(dof)] = value[i];
+        }
+      }
+    };
+    collective(problem.dof_handler.get_communicator(),
+               [&]
+               {
+                 for (const auto &cell :
+                      problem.dof_handler.active_cell_iterators())
+                   if (cell->is_locally_owned())
+                   {
+                     const OfBody &own = of_body[cell->material_id()];
+                     put(cell, own.displacement.get(), result.first);
+                     put(cell, own.velocity.get(), result.second);
+                   }
+               });
+    return result;
   }
 
   template <int dim> void SolidFunctions<dim>::set_time(const double time)

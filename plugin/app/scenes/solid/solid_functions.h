@@ -6,7 +6,9 @@
 #include "app/physics/elasticity.h"
 #include "solid_parameters.h"
 
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace abut::app
@@ -27,6 +29,15 @@ namespace abut::app
     data(const Bodies<dim> &bodies,
          const std::set<dealii::types::boundary_id> &surfaces) const;
 
+    /** The densities of the bodies, by material id. */
+    std::map<dealii::types::material_id, double> densities() const;
+
+    /** Displacement and velocity that a motion begins with, at the nodes of the
+     * bodies (owned); hanging nodes as the formulas say. Throws InputError for
+     * values that are not finite. Collective. */
+    std::pair<la::Vector, la::Vector>
+    initial_motion(const DiscreteProblem<dim> &problem) const;
+
     /** Time of all formulas. */
     void set_time(double time);
 
@@ -38,6 +49,8 @@ namespace abut::app
     {
       BoundaryExpressions<dim> support, traction, pressure;
       std::unique_ptr<VolumeForce<dim>> force;
+      /** Null: 0. */
+      std::unique_ptr<Expression<dim>> displacement, velocity;
     };
 
     /** Throw InputError for a load of a body where its support holds it. */

@@ -42,6 +42,8 @@ namespace abut::app
         output(*this)
   {
     run.contact.set_axisymmetric(is_of_revolution<dim>(parameters));
+    if (parameters.time.is_on)
+      motion = std::make_unique<SolidMotion<dim>>(parameters, run, elasticity);
   }
 
   template <int dim> void SolidModel<dim>::create_functions()
@@ -107,7 +109,9 @@ namespace abut::app
         [&numbers](const auto &cell) { return numbers.of(cell); },
         parameters.plane, held);
     const std::set<boundary_id> touched = pairs->surfaces();
-    for (unsigned int k = 0; k < parts.size(); ++k)
+    if (motion)
+      pairs->let_fly();
+    for (unsigned int k = 0; k < parts.size() && !motion; ++k)
     {
       if (freedom[k].n_modes == 0)
         continue;
@@ -159,12 +163,103 @@ namespace abut::app
     }
     SectionTimes::Scope scope(run.report.times, "assembly");
     elasticity.assemble_stiffness();
+    if (motion)
+      motion->setup(functions->densities(), pairs->touching());
+  }
+
+  template <int dim> la::Vector SolidModel<dim>::start()
+  {
+    if (!motion)
+      return elasticity.vector();
+    set_time(0.);
+    assemble();
+    return motion->start(functions->initial_motion(elasticity));
   }
 
   template <int dim> void SolidModel<dim>::assemble()
   {
     SectionTimes::Scope scope(run.report.times, "assembly");
     elasticity.assemble_load(data);
+  }
+
+  template <int dim> bool SolidModel<dim>::begin_solve(la::Vector &u)
+  {
+    return motion && motion->begin_step(u);
+  }
+
+  template <int dim>
+  void SolidModel<dim>::residual(const la::Vector &u, la::Vector &result) const
+  {
+    if (motion)
+      motion->bodies().residual(u, result);
+    else
+      elasticity.residual(u, result);
+  }
+
+  template <int dim> double SolidModel<dim>::small_force() const
+  {
+    const double of_loads = ContactModel<dim>::small_force();
+    // Contact forces that are round-off of others say nothing of the balance.
+    return motion
+               ? std::max(of_loads, 1e-8 * motion->bodies().cancelling_forces())
+               : of_loads;
+  }
+
+  template <int dim>
+  const la::Matrix &SolidModel<dim>::tangent(const la::Vector &u)
+  {
+    return motion ? motion->bodies().tangent() : elasticity.tangent(u);
+  }
+
+  template <int dim> void SolidModel<dim>::end_solve()
+  {
+    if (motion)
+      motion->end_step(*pairs);
+  }
+
+  template <int dim> std::string SolidModel<dim>::commit()
+  {
+    return motion ? motion->commit() : "";
+  }
+
+  template <int dim> double SolidModel<dim>::energy(const la::Vector &u) const
+  {
+    return motion ? motion->energy() : elasticity.energy(u);
+  }
+
+  template <int dim> la::Vector SolidModel<dim>::unbalanced_forces() const
+  {
+    return motion ? motion->bodies().unbalanced_forces()
+                  : elasticity.unbalanced_forces(run.u);
+  }
+
+  template <int dim> void SolidModel<dim>::write_fields()
+  {
+    const unsigned int step = run.load_steps.n_accepted() + 1;
+    const bool is_last =
+        run.load_steps.target() >= parameters.load_steps.end_time;
+    if (!motion || is_last || step % parameters.every == 0)
+      output.write_fields();
+  }
+
+  template <int dim> std::vector<la::Vector> SolidModel<dim>::history() const
+  {
+    return motion ? motion->bodies().fields() : std::vector<la::Vector>();
+  }
+
+  template <int dim> unsigned int SolidModel<dim>::n_history() const
+  {
+    return motion ? BodyMotion<dim>::n_fields : 0;
+  }
+
+  template <int dim>
+  void SolidModel<dim>::resume(std::vector<la::Vector> fields)
+  {
+    if (!motion)
+      return;
+    set_time(run.load_steps.time());
+    assemble();
+    motion->resume(std::move(fields));
   }
 
   template <int dim> void SolidModel<dim>::set_time(const double time)
@@ -185,18 +280,33 @@ namespace abut::app
     contact.set_pairs(pairs->pairs());
     contact.set_normal_stress(std::make_shared<ElasticNormalStress<dim>>(
         elasticity.mapping, data.materials));
+    if (motion && motion->has_new_tangent())
+      prepare_contact(contact);
+  }
+
+  template <int dim>
+  void SolidModel<dim>::prepare_contact(ContactAssembler<dim> &contact)
+  {
+    // Penalties and loads are measured by the stiffness, without inertia.
+    if (motion)
+      contact.set_reference_stiffness(elasticity.stiffness);
   }
 
   template <int dim> std::string SolidModel<dim>::save_state() const
   {
-    return to_bytes(std::make_pair(to_bytes(output), has_warned));
+    return to_bytes(std::make_pair(
+        std::make_pair(to_bytes(output),
+                       motion ? to_bytes(*motion) : std::string()),
+        has_warned));
   }
 
   template <int dim> void SolidModel<dim>::load_state(const std::string &bytes)
   {
-    std::pair<std::string, bool> parts;
+    std::pair<std::pair<std::string, std::string>, bool> parts;
     from_bytes(bytes, parts);
-    from_bytes(parts.first, output);
+    from_bytes(parts.first.first, output);
+    if (motion)
+      from_bytes(parts.first.second, *motion);
     has_warned = parts.second;
   }
 
@@ -240,7 +350,7 @@ namespace abut::app
 
   template <int dim> std::string SolidModel<dim>::refuse() const
   {
-    for (unsigned int k = 0; k < parts.size(); ++k)
+    for (unsigned int k = 0; k < parts.size() && !motion; ++k)
       if (freedom[k].n_modes > 0
           && !is_held(parts[k], run.contact.pair_results()))
         return coded(
@@ -261,7 +371,7 @@ namespace abut::app
     return {contact_traction(elasticity.mapping, elasticity.dof_handler,
                              elasticity.constraints, elasticity.hanging,
                              data.materials, pairs->surfaces(),
-                             elasticity.unbalanced_forces(run.u), &status),
+                             unbalanced_forces(), &status),
             elasticity.ghosted_field(run.contact.pressure()),
             elasticity.ghosted_field(run.contact.gap()),
             elasticity.ghosted_field(
@@ -340,32 +450,36 @@ namespace abut::app
 
   template <int dim> void SolidModel<dim>::declare_tables()
   {
-    run.report.declare_columns({"load_step",
-                                "time",
-                                "level",
-                                "cells",
-                                "dofs",
-                                "constraints",
-                                "active",
-                                "steps",
-                                "linear_iterations",
-                                "matvecs",
-                                "setups",
-                                "energy",
-                                "contact_force",
-                                "penetration",
-                                "slipping",
-                                "friction_force",
-                                "dissipation",
-                                "l2_error",
-                                "h1_error",
-                                "energy_norm_error",
-                                "estimate",
-                                "estimated_error",
-                                "inf_sup",
-                                "setup_seconds",
-                                "krylov_seconds",
-                                "seconds"});
+    std::vector<std::string> columns = {"load_step",
+                                        "time",
+                                        "level",
+                                        "cells",
+                                        "dofs",
+                                        "constraints",
+                                        "active",
+                                        "steps",
+                                        "linear_iterations",
+                                        "matvecs",
+                                        "setups",
+                                        "energy",
+                                        "contact_force",
+                                        "penetration",
+                                        "slipping",
+                                        "friction_force",
+                                        "dissipation",
+                                        "l2_error",
+                                        "h1_error",
+                                        "energy_norm_error",
+                                        "estimate",
+                                        "estimated_error",
+                                        "inf_sup",
+                                        "setup_seconds",
+                                        "krylov_seconds",
+                                        "seconds"};
+    if (motion)
+      for (const std::string &column : motion->columns())
+        columns.push_back(column);
+    run.report.declare_columns(columns);
   }
 
   template <int dim>
@@ -385,6 +499,8 @@ namespace abut::app
       row["friction_force"] = result.friction_force;
       row["dissipation"] = result.dissipation;
     }
+    if (motion)
+      motion->add_to_row(row);
     row["load_step"] = result.load_step;
     row["time"] = result.time;
     if (result.errors)

@@ -6,6 +6,7 @@
 #include "app/scenes/contact_model.h"
 #include "body_parts.h"
 #include "solid_functions.h"
+#include "solid_motion.h"
 #include "solid_output.h"
 #include "solid_pairs.h"
 #include "solid_points.h"
@@ -31,8 +32,20 @@ namespace abut::app
     void check_setup() override;
     void declare_tables() override;
 
+    bool has_inertia() const override
+    {
+      return motion != nullptr;
+    }
+    la::Vector start() override;
+
     void set_time(double time) override;
     void assemble() override;
+    bool begin_solve(la::Vector &u) override;
+    void residual(const la::Vector &u, la::Vector &result) const override;
+    double small_force() const override;
+    const la::Matrix &tangent(const la::Vector &u) override;
+    void end_solve() override;
+    std::string commit() override;
     DiscreteProblem<dim> &problem() override
     {
       return elasticity;
@@ -50,6 +63,7 @@ namespace abut::app
       return "contact rows";
     }
     void set_contact(ContactAssembler<dim> &contact, double time) override;
+    void prepare_contact(ContactAssembler<dim> &contact) override;
     std::string parameter_of(const std::string &message) const override
     {
       return pairs->parameter_of(message);
@@ -74,6 +88,7 @@ namespace abut::app
     {
       return parameters.large_strain;
     }
+    double energy(const la::Vector &u) const override;
     double solution_norm() const override;
     /** With the initial gaps as the rows have them. */
     std::optional<double> work_on_gaps(const la::Vector &forces,
@@ -88,12 +103,12 @@ namespace abut::app
     std::string line_of(const ContactResult &result) const override;
     void flag_more_cells() override;
 
-    void write_fields() override
-    {
-      output.write_fields();
-    }
+    void write_fields() override;
     std::string save_state() const override;
     void load_state(const std::string &bytes) override;
+    std::vector<la::Vector> history() const override;
+    unsigned int n_history() const override;
+    void resume(std::vector<la::Vector> fields) override;
     void finish() override
     {
       if (parameters.nodal_values && !run.results.empty())
@@ -110,12 +125,17 @@ namespace abut::app
     /** Of the present solution. */
     ContactFields contact_fields() const;
 
+    /** Forces at all unknowns but hanging ones that supports and contact hold
+     * in the present solution, inertia included. */
+    la::Vector unbalanced_forces() const;
+
     const SolidParameters &parameters;
     const ContactRunState<dim> &run;
     Bodies<dim> bodies;
     Elasticity<dim> elasticity;
     std::unique_ptr<SolidFunctions<dim>> functions;
     std::unique_ptr<SolidPairs<dim>> pairs;
+    std::unique_ptr<SolidMotion<dim>> motion; ///< or null
     std::unique_ptr<ExactSolution<dim>> exact;
     ElasticData<dim> data;
     std::vector<OutputPoint<dim>> points; ///< of `Output/Points`

@@ -156,10 +156,11 @@ namespace abut::app
     SectionTimes::Scope scope(model.run.report.times, "output");
     const Elasticity<dim> &elasticity = model.elasticity;
     const bool has_contact = !model.pairs->empty();
+    const la::Vector unbalanced = model.unbalanced_forces();
     std::vector<NodalColumn> columns = {
         {"displacement", elasticity.ghosted(model.run.u)}};
     for (NodalColumn &column :
-         force_columns(elasticity, model.run, has_contact))
+         force_columns(elasticity, model.run, has_contact, &unbalanced))
       columns.push_back(std::move(column));
     if (has_contact)
       for (const auto &[name, field] :
@@ -183,6 +184,11 @@ namespace abut::app
                   model.elasticity.ghosted(model.run.u), model.data.materials,
                   pressure_curves(model.contact_fields()), obstacles,
                   "Deformed bodies");
+    }
+    if (model.motion)
+    {
+      model.motion->draw();
+      return;
     }
     Curve count{"linear systems", {}};
     for (const ContactResult &state : model.run.results)

@@ -127,6 +127,21 @@ namespace abut::app
             pair.holds_body = true;
   }
 
+  template <int dim> void SolidPairs<dim>::let_fly()
+  {
+    for (ContactPair<dim> &pair : all)
+      pair.may_be_apart = !pair.tied;
+  }
+
+  template <int dim> std::set<boundary_id> SolidPairs<dim>::touching() const
+  {
+    std::set<boundary_id> result;
+    for (const ContactPair<dim> &pair : all)
+      if (!pair.tied)
+        result.insert(pair.secondary.begin(), pair.secondary.end());
+    return result;
+  }
+
   template <int dim> void SolidPairs<dim>::set_time(const double present)
   {
     time = present;

@@ -46,6 +46,12 @@ namespace abut::app
     void hold(const std::set<dealii::types::boundary_id> &surface,
               bool has_others);
 
+    /** Say that bodies fly: no pair needs to be in reach. */
+    void let_fly();
+
+    /** Secondary surfaces that touch and leave: those of ties do not. */
+    std::set<dealii::types::boundary_id> touching() const;
+
     /** Time of gaps and obstacles. */
     void set_time(double time);
 

@@ -3,6 +3,8 @@
 
 #include "app/input/input_error.h"
 
+#include <abut/dealii/number_pattern.h>
+
 #include <cstdlib>
 
 namespace abut::app
@@ -100,6 +102,9 @@ namespace abut::app
       prm.declare_entry("Fields", "true", Patterns::Bool(),
                         "Write displacement and stress as VTU and PVD files "
                         "for ParaView.");
+      prm.declare_entry("Every", "1", Patterns::Integer(1),
+                        "Write fields after every so many steps of a motion, "
+                        "and at its end.");
       prm.declare_entry("All levels", "false", Patterns::Bool(),
                         "Write fields on every level, not only on the last.");
       prm.declare_entry("Inf-sup constant", "false", Patterns::Bool(),
@@ -132,6 +137,65 @@ namespace abut::app
     return counts;
   }
 
+  void InertiaParameters::declare(ParameterHandler &prm)
+  {
+    TimeParameters::declare(
+        prm, "none|hht|trapezoid|midpoint|newmark|generalised alpha");
+    prm.enter_subsection("Time");
+    prm.declare_entry("Mass", "modified",
+                      Patterns::Selection("modified|consistent|lumped"),
+                      "Where the mass of bodies sits: modified takes it from "
+                      "the nodes of secondary surfaces and hands it to their "
+                      "neighbours inside, so that impacts neither gain energy "
+                      "nor ring; consistent is that of the elements, lumped "
+                      "its row sums at the nodes.");
+    prm.declare_entry("Mass damping", "0", NumberPattern::from(0.),
+                      "Rayleigh damping: forces of this number (per time) "
+                      "times mass times velocity.");
+    prm.declare_entry("Stiffness damping", "0", NumberPattern::from(0.),
+                      "Rayleigh damping: forces of this time times stiffness "
+                      "times velocity.");
+    prm.leave_subsection();
+  }
+
+  void InertiaParameters::parse(ParameterHandler &prm)
+  {
+    TimeParameters::parse(prm);
+    prm.enter_subsection("Time");
+    const std::string word = prm.get("Mass");
+    mass_damping = prm.get_double("Mass damping");
+    stiffness_damping = prm.get_double("Stiffness damping");
+    prm.leave_subsection();
+    mass = word == "modified"     ? ABUT_TIME_MASS_MODIFIED
+           : word == "consistent" ? ABUT_TIME_MASS_CONSISTENT
+                                  : ABUT_TIME_MASS_LUMPED;
+    if (is_on && stiffness_damping > 0. && mass == ABUT_TIME_MASS_MODIFIED)
+      throw InputError("Time/Stiffness damping",
+                       "nodes without mass have no velocity of their own that "
+                       "could be damped: set Time/Mass = consistent or "
+                       "lumped.");
+  }
+
+  void SolidParameters::begin_motion()
+  {
+    for (const BodyParameters &body : bodies)
+      if (body.density <= 0.)
+        throw InputError(body.parameter("Density"),
+                         "a body that moves has mass: set its density, or "
+                         "Time/Scheme = none.");
+    if (refinement.adaptive_cycles > 0)
+      throw InputError("Refinement/Adaptive cycles",
+                       "the mesh of a motion stays as it is; set Time/Scheme = "
+                       "none, or no cycles.");
+    if (refinement.has_target())
+      throw InputError("Refinement/Target error",
+                       "the mesh of a motion stays as it is; set Time/Scheme = "
+                       "none, or no target.");
+    // A motion begins on the mesh that it ends on.
+    refinement.nested = false;
+    static_cast<LoadStepOptions &>(load_steps) = time.steps(load_steps);
+  }
+
   void SolidParameters::declare(ParameterHandler &prm,
                                 const SolidCounts &counts)
   {
@@ -147,6 +211,7 @@ namespace abut::app
       prm.leave_subsection();
     }
     LoadStepParameters::declare(prm);
+    InertiaParameters::declare(prm);
     RefinementParameters::declare(prm, "2", "0");
     declare_solid_results(prm);
   }
@@ -178,6 +243,9 @@ namespace abut::app
     }
     load_steps.parse(prm);
     refinement.parse(prm);
+    time.parse(prm);
+    if (time.is_on)
+      begin_motion();
 
     prm.enter_subsection("Exact solution");
     exact_displacement = prm.get("Displacement");
@@ -188,6 +256,7 @@ namespace abut::app
 
     prm.enter_subsection("Output");
     fields = prm.get_bool("Fields");
+    every = prm.get_integer("Every");
     all_levels = prm.get_bool("All levels");
     inf_sup = prm.get_bool("Inf-sup constant");
     nodal_values = prm.get_bool("Nodal values");

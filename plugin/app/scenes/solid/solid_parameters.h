@@ -9,6 +9,7 @@
 #include "app/physics/material.h"
 #include "app/scenes/load_step_parameters.h"
 #include "app/scenes/pair_parameters.h"
+#include "app/scenes/time_parameters.h"
 
 #include <string>
 #include <vector>
@@ -26,6 +27,16 @@ namespace abut::app
     static SolidCounts read(const ParameterFile &file);
   };
 
+  /** Section `Time` of bodies. */
+  struct InertiaParameters : TimeParameters
+  {
+    abut_time_mass mass = ABUT_TIME_MASS_MODIFIED;
+    double mass_damping = 0., stiffness_damping = 0.;
+
+    static void declare(dealii::ParameterHandler &prm);
+    void parse(dealii::ParameterHandler &prm);
+  };
+
   /** All parameters of the scene `solid` but those of the methods. */
   struct SolidParameters
   {
@@ -36,7 +47,8 @@ namespace abut::app
     std::vector<BodyParameters> bodies;
     std::vector<PairParameters> pairs;
     std::vector<RigidObstacleParameters> obstacles;
-    LoadStepParameters load_steps;
+    LoadStepParameters load_steps; ///< those of the motion, if there is one
+    InertiaParameters time;
     RefinementParameters refinement;
 
     // Exact solution
@@ -45,6 +57,7 @@ namespace abut::app
 
     // Output
     bool fields = true;
+    unsigned int every = 1; ///< step, fields
     bool all_levels = false;
     bool inf_sup = false;
     bool nodal_values = false;
@@ -53,6 +66,10 @@ namespace abut::app
     static void declare(dealii::ParameterHandler &prm,
                         const SolidCounts &counts);
     void parse(dealii::ParameterHandler &prm, const SolidCounts &counts);
+
+  private:
+    /** Make all else fit a motion; throws InputError for what does not. */
+    void begin_motion();
   };
 } // namespace abut::app
 

@@ -79,7 +79,7 @@ namespace abut::app
 
   template <int dim> void SolidReport<dim>::report_reactions() const
   {
-    la::Vector forces = elasticity.unbalanced_forces(u);
+    la::Vector forces = model.unbalanced_forces();
     if (!pairs.empty())
     {
       la::Vector contact_there = elasticity.vector();
@@ -302,6 +302,8 @@ namespace abut::app
     report_points();
     report_reactions();
     report_shares();
+    if (model.motion)
+      model.motion->report();
     if (!pairs.empty())
       report_contact();
     if (converged)
@@ -377,7 +379,10 @@ namespace abut::app
                  std::to_string(run.load_steps.n_accepted()) + " of "
                      + std::to_string(parameters.load_steps.steps)
                      + " asked for");
-    report.model("inertia", false, "each load step is in equilibrium");
+    report.model("inertia", model.has_inertia(),
+                 model.has_inertia()
+                     ? std::string("scheme ") + parameters.time.scheme.name
+                     : "each load step is in equilibrium");
     report.model("large strain", false,
                  "strains are linear in the displacement");
     unsigned int n_steps = 0;
@@ -395,7 +400,8 @@ namespace abut::app
 
   template <int dim> void SolidReport<dim>::explain_pairs() const
   {
-    if (run.load_steps.n_accepted() > 1 && !pairs.has_friction())
+    if (run.load_steps.n_accepted() > 1 && !pairs.has_friction()
+        && !model.has_inertia())
       report.leave_out(
           "load steps: without friction the last answer does not depend on "
           "those before it; if only it is wanted, Load steps/Steps = 1.");

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "body_motion.h"
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Steps that differ by less than this part are of one length. */
+    constexpr double same_length = 1e-9;
+
+    void check(const abut_status status)
+    {
+      if (status != ABUT_SUCCESS)
+        throw std::runtime_error(
+            "The motion has become infinite or is no number any more.");
+    }
+
+    /** M on the unknowns with mass, the identity on the others. */
+    struct MassOperator
+    {
+      const la::Matrix &mass;
+      const std::vector<std::uint8_t> &without;
+
+      void vmult(la::Vector &dst, const la::Vector &src) const
+      {
+        mass.vmult(dst, src);
+        double *out = la::data(dst);
+        const double *in = la::data(src);
+        for (std::size_t i = 0; i < without.size(); ++i)
+          out[i] = without[i] ? in[i] : out[i];
+      }
+    };
+
+    /** The inverse of its diagonal. */
+    struct DiagonalInverse
+    {
+      std::vector<double> factor;
+
+      void vmult(la::Vector &dst, const la::Vector &src) const
+      {
+        double *out = la::data(dst);
+        const double *in = la::data(src);
+        for (std::size_t i = 0; i < factor.size(); ++i)
+          out[i] = factor[i] * in[i];
+      }
+    };
+  } // namespace
+
+  template <int dim>
+  BodyMotion<dim>::BodyMotion(Elasticity<dim> &elasticity,
+                              const Settings &settings)
+      : elasticity_(elasticity), settings_(settings)
+  {
+  }
+
+  template <int dim> void BodyMotion<dim>::setup(const MassData &data)
+  {
+    mass_ = std::make_unique<la::Matrix>(
+        mass_matrix(elasticity_, elasticity_.all_materials(), data));
+    free_mass_ = std::make_unique<la::Matrix>(free_part(elasticity_, *mass_));
+    tangent_.clear();
+    dt_ = 0.;
+    mark_massless();
+    const auto &fe = elasticity_.fe;
+    const auto &owned = elasticity_.dof_handler.locally_owned_dofs();
+    std::vector<la::Vector> unit(dim, elasticity_.vector());
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    for (const auto &cell : elasticity_.dof_handler.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (owned.is_element(dofs[i]))
+          la::data(unit[fe.system_to_component_index(i)
+                            .first])[owned.index_within_set(dofs[i])] = 1.;
+    }
+    mass_of_component_.assign(dim, elasticity_.vector());
+    for (unsigned int d = 0; d < dim; ++d)
+      mass_->vmult(mass_of_component_[d], unit[d]);
+  }
+
+  template <int dim> void BodyMotion<dim>::mark_massless()
+  {
+    const la::LocalRows rows = la::local_rows(*mass_);
+    massless_.assign(rows.n_rows, 1);
+    for (int i = 0; i < rows.n_rows; ++i)
+      for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        if (rows.column[k] == i && rows.value[k] > 0.)
+          massless_[i] = 0;
+  }
+
+  template <int dim>
+  abut_time_state BodyMotion<dim>::state(la::Vector &u, la::Vector &v,
+                                         la::Vector &a) const
+  {
+    return {sizeof(abut_time_state),
+            &settings_.scheme,
+            dt_,
+            la::n_owned(u),
+            la::data(u),
+            la::data(v),
+            la::data(a),
+            massless_.data()};
+  }
+
+  template <int dim> void BodyMotion<dim>::set_forces_before()
+  {
+    load_ = elasticity_.external;
+  }
+
+  template <int dim> void BodyMotion<dim>::find_acceleration()
+  {
+    la::Vector moved = velocity_;
+    moved *= settings_.stiffness_damping;
+    moved += displacement_;
+    la::Vector force = elasticity_.stiffness_times(moved);
+    la::Vector product = elasticity_.vector();
+    mass_->vmult(product, velocity_);
+    force.add(settings_.mass_damping, product);
+    force -= load_;
+    reaction_ = force;
+    la::Vector right(force);
+    right *= -1.;
+    elasticity_.constraints.set_zero(right);
+    std::vector<std::uint8_t> without = massless_;
+    const auto &owned = elasticity_.dof_handler.locally_owned_dofs();
+    for (std::size_t i = 0; i < without.size(); ++i)
+    {
+      if (elasticity_.constraints.is_constrained(owned.nth_index_in_set(i)))
+        without[i] = 1;
+      if (without[i])
+        la::data(right)[i] = 0.;
+    }
+    acceleration_ = elasticity_.vector();
+    const double size = right.l2_norm();
+    if (size == 0.)
+      return;
+    DiagonalInverse jacobi{la::diagonal(la::local_rows(*mass_))};
+    for (std::size_t i = 0; i < without.size(); ++i)
+      jacobi.factor[i] = without[i] ? 1. : 1. / jacobi.factor[i];
+    dealii::SolverControl control(1000, 1e-14 * size);
+    dealii::SolverCG<la::Vector> solver(control);
+    solver.solve(MassOperator{*free_mass_, without}, acceleration_, right,
+                 jacobi);
+    mass_->vmult(product, acceleration_);
+    reaction_ += product;
+  }
+
+  template <int dim>
+  void BodyMotion<dim>::start(const la::Vector &displacement,
+                              const la::Vector &velocity)
+  {
+    displacement_ = displacement;
+    velocity_ = velocity;
+    set_forces_before();
+    find_acceleration();
+    next_velocity_ = velocity_;
+    dissipated_ = work_ = 0.;
+    record_ = measure(displacement_, velocity_);
+  }
+
+  template <int dim>
+  void BodyMotion<dim>::resume(const la::Vector &displacement,
+                               std::vector<la::Vector> fields)
+  {
+    displacement_ = displacement;
+    velocity_ = fields[0];
+    acceleration_ = fields[1];
+    reaction_ = fields[2];
+    next_velocity_ = velocity_;
+    set_forces_before();
+  }
+
+  template <int dim>
+  bool BodyMotion<dim>::begin_step(const double dt, la::Vector &u)
+  {
+    const bool is_new = std::abs(dt - dt_) > same_length * dt;
+    if (is_new)
+    {
+      dt_ = dt;
+      abut_time_weights weights;
+      check(abut_time_weigh(&settings_.scheme, dt, ABUT_TIME_STEP, &weights));
+      if (tangent_.m() == 0)
+        tangent_.reinit(elasticity_.stiffness);
+      tangent_ = 0.;
+      tangent_.add(weights.stiffness
+                       + settings_.stiffness_damping * weights.damping,
+                   elasticity_.stiffness);
+      tangent_.add(weights.mass + settings_.mass_damping * weights.damping,
+                   *free_mass_);
+    }
+    const abut_time_state from = state(displacement_, velocity_, acceleration_);
+    u = displacement_;
+    check(abut_time_begin(&from, la::data(u)));
+    elasticity_.constraints.distribute(u);
+    base_ = u;
+    base_residual_ = full_residual(u);
+    elasticity_.constraints.set_zero(base_residual_);
+    return is_new;
+  }
+
+  template <int dim>
+  la::Vector BodyMotion<dim>::full_residual(const la::Vector &u) const
+  {
+    la::Vector inertia = elasticity_.vector(), damping = elasticity_.vector(),
+               elastic = elasticity_.vector();
+    abut_time_arguments arguments = {sizeof(abut_time_arguments),
+                                     la::data(inertia), la::data(damping),
+                                     la::data(elastic)};
+    // The state is not changed.
+    la::Vector before(displacement_), v(velocity_), a(acceleration_);
+    const abut_time_state from = state(before, v, a);
+    check(abut_time_evaluate(&from, la::data(u), &arguments));
+    elastic.add(settings_.stiffness_damping, damping);
+    inertia.add(settings_.mass_damping, damping);
+    la::Vector result = elasticity_.stiffness_times(elastic);
+    la::Vector product = elasticity_.vector();
+    mass_->vmult(product, inertia);
+    result += product;
+    abut_time_weights weights;
+    check(abut_time_weigh(&settings_.scheme, dt_, ABUT_TIME_STEP, &weights));
+    result.add(-weights.load, elasticity_.external, -weights.load_before,
+               load_);
+    return result;
+  }
+
+  template <int dim>
+  void BodyMotion<dim>::residual(const la::Vector &u, la::Vector &result) const
+  {
+    la::Vector way(u);
+    way -= base_;
+    tangent_.vmult(result, way);
+    result += base_residual_;
+    elasticity_.constraints.set_zero(result);
+  }
+
+  template <int dim>
+  la::Vector BodyMotion<dim>::without_prescribed(const la::Vector &values) const
+  {
+    la::Vector result(values);
+    elasticity_.constraints.set_zero(result);
+    return result;
+  }
+
+  template <int dim>
+  double BodyMotion<dim>::damping_energy(const la::Vector &way) const
+  {
+    double result = 0.;
+    la::Vector product = elasticity_.vector();
+    if (settings_.mass_damping > 0.)
+    {
+      mass_->vmult(product, way);
+      result += settings_.mass_damping * (product * way);
+    }
+    if (settings_.stiffness_damping > 0.)
+    {
+      la::Vector free(way);
+      elasticity_.hanging.set_zero(free);
+      result += settings_.stiffness_damping
+                * (elasticity_.stiffness_times(way) * free);
+    }
+    return result / dt_;
+  }
+
+  template <int dim>
+  void BodyMotion<dim>::end_step(const la::Vector &u,
+                                 const la::Vector &on_supports)
+  {
+    unbalanced_ = full_residual(u);
+    next_reaction_ = unbalanced_;
+    next_reaction_ -= without_prescribed(unbalanced_);
+    next_reaction_ -= on_supports;
+    elasticity_.hanging.set_zero(next_reaction_);
+    next_displacement_ = displacement_;
+    next_velocity_ = velocity_;
+    next_acceleration_ = acceleration_;
+    const abut_time_state to =
+        state(next_displacement_, next_velocity_, next_acceleration_);
+    check(abut_time_end(&to, la::data(u)));
+    record_ = measure(next_displacement_, next_velocity_);
+
+    la::Vector way(next_displacement_);
+    way -= displacement_;
+    elasticity_.hanging.set_zero(way);
+    la::Vector force(load_);
+    force += elasticity_.external;
+    // Prescribed unknowns are moved by what holds them and by their loads.
+    force += next_reaction_;
+    la::Vector held_before(reaction_);
+    held_before -= without_prescribed(reaction_);
+    force += held_before;
+    record_.energy.dissipated = dissipated_ + damping_energy(way);
+    record_.energy.external_work = work_ + 0.5 * (force * way);
+  }
+
+  template <int dim>
+  MotionRecord<dim> BodyMotion<dim>::measure(const la::Vector &u,
+                                             const la::Vector &v) const
+  {
+    MotionRecord<dim> result;
+    la::Vector product = elasticity_.vector(), free(u);
+    mass_->vmult(product, v);
+    result.energy.kinetic = 0.5 * (product * v);
+    elasticity_.hanging.set_zero(free);
+    result.energy.strain = 0.5 * (elasticity_.stiffness_times(u) * free);
+    for (unsigned int d = 0; d < dim; ++d)
+      result.momentum[d] = mass_of_component_[d] * v;
+    return result;
+  }
+
+  template <int dim> dealii::Tensor<1, dim> BodyMotion<dim>::total_mass() const
+  {
+    dealii::Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = mass_of_component_[d].mean_value()
+                  * double(mass_of_component_[d].size());
+    return result;
+  }
+
+  template <int dim> double BodyMotion<dim>::cancelling_forces() const
+  {
+    la::Vector product = elasticity_.vector();
+    mass_->vmult(product, velocity_);
+    la::Vector held(displacement_);
+    const std::vector<double> diagonal =
+        la::diagonal(la::local_rows(elasticity_.stiffness));
+    for (std::size_t i = 0; i < diagonal.size(); ++i)
+      la::data(held)[i] *= diagonal[i];
+    elasticity_.constraints.set_zero(held);
+    return product.l2_norm() / dt_ + held.l2_norm();
+  }
+
+  template <int dim> void BodyMotion<dim>::commit()
+  {
+    displacement_ = next_displacement_;
+    velocity_ = next_velocity_;
+    acceleration_ = next_acceleration_;
+    reaction_ = next_reaction_;
+    load_ = elasticity_.external;
+    dissipated_ = record_.energy.dissipated;
+    work_ = record_.energy.external_work;
+  }
+
+  template class BodyMotion<2>;
+  template class BodyMotion<3>;
+} // namespace abut::app

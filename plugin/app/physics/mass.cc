@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "mass.h"
+
+#include "app/input/collective.h"
+#include "app/input/input_error.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace abut::app
+{
+  using dealii::types::global_dof_index;
+
+  namespace
+  {
+    /** Integrals of density and shape functions of one component. */
+    template <int dim>
+    dealii::FullMatrix<double> scalar_mass(const dealii::FEValues<dim> &values,
+                                           const Material<dim> &material,
+                                           const double density)
+    {
+      const unsigned int n = values.get_fe().n_dofs_per_cell();
+      dealii::FullMatrix<double> result(n);
+      for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+      {
+        const double dm = density * values.JxW(q)
+                          * material.measure(values.quadrature_point(q));
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            result(i, j) +=
+                dm * values.shape_value(i, q) * values.shape_value(j, q);
+      }
+      return result;
+    }
+
+    /** Zeros on the diagonal: all loops over rows rely on entries there, also
+     * where there is no mass. */
+    template <typename Add>
+    void add_diagonal(const dealii::IndexSet &owned, const Add &add)
+    {
+      for (const global_dof_index row : owned)
+        add(row, {row}, {0.});
+    }
+
+    void lump(dealii::FullMatrix<double> &mass)
+    {
+      for (unsigned int i = 0; i < mass.m(); ++i)
+      {
+        double sum = 0.;
+        for (unsigned int j = 0; j < mass.n(); ++j)
+        {
+          sum += mass(i, j);
+          mass(i, j) = 0.;
+        }
+        mass(i, i) = sum;
+      }
+    }
+
+    /** Make the mass of a cell that of its kind.
+     * @param candidate of each node of the cell */
+    template <int dim>
+    void
+    change_kind(const typename dealii::DoFHandler<dim>::cell_iterator &cell,
+                const abut_time_mass kind,
+                const std::vector<std::uint8_t> &candidate,
+                dealii::FullMatrix<double> &mass)
+    {
+      if (kind == ABUT_TIME_MASS_LUMPED)
+        lump(mass);
+      if (kind != ABUT_TIME_MASS_MODIFIED
+          || std::count(candidate.begin(), candidate.end(), 1) == 0)
+        return;
+      if (abut_mass_modify_element(static_cast<std::int32_t>(mass.m()),
+                                   candidate.data(), &mass(0, 0))
+          == ABUT_SUCCESS)
+        return;
+      std::ostringstream message;
+      message << "all nodes of the cell at (" << cell->center()
+              << ") are on the secondary surface of a pair, so that no "
+                 "neighbour can take their mass: the body is one element "
+                 "thick there. Refine it, or set Time/Mass = consistent.";
+      throw InputError("Time/Mass", message.str());
+    }
+  } // namespace
+
+  template <int dim>
+  la::Matrix mass_matrix(const DiscreteProblem<dim> &problem,
+                         const Materials<dim> &materials, const MassData &data)
+  {
+    const dealii::FiniteElement<dim> &element = problem.fe.base_element(0);
+    dealii::FEValues<dim> values(
+        problem.mapping, element, dealii::QGauss<dim>(problem.fe.degree + 1),
+        dealii::update_values | dealii::update_JxW_values
+            | dealii::update_quadrature_points);
+    dealii::IndexSet touching(problem.dof_handler.n_dofs());
+    if (!data.candidates.empty())
+      touching = dealii::DoFTools::extract_boundary_dofs(
+          problem.dof_handler, dealii::ComponentMask(), data.candidates);
+    const unsigned int n = element.n_dofs_per_cell();
+    std::vector<std::uint8_t> candidate(n);
+    std::vector<global_dof_index> dofs(problem.fe.n_dofs_per_cell());
+    dealii::FullMatrix<double> of_cell(problem.fe.n_dofs_per_cell());
+    const auto compute = [&](const auto &cell)
+    {
+      values.reinit(
+          static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+              cell));
+      const auto body = cell->material_id();
+      dealii::FullMatrix<double> scalar =
+          scalar_mass(values, *materials.at(body), data.density.at(body));
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < n; ++i)
+        candidate[i] = touching.is_element(
+            dofs[problem.fe.component_to_system_index(0, i)]);
+      change_kind<dim>(cell, data.kind, candidate, scalar);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int c = 0; c < dim; ++c)
+            of_cell(problem.fe.component_to_system_index(c, i),
+                    problem.fe.component_to_system_index(c, j)) = scalar(i, j);
+    };
+    // Lines of unknowns that are not hanging; those take part by their parents.
+    const auto add_cell = [&](const auto &add)
+    {
+      const unsigned int m = static_cast<unsigned int>(dofs.size());
+      using Parents = std::vector<std::pair<global_dof_index, double>>;
+      std::vector<Parents> parents(m);
+      for (unsigned int i = 0; i < m; ++i)
+        if (const Parents *hanging =
+                problem.hanging.get_constraint_entries(dofs[i]))
+          parents[i] = *hanging;
+        else
+          parents[i] = {{dofs[i], 1.}};
+      std::vector<global_dof_index> columns;
+      std::vector<double> entries;
+      for (unsigned int i = 0; i < m; ++i)
+        for (const auto &row : parents[i])
+        {
+          columns.clear();
+          entries.clear();
+          for (unsigned int j = 0; j < m; ++j)
+            if (of_cell(i, j) != 0.)
+              for (const auto &column : parents[j])
+              {
+                columns.push_back(column.first);
+                entries.push_back(row.second * column.second * of_cell(i, j));
+              }
+          if (!columns.empty())
+            add(row.first, columns, entries);
+        }
+    };
+    return la::assemble(
+        problem.dof_handler.locally_owned_dofs(), problem.relevant,
+        problem.dof_handler.get_communicator(),
+        [&](const auto &add)
+        {
+          add_diagonal(problem.dof_handler.locally_owned_dofs(), add);
+          collective(problem.dof_handler.get_communicator(),
+                     [&]
+                     {
+                       for (const auto &cell :
+                            problem.dof_handler.active_cell_iterators())
+                         if (cell->is_locally_owned())
+                         {
+                           compute(cell);
+                           add_cell(add);
+                         }
+                     });
+        });
+  }
+
+  template <int dim>
+  la::Matrix free_part(const DiscreteProblem<dim> &problem,
+                       const la::Matrix &mass)
+  {
+    const la::LocalRows rows = la::local_rows(mass);
+    const dealii::IndexSet &owned = problem.dof_handler.locally_owned_dofs();
+    const auto is_free = [&](const global_dof_index unknown)
+    { return !problem.constraints.is_constrained(unknown); };
+    return la::assemble(
+        owned, problem.relevant, problem.dof_handler.get_communicator(),
+        [&](const auto &add)
+        {
+          add_diagonal(owned, add);
+          for (int i = 0; i < rows.n_rows; ++i)
+          {
+            const global_dof_index row = owned.nth_index_in_set(i);
+            std::vector<global_dof_index> columns;
+            std::vector<double> entries;
+            for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+            {
+              const global_dof_index column =
+                  la::global_column(mass, rows.column[k]);
+              if (!is_free(column))
+                continue;
+              columns.push_back(column);
+              entries.push_back(rows.value[k]);
+            }
+            if (is_free(row) && !columns.empty())
+              add(row, columns, entries);
+          }
+        });
+  }
+
+  template la::Matrix mass_matrix(const DiscreteProblem<2> &,
+                                  const Materials<2> &, const MassData &);
+  template la::Matrix mass_matrix(const DiscreteProblem<3> &,
+                                  const Materials<3> &, const MassData &);
+  template la::Matrix free_part(const DiscreteProblem<2> &, const la::Matrix &);
+  template la::Matrix free_part(const DiscreteProblem<3> &, const la::Matrix &);
+} // namespace abut::app

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_SOLID_MOTION_H
+#define ABUT_APP_SOLID_MOTION_H
+
+#include "app/physics/body_motion.h"
+#include "app/scenes/contact_run_state.h"
+#include "solid_pairs.h"
+#include "solid_parameters.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace abut::app
+{
+  /** The motion of a scene `solid`: its steps, and the balance of its energies.
+   */
+  template <int dim> class SolidMotion
+  {
+  public:
+    /** All must outlive it. */
+    SolidMotion(const SolidParameters &parameters,
+                const ContactRunState<dim> &run, Elasticity<dim> &elasticity);
+
+    const BodyMotion<dim> &bodies() const
+    {
+      return motion;
+    }
+
+    /** Mass of the present mesh. @p touching: surfaces whose nodes have none if
+     * mass is modified. Collective. */
+    void setup(const std::map<dealii::types::material_id, double> &density,
+               const std::set<dealii::types::boundary_id> &touching);
+
+    /** Begin with this displacement and velocity; supports and loads are those
+     * of time 0. Returns the displacement. Collective. */
+    la::Vector start(std::pair<la::Vector, la::Vector> initial);
+
+    /** Go on from the displacement of the run; supports and loads are those of
+     * the time reached. Collective. */
+    void resume(std::vector<la::Vector> fields)
+    {
+      motion.resume(run.u, std::move(fields));
+    }
+
+    /** See ContactModel::begin_solve(). */
+    bool begin_step(la::Vector &u);
+
+    /** Whether the tangent has changed since this was asked. */
+    bool has_new_tangent()
+    {
+      return std::exchange(is_new, false);
+    }
+
+    /** The solve has led to the displacement of the run. Collective. */
+    void end_step(const SolidPairs<dim> &pairs);
+
+    /** Accept it, and judge the balance of energies: returns why the run must
+     * end, or nothing. */
+    std::string commit();
+
+    /** Kinetic, strain and contact energy after the last end_step(). */
+    double energy() const;
+
+    /** Columns of the table, and their values. */
+    std::vector<std::string> columns() const;
+    void add_to_row(std::map<std::string, double> &row) const;
+
+    /** Results into the summary. Collective. */
+    void report() const;
+
+    /** Energies and forces over time. */
+    void draw() const;
+
+    /** What a checkpoint keeps. */
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &motion &records &dissipated &work;
+      archive &balance.n &balance.first &balance.last &balance.highest;
+      archive &balance.scale &balance.gain &has_warned;
+    }
+
+    /** The state at a time. */
+    struct Record
+    {
+      MotionRecord<dim> bodies;
+      /** By pair: force on the secondary, and how far the obstacle has come
+       * since time 0. */
+      std::vector<std::vector<double>> force, place;
+
+      /** B of abut_time_balance. */
+      double balance() const
+      {
+        const abut_time_energy &e = bodies.energy;
+        return e.kinetic + e.strain + e.contact + e.dissipated
+               - e.external_work;
+      }
+
+      template <class Archive> void serialize(Archive &archive, unsigned int)
+      {
+        archive &bodies &force &place;
+      }
+    };
+
+    /** All of them, that of the start first. */
+    const std::vector<Record> &all_records() const
+    {
+      return records;
+    }
+
+  private:
+    double step_length() const;
+    void measure_contact(const SolidPairs<dim> &pairs);
+    void judge(const abut_time_energy &energy, abut_time_verdict &verdict);
+
+    const SolidParameters &parameters;
+    const ContactRunState<dim> &run;
+    Elasticity<dim> &elasticity;
+    BodyMotion<dim> motion;
+    bool is_new = false;
+    double dissipated = 0., work = 0.; ///< by friction and of obstacles
+    std::vector<Record> records;
+    Record present; ///< of the step that has ended
+    double friction_of_step = 0., work_of_step = 0.;
+    abut_time_balance balance = {};
+    bool has_warned = false;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "time_parameters.h"
+
+#include "app/input/input_error.h"
+
+#include <abut/dealii/number_pattern.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Most steps of a run. */
+    constexpr double most_steps = 1e9;
+
+    /** What the file gives, before it is looked at. */
+    struct Given
+    {
+      std::string scheme;
+      abut_time_options options = abut_time_defaults();
+    };
+
+    abut_time_scheme make_scheme(const Given &given)
+    {
+      abut_time_options options = given.options;
+      options.name = given.scheme.c_str();
+      abut_time_scheme scheme;
+      if (abut_time_scheme_make(&options, &scheme) != ABUT_SUCCESS)
+        throw InputError("Time/Scheme", "'" + given.scheme
+                                            + "' does not go together with "
+                                              "its numbers in section Time.");
+      return scheme;
+    }
+  } // namespace
+
+  void TimeParameters::declare(dealii::ParameterHandler &prm,
+                               const std::string &schemes)
+  {
+    namespace Patterns = dealii::Patterns;
+    prm.enter_subsection("Time");
+    prm.declare_entry(
+        "Scheme", schemes.substr(0, schemes.find('|')),
+        Patterns::Selection(schemes),
+        "How what has mass moves. none: each load step is in equilibrium.");
+    prm.declare_entry("Step", "0", NumberPattern::from(0.),
+                      "Length of a time step; a little less where `End` is no "
+                      "multiple of it. A step that fails is halved, see `Load "
+                      "steps/Cut back`.");
+    prm.declare_entry("End", "1", NumberPattern::positive(),
+                      "Time of the end; the motion begins at 0.");
+    prm.declare_entry("Alpha", "-0.1", NumberPattern::between(-1. / 3., 0.),
+                      "Of hht: 0 is the trapezoid; the lower, the sooner high "
+                      "frequencies die out.");
+    prm.declare_entry("Rho infinity", "0.8", NumberPattern::between(0., 1.),
+                      "Of generalised alpha: what a step leaves of the highest "
+                      "frequencies.");
+    prm.declare_entry("Beta", "0.25", NumberPattern::positive(), "Of newmark.");
+    prm.declare_entry("Gamma", "0.5", NumberPattern::from(0.5), "Of newmark.");
+    if (schemes.find("velocity level") != std::string::npos)
+      prm.declare_entry("Restitution", "0", NumberPattern::between(0., 1.),
+                        "Of velocity level: part of the velocity that an "
+                        "impact gives back.");
+    prm.leave_subsection();
+  }
+
+  void TimeParameters::parse(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Time");
+    Given given;
+    given.scheme = prm.get("Scheme");
+    given.options.alpha = prm.get_double("Alpha");
+    given.options.rho_infinity = prm.get_double("Rho infinity");
+    given.options.beta = prm.get_double("Beta");
+    given.options.gamma = prm.get_double("Gamma");
+    step = prm.get_double("Step");
+    end = prm.get_double("End");
+    is_on = given.scheme != "none";
+    if (given.scheme == "velocity level")
+      restitution = prm.get_double("Restitution");
+    prm.leave_subsection();
+    if (!is_on)
+      return;
+    scheme = make_scheme(given);
+    if (step == 0.)
+      throw InputError("Time/Step", "Time/Scheme = " + given.scheme
+                                        + " needs the length of a time step.");
+    if (end / step > most_steps)
+      throw InputError("Time/Step", "more than 1e9 steps to Time/End.");
+  }
+
+  LoadStepOptions TimeParameters::steps(const LoadStepOptions &given) const
+  {
+    LoadStepOptions result = given;
+    result.end_time = end;
+    // A multiple but for round-off is one.
+    result.steps = static_cast<unsigned int>(
+        std::max(1., std::ceil(end / step * (1. - 1e-9))));
+    // Steps of a motion are many: what is too short is a part of one.
+    result.smallest_step = given.smallest_step / result.steps;
+    return result;
+  }
+} // namespace abut::app

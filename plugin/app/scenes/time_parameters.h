@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_TIME_PARAMETERS_H
+#define ABUT_APP_TIME_PARAMETERS_H
+
+#include <abut/dealii/load_steps.h>
+#include <abut/time.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace abut::app
+{
+  /** Section `Time`: motion by a scheme of the core. */
+  struct TimeParameters
+  {
+    bool is_on = false; ///< whether there is a scheme
+    abut_time_scheme scheme = {};
+    double step = 0., end = 1.;
+    double restitution = 0.; ///< of schemes with impulses
+
+    /** @param schemes the words that the kind of scene knows, separated by |;
+     * the first is the default, `none` means no motion */
+    static void declare(dealii::ParameterHandler &prm,
+                        const std::string &schemes);
+
+    /** Throws InputError for values that contradict each other. */
+    void parse(dealii::ParameterHandler &prm);
+
+    /** The way to the end in equal steps of at most @ref step, with what
+     * @p given says of steps that fail. */
+    LoadStepOptions steps(const LoadStepOptions &given) const;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Judges bodies in motion: momentum and energy of each step, by the table."""
+import csv
+import math
+
+from formula import Formula, split
+from thresholds import THRESHOLDS
+
+# Weight gamma of the new acceleration in the velocity of a step.
+GAMMAS = {"hht": lambda number: 0.5 - number("Alpha", -0.1),
+          "trapezoid": lambda number: 0.5, "midpoint": lambda number: 1.,
+          "newmark": lambda number: number("Gamma", 0.5)}
+
+
+def in_motion(scene):
+    return scene.get("Time/Scheme", "none") != "none"
+
+
+class MotionJudge:
+    """What a run of the scene `solid` with Time/Scheme wrote step by step."""
+
+    def __init__(self, solid):
+        self.solid, self.scene = solid, solid.scene
+        self.axes = "xyz"[:solid.dim]
+        with open(solid.folder / "levels.csv", newline="",
+                  encoding="utf-8") as file:
+            self.rows = [{k: float(v) for k, v in row.items() if v}
+                         for row in csv.DictReader(file)]
+
+    def judge(self):
+        self.sums()
+        self.gain()
+        reason = self.unknown_forces()
+        if reason:
+            self.solid.findings.leave("momentum of each step", reason)
+        else:
+            self.momentum()
+
+    def sums(self):
+        """The balance is that of its parts, in each row."""
+        worst = size = 0.
+        for row in self.rows:
+            parts = [row[k] for k in ("kinetic_energy", "strain_energy",
+                                      "contact_energy", "dissipated")]
+            parts.append(-row["external_work"])
+            worst = max(worst, abs(math.fsum(parts) - row["balance"]))
+            size = max([size, *map(abs, parts)])
+        limit = THRESHOLDS["tables"]
+        self.solid.findings.check("balance of energies of levels.csv", worst,
+                                  limit.value * size, limit.reason)
+
+    def gain(self):
+        """No step has more than there was at the start and the scheme gains."""
+        start = self.solid.summary["initial_energy"]
+        scale = max([abs(start)] + [abs(r["external_work"]) for r in self.rows])
+        exact = (self.scene.get("Time/Mass", "modified") == "modified"
+                 or not self.solid.pairs)
+        if not exact:
+            self.solid.findings.leave(
+                "gain of energy", "impacts on nodes with mass have no bound")
+            return
+        limit = THRESHOLDS["gain"]
+        self.solid.findings.check(
+            "gain of energy", max(r["balance"] for r in self.rows) - start,
+            limit.value * scale, limit.reason)
+
+    def unknown_forces(self):
+        """Why the table does not have all outer forces, or nothing."""
+        if self.scene.get("Time/Scheme") not in GAMMAS:
+            return "the scheme weights accelerations"
+        if self.solid.plane == "axisymmetric":
+            return "radial forces have no resultant"
+        for body in range(1, self.solid.n_bodies + 1):
+            for name in ("Support", "Traction", "Pressure", "Body force"):
+                if self.scene.get(f"Body {body}/{name}"):
+                    return "supports and loads are not in the table"
+        if self.scene.number("Time/Mass damping", 0.):
+            return "damping is not in the table"
+        if any("t" in part for part in split(self.scene.get("Solid/Gravity"),
+                                             ",")):
+            return "gravity changes"
+        return ""
+
+    def momentum(self):
+        """What obstacles and weight give in each step: between bodies forces
+        cancel."""
+        number = lambda name, default: self.scene.number(f"Time/{name}",
+                                                         default)
+        gamma = GAMMAS[self.scene.get("Time/Scheme")](number)
+        gravity = [Formula(part)((0., 0., 0.), 0.) for part in split(
+            self.scene.get("Solid/Gravity"), ",")] or [0.] * self.solid.dim
+        walls = [p.number for p in self.solid.pairs if p.obstacle]
+        worst = size = 0.
+        for k, axis in enumerate(self.axes):
+            def force(row):
+                return (self.solid.summary["mass"][k] * gravity[k]
+                        + sum(row[f"pair_{n}_force_{axis}"] for n in walls))
+            for before, now in zip(self.rows, self.rows[1:]):
+                given = (now["time"] - before["time"]) * (
+                    (1 - gamma) * force(before) + gamma * force(now))
+                change = (now[f"momentum_{axis}"]
+                          - before[f"momentum_{axis}"])
+                worst = max(worst, abs(change - given))
+                # what swings within the bodies has momentum, too
+                size = max(size, abs(given), math.sqrt(
+                    2 * self.solid.summary["mass"][k]
+                    * max(0., now["kinetic_energy"])))
+        limit = THRESHOLDS["momentum"]
+        self.solid.findings.check("momentum of each step", worst,
+                                  limit.value * size, limit.reason)
