@@ -107,13 +107,6 @@ namespace abut::shim
       const Points &reference_;
     };
 
-    /** Whether node @p n of the secondary of @p pair cannot have a row. */
-    template <typename Pair>
-    bool is_dropped(const Pair &pair, const std::size_t n)
-    {
-      return n < pair.dropped.size() && pair.dropped[n] != 0;
-    }
-
     /** Whether a support keeps node @p n of the secondary of @p pair from
      * having a row. */
     template <typename Pair>
@@ -200,8 +193,6 @@ namespace abut::shim
       const double tolerance, std::vector<Penetration<dim>> &missed)
   {
     const double depth = tolerance + pair.data.gap;
-    const bool is_weighted =
-        discretisation_info(pair.discretisation).is_weighted;
     for (const Inside &inside :
          penetrating_nodes(context_, pair.secondary, pair.primary,
                            settings_.search, reach, depth, pair.thickness))
@@ -212,9 +203,6 @@ namespace abut::shim
         pair.held_inside = std::max(pair.held_inside, found);
       else if (held[node] == 0 && is_owned(node))
         missed.push_back({pair.data.name, present[node], found, false, false});
-      // A weighted row closes the mean of the gaps around its node.
-      else if (is_weighted && is_owned(node) && !is_dropped(pair, inside.node))
-        pair.between_rows = std::max(pair.between_rows, found);
     }
     for (const Inside &inside : penetrating_nodes(
              context_, pair.primary, pair.secondary, settings_.search, reach,
