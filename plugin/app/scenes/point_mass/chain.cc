@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 /* Scenes of kind `chain of masses`: masses in a row on a rigid plane, with
  * friction, in load steps. */
-#include "app/input/expression.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/report/json.h"
@@ -12,6 +11,7 @@
 #include "app/scenes/method_effects.h"
 #include "chain_model.h"
 #include "point_mass.h"
+#include "row_formulas.h"
 
 #include <abut/dealii/load_steps.h>
 #include <abut/dealii/method_parameters.h>
@@ -30,8 +30,7 @@ namespace abut::app
     using dealii::ParameterHandler;
     namespace Patterns = dealii::Patterns;
 
-    /** Formulas in the place x of a mass and the time t. */
-    using Formula = Expression<2>;
+    using Formula = RowFormula;
 
     const char *const coefficient_name = "Friction/Coefficient";
 
@@ -71,18 +70,6 @@ namespace abut::app
       std::ostringstream table; /**< masses.csv */
       int n_rows = 0, n_systems = 0, worst_rung = 0;
     };
-
-    /** A formula in x and t; what else a scene has for a place is none here. */
-    std::unique_ptr<Formula> formula_in_x(const std::string &text,
-                                          const std::string &parameter,
-                                          const unsigned int n = 1)
-    {
-      if (names_in(text).count("y") > 0)
-        throw InputError(parameter, "'" + text
-                                        + "' has y: the masses of this scene "
-                                          "are in a row along x.");
-      return std::make_unique<Formula>(text, parameter, n);
-    }
 
     ChainScene::ChainScene(const unsigned int dimension)
         : chain(), spacing(1.), share_of_ends(1.), has_friction(false)
@@ -177,25 +164,12 @@ namespace abut::app
       chain.gap = at_masses(*gap, 0., -largest_value);
     }
 
-    /** One formula for each direction along the plane. */
-    std::unique_ptr<Formula> along_plane(const std::string &text,
-                                         const std::string &parameter,
-                                         const unsigned int n_directions)
+    std::unique_ptr<RowFormula> along_plane(const std::string &text,
+                                            const std::string &parameter,
+                                            const unsigned int n_directions)
     {
-      std::size_t n_given = 0;
-      for (const std::string &part : split_list(text, ';'))
-        n_given += split_list(part, ',').size();
-      if (n_given > n_directions)
-        throw InputError(
-            parameter, std::to_string(n_given) + " formulas for "
-                           + std::to_string(n_directions)
-                           + (n_directions == 1 ? " direction" : " directions")
-                           + " along the plane.");
-      std::string all = n_given == 0 ? "0" : text;
-      for (std::size_t k = std::max<std::size_t>(n_given, 1); k < n_directions;
-           ++k)
-        all += "; 0";
-      return formula_in_x(all, parameter, n_directions);
+      return formula_by_direction(text, parameter, n_directions,
+                                  "along the plane");
     }
 
     void ChainScene::parse_loads(ParameterHandler &prm)

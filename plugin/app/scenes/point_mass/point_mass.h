@@ -14,6 +14,9 @@ namespace abut::app
   /** The scene `chain of masses`: masses in a row on a rigid plane, held and
    * drawn by springs, with friction, in load steps. */
   std::unique_ptr<Scene> make_chain(unsigned int dimension);
+
+  /** The scene `motion`: point masses and bars in time, above a rigid plane. */
+  std::unique_ptr<Scene> make_motion(unsigned int dimension);
 } // namespace abut::app
 
 #endif

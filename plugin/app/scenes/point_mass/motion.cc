@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+/* Steps of schemes whose contact acts by gaps; those with impulses are in
+ * motion_impulses.cc. */
+#include "motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace abut::app
+{
+  Motion::Motion(const MassSystem &system_, const Plane &plane_,
+                 const abut_time_scheme &scheme_)
+      : system(system_),
+        plane(plane_),
+        scheme(scheme_),
+        dimension(system.dimension),
+        context(shim::create_context())
+  {
+    force.assign(system.size(), 0.);
+    impulse.assign(dimension, 0.);
+  }
+
+  double Motion::gap_of(const std::vector<double> &at,
+                        const std::size_t mass) const
+  {
+    return plane.gap + at[height(mass)];
+  }
+
+  std::vector<double> Motion::product(const std::vector<double> &matrix,
+                                      const std::vector<double> &x) const
+  {
+    const std::size_t n = x.size();
+    std::vector<double> result(n, 0.);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        result[i] += matrix[i * n + j] * x[j];
+    return result;
+  }
+
+  double Motion::kinetic() const
+  {
+    const std::vector<double> mv = product(system.mass, v);
+    return 0.5 * std::inner_product(v.begin(), v.end(), mv.begin(), 0.);
+  }
+
+  double Motion::strain() const
+  {
+    const std::vector<double> ku = product(system.stiffness, u);
+    return 0.5 * std::inner_product(u.begin(), u.end(), ku.begin(), 0.);
+  }
+
+  double Motion::contact() const
+  {
+    double sum = 0;
+    for (const std::size_t mass : system.candidates)
+    {
+      const double depth = std::max(0., -gap_of(u, mass));
+      sum += 0.5 * plane.penalty * depth * depth;
+    }
+    return sum;
+  }
+
+  double Motion::momentum(const unsigned int direction) const
+  {
+    const std::vector<double> mv = product(system.mass, v);
+    double sum = 0;
+    for (std::size_t i = direction; i < mv.size(); i += dimension)
+      sum += mv[i];
+    return sum;
+  }
+
+  double Motion::force_in(const unsigned int direction) const
+  {
+    double sum = 0;
+    for (std::size_t i = direction; i < force.size(); i += dimension)
+      sum += force[i];
+    return sum;
+  }
+
+  double Motion::stable_step() const
+  {
+    if (scheme.beta > 0)
+      return std::numeric_limits<double>::infinity();
+    std::vector<double> matrix = system.stiffness;
+    const std::size_t n = system.size();
+    for (const std::size_t mass : system.candidates)
+      matrix[height(mass) * (n + 1)] += plane.penalty;
+    // Power iteration on M^-1 K; masses are on the diagonal. The start has a
+    // part of every vibration.
+    std::vector<double> x(n);
+    for (std::size_t i = 0; i < n; ++i)
+      x[i] = (i % 2 == 0 ? 1. : -1.) / (1. + static_cast<double>(i));
+    double square = 0;
+    for (int k = 0; k < 2000; ++k)
+    {
+      std::vector<double> y = product(matrix, x);
+      double norm = 0;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        y[i] /= system.mass[i * (n + 1)];
+        norm = std::max(norm, std::abs(y[i]));
+      }
+      double size = 0;
+      for (const double each : x)
+        size = std::max(size, std::abs(each));
+      square = norm / size;
+      if (norm == 0)
+        break;
+      for (double &each : y)
+        each /= norm;
+      x = y;
+    }
+    return square > 0 ? 2. / std::sqrt(square)
+                      : std::numeric_limits<double>::infinity();
+  }
+
+  abut_time_state Motion::state(const double dt)
+  {
+    return {sizeof(abut_time_state),
+            &scheme,
+            dt,
+            static_cast<std::int64_t>(u.size()),
+            u.data(),
+            v.data(),
+            a.data(),
+            system.massless.data()};
+  }
+
+  void Motion::append_point(abut_points *points, const Row &row,
+                            const bool has_friction) const
+  {
+    const auto node = static_cast<std::int32_t>(row.mass);
+    const double one = 1.;
+    if (dimension == 1)
+    {
+      shim::check(context.get(), abut_points_append_scalar(
+                                     points, node, 1., row.gap,
+                                     ABUT_POINT_CONTACT, 1, &node, &one));
+      return;
+    }
+    // Outwards of the mass is down; tangents are the axes along the plane.
+    std::vector<double> frame(std::size_t(dimension) * dimension, 0.);
+    frame[dimension - 1] = -1.;
+    for (unsigned int t = 0; t + 1 < dimension; ++t)
+      frame[std::size_t(t + 1) * dimension + t] = 1.;
+    const double gap[] = {row.gap, row.slip[0], row.slip[1]};
+    abut_point point = abut_point_defaults();
+    point.id = static_cast<std::int64_t>(row.mass * dimension);
+    point.n_components =
+        has_friction ? static_cast<std::int32_t>(dimension) : 1;
+    point.frame = frame.data();
+    point.gap = gap;
+    point.n_nodes = point.n_secondary = 1;
+    point.node = &node;
+    point.coefficient = &one;
+    shim::check(context.get(), abut_points_append(points, &point));
+  }
+
+  /** Options for exact answers, with scales from the problem itself. */
+  abut_strategy_options
+  Motion::contact_options(const std::vector<double> &matrix,
+                          const std::vector<double> &residual,
+                          const Rows &rows) const
+  {
+    abut_strategy_options options = abut_strategy_defaults();
+    options.linear_tolerance = options.final_linear_tolerance = 1e-12;
+    options.gap_tolerance = options.pressure_tolerance = 1e-11;
+    const std::size_t n = residual.size();
+    double length = 0, load = 0;
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      load = std::max(load, std::abs(residual[k]));
+      length = std::max(length, std::abs(residual[k]) / matrix[k * (n + 1)]);
+    }
+    for (const Row &row : rows)
+      for (const double each : {row.gap, row.slip[0], row.slip[1]})
+      {
+        length = std::max(length, std::abs(each));
+        load =
+            std::max(load, std::abs(each) * matrix[height(row.mass) * (n + 1)]);
+      }
+    options.length_scale = length > 0 ? length : 1.;
+    options.pressure_scale = load > 0 ? load : 1.;
+    return options;
+  }
+
+  /** matrix y = residual + contact, with what the rows demand. Forces on the
+   * masses, [size], go to @p pressure. */
+  std::string Motion::solve(const std::vector<double> &matrix,
+                            const std::vector<double> &residual,
+                            const Rows &rows, std::vector<double> &y,
+                            std::vector<double> &pressure)
+  {
+    // Friction belongs to schemes that know velocities at contact.
+    const bool has_friction = plane.friction > 0 && dimension > 1
+                              && scheme.impulses != 0 && !rows.empty();
+    const std::size_t per_mass = has_friction ? dimension : 1;
+    auto points = shim::create_points(context.get(),
+                                      static_cast<std::int32_t>(dimension));
+    std::vector<std::int32_t> first;
+    for (const Row &row : rows)
+    {
+      append_point(points.get(), row, has_friction);
+      first.push_back(static_cast<std::int32_t>(first.size() * per_mass));
+    }
+    const std::vector<std::uint8_t> n_tangents(
+        rows.size(), static_cast<std::uint8_t>(dimension - 1));
+    const std::vector<double> coefficient(rows.size(), plane.friction);
+    abut_strategy_friction friction = {};
+    friction.struct_size = sizeof(friction);
+    friction.n = static_cast<std::int32_t>(rows.size());
+    friction.first = first.data();
+    friction.n_tangents = n_tangents.data();
+    friction.coefficient = coefficient.data();
+    const abut_dense_model model = {
+        sizeof(model), static_cast<std::int32_t>(residual.size()),
+        matrix.data(), residual.data(),
+        points.get(),  has_friction ? &friction : nullptr};
+    y.assign(residual.size(), 0.);
+    std::vector<double> forces(rows.size() * per_mass, 0.);
+    const std::string failure =
+        solve_model(model, contact_options(matrix, residual, rows), y, forces);
+    pressure.assign(residual.size(), 0.);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+    {
+      pressure[height(rows[k].mass)] = forces[k * per_mass];
+      for (std::size_t t = 1; t < per_mass; ++t)
+        pressure[rows[k].mass * dimension + t - 1] = forces[k * per_mass + t];
+    }
+    return failure;
+  }
+
+  std::string Motion::solve_model(const abut_dense_model &model,
+                                  const abut_strategy_options &options,
+                                  std::vector<double> &y,
+                                  std::vector<double> &forces)
+  {
+    abut_progress progress = {};
+    abut_reason reason = ABUT_REASON_NONE;
+    const abut_status status = abut_dense_model_solve(
+        context.get(), &model, &options, y.data(), forces.data(), nullptr,
+        nullptr, nullptr, &progress, &reason);
+    if (status == ABUT_NOT_FINITE)
+      return coded(ABUT_FAILURE_BLOW_UP, "a number of the motion is infinite");
+    shim::check(context.get(), status);
+    return reason == ABUT_REASON_CONVERGED
+               ? ""
+               : coded(abut_reason_failure(reason, options.law, &progress),
+                       abut_reason_text(reason));
+  }
+
+  Motion::Rows Motion::rows_at(const std::vector<double> &at) const
+  {
+    Rows rows;
+    for (const std::size_t mass : system.candidates)
+      rows.push_back({mass, gap_of(at, mass), {0., 0.}});
+    return rows;
+  }
+
+  std::vector<double> Motion::step_matrix(const double dt,
+                                          const abut_time_stage stage) const
+  {
+    abut_time_weights weights;
+    shim::check(context.get(), abut_time_weigh(&scheme, dt, stage, &weights));
+    std::vector<double> matrix(system.mass.size());
+    for (std::size_t k = 0; k < matrix.size(); ++k)
+      matrix[k] = weights.mass * system.mass[k]
+                  + weights.stiffness * system.stiffness[k];
+    return matrix;
+  }
+
+  std::vector<double> Motion::residual_at(const double dt,
+                                          const std::vector<double> &x,
+                                          const std::vector<double> &before,
+                                          const std::vector<double> &after)
+  {
+    abut_time_weights weights;
+    shim::check(context.get(),
+                abut_time_weigh(&scheme, dt, ABUT_TIME_STEP, &weights));
+    std::vector<double> inertia(x.size()), elastic(x.size());
+    const abut_time_arguments arguments = {sizeof(arguments), inertia.data(),
+                                           nullptr, elastic.data()};
+    const abut_time_state now = state(dt);
+    shim::check(context.get(), abut_time_evaluate(&now, x.data(), &arguments));
+    const std::vector<double> ma = product(system.mass, inertia),
+                              ku = product(system.stiffness, elastic);
+    std::vector<double> residual(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+      residual[i] = weights.load * after[i] + weights.load_before * before[i]
+                    - ma[i] - ku[i];
+    return residual;
+  }
+
+  void Motion::add_force(const std::vector<double> &forces, const double part)
+  {
+    for (std::size_t i = 0; i < force.size(); ++i)
+      force[i] += part * forces[i];
+  }
+
+  /** M a = f - K u + contact of what touches and does not leave. */
+  std::string Motion::begin_acceleration(const std::vector<double> &load)
+  {
+    const std::size_t n = system.size();
+    std::vector<double> matrix = system.mass, forces,
+                        residual = product(system.stiffness, u);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      residual[i] = system.massless[i] ? 0. : load[i] - residual[i];
+      if (system.massless[i])
+        matrix[i * (n + 1)] = 1.;
+    }
+    Rows rows;
+    for (const std::size_t mass : system.candidates)
+      if (is_closed(mass) && plane.penalty == 0)
+        rows.push_back({mass, 0., {0., 0.}});
+    return solve(matrix, residual, rows, a, forces);
+  }
+
+  void Motion::start(const std::vector<double> &displacement,
+                     const std::vector<double> &velocity,
+                     const std::vector<double> &load)
+  {
+    u = displacement;
+    v = velocity;
+    a.assign(u.size(), 0.);
+    length_scale = std::abs(plane.gap);
+    speed_scale = 0;
+    for (std::size_t i = 0; i < u.size(); ++i)
+    {
+      length_scale = std::max(length_scale, std::abs(u[i]));
+      speed_scale = std::max(speed_scale, std::abs(v[i]));
+    }
+    std::string failure;
+    if (abut_time_needs_acceleration(&scheme))
+      failure = begin_acceleration(load);
+    AssertThrow(failure.empty(), dealii::ExcMessage(failure));
+  }
+
+  /** What the plane makes of where the masses would go. */
+  std::string Motion::project(const double dt, std::vector<double> &predicted)
+  {
+    std::vector<double> y, forces;
+    const std::vector<double> nothing(predicted.size(), 0.);
+    const std::string failure = solve(step_matrix(dt, ABUT_TIME_PROJECTION),
+                                      nothing, rows_at(predicted), y, forces);
+    if (!failure.empty())
+      return failure;
+    std::vector<double> projected = predicted;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      projected[i] += y[i];
+    const abut_time_state now = state(dt);
+    shim::check(context.get(),
+                abut_time_project(&now, predicted.data(), projected.data()));
+    predicted = projected;
+    add_force(forces, 1.);
+    return "";
+  }
+
+  std::string Motion::implicit_step(const double dt, std::vector<double> &x,
+                                    const std::vector<double> &before,
+                                    const std::vector<double> &after)
+  {
+    std::vector<double> y, forces;
+    const std::string failure =
+        solve(step_matrix(dt, ABUT_TIME_STEP),
+              residual_at(dt, x, before, after), rows_at(x), y, forces);
+    if (!failure.empty())
+      return failure;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      x[i] += y[i];
+    add_force(forces, 1.);
+    const abut_time_state now = state(dt);
+    shim::check(context.get(), abut_time_end(&now, x.data()));
+    return "";
+  }
+
+  std::string Motion::explicit_step(const double dt,
+                                    const std::vector<double> &place,
+                                    const std::vector<double> &before,
+                                    const std::vector<double> &after)
+  {
+    const std::vector<double> nothing(place.size(), 0.);
+    std::vector<double> residual = residual_at(dt, nothing, before, after),
+                        springs(place.size(), 0.);
+    for (const std::size_t mass : system.candidates)
+      springs[height(mass)] =
+          scheme.contact_in_step
+              ? plane.penalty * std::max(0., -gap_of(place, mass))
+              : 0.;
+    // Masses are on the diagonal.
+    for (std::size_t i = 0; i < place.size(); ++i)
+      residual[i] =
+          (residual[i] + springs[i]) / system.mass[i * (place.size() + 1)];
+    add_force(springs, 1.);
+    const abut_time_state now = state(dt);
+    const abut_status status = abut_time_end(&now, residual.data());
+    if (status == ABUT_NOT_FINITE)
+      return coded(ABUT_FAILURE_BLOW_UP, "a number of the motion is infinite");
+    shim::check(context.get(), status);
+    return "";
+  }
+
+  void Motion::finish(const double dt, const std::vector<double> &old,
+                      const std::vector<double> &before,
+                      const std::vector<double> &after)
+  {
+    for (std::size_t i = 0; i < u.size(); ++i)
+    {
+      external_work += 0.5 * (before[i] + after[i]) * (u[i] - old[i]);
+      impulse[i % dimension] += dt * force[i];
+    }
+  }
+
+  std::string Motion::step(const double dt, const std::vector<double> &before,
+                           const std::vector<double> &after)
+  {
+    const std::vector<double> old = u;
+    std::fill(force.begin(), force.end(), 0.);
+    std::string failure;
+    if (scheme.impulses)
+    {
+      std::vector<double> load(before.size());
+      for (std::size_t i = 0; i < load.size(); ++i)
+        load[i] = 0.5 * (before[i] + after[i]);
+      failure = impulse_step(dt, load);
+    }
+    else
+    {
+      std::vector<double> x(u.size());
+      const abut_time_state now = state(dt);
+      shim::check(context.get(), abut_time_begin(&now, x.data()));
+      if (scheme.projects)
+        failure = project(dt, x);
+      if (failure.empty())
+        failure = scheme.beta > 0 ? implicit_step(dt, x, before, after)
+                                  : explicit_step(dt, x, before, after);
+    }
+    finish(dt, old, before, after);
+    return failure;
+  }
+} // namespace abut::app

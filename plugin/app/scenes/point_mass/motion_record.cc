@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "motion_record.h"
+
+#include "app/input/short_number.h"
+#include "app/pictures/gnuplot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Forces below this part of the largest are round-off. */
+    constexpr double no_force = 1e-9;
+
+    const char *direction_name(const unsigned int d, const unsigned int dim)
+    {
+      const char *const axes[] = {"x", "y"};
+      return d + 1 < dim ? axes[d] : "height";
+    }
+
+    const std::vector<std::string> energies = {
+        "kinetic_energy",    "strain_energy", "contact_energy",
+        "dissipated_energy", "external_work", "energy_balance"};
+  } // namespace
+
+  MotionRecord::MotionRecord(const abut_time_scheme &scheme_,
+                             const unsigned int dimension_)
+      : scheme(scheme_), dimension(dimension_), balance()
+  {
+    balance.struct_size = sizeof(balance);
+  }
+
+  void MotionRecord::declare_columns(Report &report) const
+  {
+    std::vector<std::string> columns = {"step", "time"};
+    columns.insert(columns.end(), energies.begin(), energies.end());
+    for (const char *name : {"momentum_", "force_", "u_", "v_"})
+      for (unsigned int d = 0; d < dimension; ++d)
+        columns.push_back(name + std::string(direction_name(d, dimension)));
+    report.declare_columns(columns);
+  }
+
+  bool MotionRecord::add(Report &report, const Motion &motion,
+                         const double time)
+  {
+    const Entry now = {time,
+                       motion.kinetic(),
+                       motion.strain(),
+                       motion.contact(),
+                       motion.dissipated,
+                       motion.external_work,
+                       motion.force_in(dimension - 1)};
+    entries.push_back(now);
+    const abut_time_energy energy = {sizeof(energy), now.kinetic,    now.strain,
+                                     now.contact,    now.dissipated, now.work};
+    abut_time_verdict verdict = ABUT_TIME_STEADY;
+    abut_time_judge(&scheme, &energy, &balance, &verdict);
+    std::map<std::string, double> row = {
+        {"step", static_cast<double>(entries.size()) - 1.},
+        {"time", time},
+        {"kinetic_energy", now.kinetic},
+        {"strain_energy", now.strain},
+        {"contact_energy", now.contact},
+        {"dissipated_energy", now.dissipated},
+        {"external_work", now.work},
+        {"energy_balance", balance.last}};
+    momentum.clear();
+    for (unsigned int d = 0; d < dimension; ++d)
+    {
+      const std::string name = direction_name(d, dimension);
+      momentum.push_back(motion.momentum(d));
+      row["momentum_" + name] = momentum.back();
+      row["force_" + name] = motion.force_in(d);
+      row["u_" + name] = motion.u[d];
+      row["v_" + name] = motion.v[d];
+    }
+    report.add_row(row);
+    impulse = motion.impulse;
+    largest_force = std::max(largest_force, now.force);
+    if (verdict == ABUT_TIME_GAINS && !gains)
+    {
+      gains = true;
+      gain_time = time;
+    }
+    if (verdict != ABUT_TIME_BLOWS_UP)
+      return true;
+    report.warn(coded(ABUT_FAILURE_BLOW_UP,
+                      "the motion blows up: at time " + short_number(time, 6)
+                          + " it has more than a hundred times the energy "
+                            "that there was; make Time/Step smaller, or take "
+                            "an implicit Time/Scheme"));
+    return false;
+  }
+
+  void MotionRecord::judge_end(Report &report) const
+  {
+    if (gains)
+      report.warn(coded(
+          ABUT_FAILURE_ENERGY_GAIN,
+          "the scheme has made energy, " + short_number(100. * balance.gain, 3)
+              + " % of what there was, beyond its bound since time "
+              + short_number(gain_time, 6)
+              + ": take hht or contact stabilised with the mass that they are "
+                "made for, or a smaller Time/Step"));
+  }
+
+  void MotionRecord::fill_summary(Report &report) const
+  {
+    const Entry &last = entries.back();
+    double first_time = NAN, last_time = NAN;
+    for (const Entry &each : entries)
+      if (each.force > no_force * largest_force)
+      {
+        if (std::isnan(first_time))
+          first_time = each.time;
+        last_time = each.time;
+      }
+    report.set("time", last.time);
+    report.set("time_steps", entries.size() - 1);
+    report.set("energy", last.kinetic + last.strain + last.contact);
+    report.set("kinetic_energy", last.kinetic);
+    report.set("strain_energy", last.strain);
+    report.set("contact_energy", last.contact);
+    report.set("dissipated_energy", last.dissipated);
+    report.set("external_work", last.work);
+    report.set("initial_energy", balance.first);
+    report.set("energy_balance", balance.last);
+    report.set("energy_gain", balance.gain);
+    report.set("momentum", momentum);
+    report.set("contact_impulse", impulse);
+    report.set("largest_contact_force", largest_force);
+    report.set("first_contact_time", first_time);
+    report.set("last_contact_time", last_time);
+  }
+
+  std::string MotionRecord::line(const unsigned int k,
+                                 const unsigned int n) const
+  {
+    const Entry &now = entries.back();
+    return "step " + std::to_string(k) + " of " + std::to_string(n) + "  time "
+           + short_number(now.time, 6)
+           + "  E = " + short_number(now.kinetic + now.strain + now.contact, 6)
+           + "  F = " + short_number(now.force);
+  }
+
+  void MotionRecord::draw(Report &report,
+                          const std::filesystem::path &folder) const
+  {
+    // More points than pixels only make the file large.
+    const std::size_t stride = std::max<std::size_t>(1, entries.size() / 2000);
+    std::vector<std::vector<double>> rows;
+    for (std::size_t k = 0; k < entries.size(); k += stride)
+    {
+      const Entry &e = entries[k];
+      rows.push_back(
+          {e.time, e.kinetic, e.strain, e.contact, e.dissipated, e.work,
+           e.kinetic + e.strain + e.contact + e.dissipated - e.work, e.force});
+    }
+    const char *const names[] = {"kinetic",    "strain",        "contact",
+                                 "dissipated", "external work", "balance"};
+    std::string plot = "plot ";
+    for (int k = 0; k < 6; ++k)
+      plot += std::string(k > 0 ? ", " : "")
+              + "$motion using 1:" + std::to_string(k + 2) + " with lines lt "
+              + std::to_string(k + 1) + " title '" + names[k] + "'";
+    draw_picture(report, folder, "motion",
+                 gnuplot_header("motion", 760, 640)
+                     + gnuplot_data("motion", rows)
+                     + "set multiplot layout 2, 1\n"
+                       "set lmargin 12\nset rmargin 20\n"
+                       "set key outside right top vertical Left reverse\n"
+                       "set ylabel 'energy'\nset title 'Energies, "
+                     + scheme.name + "'\n" + plot
+                     + "\nset ylabel 'contact force'\nset xlabel 'time'\n"
+                       "set title ''\nplot $motion using 1:8 with lines lt 1 "
+                       "title 'force'\nunset multiplot\n");
+  }
+} // namespace abut::app

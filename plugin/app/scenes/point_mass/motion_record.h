@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_MOTION_RECORD_H
+#define ABUT_APP_MOTION_RECORD_H
+
+#include "app/report/report.h"
+#include "motion.h"
+
+#include <filesystem>
+
+namespace abut::app
+{
+  /** What a motion comes to from step to step: a row of levels.csv each, the
+   * energy balance with what it says of the scheme, sums, and the picture. */
+  class MotionRecord
+  {
+  public:
+    MotionRecord(const abut_time_scheme &scheme, unsigned int dimension);
+
+    void declare_columns(Report &report) const;
+
+    /** Add the start or the end of a step. False if the motion blows up, which
+     * is told then. */
+    bool add(Report &report, const Motion &motion, double time);
+
+    /** Warn if the scheme has made energy. */
+    void judge_end(Report &report) const;
+
+    void fill_summary(Report &report) const;
+
+    /** A line of progress after step @p k of @p n. */
+    std::string line(unsigned int k, unsigned int n) const;
+
+    /** Energies and contact force over time, `motion.svg`. */
+    void draw(Report &report, const std::filesystem::path &folder) const;
+
+  private:
+    struct Entry
+    {
+      double time, kinetic, strain, contact, dissipated, work, force;
+    };
+
+    const abut_time_scheme scheme;
+    const unsigned int dimension;
+    abut_time_balance balance;
+    std::vector<Entry> entries;
+    std::vector<double> momentum, impulse;
+    double contact_begin = 0, contact_end = 0, largest_force = 0;
+    bool gains = false;
+    double gain_time = 0;
+  };
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,510 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+/* Scenes of kind `motion`: point masses and bars in time, above a rigid plane.
+ */
+#include "app/input/input_error.h"
+#include "app/input/short_number.h"
+#include "app/report/json.h"
+#include "app/restart/disk.h"
+#include "app/scenes/method_effects.h"
+#include "app/scenes/time_parameters.h"
+#include "motion.h"
+#include "motion_record.h"
+#include "point_mass.h"
+#include "row_formulas.h"
+
+#include <abut/dealii/number_pattern.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace abut::app
+{
+  namespace
+  {
+    using dealii::ParameterHandler;
+    namespace MotionPatterns = dealii::Patterns;
+
+    const char *const directions = "among the directions of motion";
+
+    class MotionScene : public Scene
+    {
+    public:
+      explicit MotionScene(unsigned int dimension);
+
+      void declare(ParameterHandler &prm) const override;
+      void parse(ParameterHandler &prm) override;
+      std::vector<EffectRule> effects() const override;
+      void check(const RunOptions &options, Report &report) override;
+      Outcome run(const RunOptions &options, Report &report) override;
+
+    private:
+      void declare_masses(ParameterHandler &prm) const;
+      void declare_loads(ParameterHandler &prm) const;
+      void parse_masses(ParameterHandler &prm);
+      void parse_bar(ParameterHandler &prm);
+      void parse_loads(ParameterHandler &prm);
+      void parse_mass(ParameterHandler &prm);
+      MassSystem make_system() const;
+      std::vector<double> values(RowFormula &formula, double time) const;
+      std::vector<double> load_at(const MassSystem &system, double time) const;
+      void describe(Report &report, const MassSystem &system) const;
+      unsigned int n_steps() const;
+      bool take_steps(Report &report, Motion &motion, MotionRecord &record,
+                      const MassSystem &system);
+      void fill_summary(Report &report, const Motion &motion,
+                        const MotionRecord &record) const;
+      std::string table(const Motion &motion) const;
+
+      MassRow row;
+      Plane plane;
+      double spacing = 1., penalty_factor = 1.;
+      std::unique_ptr<RowFormula> displacement, velocity, acceleration,
+          first_force;
+      TimeParameters time;
+      abut_time_mass mass_kind = ABUT_TIME_MASS_LUMPED;
+      abut_mass_rule mass_rule = ABUT_MASS_NEIGHBOURS;
+    };
+
+    MotionScene::MotionScene(const unsigned int dimension)
+    {
+      row.dimension = dimension;
+    }
+
+    void MotionScene::declare_masses(ParameterHandler &prm) const
+    {
+      prm.enter_subsection("Masses");
+      prm.declare_entry("Number", "1", MotionPatterns::Integer(1, 300),
+                        "Masses in a row. In 1 dimension the row stands on the "
+                        "plane, and the first mass may touch it; in more it "
+                        "lies above the plane along x, and each may.");
+      prm.declare_entry("Mass", "1", NumberPattern::positive(),
+                        "Of each mass.");
+      prm.declare_entry("Spacing", "1", NumberPattern::positive(),
+                        "Distance of neighbours: mass i, counted from 0, has x "
+                        "= i times this in the formulas of this scene.");
+      prm.declare_entry("Spring", "0", NumberPattern::from(0),
+                        "Stiffness between neighbours along the row (in 3D "
+                        "along x and y), force per length.");
+      prm.declare_entry("Wall spring", "0", NumberPattern::from(0),
+                        "Stiffness of the spring from the last mass to a wall, "
+                        "along the row; 0: there is none.");
+      prm.leave_subsection();
+      prm.enter_subsection("Bar");
+      prm.declare_entry("Elements", "0", MotionPatterns::Integer(0, 300),
+                        "A bar that stands on the plane, of so many linear "
+                        "elements, instead of point masses; 0: none.");
+      prm.declare_entry("Length", "1", NumberPattern::positive(),
+                        "Of the bar at rest; its nodes have x from 0 (near the "
+                        "plane) to this in the formulas of this scene.");
+      prm.declare_entry("Stiffness", "1", NumberPattern::positive(),
+                        "Modulus times area, a force.");
+      prm.declare_entry("Density", "1", NumberPattern::positive(),
+                        "Mass per length.");
+      prm.declare_entry("Fixed end", "false", MotionPatterns::Bool(),
+                        "The end far from the plane does not move.");
+      prm.leave_subsection();
+    }
+
+    void MotionScene::declare_loads(ParameterHandler &prm) const
+    {
+      const std::string by_direction =
+          " One formula for each direction, separated by semicolons, those "
+          "along the plane first, the height last; those that are missing are "
+          "0.";
+      prm.enter_subsection("Motion");
+      prm.declare_entry("Gap", "0", NumberPattern::from(0),
+                        "Height of the row over the plane where displacements "
+                        "are 0.");
+      prm.declare_entry("Initial displacement", "0", MotionPatterns::Anything(),
+                        "In x." + by_direction);
+      prm.declare_entry("Initial velocity", "0", MotionPatterns::Anything(),
+                        "In x." + by_direction);
+      prm.declare_entry("Acceleration", "0", MotionPatterns::Anything(),
+                        "Load by mass, such as gravity, in x and t."
+                            + by_direction);
+      prm.declare_entry("Force on first", "0", MotionPatterns::Anything(),
+                        "Force on the first mass alone, in t." + by_direction);
+      prm.leave_subsection();
+      prm.enter_subsection("Contact");
+      prm.declare_entry("Friction", "0", NumberPattern::from(0),
+                        "Coulomb's coefficient, for `velocity level`.");
+      prm.declare_entry("Penalty", "1", NumberPattern::positive(),
+                        "Of `central difference`: stiffness of the springs "
+                        "that stand for the plane, as a multiple of `Masses/"
+                        "Spring`, or of a bar's Stiffness by the length of an "
+                        "element.");
+      prm.leave_subsection();
+    }
+
+    /** Words of the schemes; the first is the default. */
+    std::string scheme_words()
+    {
+      std::string words = "velocity level";
+      for (std::int32_t i = 0; abut_time_scheme_name(i) != nullptr; ++i)
+        if (words != abut_time_scheme_name(i))
+          words += std::string("|") + abut_time_scheme_name(i);
+      return words;
+    }
+
+    void MotionScene::declare(ParameterHandler &prm) const
+    {
+      declare_masses(prm);
+      declare_loads(prm);
+      TimeParameters::declare(prm, scheme_words());
+      prm.enter_subsection("Time");
+      prm.declare_entry(
+          "Mass", "auto",
+          MotionPatterns::Selection("auto|consistent|lumped|modified|modified "
+                                    "with centre"),
+          "The mass matrix of a bar. modified: the node that may touch the "
+          "plane has no mass, its neighbour has it; with centre: such that the "
+          "centre of mass stays, too. auto: what the scheme is made for.");
+      prm.leave_subsection();
+    }
+
+    void MotionScene::parse_bar(ParameterHandler &prm)
+    {
+      prm.enter_subsection("Bar");
+      const auto elements =
+          static_cast<std::size_t>(prm.get_integer("Elements"));
+      const double length = prm.get_double("Length"),
+                   stiffness = prm.get_double("Stiffness"),
+                   density = prm.get_double("Density");
+      row.fixed_end = prm.get_bool("Fixed end");
+      prm.leave_subsection();
+      row.is_bar = elements > 0;
+      if (!row.is_bar)
+        return;
+      if (row.dimension > 1)
+        throw InputError("Bar/Elements", "a bar moves along itself: set "
+                                         "Dimension = 1.");
+      row.n = elements + (row.fixed_end ? 0 : 1);
+      spacing = length / static_cast<double>(elements);
+      row.spring = stiffness / spacing;
+      row.wall_spring = 0.;
+      row.mass = density * spacing;
+    }
+
+    void MotionScene::parse_masses(ParameterHandler &prm)
+    {
+      prm.enter_subsection("Masses");
+      row.n = static_cast<std::size_t>(prm.get_integer("Number"));
+      row.mass = prm.get_double("Mass");
+      spacing = prm.get_double("Spacing");
+      row.spring = prm.get_double("Spring");
+      row.wall_spring = prm.get_double("Wall spring");
+      prm.leave_subsection();
+      parse_bar(prm);
+    }
+
+    void MotionScene::parse_loads(ParameterHandler &prm)
+    {
+      const auto read = [&](const char *name)
+      {
+        return formula_by_direction(prm.get(name),
+                                    std::string("Motion/") + name,
+                                    row.dimension, directions);
+      };
+      prm.enter_subsection("Motion");
+      plane.gap = prm.get_double("Gap");
+      displacement = read("Initial displacement");
+      velocity = read("Initial velocity");
+      acceleration = read("Acceleration");
+      first_force = read("Force on first");
+      prm.leave_subsection();
+      prm.enter_subsection("Contact");
+      plane.friction = prm.get_double("Friction");
+      penalty_factor = prm.get_double("Penalty");
+      prm.leave_subsection();
+    }
+
+    void MotionScene::parse_mass(ParameterHandler &prm)
+    {
+      prm.enter_subsection("Time");
+      const std::string word = prm.get("Mass");
+      prm.leave_subsection();
+      mass_kind = static_cast<abut_time_mass>(time.scheme.mass);
+      // Point masses are what they are; there is nobody to take theirs.
+      if (!row.is_bar)
+        mass_kind = ABUT_TIME_MASS_LUMPED;
+      if (word == "consistent")
+        mass_kind = ABUT_TIME_MASS_CONSISTENT;
+      else if (word == "lumped")
+        mass_kind = ABUT_TIME_MASS_LUMPED;
+      else if (word != "auto")
+        mass_kind = ABUT_TIME_MASS_MODIFIED;
+      if (word == "modified with centre")
+        mass_rule = ABUT_MASS_CENTRE;
+      if (time.scheme.beta == 0. && mass_kind != ABUT_TIME_MASS_LUMPED)
+        throw InputError("Time/Mass", std::string(time.scheme.name)
+                                          + " is explicit and needs a lumped "
+                                            "mass.");
+      if (time.scheme.impulses && mass_kind == ABUT_TIME_MASS_MODIFIED)
+        throw InputError("Time/Mass",
+                         "velocity level needs mass where bodies meet: lumped "
+                         "or consistent.");
+    }
+
+    void MotionScene::parse(ParameterHandler &prm)
+    {
+      parse_masses(prm);
+      parse_loads(prm);
+      time.parse(prm);
+      parse_mass(prm);
+      plane.restitution = time.restitution;
+      if (time.scheme.beta == 0. && time.scheme.contact_in_step)
+      {
+        plane.penalty =
+            penalty_factor * (row.n > 1 ? row.spring : row.wall_spring);
+        if (plane.penalty == 0.)
+          throw InputError("Contact/Penalty",
+                           "central difference takes the stiffness of the "
+                           "plane from that of the row, which has none: use "
+                           "velocity level.");
+      }
+    }
+
+    std::vector<EffectRule> MotionScene::effects() const
+    {
+      const auto scheme_is = [](std::vector<std::string> names)
+      {
+        return [names](const SceneValues &values)
+        {
+          return std::find(names.begin(), names.end(), values("Time/Scheme"))
+                 != names.end();
+        };
+      };
+      const auto is_bar = [](const SceneValues &values)
+      { return values.number("Bar/Elements") > 0.; };
+      const auto no_bar = [is_bar](const SceneValues &values)
+      { return !is_bar(values); };
+      const auto is_row = [](const SceneValues &values)
+      { return values.number("Masses/Number") > 1.; };
+      EffectRules rules = {
+          effective_if("Masses/*", Weight::data, no_bar,
+                       "Bar/Elements makes a bar instead of masses."),
+          effective_if("Masses/Spring", Weight::data, is_row,
+                       "there is one mass."),
+          effective_if("Masses/Spacing", Weight::data, is_row,
+                       "there is one mass."),
+          effective_if("Time/Mass", Weight::data, is_bar,
+                       "point masses are lumped: give a Bar."),
+          effective_if("Contact/Friction", Weight::data,
+                       scheme_is({"velocity level"}),
+                       "friction of masses is that of velocity level."),
+          effective_if(
+              "Contact/Friction", Weight::data,
+              [](const SceneValues &values)
+              { return values("Dimension") != "1"; },
+              "the masses do not move along the plane: set Dimension = 2."),
+          effective_if("Contact/Penalty", Weight::data,
+                       scheme_is({"central difference"}),
+                       "only central difference has springs for the plane."),
+          without_time("Motion/Initial displacement", "it is that at time 0."),
+          without_time("Motion/Initial velocity", "it is that at time 0.")};
+      for (const char *name : {"Length", "Stiffness", "Density", "Fixed end"})
+        rules.push_back(effective_if(std::string("Bar/") + name, Weight::data,
+                                     is_bar, "Bar/Elements is 0."));
+      const std::vector<std::pair<const char *, const char *>> of_schemes = {
+          {"Alpha", "hht"},
+          {"Rho infinity", "generalised alpha"},
+          {"Beta", "newmark"},
+          {"Gamma", "newmark"},
+          {"Restitution", "velocity level"}};
+      for (const auto &[name, scheme] : of_schemes)
+        rules.push_back(effective_if(std::string("Time/") + name,
+                                     Weight::setting, scheme_is({scheme}),
+                                     std::string("it is of ") + scheme + "."));
+      return rules;
+    }
+
+    MassSystem MotionScene::make_system() const
+    {
+      MassSystem system(row);
+      const std::string why = system.use_mass(mass_kind, mass_rule);
+      if (!why.empty())
+        throw InputError("Time/Mass", why + ".");
+      return system;
+    }
+
+    /** Values [size] at the masses. */
+    std::vector<double> MotionScene::values(RowFormula &formula,
+                                            const double now) const
+    {
+      formula.set_time(now);
+      std::vector<dealii::Point<2>> places;
+      for (std::size_t i = 0; i < row.n; ++i)
+        places.emplace_back(static_cast<double>(i) * spacing, 0.);
+      std::vector<double> result(row.n * row.dimension);
+      for (unsigned int d = 0; d < row.dimension; ++d)
+      {
+        const std::vector<double> each = formula.evaluate(places, d);
+        for (std::size_t i = 0; i < row.n; ++i)
+          result[i * row.dimension + d] = each[i];
+      }
+      return result;
+    }
+
+    std::vector<double> MotionScene::load_at(const MassSystem &system,
+                                             const double now) const
+    {
+      std::vector<double> load = values(*acceleration, now);
+      const std::vector<double> forces = values(*first_force, now);
+      for (std::size_t k = 0; k < load.size(); ++k)
+        load[k] = load[k] * system.share[k / row.dimension]
+                  + (k < row.dimension ? forces[k] : 0.);
+      return load;
+    }
+
+    unsigned int MotionScene::n_steps() const
+    {
+      return static_cast<unsigned int>(
+          std::max(1., std::ceil(time.end / time.step * (1. - 1e-9))));
+    }
+
+    void MotionScene::describe(Report &report, const MassSystem &system) const
+    {
+      const char *const masses[] = {"consistent", "lumped", "modified"};
+      report.set("method", time.scheme.name);
+      report.set("discretisation", row.is_bar ? "bar" : "masses");
+      report.set("dofs", system.size());
+      report.set("constraints", system.candidates.size());
+      report.model("search", false, "the masses and their plane are given");
+      report.model("time", true,
+                   std::string(time.scheme.name) + ", mass " + masses[mass_kind]
+                       + ", " + std::to_string(n_steps()) + " steps");
+      report.model("friction", plane.friction > 0,
+                   plane.friction > 0
+                       ? "Coulomb, mu = " + short_number(plane.friction)
+                       : "Contact/Friction is 0");
+    }
+
+    void MotionScene::check(const RunOptions &, Report &report)
+    {
+      const MassSystem system = make_system();
+      load_at(system, 0.);
+      load_at(system, time.end);
+      describe(report, system);
+    }
+
+    bool MotionScene::take_steps(Report &report, Motion &motion,
+                                 MotionRecord &record, const MassSystem &system)
+    {
+      const unsigned int n = n_steps();
+      const double dt = time.end / n;
+      std::vector<double> before = load_at(system, 0.);
+      record.add(report, motion, 0.);
+      for (unsigned int k = 1; k <= n; ++k)
+      {
+        const double now = k == n ? time.end : k * dt;
+        const std::vector<double> after = load_at(system, now);
+        const std::string failure = motion.step(dt, before, after);
+        if (!failure.empty())
+        {
+          report.warn(failure + " (at time " + short_number(now, 6) + ")");
+          return false;
+        }
+        motion.time = now;
+        if (!record.add(report, motion, now))
+          return false;
+        if (k * std::size_t(20) / n != (k - 1) * std::size_t(20) / n)
+          report.progress(record.line(k, n));
+        before = after;
+      }
+      record.judge_end(report);
+      return true;
+    }
+
+    void MotionScene::fill_summary(Report &report, const Motion &motion,
+                                   const MotionRecord &record) const
+    {
+      const unsigned int dim = row.dimension;
+      record.fill_summary(report);
+      double penetration = 0, force = 0;
+      int active = 0;
+      for (std::size_t i = 0; i < row.n; ++i)
+      {
+        const std::size_t h = i * dim + dim - 1;
+        if (i == 0 || dim > 1)
+          penetration = std::max(penetration, -plane.gap - motion.u[h]);
+        force += motion.force[h];
+        active += motion.force[h] > 0;
+      }
+      report.set("active", active);
+      report.set("contact_force", force);
+      report.set("max_penetration", penetration);
+      report.set("displacement",
+                 std::vector<double>(motion.u.begin(), motion.u.begin() + dim));
+      report.set("velocity",
+                 std::vector<double>(motion.v.begin(), motion.v.begin() + dim));
+      report.set("energy_lost_in_impacts", motion.lost_in_impacts);
+      report.set("n_touches", motion.touch_times.size());
+      report.set("touch_times",
+                 std::vector<double>(
+                     motion.touch_times.begin(),
+                     motion.touch_times.begin()
+                         + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
+                             motion.touch_times.size(), 20))));
+    }
+
+    /** masses.csv: where masses are at the end. */
+    std::string MotionScene::table(const Motion &motion) const
+    {
+      const unsigned int dim = row.dimension;
+      const char *const axes[] = {"x", "y"};
+      std::ostringstream out;
+      out << "mass,x";
+      for (const char *name : {"u_", "v_", "force_"})
+        for (unsigned int d = 0; d < dim; ++d)
+          out << "," << name << (d + 1 < dim ? axes[d] : "height");
+      out << "\n";
+      for (std::size_t i = 0; i < row.n; ++i)
+      {
+        out << i + 1 << "," << json_number(static_cast<double>(i) * spacing);
+        for (const std::vector<double> *each :
+             {&motion.u, &motion.v, &motion.force})
+          for (unsigned int d = 0; d < dim; ++d)
+            out << "," << json_number((*each)[i * dim + d]);
+        out << "\n";
+      }
+      return out.str();
+    }
+
+    Outcome MotionScene::run(const RunOptions &options, Report &report)
+    {
+      const MassSystem system = make_system();
+      describe(report, system);
+      Motion motion(system, plane, time.scheme);
+      MotionRecord record(time.scheme, row.dimension);
+      record.declare_columns(report);
+      const double limit = motion.stable_step();
+      report.set("stable_time_step", limit);
+      if (time.end / n_steps() > limit)
+        report.warn(coded(ABUT_FAILURE_BLOW_UP,
+                          "the time step is above the limit of the scheme, "
+                              + short_number(limit, 4)
+                              + ": make Time/Step smaller"));
+      motion.start(values(*displacement, 0.), values(*velocity, 0.),
+                   load_at(system, 0.));
+      const bool done = [&]
+      {
+        SectionTimes::Scope scope(report.times, "solve");
+        return take_steps(report, motion, record, system);
+      }();
+      fill_summary(report, motion, record);
+      if (dealii::Utilities::MPI::this_mpi_process(options.communicator) == 0)
+        write_file(options.output_folder / "masses.csv", table(motion));
+      if (options.pictures)
+        record.draw(report, options.output_folder);
+      return done ? Outcome::converged : Outcome::unusable;
+    }
+  } // namespace
+
+  std::unique_ptr<Scene> make_motion(const unsigned int dimension)
+  {
+    return std::make_unique<MotionScene>(dimension);
+  }
+} // namespace abut::app
