@@ -51,6 +51,19 @@ def main():
         expect(one["active"] == other["active"], f"{what}: active set")
         expect(abs(one["force"] / other["force"] - 1) < 1e-6,
                f"{what}: force {other['force']}, not {one['force']}")
+    # The ball is dragged, by more than the cube gives way: all of it slides, and
+    # T = mu N.
+    for ranks, mu in ((1, 0.1), (2, 0.1), (1, 1.)):
+        for row, smooth in zip(cycles(ranks, 2, "--friction", str(mu),
+                                      "--tolerance", "1e-8"), serial):
+            what = f"cycle {row['cycle']}, mu = {mu}, {ranks} ranks"
+            expect(row["slipping"] == row["active"],
+                   f"{what}: {row['slipping']} of {row['active']} slip")
+            expect(abs(row["friction"] / row["force"] - mu) < 1e-7 * mu,
+                   f"{what}: T/N {row['friction'] / row['force']}")
+            expect(row["force"] < 0.999 * smooth["force"],
+                   f"{what}: force {row['force']}, {smooth['force']} without")
+    expect(serial[1]["friction"] == 0, "friction without a coefficient")
     for message in failures:
         print("FAILED:", message)
     sys.exit(1 if failures else 0)

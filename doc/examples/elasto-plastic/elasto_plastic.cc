@@ -9,6 +9,7 @@
 //       --tight       solve all linear systems to 1e-8
 //       --fresh       make a new preconditioner for each linear system
 //       --tolerance T error of the displacement at which Newton's method ends
+//       --friction MU the ball comes from 0.05 aside, with Coulomb friction
 #include "stress.h"
 
 #include <abut/dealii/contact_solver.h>
@@ -41,7 +42,7 @@ namespace
     std::string plugin;
     unsigned int n_cycles = 3;
     bool cold = false, tight = false, fresh = false;
-    double tolerance = 1e-6;
+    double tolerance = 1e-6, friction = 0.;
   };
 
   /** The lower side of a ball of radius 0.6, pressed 0.01 into the cube. */
@@ -84,6 +85,7 @@ private:
   la::Vector u, pressure;
   const PlasticMaterial material = PlasticMaterial();
   abut::Registry<3> registry;
+  std::shared_ptr<abut::RigidObstacle<3>> ball;
   std::unique_ptr<abut::ContactAssembler<3>> contact;
   abut::NewtonResult result;
   TimerOutput timer;
@@ -119,7 +121,14 @@ Indentation::set_contact()
   abut::ContactPair<3> pair;
   pair.name = "cube under ball";
   pair.secondary = {5};
-  pair.obstacle = registry.make_obstacle(height);
+  pair.obstacle = ball = registry.make_obstacle(height);
+  if (settings.friction > 0.)
+  {
+    const auto friction = std::make_shared<abut::Friction<3>>();
+    friction->coefficient = [mu = settings.friction](const Point<3> &)
+    { return mu; };
+    pair.friction = friction;
+  }
   contact->set_pairs({pair});
 }
 
@@ -242,6 +251,16 @@ Indentation::solve()
   const TimerOutput::Scope scope(timer, "solve");
   contact->reinit(mapping, dof_handler, constraints);
   contact->set_pressure(pressure);
+  if (settings.friction > 0.)
+  {
+    // Slips are measured from the undeformed cube and where the ball was.
+    abut::RigidPose<3> pose = ball->pose();
+    pose.translation[0] -= 0.05;
+    ball->set_pose(pose);
+    contact->set_committed(la::Vector(owned, MPI_COMM_WORLD));
+    pose.translation[0] += 0.05;
+    ball->set_pose(pose);
+  }
   abut::HostProblem problem;
   problem.residual = [&](const la::Vector &at, la::Vector &residual)
   { assemble(at, nullptr, &residual); };
@@ -306,7 +325,9 @@ Indentation::report(const unsigned int cycle) const
             << ", \"dofs\": " << dof_handler.n_dofs()
             << ", \"active\": " << pair.n_active
             << ", \"force\": " << std::setprecision(10)
-            << -pair.secondary_force[2] << std::setprecision(4)
+            << -pair.secondary_force[2]
+            << ", \"friction\": " << pair.friction_force
+            << ", \"slipping\": " << pair.n_slipping << std::setprecision(4)
             << ", \"penetration\": " << pair.penetration
             << ", \"complementarity\": " << gap
             << ", \"residual\": " << result.residual
@@ -368,6 +389,8 @@ main(int argc, char **argv)
       settings.tight = true;
     else if (words[i] == "--fresh")
       settings.fresh = true;
+    else if (words[i] == "--friction" && i + 1 < words.size())
+      settings.friction = std::stod(words[++i]);
     else if (words[i] == "--tolerance" && i + 1 < words.size())
       settings.tolerance = std::stod(words[++i]);
     else
