@@ -25,8 +25,16 @@
  * `slack` and `bilateral`: a user's law is not offered for tied surfaces. They
  * may be called by several threads at once, must not keep pointers, and report
  * failure by returning a positive status.
+ *
+ * A friction law of your own, an abut_friction, is exported in the same way by
+ *
+ *     ABUT_USER_FRICTION(my_friction, my_parameter_names, my_check)
+ *
+ * and named by `Friction file` and `Friction parameters`; it takes the place of
+ * Coulomb's law where pairs have friction. One shared object may export both.
  */
 
+#include <abut/friction.h>
 #include <abut/law.h>
 
 #ifdef __cplusplus
@@ -76,6 +84,42 @@ extern "C"
                                            parameter_names,                    \
                                            check};                             \
     return &user_law;                                                          \
+  }
+
+/** Name of the function that ABUT_USER_FRICTION() defines. */
+#define ABUT_USER_FRICTION_QUERY "abut_user_friction_query"
+
+  /** A user's friction law, and what it was compiled with. */
+  typedef struct abut_user_friction
+  {
+    uint32_t abi;             /**< ABUT_USER_LAW_ABI */
+    uint32_t struct_size;     /**< sizeof(abut_user_friction) */
+    uint32_t friction_size;   /**< sizeof(abut_friction) */
+    uint32_t bounds_size;     /**< sizeof(abut_friction_bounds) */
+    const abut_friction *law; /**< the table of functions */
+    /** As those of abut_user_law; values are at
+     * abut_friction_bounds.parameters, an array of double. */
+    const char *const *parameter_names;
+    const char *(*check)(const double *parameters); /**< as there */
+  } abut_user_friction;
+
+  /** Type of abut_user_friction_query(). */
+  typedef const abut_user_friction *(*abut_user_friction_query_function)(void);
+
+/** Export the abut_friction @p law, see ABUT_USER_LAW(). */
+#define ABUT_USER_FRICTION(law, parameter_names, check)                        \
+  ABUT_API const abut_user_friction *abut_user_friction_query(void);           \
+  const abut_user_friction *abut_user_friction_query(void)                     \
+  {                                                                            \
+    static const abut_user_friction user_friction = {                          \
+        ABUT_USER_LAW_ABI,                                                     \
+        sizeof(abut_user_friction),                                            \
+        sizeof(abut_friction),                                                 \
+        sizeof(abut_friction_bounds),                                          \
+        &(law),                                                                \
+        parameter_names,                                                       \
+        check};                                                                \
+    return &user_friction;                                                     \
   }
 
 #ifdef __cplusplus

@@ -374,6 +374,7 @@ namespace abut
     friction.coefficient = points_with_friction.coefficient.data();
     friction.cap = points_with_friction.cap.data();
     friction.reference_traction = traction.empty() ? nullptr : traction.data();
+    method.set_law(friction);
     check(abut_strategy_set_friction(strategy.get(), &friction));
   }
 

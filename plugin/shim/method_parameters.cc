@@ -80,27 +80,38 @@ namespace abut
       return names + shim::user_law_word;
     }
 
+    Patterns::Map user_parameters()
+    {
+      return Patterns::Map(Patterns::Anything(), Patterns::Double(), 0, 1000,
+                           ",", ":");
+    }
+
     void declare_user_law(ParameterHandler &prm)
     {
       prm.declare_entry("Law file", "", Patterns::Anything(),
                         "Shared object of your own law, for `user`; a relative "
                         "name is looked up beside the scene's file, then in "
                         "the working folder. See doc/your-own-law.md.");
-      prm.declare_entry("Law parameters", "",
-                        Patterns::Map(Patterns::Anything(), Patterns::Double(),
-                                      0, 1000, ",", ":"),
+      prm.declare_entry("Law parameters", "", user_parameters(),
                         "Parameters of your own law: `name: number, ...`, in "
                         "the units of the scene.");
     }
 
-    std::shared_ptr<const UserLaw> parse_user_law(ParameterHandler &prm)
+    void declare_user_friction(ParameterHandler &prm)
     {
-      const std::map<std::string, double> parameters =
-          Patterns::Tools::Convert<std::map<std::string, double>>::to_value(
-              prm.get("Law parameters"),
-              Patterns::Map(Patterns::Anything(), Patterns::Double(), 0, 1000,
-                            ",", ":"));
-      return shim::load_user_law(prm.get("Law file"), parameters);
+      prm.declare_entry("Friction file", "", Patterns::Anything(),
+                        "Shared object of your own friction law, for all that "
+                        "has friction; looked up like `Law file`. Empty: "
+                        "Coulomb's law. See doc/your-own-law.md.");
+      prm.declare_entry("Friction parameters", "", user_parameters(),
+                        "Parameters of your own friction law, written like "
+                        "`Law parameters`.");
+    }
+
+    std::map<std::string, double> parse_user_parameters(const std::string &text)
+    {
+      return Patterns::Tools::Convert<std::map<std::string, double>>::to_value(
+          text, user_parameters());
     }
 
     /** The law that suits a discretisation, whatever the problem: quadrature
@@ -325,6 +336,7 @@ namespace abut
                       "your own) with `quadrature point`; interior point for "
                       "membranes on fine meshes without nested iteration.");
     declare_user_law(prm);
+    declare_user_friction(prm);
     declare_discretisation(prm);
     declare_penalty(prm, defaults);
     declare_barrier(prm, defaults);
@@ -335,6 +347,14 @@ namespace abut
                       "row by row, `saddle point` keeps them as unknowns, "
                       "`auto` chooses and says which.");
     prm.leave_subsection();
+  }
+
+  void MethodParameters::set_law(abut_strategy_friction &friction) const
+  {
+    if (user_friction == nullptr)
+      return;
+    friction.law = &user_friction->law;
+    friction.parameters = user_friction->parameters.data();
   }
 
   void MethodParameters::parse_parameters(ParameterHandler &prm)
@@ -357,10 +377,16 @@ namespace abut
                                                  : law.c_str());
     if (law == shim::user_law_word)
     {
-      user_law = parse_user_law(prm);
+      user_law =
+          shim::load_user_law(prm.get("Law file"),
+                              parse_user_parameters(prm.get("Law parameters")));
       options.law = &user_law->law;
       options.law_parameters = user_law->parameters.data();
     }
+    if (!prm.get("Friction file").empty())
+      user_friction = shim::load_user_friction(
+          prm.get("Friction file"),
+          parse_user_parameters(prm.get("Friction parameters")));
     multiplier_degree = prm.get_integer("Multiplier degree");
     quadrature_degree = prm.get_integer("Quadrature degree");
     segments = prm.get_bool("Segments");

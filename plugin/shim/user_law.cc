@@ -12,12 +12,21 @@ namespace abut::shim
 {
   namespace
   {
-    /** What the shared object exports; throws a text if it cannot be had. */
-    const abut_user_law &open(const std::string &file)
+    /** Words in which the two kinds of tables differ. */
+    struct Kind
     {
-      if (file.empty())
-        throw std::string("the name is empty: Method/Enforcement = user needs "
-                          "the shared object of your law");
+      const char *query, *exported, *parameters;
+    };
+    const Kind normal = {ABUT_USER_LAW_QUERY, "ABUT_USER_LAW",
+                         "Method/Law parameters"};
+    const Kind tangential = {ABUT_USER_FRICTION_QUERY, "ABUT_USER_FRICTION",
+                             "Method/Friction parameters"};
+
+    /** What the shared object exports by a function of type Query; throws a
+     * text if it cannot be had. */
+    template <typename Query>
+    auto &open(const std::string &file, const Kind &kind)
+    {
       std::error_code error;
       if (!std::filesystem::is_regular_file(file, error))
         throw std::string("there is no such file");
@@ -30,32 +39,26 @@ namespace abut::shim
         throw "it cannot be loaded: "
             + std::string(reason != nullptr ? reason : "unknown reason");
       }
-      const auto query = reinterpret_cast<abut_user_law_query_function>(
-          dlsym(handle, ABUT_USER_LAW_QUERY));
+      const auto query = reinterpret_cast<Query>(dlsym(handle, kind.query));
       if (query == nullptr)
-        throw std::string("it exports no symbol " ABUT_USER_LAW_QUERY
-                          ": write ABUT_USER_LAW(law, names, check) at the end "
-                          "of its source");
-      const abut_user_law *const found = query();
+        throw "it exports no symbol " + std::string(kind.query) + ": write "
+            + kind.exported + "(law, names, check) at the end of its source";
+      const auto *const found = query();
       if (found == nullptr)
-        throw std::string(ABUT_USER_LAW_QUERY "() returned NULL");
+        throw std::string(kind.query) + "() returned NULL";
       return *found;
     }
 
+    /** Of a structure: its name, and its sizes there and here. */
+    using Size = std::pair<const char *, std::pair<std::size_t, std::size_t>>;
+
     /** The shared object may be of another version. */
-    void check_version(const abut_user_law &user)
+    void check_version(const std::uint32_t abi, const std::vector<Size> &sizes)
     {
-      if (user.abi != ABUT_USER_LAW_ABI)
-        throw "it was compiled for ABI " + std::to_string(user.abi)
+      if (abi != ABUT_USER_LAW_ABI)
+        throw "it was compiled for ABI " + std::to_string(abi)
             + " of user laws, this is ABI " + std::to_string(ABUT_USER_LAW_ABI)
             + ": compile it with the headers of this version";
-      const std::pair<const char *, std::pair<std::size_t, std::size_t>>
-          sizes[] = {
-              {"abut_user_law", {user.struct_size, sizeof(abut_user_law)}},
-              {"abut_law", {user.law_size, sizeof(abut_law)}},
-              {"abut_law_points", {user.points_size, sizeof(abut_law_points)}},
-              {"abut_law_linearisation",
-               {user.linearisation_size, sizeof(abut_law_linearisation)}}};
       for (const auto &[name, size] : sizes)
         if (size.first != size.second)
           throw "its " + std::string(name) + " has "
@@ -80,8 +83,19 @@ namespace abut::shim
                           "flag but ABUT_LAW_HARD");
     }
 
+    void check_table(const abut_friction *const law)
+    {
+      if (law == nullptr || law->struct_size != sizeof(abut_friction)
+          || law->name == nullptr || law->bound == nullptr)
+        throw std::string("its abut_friction is not complete: struct_size, "
+                          "name and bound must be set");
+      if (law->name == std::string(abut_friction_coulomb()->name))
+        throw "its law has the name of the built-in one, '"
+            + std::string(law->name) + "': give it another";
+    }
+
     /** Values in the order of the names. */
-    std::vector<double> order(const char *const *names,
+    std::vector<double> order(const Kind &kind, const char *const *names,
                               const std::map<std::string, double> &given)
     {
       std::vector<double> values;
@@ -91,16 +105,30 @@ namespace abut::shim
       {
         const auto place = left.find(*names);
         if (place == left.end())
-          throw "Method/Law parameters does not give its parameter '"
-              + std::string(*names) + "'";
+          throw std::string(kind.parameters) + " does not give its parameter '"
+              + *names + "'";
         values.push_back(place->second);
         left.erase(place);
         all += (all.empty() ? "" : ", ") + std::string(*names);
       }
       if (!left.empty())
-        throw "Method/Law parameters gives '" + left.begin()->first
+        throw std::string(kind.parameters) + " gives '" + left.begin()->first
             + "', but its parameters are: " + (all.empty() ? "none" : all);
       return values;
+    }
+    /** The law of a table, and its parameters in order. */
+    template <typename Law, typename Table>
+    std::shared_ptr<const Law> take(const Kind &kind, const Table &user,
+                                    const std::map<std::string, double> &given)
+    {
+      check_table(user.law);
+      const Law result = {*user.law, order(kind, user.parameter_names, given)};
+      const char *const complaint = user.check != nullptr
+                                        ? user.check(result.parameters.data())
+                                        : nullptr;
+      if (complaint != nullptr)
+        throw std::string(complaint);
+      return std::make_shared<Law>(result);
     }
   } // namespace
 
@@ -110,21 +138,47 @@ namespace abut::shim
   {
     try
     {
-      const abut_user_law &user = open(file);
-      check_version(user);
-      check_table(user.law);
-      const UserLaw result = {*user.law,
-                              order(user.parameter_names, parameters)};
-      const char *const complaint = user.check != nullptr
-                                        ? user.check(result.parameters.data())
-                                        : nullptr;
-      if (complaint != nullptr)
-        throw std::string(complaint);
-      return std::make_shared<UserLaw>(result);
+      if (file.empty())
+        throw std::string("the name is empty: Method/Enforcement = user needs "
+                          "the shared object of your law");
+      const abut_user_law &user =
+          open<abut_user_law_query_function>(file, normal);
+      check_version(
+          user.abi,
+          {{"abut_user_law", {user.struct_size, sizeof(abut_user_law)}},
+           {"abut_law", {user.law_size, sizeof(abut_law)}},
+           {"abut_law_points", {user.points_size, sizeof(abut_law_points)}},
+           {"abut_law_linearisation",
+            {user.linearisation_size, sizeof(abut_law_linearisation)}}});
+      return take<UserLaw>(normal, user, parameters);
     }
     catch (const std::string &problem)
     {
       throw dealii::ExcMessage("Method/Law file = " + file + ": " + problem
+                               + ".");
+    }
+  }
+
+  std::shared_ptr<const UserFriction>
+  load_user_friction(const std::string &file,
+                     const std::map<std::string, double> &parameters)
+  {
+    try
+    {
+      const abut_user_friction &user =
+          open<abut_user_friction_query_function>(file, tangential);
+      check_version(
+          user.abi,
+          {{"abut_user_friction",
+            {user.struct_size, sizeof(abut_user_friction)}},
+           {"abut_friction", {user.friction_size, sizeof(abut_friction)}},
+           {"abut_friction_bounds",
+            {user.bounds_size, sizeof(abut_friction_bounds)}}});
+      return take<UserFriction>(tangential, user, parameters);
+    }
+    catch (const std::string &problem)
+    {
+      throw dealii::ExcMessage("Method/Friction file = " + file + ": " + problem
                                + ".");
     }
   }

@@ -2,6 +2,7 @@
 #ifndef ABUT_SHIM_USER_LAW_H
 #define ABUT_SHIM_USER_LAW_H
 
+#include <abut/friction.h>
 #include <abut/law.h>
 
 #include <map>
@@ -19,6 +20,13 @@ namespace abut
     std::vector<double> parameters;
   };
 
+  /** The same of a friction law. */
+  struct UserFriction
+  {
+    abut_friction law;
+    std::vector<double> parameters;
+  };
+
   namespace shim
   {
     /** The word of the parameter file for it. */
@@ -30,6 +38,11 @@ namespace abut
     std::shared_ptr<const UserLaw>
     load_user_law(const std::string &file,
                   const std::map<std::string, double> &parameters);
+
+    /** The same for a friction law. */
+    std::shared_ptr<const UserFriction>
+    load_user_friction(const std::string &file,
+                       const std::map<std::string, double> &parameters);
   } // namespace shim
 } // namespace abut
 

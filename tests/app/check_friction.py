@@ -3,8 +3,10 @@
 number of ranks do not matter, and the moments of bodies that are turned on each other
 are those of closed forms."""
 import math
+import os
+import subprocess
 
-from program import Program
+from program import Program, set_words
 
 p = Program()
 QUIET = {"Output/Fields": "false", "Output/Pictures": "false"}
@@ -120,7 +122,47 @@ def ball():
              "more than the middle sticks")
 
 
+def limited(pressure, mu, strength):
+    return -strength * math.expm1(-mu * pressure / strength)
+
+
+def own_law():
+    """The documentation's friction law in a shared object: bodies and masses."""
+    example = p.source / "doc/examples/user-law"
+    library = p.folder / "shear_limit.so"
+    subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-I",
+                    p.source / "include", example / "shear_limit.c", "-o",
+                    library, "-lm"], check=True)
+    own = {"Method/Friction file": library,
+           "Method/Friction parameters": "shear strength: 3"}
+    summary, _ = p.solve_with(example / "sheared-block.prm", own)
+    p.expect(summary["pair_1_slipping"] == summary["active"] > 5,
+             "the block does not slide")
+    for node in p.table("pair_1.csv"):
+        p.close(node["friction"], limited(node["pressure"], 0.25, 3.), 1e-6,
+                f"traction at x = {node['x']}")
+    own["Method/Friction parameters"] = "shear strength: 0.4"
+    summary, _ = p.solve_with("friction-block.prm", own)
+    p.close(abs(summary["friction_force"][0]),
+            sum(limited(1. + 0.2 * i, 0.3, 0.4) for i in range(6)), 1e-9,
+            "friction of the masses")
+    run = ("run", example / "sheared-block.prm", "--output", "never")
+    for settings, words in (
+            ({"Method/Friction file": "none.so"}, ("no such file",)),
+            ({"Method/Friction file": library,
+              "Method/Friction parameters": "strength: 3"},
+             ("Friction parameters does not give", "'shear strength'")),
+            ({"Method/Friction file": library,
+              "Method/Friction parameters": "shear strength: 0"},
+             ("must be above 0",))):
+        p.expect_error(p.call(*run, *set_words(settings)), "Friction file",
+                       *words)
+    p.expect_error(p.call(*run, *set_words({**own, "Pair 1/Friction": 0})),
+                   "nothing has friction")
+
+
 without_coefficient()
+own_law()
 frames_and_ranks()
 cylinder()
 ball()

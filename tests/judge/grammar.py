@@ -88,6 +88,7 @@ KEPT = ("Scene", "Dimension", "Title", "Refinement/Level",
         "Refinement/Adaptive cycles", "Refinement/Most meshes",
         "Output/Fields", "Output/Nodal values", "Output/Pictures",
         "Output/Linear solves for comparison", "Method/Law file",
+        "Method/Friction file",
         "Method/Maximum steps", "Checkpoint/Every minutes",
         "Checkpoint/Every steps", "Output/Inf-sup constant")
 

@@ -17,6 +17,7 @@
 
 namespace abut
 {
+  struct UserFriction;
   struct UserLaw;
 
   /** Linear system in which contact is enforced. */
@@ -71,6 +72,13 @@ namespace abut
     /** Owner of options.law and options.law_parameters if the law is the
      * user's own (abut/user_law.h), else null. */
     std::shared_ptr<const UserLaw> user_law;
+
+    /** Friction law of pairs with friction if it is the user's own, else null:
+     * Coulomb's. */
+    std::shared_ptr<const UserFriction> user_friction;
+
+    /** Put it, and its parameters, into @p friction. */
+    void set_law(abut_strategy_friction &friction) const;
 
     /** Which linear system is solved. */
     System system = System::automatic;

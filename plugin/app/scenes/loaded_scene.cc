@@ -54,14 +54,17 @@ namespace abut::app
 
   void LoadedScene::find_law()
   {
-    const std::string law = file.get("Method/Law file", "");
-    if (law.empty())
-      return;
     RunOptions options;
     options.scene_file = file.path();
-    prm.enter_subsection("Method");
-    prm.set("Law file", options.input_file(law).string());
-    prm.leave_subsection();
+    for (const std::string name : {"Law file", "Friction file"})
+    {
+      const std::string law = file.get("Method/" + name, "");
+      if (law.empty())
+        continue;
+      prm.enter_subsection("Method");
+      prm.set(name, options.input_file(law).string());
+      prm.leave_subsection();
+    }
   }
 
   InputError LoadedScene::blamed(const std::string &message) const

@@ -55,6 +55,17 @@ namespace abut::app
                           otherwise);
     }
 
+    /** In pairs of bodies, or of a chain of masses. */
+    bool has_friction(const SceneValues &values)
+    {
+      for (const std::string &path : values.matching("Pair */Friction"))
+        if (values.is_set(path))
+          return true;
+      for (const std::string &path : values.matching("Friction/Coefficient"))
+        return values(path) != "0";
+      return false;
+    }
+
     bool may_iterate(const SceneValues &values)
     {
       return values("Solver/Linear solver") != "direct";
@@ -99,6 +110,7 @@ namespace abut::app
     const std::string user = "it belongs to Method/Enforcement = user.";
     return {
         setting("Method/Law *", is_user, user),
+        setting("Method/Friction *", has_friction, "nothing has friction."),
         of_laws("Penalty",
                 "penalty, quadratic penalty, augmented lagrangian or nitsche",
                 has_penalty),

@@ -442,7 +442,7 @@ namespace abut::app
       while (!load_steps.is_finished() && failure.empty())
       {
         const double time = load_steps.target();
-        const std::string why = steps.solve(load_at(time), method.options);
+        const std::string why = steps.solve(load_at(time), method);
         n_systems += steps.progress().step;
         if (why.empty())
         {

@@ -137,8 +137,9 @@ namespace abut::app
   }
 
   std::string ChainSteps::solve(const ChainLoad &load,
-                                abut_strategy_options options)
+                                const MethodParameters &method)
   {
+    abut_strategy_options options = method.options;
     set_scales(chain, stiffness, load, options);
     const std::size_t per_mass = id.size() / chain.n;
     std::vector<double> pressure(id.size()), reference;
@@ -165,6 +166,7 @@ namespace abut::app
     friction.coefficient = load.coefficient.data();
     friction.cap = load.cap.empty() ? nullptr : load.cap.data();
     friction.reference_traction = reference.data();
+    method.set_law(friction);
 
     const auto points = make_points();
     abut_dense_model model = {};
