@@ -33,10 +33,9 @@ place_arrays(abut_strategy *s)
   const int64_t n = f->n, m = f->m, rows = s->n;
   count_blocks(s, &f->n_blocks, &f->block_numbers);
   /* One more of each: without rows on this rank a request has blocks, too. */
-  abut_status status = abut_array_reserve(s->context, &f->numbers, 0,
-                                          1 + 6 * n + 7 * m
-                                              + 2 * (int64_t)f->blocks
-                                              + 2 * f->block_numbers + rows);
+  abut_status status = abut_array_reserve(
+      s->context, &f->numbers, 0,
+      1 + 6 * n + 7 * m + 2 * (int64_t)f->blocks + 2 * f->block_numbers + rows);
   if (status == ABUT_SUCCESS)
     status = abut_array_reserve(s->context, &f->bytes, 0,
                                 1 + f->n_blocks + 2 * n + 3 * rows);
