@@ -10,6 +10,9 @@ namespace abut::app
 {
   namespace
   {
+    /** More points than pixels only make the file large. */
+    constexpr std::size_t most_points = 2000;
+
     bool is_flat(const std::vector<double> &values)
     {
       return std::all_of(values.begin(), values.end(),
@@ -30,7 +33,8 @@ namespace abut::app
           continue;
         ++style;
         std::vector<std::vector<double>> rows;
-        for (std::size_t i = 0; i < times.size(); ++i)
+        const std::size_t stride = 1 + times.size() / most_points;
+        for (std::size_t i = 0; i < times.size(); i += stride)
           rows.push_back({times[i], values[i]});
         const std::string block =
             "panel" + std::to_string(number) + "_" + std::to_string(style);

@@ -2,7 +2,7 @@
 #include "motion_record.h"
 
 #include "app/input/short_number.h"
-#include "app/pictures/gnuplot.h"
+#include "app/pictures/time_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,33 +148,29 @@ namespace abut::app
   void MotionRecord::draw(Report &report,
                           const std::filesystem::path &folder) const
   {
-    // More points than pixels only make the file large.
-    const std::size_t stride = std::max<std::size_t>(1, entries.size() / 2000);
-    std::vector<std::vector<double>> rows;
-    for (std::size_t k = 0; k < entries.size(); k += stride)
+    std::vector<double> times, kinetic, strain, contact, dissipated, work,
+        balances, force;
+    for (const Entry &e : entries)
     {
-      const Entry &e = entries[k];
-      rows.push_back(
-          {e.time, e.kinetic, e.strain, e.contact, e.dissipated, e.work,
-           e.kinetic + e.strain + e.contact + e.dissipated - e.work, e.force});
+      times.push_back(e.time);
+      kinetic.push_back(e.kinetic);
+      strain.push_back(e.strain);
+      contact.push_back(e.contact);
+      dissipated.push_back(e.dissipated);
+      work.push_back(e.work);
+      balances.push_back(e.kinetic + e.strain + e.contact + e.dissipated
+                         - e.work);
+      force.push_back(e.force);
     }
-    const char *const names[] = {"kinetic",    "strain",        "contact",
-                                 "dissipated", "external work", "balance"};
-    std::string plot = "plot ";
-    for (int k = 0; k < 6; ++k)
-      plot += std::string(k > 0 ? ", " : "")
-              + "$motion using 1:" + std::to_string(k + 2) + " with lines lt "
-              + std::to_string(k + 1) + " title '" + names[k] + "'";
-    draw_picture(report, folder, "motion",
-                 gnuplot_header("motion", 760, 640)
-                     + gnuplot_data("motion", rows)
-                     + "set multiplot layout 2, 1\n"
-                       "set lmargin 12\nset rmargin 20\n"
-                       "set key outside right top vertical Left reverse\n"
-                       "set ylabel 'energy'\nset title 'Energies, "
-                     + scheme.name + "'\n" + plot
-                     + "\nset ylabel 'contact force'\nset xlabel 'time'\n"
-                       "set title ''\nplot $motion using 1:8 with lines lt 1 "
-                       "title 'force'\nunset multiplot\n");
+    draw_over_time(report, folder, "motion", times,
+                   {{"energy",
+                     {{"kinetic", kinetic},
+                      {"strain", strain},
+                      {"contact", contact},
+                      {"dissipated", dissipated},
+                      {"external work", work},
+                      {"balance", balances}}},
+                    {"contact force", {{"force", force}}}},
+                   std::string("Motion, ") + scheme.name);
   }
 } // namespace abut::app
