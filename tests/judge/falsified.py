@@ -179,6 +179,8 @@ end
         walls="5: 0.05, 0.02, -0.02", top=5, bottom=4).replace(
             "  set Pressure = 5: 1\n", "").replace(
                 "  set Primary", "  set Friction = 0.3\n  set Primary"),
+    "motion": (ROOT / "prm/bar-impact.prm").read_text(encoding="utf-8")
+    .replace("set End = 2", "set End = 0.6"),
     "masses": """
 set Scene = chain of masses
 set Dimension = 3
@@ -571,6 +573,23 @@ FALSIFICATIONS = [
     ("another spring in the scene", "masses",
      lambda c: c.edit("set Spring = 5", "set Spring = 5.1")),
     ("part of masses.csv missing", "masses", truncate("masses.csv", 0.7)),
+    ("momentum of one step", "motion", lambda c: c.table("levels.csv", first(
+        lambda r: r["load_step"] == 80,
+        momentum_x=lambda r: 1.001 * r["momentum_x"]))),
+    ("force of one step", "motion", lambda c: c.table("levels.csv", first(
+        lambda r: r["load_step"] == 85,
+        pair_1_force_x=lambda r: 1.01 * r["pair_1_force_x"]))),
+    ("kinetic energy of one step", "motion",
+     lambda c: c.table("levels.csv", first(
+         lambda r: r["load_step"] == 80,
+         kinetic_energy=lambda r: r["kinetic_energy"] + 1e-3))),
+    ("energy from nowhere", "motion", lambda c: c.table("levels.csv", first(
+        lambda r: r["load_step"] == 80,
+        kinetic_energy=lambda r: r["kinetic_energy"] + 5,
+        balance=lambda r: r["balance"] + 5))),
+    ("gravity in the scene of a motion", "motion",
+     lambda c: c.edit("subsection Body 1", "subsection Solid\n"
+                      "  set Gravity = -0.1, 0\nend\nsubsection Body 1")),
     ("tension of the membrane in the scene", "membrane",
      lambda c: c.edit("set Load = -4", "set Load = -4\n"
                       "  set Conductivity = 1.1")),
