@@ -21,7 +21,8 @@ namespace abut::app
     prm.declare_entry("Smallest step", "1e-3",
                       NumberPattern({nullptr, 0., 1., true, false}),
                       "Length of a step, as part of the whole time, below "
-                      "which a failure ends the run.");
+                      "which a failure ends the run; of a motion as part of "
+                      "Time/Step.");
     prm.leave_subsection();
   }
 
