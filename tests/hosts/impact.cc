@@ -73,6 +73,7 @@ namespace
     assemble();
 
     abut_obstacle_shape shape = abut_obstacle_shape_defaults();
+    shape.dimension = dim;
     shape.kind = ABUT_OBSTACLE_PLANE;
     shape.point[0] = -distance;
     shape.axis[0] = 1.;
