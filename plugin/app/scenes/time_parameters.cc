@@ -88,6 +88,9 @@ namespace abut::app
                                         + " needs the length of a time step.");
     if (end / step > most_steps)
       throw InputError("Time/Step", "more than 1e9 steps to Time/End.");
+    if (step > end * (1. + 1e-9))
+      throw InputError("Time/Step", "one step is longer than the time to "
+                                    "Time/End.");
   }
 
   LoadStepOptions TimeParameters::steps(const LoadStepOptions &given) const
