@@ -115,6 +115,37 @@ contact_holds_a_floating_body(void **unused)
   }
 }
 
+/* The same with all forces in another unit. */
+static void
+units_of_force_do_not_matter(void **unused)
+{
+  (void)unused;
+  for (int power = -18; power <= 18; power += 4)
+  {
+    floating f = open_floating();
+    double stiffness[4], force[2], u[2] = {0, 0}, p = 0;
+    const double unit = pow(10, power);
+    for (int i = 0; i < 4; ++i)
+      stiffness[i] = unit * spring[i];
+    for (int i = 0; i < 2; ++i)
+      force[i] = unit * push[i];
+    f.model.stiffness = stiffness;
+    f.model.force = force;
+    abut_strategy_options options = exact_options();
+    options.pressure_scale = unit;
+    uint8_t state = ABUT_STATE_CLOSED;
+    abut_reason reason;
+    abut_progress progress;
+    assert_ok(abut_dense_model_solve(f.context, &f.model, &options, u, &p,
+                                     &state, NULL, NULL, &progress, &reason));
+    assert_int_equal(reason, ABUT_REASON_CONVERGED);
+    assert_close(p / unit, 4, 1e-9);
+    assert_close(u[1], 0.25, 1e-9);
+    assert_close(u[0], 1.25, 1e-9);
+    close_floating(&f);
+  }
+}
+
 static void
 a_body_without_support_is_reported(void **unused)
 {
@@ -208,6 +239,7 @@ main(void)
       cmocka_unit_test(elimination_inverts),
       cmocka_unit_test(elimination_finds_singular_matrices),
       cmocka_unit_test(contact_holds_a_floating_body),
+      cmocka_unit_test(units_of_force_do_not_matter),
       cmocka_unit_test(a_body_without_support_is_reported),
       cmocka_unit_test(a_warm_start_is_kept),
       cmocka_unit_test(arguments_are_checked),

@@ -181,6 +181,28 @@ end
                 "  set Primary", "  set Friction = 0.3\n  set Primary"),
     "motion": (ROOT / "prm/bar-impact.prm").read_text(encoding="utf-8")
     .replace("set End = 2", "set End = 0.6"),
+    "thrown": """
+set Scene = motion
+set Dimension = 2
+subsection Masses
+  set Number = 3
+  set Mass = 2
+  set Spring = 3
+end
+subsection Motion
+  set Gap = 0.2
+  set Initial velocity = 1 + 0.1*x; -0.3*x
+  set Acceleration = 0; -5
+end
+subsection Contact
+  set Friction = 0.1
+end
+subsection Time
+  set Restitution = 0.4
+  set Step = 0.03
+  set End = 1
+end
+""",
     "masses": """
 set Scene = chain of masses
 set Dimension = 3
@@ -422,6 +444,14 @@ def closed(row):
     return row.get("status", 0) > 0.5
 
 
+def work_of_weight(copy):
+    """More work in the last step and the summary, balanced by springs."""
+    for name in ("external_work", "strain_energy"):
+        copy.table("levels.csv", lambda rows, n=name: rows[-1].update(
+            {n: rows[-1][n] + 0.1}))
+        key(name, lambda v: v + 0.1)(copy)
+
+
 def slips(row):
     return row["state"] == 2
 
@@ -573,6 +603,38 @@ FALSIFICATIONS = [
     ("another spring in the scene", "masses",
      lambda c: c.edit("set Spring = 5", "set Spring = 5.1")),
     ("part of masses.csv missing", "masses", truncate("masses.csv", 0.7)),
+    ("momentum of one step of masses", "thrown",
+     lambda c: c.table("levels.csv", first(
+         lambda r: r["step"] == 20,
+         momentum_x=lambda r: 1.001 * r["momentum_x"]))),
+    ("force of one step of masses", "thrown",
+     lambda c: c.table("levels.csv", first(
+         lambda r: r["force_height"] > 0,
+         force_height=lambda r: 1.01 * r["force_height"]))),
+    ("masses that are pulled", "thrown",
+     lambda c: c.table("levels.csv", first(
+         lambda r: r["force_height"] > 0,
+         force_height=lambda r: -r["force_height"]))),
+    ("a mass below the plane", "thrown",
+     lambda c: c.table("masses.csv", first(
+         lambda r: r["mass"] == 2, u_height=lambda r: -0.201))),
+    ("a mass that is faster", "thrown",
+     lambda c: c.table("masses.csv", first(
+         lambda r: r["mass"] == 2, v_x=lambda r: r["v_x"] + 1e-4))),
+    ("work of the weight, balance kept", "thrown", work_of_weight),
+    ("energy of masses from nowhere", "thrown",
+     lambda c: c.table("levels.csv", first(
+         lambda r: r["step"] == 20,
+         strain_energy=lambda r: r["strain_energy"] + 1,
+         energy_balance=lambda r: r["energy_balance"] + 1))),
+    ("less friction of the plane below masses", "thrown",
+     lambda c: c.edit("Friction = 0.1", "Friction = 0.09")),
+    ("another mass in the scene", "thrown",
+     lambda c: c.edit("Mass = 2", "Mass = 2.01")),
+    ("more weight in the scene", "thrown",
+     lambda c: c.edit("0; -5", "0; -5.01")),
+    ("the motion goes on in the scene", "thrown",
+     lambda c: c.edit("End = 1", "End = 1.03")),
     ("momentum of one step", "motion", lambda c: c.table("levels.csv", first(
         lambda r: r["load_step"] == 80,
         momentum_x=lambda r: 1.001 * r["momentum_x"]))),

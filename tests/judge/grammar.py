@@ -105,11 +105,15 @@ class Mutation:
         self.is_solid = kind == "solid"
         self.dim = int(scene.get("Dimension", "2"))
         steps = [self.number, self.number, self.parameter, self.parameter,
-                 self.parameter, self.law, self.law, self.units, self.degree,
-                 self.mesh]
+                 self.parameter]
+        if kind != "motion":
+            steps += [self.law, self.law, self.units, self.degree, self.mesh]
         if self.is_solid:
             steps += [self.pair, self.obstacle, self.obstacle, self.material,
-                      self.plane, self.load_steps, self.discretisation]
+                      self.plane, self.load_steps, self.discretisation,
+                      self.friction]
+        if kind == "motion" or self.values.get("Time/Scheme"):
+            steps += [self.time, self.time, self.time]
         for _ in range(random.choice([1, 1, 1, 2, 2, 3])):
             random.choice(steps)()
         while not self.changes:
@@ -157,8 +161,9 @@ class Mutation:
         names = self.given("Support", "Traction", "Pressure", "Body force",
                            "Motion", "Expression", "Load", "Dirichlet",
                            "Obstacle", "Neumann", "Centre", "Point", "Radius",
-                           "Angle", "Initial gap", "Gravity", "Conductivity",
-                           "Normal")
+                           "Angle", "Initial", "Gravity", "Conductivity",
+                           "Normal", "Friction", "Acceleration", "Gap",
+                           "Force on first", "Density")
         names = [n for n in names if not n.startswith(("Output", "Solid/O"))
                  and not re.match(r"Pair \d+/Obstacle", n)]
         if names:
@@ -167,7 +172,8 @@ class Mutation:
     def parameter(self):
         names = [n for n in self.parameters if n.split("/")[0] in (
             "Method", "Solver", "Search", "Refinement", "Pair 1", "Obstacle 1",
-            "Body 1", "Load steps") and n not in KEPT]
+            "Body 1", "Load steps", "Time", "Masses", "Bar", "Motion",
+            "Contact") and n not in KEPT]
         name = self.random.choice(names)
         section = name.split("/")[0]
         if section[-1] == "1" and not self.given(section + "/"):
@@ -317,3 +323,32 @@ class Mutation:
 
     def load_steps(self):
         self.set("Load steps/Steps", self.random.randint(1, 4))
+
+    def friction(self):
+        """Coefficient of a pair: none, a number or a formula."""
+        section = f"Pair {self.random.randint(1, max(1, int(self.scene.get('Solid/Pairs', 1))))}"
+        if self.given(section + "/"):
+            value = f"{10**self.random.uniform(-2, 0.5):.3g}"
+            self.set(f"{section}/Friction", self.random.choice(
+                ["0", value, value, value + "*t",
+                 value + "*(1 + 0.5*sin(7*x))"]))
+
+    def time(self):
+        """Another scheme, step, mass or end."""
+        random = self.random
+        choice = random.randrange(5)
+        if choice < 2:
+            self.set("Time/Scheme", random.choice(
+                [w for w in self.parameters["Time/Scheme"].choices()
+                 if w != "none"]))
+            for name in ("Alpha", "Restitution"):
+                self.values.pop(f"Time/{name}", None)
+        elif choice == 2 and "Time/Step" in self.values:
+            step = float(self.values["Time/Step"])
+            self.set("Time/Step", f"{step * 2**random.uniform(-1, 4):.6g}")
+        elif choice == 3:
+            self.set("Time/Mass", random.choice(
+                self.parameters["Time/Mass"].choices()))
+        else:
+            end = float(self.values.get("Time/End", 1))
+            self.set("Time/End", f"{end * random.uniform(0.2, 1.2):.6g}")

@@ -17,6 +17,7 @@ import pathlib
 import sys
 
 from masses import MassesJudge
+from masses_in_motion import MassesInMotionJudge
 from membrane import MembraneJudge
 from run_files import read_summary
 from scene import Scene
@@ -24,7 +25,7 @@ from solid import SolidJudge
 from verdict import CannotJudge, Findings, Wrong
 
 JUDGES = {"solid": SolidJudge, "obstacle": MembraneJudge,
-          "chain of masses": MassesJudge}
+          "chain of masses": MassesJudge, "motion": MassesInMotionJudge}
 
 
 def judge(folder, scene, findings):

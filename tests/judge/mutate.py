@@ -3,6 +3,7 @@
 """Make scenes from those in prm/ by random changes, run and judge them.
 
     mutate.py --seeds 0:1000 --results mutations.jsonl
+    mutate.py --seeds 0:1000 --bases 'dynamics-*' 'friction-*'
     mutate.py --list tests/judge/mutations.jsonl
     mutate.py --repeat 17        the same scene again, with what it prints
 
@@ -16,6 +17,7 @@ failed, and exit code 1 if there are any.
 """
 import argparse
 import collections
+import fnmatch
 import json
 import multiprocessing
 import pathlib
@@ -29,7 +31,7 @@ import time
 
 import judge
 from grammar import Mutation, read_reference
-from runs import (QUIET, ROOT, base_scenes, find_level, run, small, stand_in,
+from runs import (QUIET, ROOT, base_scenes, find_level, has_mesh, run, small, stand_in,
                   words_of)
 from scene import Scene
 
@@ -46,12 +48,13 @@ def make_case(seed, levels, reference):
     name = source.choice(sorted(levels))
     base = Scene(base_scenes()[name])
     scene = Scene(base_scenes()[name])
-    for key, value in {**small(levels[name]), **QUIET}.items():
-        scene.values[key] = str(value)
+    if has_mesh(scene):
+        for key, value in {**small(levels[name]), **QUIET}.items():
+            scene.values[key] = str(value)
     # exact solutions of the base are those of no other scene
     for key in [k for k in scene.values if k.startswith("Exact solution")]:
         del scene.values[key]
-    if source.random() < 0.15:
+    if has_mesh(scene) and source.random() < 0.15:
         scene.values["Refinement/Adaptive cycles"] = "2"
     mutation = Mutation(scene, reference, source)
     return {"seed": seed, "base": name,
@@ -143,12 +146,14 @@ def table(results, command):
     return 1 if failed else 0
 
 
-def find_levels(abut, path):
-    """Levels of the base scenes, kept in a file if one is given."""
+def find_levels(abut, path, patterns):
+    """Levels of the base scenes whose names fit, kept in a file if one is
+    given."""
     if path and path.exists():
         return json.loads(path.read_text(encoding="utf-8"))
     levels = {name: find_level(abut, scene)
-              for name, scene in base_scenes().items()}
+              for name, scene in base_scenes().items()
+              if any(fnmatch.fnmatch(name, p) for p in patterns)}
     if path:
         path.write_text(json.dumps(levels, indent=1), encoding="utf-8")
     return levels
@@ -165,7 +170,7 @@ def make_cases(seeds, options, abut):
     reference = read_reference(subprocess.run(
         [abut, "parameters"], capture_output=True, text=True,
         check=True).stdout)
-    levels = find_levels(abut, options.levels)
+    levels = find_levels(abut, options.levels, options.bases)
     return (make_case(seed, levels, reference) for seed in seeds)
 
 
@@ -205,6 +210,8 @@ def main():
     parser.add_argument("--served", type=pathlib.Path,
                         help="the program for many runs")
     parser.add_argument("--seeds", default="0:200", help="FIRST:END")
+    parser.add_argument("--bases", nargs="+", default=["*"],
+                        metavar="PATTERN", help="names of scenes in prm/")
     parser.add_argument("--list", type=pathlib.Path,
                         help="cases in place of seeds")
     parser.add_argument("--results", type=pathlib.Path)

@@ -155,13 +155,15 @@ add_block(dense_host *host, int32_t first, int32_t k, const double *a,
     {
       double *row = host->matrix + (n + first + r) * size;
       const double *gap = host->b + (first + c) * n;
-      row[n + first + c] = a[r * k + c];
+      row[n + first + c] = a[r * k + c] * host->stiffness[first + c];
       for (int64_t j = 0; j < n && b[r * k + c] != 0; ++j)
         row[j] += b[r * k + c] * gap[j];
     }
 }
 
-/* The matrix of the head comment. */
+/* The matrix of the head comment. The unknowns of pressures are lengths,
+ * pressures by the stiffness of their rows: else a stiffness of 1e13, such as
+ * mass by the square of a short time, looks singular beside the ones of B. */
 static void
 assemble(dense_host *host, const abut_request *request)
 {
@@ -173,7 +175,8 @@ assemble(dense_host *host, const abut_request *request)
            (size_t)n * sizeof(double));
   for (int32_t i = 0; i < host->m; ++i)
     for (int64_t j = 0; j < n; ++j)
-      host->matrix[j * size + n + i] -= host->b[i * n + j] * weight[i];
+      host->matrix[j * size + n + i] -=
+          host->b[i * n + j] * weight[i] * host->stiffness[i];
   int64_t at = 0;
   for (int32_t i = 0, block = 0; i < host->m; ++block)
   {
@@ -237,7 +240,7 @@ solve(void *user, const abut_request *request)
     for (int32_t j = 0; j < host->n; ++j)
       change += host->b[(int64_t)i * host->n + j] * host->x[j];
     request->gap_change[i] = change;
-    request->pressure_change[i] = host->x[host->n + i];
+    request->pressure_change[i] = host->stiffness[i] * host->x[host->n + i];
   }
   return ABUT_SUCCESS;
 }
