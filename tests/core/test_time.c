@@ -468,6 +468,67 @@ mass_on_a_spring_comes_to_rest(void **unused)
   assert_ok(abut_context_destroy(&context));
 }
 
+/* y = K x of a chain of unit springs between two walls, for some of its masses.
+ */
+static void
+chain_product(int32_t n, const double *x, double *y)
+{
+  for (int32_t i = 0; i < n; ++i)
+    y[i] = 2 * x[i] - (i > 0 ? x[i - 1] : 0) - (i + 1 < n ? x[i + 1] : 0);
+}
+
+/* Power iteration, with the unknowns of a chain in two parts as if they were
+ * those of two processes. */
+static abut_time_limit
+limit_of_chain(int32_t n, int32_t cut, const double *mass)
+{
+  double x[64], y[64];
+  abut_time_limit limit;
+  assert_ok(abut_time_limit_begin(&limit, cut, n - cut, x + cut));
+  assert_ok(abut_time_limit_begin(&limit, 0, cut, x));
+  do
+  {
+    double sums[2], more[2];
+    chain_product(n, x, y);
+    assert_ok(abut_time_limit_sums(cut, mass, x, y, sums));
+    assert_ok(
+        abut_time_limit_sums(n - cut, mass + cut, x + cut, y + cut, more));
+    sums[0] += more[0];
+    sums[1] += more[1];
+    abut_time_limit part = limit;
+    assert_ok(abut_time_limit_next(&part, sums, cut, mass, y, x));
+    assert_ok(abut_time_limit_next(&limit, sums, n - cut, mass + cut, y + cut,
+                                   x + cut));
+  } while (limit.goes_on);
+  return limit;
+}
+
+/* Equal masses m: omega = 2 / sqrt(m) cos(pi / (2 n + 2)). Held masses count as
+ * walls. */
+static void
+power_iteration_finds_the_limit(void **unused)
+{
+  (void)unused;
+  double mass[64];
+  for (int32_t i = 0; i < 64; ++i)
+    mass[i] = 0.25;
+  for (int32_t n = 1; n <= 64; n *= 4)
+  {
+    const double exact = 0.5 / cos(acos(-1.) / (2 * n + 2));
+    const abut_time_limit limit = limit_of_chain(n, 0, mass);
+    assert_true(limit.step >= exact * (1 - 1e-12));
+    assert_close(limit.step, exact, 1e-3 * exact);
+    const abut_time_limit apart = limit_of_chain(n, n / 2, mass);
+    assert_close(apart.step, limit.step, 1e-9 * exact);
+  }
+  mass[7] = 0;
+  /* Seven masses on each side of the one that is held. */
+  assert_close(limit_of_chain(15, 4, mass).step, 0.5 / cos(acos(-1.) / 16),
+               5e-4);
+  mass[0] = 0;
+  assert_true(isinf(limit_of_chain(1, 0, mass).step));
+}
+
 static abut_status
 make(const char *name, double alpha, double rho, double beta)
 {
@@ -533,6 +594,7 @@ main(void)
       cmocka_unit_test(falling_bar_bounces_in_time),
       cmocka_unit_test(equal_bars_swap_velocities),
       cmocka_unit_test(central_difference_has_its_limit),
+      cmocka_unit_test(power_iteration_finds_the_limit),
       cmocka_unit_test(schemes_are_of_second_order),
       cmocka_unit_test(mass_on_a_spring_comes_to_rest),
       cmocka_unit_test(arguments_are_checked),

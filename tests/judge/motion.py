@@ -9,7 +9,14 @@ from thresholds import THRESHOLDS
 # Weight gamma of the new acceleration in the velocity of a step.
 GAMMAS = {"hht": lambda number: 0.5 - number("Alpha", -0.1),
           "trapezoid": lambda number: 0.5, "midpoint": lambda number: 1.,
-          "newmark": lambda number: number("Gamma", 0.5)}
+          "newmark": lambda number: number("Gamma", 0.5),
+          # Contact acts by a jump of the velocity, and at the middle.
+          "contact stabilised": lambda number: 1.,
+          "central difference with projection": lambda number: 1.}
+
+# What the bound of a gain is called, where it is not that of modified mass.
+GAINS = {"central difference with projection": "explicit gain"}
+PROJECTING = ("contact stabilised", "central difference with projection")
 
 
 def in_motion(scene):
@@ -53,13 +60,14 @@ class MotionJudge:
         """No step has more than there was at the start and the scheme gains."""
         start = self.solid.summary["initial_energy"]
         scale = max([abs(start)] + [abs(r["external_work"]) for r in self.rows])
-        exact = (self.scene.get("Time/Mass", "modified") == "modified"
-                 or not self.solid.pairs)
+        scheme = self.scene.get("Time/Scheme")
+        exact = (self.scene.get("Time/Mass", "auto") in ("auto", "modified")
+                 or scheme in PROJECTING or not self.solid.pairs)
         if not exact:
             self.solid.findings.leave(
                 "gain of energy", "impacts on nodes with mass have no bound")
             return
-        limit = THRESHOLDS["gain"]
+        limit = THRESHOLDS[GAINS.get(scheme, "gain")]
         self.solid.findings.check(
             "gain of energy", max(r["balance"] for r in self.rows) - start,
             limit.value * scale, limit.reason)

@@ -44,6 +44,9 @@ THRESHOLDS = {
     "gain": Threshold(
         2e-3, "of the energy at the start or the work done: what implicit "
         "schemes with modified mass may gain"),
+    "explicit gain": Threshold(
+        1e-2, "of the energy at the start or the work done: what explicit "
+        "schemes may gain"),
     "tables": Threshold(
         1e-12, "the same number in two files with all digits"),
     "gap": Threshold(

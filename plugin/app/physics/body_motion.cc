@@ -2,10 +2,12 @@
 #include "body_motion.h"
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace abut::app
@@ -38,6 +40,23 @@ namespace abut::app
       }
     };
 
+    /** Constrained unknowns have a diagonal that nothing comes of, as that of
+     * the stiffness. */
+    template <int dim>
+    void hold_constrained(const DiscreteProblem<dim> &problem,
+                          la::Matrix &matrix)
+    {
+      const la::LocalRows rows = la::local_rows(matrix);
+      const auto &owned = problem.dof_handler.locally_owned_dofs();
+      const std::vector<double> own =
+          la::diagonal(la::local_rows(problem.stiffness));
+      for (int i = 0; i < rows.n_rows; ++i)
+        for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+          if (rows.column[k] == i
+              && problem.constraints.is_constrained(owned.nth_index_in_set(i)))
+            rows.value[k] = own[i];
+    }
+
     /** The inverse of its diagonal. */
     struct DiagonalInverse
     {
@@ -66,6 +85,7 @@ namespace abut::app
         mass_matrix(elasticity_, elasticity_.all_materials(), data));
     free_mass_ = std::make_unique<la::Matrix>(free_part(elasticity_, *mass_));
     tangent_.clear();
+    projection_.clear();
     dt_ = 0.;
     mark_massless();
     const auto &fe = elasticity_.fe;
@@ -180,49 +200,111 @@ namespace abut::app
   }
 
   template <int dim>
+  void BodyMotion<dim>::make_tangent(const abut_time_stage stage,
+                                     la::Matrix &matrix) const
+  {
+    abut_time_weights weights;
+    check(abut_time_weigh(&settings_.scheme, dt_, stage, &weights));
+    const double mass = weights.mass + settings_.mass_damping * weights.damping;
+    const double stiffness =
+        weights.stiffness + settings_.stiffness_damping * weights.damping;
+    // Without stiffness its couplings would only fill the solver's factors.
+    if (stiffness == 0.)
+    {
+      matrix.reinit(*free_mass_);
+      matrix.copy_from(*free_mass_);
+      matrix *= mass;
+      hold_constrained(elasticity_, matrix);
+      return;
+    }
+    if (matrix.m() == 0)
+      matrix.reinit(elasticity_.stiffness);
+    matrix = 0.;
+    matrix.add(stiffness, elasticity_.stiffness);
+    matrix.add(mass, *free_mass_);
+  }
+
+  template <int dim> void BodyMotion<dim>::make_tangents()
+  {
+    if (settings_.scheme.projects != 0)
+      make_tangent(ABUT_TIME_PROJECTION, projection_);
+    if (!is_explicit())
+      make_tangent(ABUT_TIME_STEP, tangent_);
+  }
+
+  template <int dim>
   bool BodyMotion<dim>::begin_step(const double dt, la::Vector &u)
   {
     const bool is_new = std::abs(dt - dt_) > same_length * dt;
     if (is_new)
     {
       dt_ = dt;
-      abut_time_weights weights;
-      check(abut_time_weigh(&settings_.scheme, dt, ABUT_TIME_STEP, &weights));
-      if (tangent_.m() == 0)
-        tangent_.reinit(elasticity_.stiffness);
-      tangent_ = 0.;
-      tangent_.add(weights.stiffness
-                       + settings_.stiffness_damping * weights.damping,
-                   elasticity_.stiffness);
-      tangent_.add(weights.mass + settings_.mass_damping * weights.damping,
-                   *free_mass_);
+      make_tangents();
     }
-    const abut_time_state from = state(displacement_, velocity_, acceleration_);
-    u = displacement_;
-    check(abut_time_begin(&from, la::data(u)));
+    const bool projects = settings_.scheme.projects != 0;
+    stage_ = projects ? ABUT_TIME_PROJECTION : ABUT_TIME_STEP;
+    step_velocity_ = velocity_;
+    projection_force_ = elasticity_.vector();
+    predicted_ = displacement_;
+    const abut_time_state from =
+        state(displacement_, step_velocity_, acceleration_);
+    check(abut_time_begin(&from, la::data(predicted_)));
+    u = predicted_;
     elasticity_.constraints.distribute(u);
+    begin_problem(u);
+    return is_new || (projects && !is_explicit());
+  }
+
+  template <int dim> void BodyMotion<dim>::begin_problem(const la::Vector &u)
+  {
     base_ = u;
     base_residual_ = full_residual(u);
     elasticity_.constraints.set_zero(base_residual_);
-    return is_new;
+  }
+
+  template <int dim> bool BodyMotion<dim>::next_problem(const la::Vector &u)
+  {
+    if (stage_ == ABUT_TIME_STEP)
+      return false;
+    projection_force_ = full_residual(u);
+    const abut_time_state from =
+        state(displacement_, step_velocity_, acceleration_);
+    check(abut_time_project(&from, la::data(predicted_), la::data(u)));
+    if (is_explicit())
+      return false;
+    stage_ = ABUT_TIME_STEP;
+    begin_problem(u);
+    return true;
   }
 
   template <int dim>
-  la::Vector BodyMotion<dim>::full_residual(const la::Vector &u) const
+  la::Vector BodyMotion<dim>::projection_residual(const la::Vector &u) const
+  {
+    abut_time_weights weights;
+    check(abut_time_weigh(&settings_.scheme, dt_, ABUT_TIME_PROJECTION,
+                          &weights));
+    la::Vector way(u), result = elasticity_.vector();
+    way -= predicted_;
+    mass_->vmult(result, way);
+    result *= weights.mass;
+    return result;
+  }
+
+  template <int dim>
+  la::Vector BodyMotion<dim>::step_residual(const la::Vector &unknown) const
   {
     la::Vector inertia = elasticity_.vector(), damping = elasticity_.vector(),
-               elastic = elasticity_.vector();
+               elastic = elasticity_.vector(), product = elasticity_.vector();
     abut_time_arguments arguments = {sizeof(abut_time_arguments),
                                      la::data(inertia), la::data(damping),
                                      la::data(elastic)};
     // The state is not changed.
-    la::Vector before(displacement_), v(velocity_), a(acceleration_);
+    la::Vector before(displacement_), v(step_velocity_), a(acceleration_);
     const abut_time_state from = state(before, v, a);
-    check(abut_time_evaluate(&from, la::data(u), &arguments));
+    check(abut_time_evaluate(&from, la::data(unknown), &arguments));
     elastic.add(settings_.stiffness_damping, damping);
     inertia.add(settings_.mass_damping, damping);
     la::Vector result = elasticity_.stiffness_times(elastic);
-    la::Vector product = elasticity_.vector();
     mass_->vmult(product, inertia);
     result += product;
     abut_time_weights weights;
@@ -233,11 +315,54 @@ namespace abut::app
   }
 
   template <int dim>
+  la::Vector BodyMotion<dim>::full_residual(const la::Vector &u) const
+  {
+    return stage_ == ABUT_TIME_STEP ? step_residual(u) : projection_residual(u);
+  }
+
+  template <int dim> la::Vector BodyMotion<dim>::explicit_acceleration() const
+  {
+    la::Vector result = step_residual(elasticity_.vector());
+    elasticity_.constraints.set_zero(result);
+    const std::vector<double> mass = la::diagonal(la::local_rows(*free_mass_));
+    for (std::size_t i = 0; i < mass.size(); ++i)
+      la::data(result)[i] = mass[i] > 0. ? -la::data(result)[i] / mass[i] : 0.;
+    return result;
+  }
+
+  template <int dim> double BodyMotion<dim>::stable_step() const
+  {
+    if (!is_explicit())
+      return std::numeric_limits<double>::infinity();
+    const std::vector<double> mass = la::diagonal(la::local_rows(*free_mass_));
+    const auto n = static_cast<std::int64_t>(mass.size());
+    const auto &owned = elasticity_.dof_handler.locally_owned_dofs();
+    const auto first =
+        n > 0 ? static_cast<std::int64_t>(owned.nth_index_in_set(0)) : 0;
+    la::Vector x = elasticity_.vector(), y = elasticity_.vector();
+    abut_time_limit limit;
+    check(abut_time_limit_begin(&limit, first, n, la::data(x)));
+    elasticity_.constraints.set_zero(x);
+    while (limit.goes_on != 0)
+    {
+      double sums[2];
+      elasticity_.stiffness.vmult(y, x);
+      check(
+          abut_time_limit_sums(n, mass.data(), la::data(x), la::data(y), sums));
+      dealii::Utilities::MPI::sum(
+          sums, elasticity_.dof_handler.get_communicator(), sums);
+      check(abut_time_limit_next(&limit, sums, n, mass.data(), la::data(y),
+                                 la::data(x)));
+    }
+    return limit.step;
+  }
+
+  template <int dim>
   void BodyMotion<dim>::residual(const la::Vector &u, la::Vector &result) const
   {
     la::Vector way(u);
     way -= base_;
-    tangent_.vmult(result, way);
+    tangent().vmult(result, way);
     result += base_residual_;
     elasticity_.constraints.set_zero(result);
   }
@@ -274,17 +399,19 @@ namespace abut::app
   void BodyMotion<dim>::end_step(const la::Vector &u,
                                  const la::Vector &on_supports)
   {
-    unbalanced_ = full_residual(u);
+    const la::Vector unknown = is_explicit() ? explicit_acceleration() : u;
+    unbalanced_ = step_residual(unknown);
+    unbalanced_ += projection_force_;
     next_reaction_ = unbalanced_;
     next_reaction_ -= without_prescribed(unbalanced_);
     next_reaction_ -= on_supports;
     elasticity_.hanging.set_zero(next_reaction_);
     next_displacement_ = displacement_;
-    next_velocity_ = velocity_;
+    next_velocity_ = step_velocity_;
     next_acceleration_ = acceleration_;
     const abut_time_state to =
         state(next_displacement_, next_velocity_, next_acceleration_);
-    check(abut_time_end(&to, la::data(u)));
+    check(abut_time_end(&to, la::data(unknown)));
     record_ = measure(next_displacement_, next_velocity_);
 
     la::Vector way(next_displacement_);

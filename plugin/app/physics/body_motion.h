@@ -37,9 +37,12 @@ namespace abut::app
     }
   };
 
-  /** The motion of bodies of linear materials by an implicit scheme of the
-   * core. Time is where the last committed step has led to; a step in work
-   * leaves that alone, so that it may be given up.
+  /** The motion of bodies of linear materials by a scheme of the core. Time is
+   * where the last committed step has led to; a step in work leaves that alone,
+   * so that it may be given up.
+   *
+   * A step is one contact problem, or first another one: the projection of
+   * where the bodies would go. Explicit schemes have no more than that one.
    *
    * Vectors are over all unknowns; prescribed ones move as supports say, and
    * the scheme makes velocities and accelerations of that. */
@@ -81,15 +84,25 @@ namespace abut::app
      * before. Collective. */
     bool begin_step(double dt, la::Vector &u);
 
-    /** The tangent of the step. */
+    /** The tangent of the problem in work. */
     const la::Matrix &tangent() const
     {
-      return tangent_;
+      return stage_ == ABUT_TIME_STEP ? tangent_ : projection_;
     }
 
     /** Its residual at the displacement @p u of the end, contact left out, 0 at
      * constrained unknowns. Collective. */
     void residual(const la::Vector &u, la::Vector &result) const;
+
+    /** The problem in work has led to @p u. Returns whether another one
+     * follows, that of the step after its projection; @p u is its start.
+     * Collective. */
+    bool next_problem(const la::Vector &u);
+
+    /** Step from which an explicit scheme may blow up; infinite for others.
+     * Where contact acts by a projection it changes nothing of that.
+     * Collective. */
+    double stable_step() const;
 
     /** The step has led to @p u. @p on_supports: what contact does at
      * prescribed unknowns. Collective. */
@@ -134,8 +147,24 @@ namespace abut::app
 
   private:
     abut_time_state state(la::Vector &u, la::Vector &v, la::Vector &a) const;
+    /** Residuals at all unknowns but hanging ones: of the projection, of the
+     * step (@p unknown: see abut_time_evaluate()), of the problem in work. */
+    la::Vector projection_residual(const la::Vector &u) const;
+    la::Vector step_residual(const la::Vector &unknown) const;
     la::Vector full_residual(const la::Vector &u) const;
     la::Vector without_prescribed(const la::Vector &values) const;
+    bool is_explicit() const
+    {
+      return settings_.scheme.beta == 0.;
+    }
+    /** Make the tangents of steps of the present length. */
+    void make_tangents();
+    /** Residuals of the problem in work are measured from @p u. */
+    void begin_problem(const la::Vector &u);
+    /** The matrix of a stage, with K and M of unknowns that are free. */
+    void make_tangent(abut_time_stage stage, la::Matrix &matrix) const;
+    /** Acceleration that forces at the end of an explicit step make. */
+    la::Vector explicit_acceleration() const;
     void set_forces_before();
     void find_acceleration();
     void mark_massless();
@@ -145,7 +174,8 @@ namespace abut::app
     Elasticity<dim> &elasticity_;
     const Settings settings_;
     std::unique_ptr<const la::Matrix> mass_, free_mass_;
-    la::Matrix tangent_;
+    la::Matrix tangent_, projection_;
+    abut_time_stage stage_ = ABUT_TIME_STEP;    ///< of the problem in work
     std::vector<la::Vector> mass_of_component_; ///< M times a unit motion
     std::vector<std::uint8_t> massless_;
     double dt_ = 0.; ///< of the tangent; 0: none
@@ -154,8 +184,10 @@ namespace abut::app
     la::Vector displacement_, velocity_, acceleration_, reaction_, load_;
     double dissipated_ = 0., work_ = 0.;
 
-    // Of the step in work.
+    // Of the step in work; its velocity is that of the commit until there is a
+    // projection.
     la::Vector base_, base_residual_;
+    la::Vector predicted_, step_velocity_, projection_force_;
     // At its end.
     la::Vector next_displacement_, next_velocity_, next_acceleration_;
     la::Vector next_reaction_, unbalanced_;

@@ -140,6 +140,12 @@ namespace abut::app
       for (unsigned int i = 0; i < m; ++i)
         for (const auto &row : parents[i])
         {
+          // Parents of a lumped mass have their parts of it, and no couplings.
+          if (data.kind == ABUT_TIME_MASS_LUMPED)
+          {
+            add(row.first, {row.first}, {row.second * of_cell(i, i)});
+            continue;
+          }
           columns.clear();
           entries.clear();
           for (unsigned int j = 0; j < m; ++j)

@@ -110,8 +110,15 @@ namespace abut::app
       return problem().tangent(u);
     }
 
-    /** The solve has led to the displacement of the run's state, which results
-     * are now asked of. */
+    /** A solve has an answer @p u. Returns whether the step has another one
+     * that goes on from there, with other residual() and tangent(). */
+    virtual bool next_solve(const la::Vector &)
+    {
+      return false;
+    }
+
+    /** All solves of the step have led to the displacement of the run's state,
+     * which results are now asked of. */
     virtual void end_solve()
     {
     }

@@ -294,6 +294,14 @@ namespace abut::app
     return true;
   }
 
+  template <int dim>
+  bool ContactRun<dim>::solve_problem(const bool has_new_tangent)
+  {
+    if (has_new_tangent && linear_solver)
+      linear_solver->reinit(model.tangent(state.u));
+    return model.has_contact() ? solve_with_contact() : solve_without_contact();
+  }
+
   template <int dim> bool ContactRun<dim>::solve()
   {
     state.present = ContactResult();
@@ -301,10 +309,9 @@ namespace abut::app
     state.present.time = state.load_steps.target();
     state.present.level = state.mesh_number;
     model.assemble();
-    if (model.begin_solve(state.u) && linear_solver)
-      linear_solver->reinit(model.tangent(state.u));
-    const bool solved =
-        model.has_contact() ? solve_with_contact() : solve_without_contact();
+    bool solved = solve_problem(model.begin_solve(state.u));
+    while (solved && model.next_solve(state.u))
+      solved = solve_problem(true);
     if (solved || model.reports_failures())
       finish_result();
     return solved;

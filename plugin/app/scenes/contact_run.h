@@ -54,6 +54,8 @@ namespace abut::app
     std::string failure_of(const NewtonResult &result) const;
     bool solve_with_contact();
     bool solve_without_contact();
+    /** One of the problems of a step. */
+    bool solve_problem(bool has_new_tangent);
     bool solve();
 
     // Meshes and load steps

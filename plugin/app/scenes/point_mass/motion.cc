@@ -87,33 +87,26 @@ namespace abut::app
     const std::size_t n = system.size();
     for (const std::size_t mass : system.candidates)
       matrix[height(mass) * (n + 1)] += plane.penalty;
-    // Power iteration on M^-1 K; masses are on the diagonal. The start has a
-    // part of every vibration.
-    std::vector<double> x(n);
+    // Masses are on the diagonal.
+    std::vector<double> mass(n), x(n), y;
     for (std::size_t i = 0; i < n; ++i)
-      x[i] = (i % 2 == 0 ? 1. : -1.) / (1. + static_cast<double>(i));
-    double square = 0;
-    for (int k = 0; k < 2000; ++k)
+      mass[i] = system.mass[i * (n + 1)];
+    const auto count = static_cast<std::int64_t>(n);
+    abut_time_limit limit;
+    shim::check(context.get(),
+                abut_time_limit_begin(&limit, 0, count, x.data()));
+    while (limit.goes_on != 0)
     {
-      std::vector<double> y = product(matrix, x);
-      double norm = 0;
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        y[i] /= system.mass[i * (n + 1)];
-        norm = std::max(norm, std::abs(y[i]));
-      }
-      double size = 0;
-      for (const double each : x)
-        size = std::max(size, std::abs(each));
-      square = norm / size;
-      if (norm == 0)
-        break;
-      for (double &each : y)
-        each /= norm;
-      x = y;
+      double sums[2];
+      y = product(matrix, x);
+      shim::check(
+          context.get(),
+          abut_time_limit_sums(count, mass.data(), x.data(), y.data(), sums));
+      shim::check(context.get(),
+                  abut_time_limit_next(&limit, sums, count, mass.data(),
+                                       y.data(), x.data()));
     }
-    return square > 0 ? 2. / std::sqrt(square)
-                      : std::numeric_limits<double>::infinity();
+    return limit.step;
   }
 
   abut_time_state Motion::state(const double dt)

@@ -50,6 +50,14 @@ namespace abut::app
   {
     functions = std::make_unique<SolidFunctions<dim>>(parameters);
     pairs = std::make_unique<SolidPairs<dim>>(parameters, run.options);
+    const abut_time_scheme &scheme = parameters.time.scheme;
+    if (motion && scheme.projects != 0 && scheme.contact_in_step != 0
+        && pairs->has_friction())
+      throw InputError("Time/Scheme",
+                       std::string(scheme.name)
+                           + " has two contact problems in a step, and a slip "
+                             "that belongs to none of them: use hht for "
+                             "friction.");
     if (!parameters.exact_displacement.empty())
       exact = std::make_unique<ExactSolution<dim>>(
           parameters.exact_displacement, "Exact solution/Displacement",
@@ -211,10 +219,15 @@ namespace abut::app
     return motion ? motion->bodies().tangent() : elasticity.tangent(u);
   }
 
+  template <int dim> bool SolidModel<dim>::next_solve(const la::Vector &u)
+  {
+    return motion && motion->next_problem(u, *pairs);
+  }
+
   template <int dim> void SolidModel<dim>::end_solve()
   {
     if (motion)
-      motion->end_step(*pairs);
+      motion->end_step();
   }
 
   template <int dim> std::string SolidModel<dim>::commit()

@@ -44,6 +44,7 @@ namespace abut::app
     void residual(const la::Vector &u, la::Vector &result) const override;
     double small_force() const override;
     const la::Matrix &tangent(const la::Vector &u) override;
+    bool next_solve(const la::Vector &u) override;
     void end_solve() override;
     std::string commit() override;
     DiscreteProblem<dim> &problem() override

@@ -59,7 +59,21 @@ namespace abut::app
     dissipated = work = 0.;
     abut_time_verdict verdict;
     judge(records.back().bodies.energy, verdict);
+    look_at_step();
     return displacement;
+  }
+
+  template <int dim> void SolidMotion<dim>::look_at_step()
+  {
+    const double limit = motion.stable_step();
+    if (!std::isfinite(limit))
+      return;
+    run.report.set("stable_time_step", limit);
+    if (parameters.time.step > limit)
+      run.report.warn(coded(ABUT_FAILURE_BLOW_UP,
+                            "the time step is above the limit of the scheme, "
+                                + short_number(limit, 4)
+                                + ": make Time/Step smaller"));
   }
 
   template <int dim> double SolidMotion<dim>::step_length() const
@@ -77,45 +91,66 @@ namespace abut::app
   {
     const bool changed = motion.begin_step(step_length(), u);
     is_new = is_new || changed;
+    const std::vector<std::vector<double>> nothing(
+        parameters.pairs.size(), std::vector<double>(dim, 0.));
+    present = {{}, nothing, nothing};
+    on_supports = elasticity.vector();
+    friction_of_step = 0.;
     return changed;
   }
 
   template <int dim>
   void SolidMotion<dim>::measure_contact(const SolidPairs<dim> &pairs)
   {
-    friction_of_step = work_of_step = 0.;
+    run.contact.add_forces_on_supports(on_supports);
     const auto obstacles = pairs.moved_obstacles();
     const auto results = run.contact.pair_results();
     for (std::size_t p = 0; p < results.size(); ++p)
     {
       friction_of_step += results[p].dissipation;
-      present.force.push_back(components(results[p].secondary_force));
-      present.place.emplace_back(dim, 0.);
+      for (unsigned int d = 0; d < dim; ++d)
+        present.force[p][d] += results[p].secondary_force[d];
       for (const auto &obstacle : obstacles)
         if (obstacle.shape == pairs.pairs()[p].obstacle)
           present.place[p] = components(obstacle.motion);
-      const Record &before = records.back();
-      for (unsigned int d = 0; d < dim; ++d)
-        work_of_step += 0.5 * (present.force[p][d] + before.force[p][d])
-                        * (present.place[p][d] - before.place[p][d]);
     }
-    present.bodies.contact_force = run.contact.contact_force();
+    const double force = run.contact.contact_force();
+    present.bodies.contact_force += force;
     // Springs of penalties; what is exact has no gap under pressure.
-    present.bodies.energy.contact =
-        0.5 * run.contact.complementarity() * present.bodies.contact_force;
+    present.bodies.energy.contact = 0.5 * run.contact.complementarity() * force;
   }
 
   template <int dim>
-  void SolidMotion<dim>::end_step(const SolidPairs<dim> &pairs)
+  bool SolidMotion<dim>::next_problem(const la::Vector &u,
+                                      const SolidPairs<dim> &pairs)
   {
-    la::Vector on_supports = elasticity.vector();
-    if (!pairs.empty())
-      run.contact.add_forces_on_supports(on_supports);
-    motion.end_step(run.u, on_supports);
-    present = {motion.record(), {}, {}};
-    present.bodies.time = run.load_steps.target();
     if (!pairs.empty())
       measure_contact(pairs);
+    const bool goes_on = motion.next_problem(u);
+    is_new = is_new || goes_on;
+    return goes_on;
+  }
+
+  template <int dim> double SolidMotion<dim>::work_of_obstacles() const
+  {
+    const Record &before = records.back();
+    double result = 0.;
+    for (std::size_t p = 0; p < present.force.size(); ++p)
+      for (unsigned int d = 0; d < dim; ++d)
+        result += 0.5 * (present.force[p][d] + before.force[p][d])
+                  * (present.place[p][d] - before.place[p][d]);
+    return result;
+  }
+
+  template <int dim> void SolidMotion<dim>::end_step()
+  {
+    motion.end_step(run.u, on_supports);
+    const MotionRecord<dim> contact = present.bodies;
+    present.bodies = motion.record();
+    present.bodies.contact_force = contact.contact_force;
+    present.bodies.energy.contact = contact.energy.contact;
+    present.bodies.time = run.load_steps.target();
+    work_of_step = work_of_obstacles();
     present.bodies.energy.dissipated += dissipated + friction_of_step;
     present.bodies.energy.external_work += work + work_of_step;
   }

@@ -54,8 +54,11 @@ namespace abut::app
       return std::exchange(is_new, false);
     }
 
-    /** The solve has led to the displacement of the run. Collective. */
-    void end_step(const SolidPairs<dim> &pairs);
+    /** A solve has led to @p u: see ContactModel::next_solve(). Collective. */
+    bool next_problem(const la::Vector &u, const SolidPairs<dim> &pairs);
+
+    /** The last one has led to the displacement of the run. Collective. */
+    void end_step();
 
     /** Accept it, and judge the balance of energies: returns why the run must
      * end, or nothing. */
@@ -113,6 +116,9 @@ namespace abut::app
   private:
     double step_length() const;
     void measure_contact(const SolidPairs<dim> &pairs);
+    double work_of_obstacles() const;
+    /** Tell the limit of an explicit scheme, and warn above it. Collective. */
+    void look_at_step();
     void judge(const abut_time_energy &energy, abut_time_verdict &verdict);
 
     const SolidParameters &parameters;
@@ -122,7 +128,8 @@ namespace abut::app
     bool is_new = false;
     double dissipated = 0., work = 0.; ///< by friction and of obstacles
     std::vector<Record> records;
-    Record present; ///< of the step that has ended
+    Record present;         ///< of the step that has ended
+    la::Vector on_supports; ///< contact of that step at prescribed unknowns
     double friction_of_step = 0., work_of_step = 0.;
     abut_time_balance balance = {};
     bool has_warned = false;

@@ -140,15 +140,18 @@ namespace abut::app
   void InertiaParameters::declare(ParameterHandler &prm)
   {
     TimeParameters::declare(
-        prm, "none|hht|trapezoid|midpoint|newmark|generalised alpha");
+        prm, "none|hht|trapezoid|midpoint|newmark|generalised alpha|contact "
+             "stabilised|central difference with projection");
     prm.enter_subsection("Time");
-    prm.declare_entry("Mass", "modified",
-                      Patterns::Selection("modified|consistent|lumped"),
+    prm.declare_entry("Mass", "auto",
+                      Patterns::Selection("auto|modified|consistent|lumped"),
                       "Where the mass of bodies sits: modified takes it from "
                       "the nodes of secondary surfaces and hands it to their "
                       "neighbours inside, so that impacts neither gain energy "
                       "nor ring; consistent is that of the elements, lumped "
-                      "its row sums at the nodes.");
+                      "its row sums at the nodes. auto: what the scheme is "
+                      "made for, which is modified, but consistent for contact "
+                      "stabilised and lumped for explicit schemes.");
     prm.declare_entry("Mass damping", "0", NumberPattern::from(0.),
                       "Rayleigh damping: forces of this number (per time) "
                       "times mass times velocity.");
@@ -168,12 +171,35 @@ namespace abut::app
     prm.leave_subsection();
     mass = word == "modified"     ? ABUT_TIME_MASS_MODIFIED
            : word == "consistent" ? ABUT_TIME_MASS_CONSISTENT
-                                  : ABUT_TIME_MASS_LUMPED;
-    if (is_on && stiffness_damping > 0. && mass == ABUT_TIME_MASS_MODIFIED)
+           : word == "lumped"     ? ABUT_TIME_MASS_LUMPED
+                                  : static_cast<abut_time_mass>(scheme.mass);
+    if (is_on)
+      check();
+  }
+
+  void InertiaParameters::check() const
+  {
+    const std::string name = scheme.name;
+    const bool is_explicit = scheme.beta == 0.;
+    if (is_explicit && mass != ABUT_TIME_MASS_LUMPED)
+      throw InputError("Time/Mass", name
+                                        + " is explicit and needs a lumped "
+                                          "mass.");
+    if (scheme.projects != 0 && mass == ABUT_TIME_MASS_MODIFIED)
+      throw InputError("Time/Mass", name
+                                        + " moves what would penetrate by its "
+                                          "mass, and needs mass where bodies "
+                                          "meet: consistent or lumped.");
+    if (stiffness_damping > 0. && mass == ABUT_TIME_MASS_MODIFIED)
       throw InputError("Time/Stiffness damping",
                        "nodes without mass have no velocity of their own that "
                        "could be damped: set Time/Mass = consistent or "
                        "lumped.");
+    if (stiffness_damping > 0. && is_explicit)
+      throw InputError("Time/Stiffness damping",
+                       name
+                           + " would need shorter steps for it: use Time/Mass "
+                             "damping, or hht.");
   }
 
   void SolidParameters::begin_motion()

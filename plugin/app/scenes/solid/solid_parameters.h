@@ -35,6 +35,10 @@ namespace abut::app
 
     static void declare(dealii::ParameterHandler &prm);
     void parse(dealii::ParameterHandler &prm);
+
+  private:
+    /** Throws InputError for what the scheme cannot do. */
+    void check() const;
   };
 
   /** All parameters of the scene `solid` but those of the methods. */
