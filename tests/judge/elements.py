@@ -5,7 +5,7 @@ import functools
 import itertools
 import math
 
-from vectors import add, invert, norm, sub
+from vectors import add, dot, invert, norm, sub
 
 
 def _basis(degree, s):
@@ -46,10 +46,21 @@ def gauss(dim, n):
                  for points in itertools.product(line, repeat=dim))
 
 
+@functools.lru_cache(maxsize=None)
+def slopes(dim, degree, point):
+    """The derivatives of all shape functions, one direction after the other."""
+    return tuple(zip(*shapes(dim, degree, point)[1]))
+
+
 def interpolate(values, nodes):
     """Sum of shape values times vectors at the nodes."""
-    return tuple(sum(v * node[d] for v, node in zip(values, nodes))
-                 for d in range(len(nodes[0])))
+    return tuple(dot(values, column) for column in zip(*nodes))
+
+
+def derivative(directions, nodes):
+    """Of an interpolated vector: a row for each component."""
+    return [[dot(slope, column) for slope in directions]
+            for column in zip(*nodes)]
 
 
 def corners(dim, degree):
@@ -89,9 +100,7 @@ def contains(dim, degree, nodes, point):
     for _ in range(20):
         values, gradients = shapes.__wrapped__(dim, degree, place)
         defect = sub(point, interpolate(values, nodes))
-        jacobian = [[sum(g[j] * node[i] for g, node in zip(gradients, nodes))
-                     for j in range(dim)] for i in range(dim)]
-        inverse, _ = invert(jacobian)
+        inverse, _ = invert(derivative(tuple(zip(*gradients)), nodes))
         if inverse is None:
             return False
         step = tuple(sum(a * b for a, b in zip(row, defect))

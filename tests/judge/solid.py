@@ -3,7 +3,8 @@
 import math
 
 from coulomb import judge_friction
-from elements import corners, gauss, interpolate, shapes
+from elements import (corners, derivative, gauss, interpolate, shapes,
+                      slopes)
 from formula import Formula, split
 from motion import MotionJudge, in_motion
 from obstacles import Obstacle
@@ -236,17 +237,13 @@ class SolidJudge:
                             limit.value * max(size, norm(mine)), limit.reason)
 
     def at(self, cell, points, place):
-        """Position, gradients of the shape functions and volume element."""
-        values, gradients = shapes(self.dim, cell.degree, place)
-        x = interpolate(values, points)
-        jacobian = [[sum(g[j] * p[i] for g, p in zip(gradients, points))
-                     for j in range(self.dim)] for i in range(self.dim)]
-        inverse, determinant = invert(jacobian)
+        """Position, inverse of the map's derivative and volume element."""
+        x = interpolate(shapes(self.dim, cell.degree, place)[0], points)
+        inverse, determinant = invert(derivative(
+            slopes(self.dim, cell.degree, place), points))
         if inverse is None:
             raise Wrong(f"a cell at {x} has no volume")
-        slopes = [tuple(sum(inverse[j][d] * g[j] for j in range(self.dim))
-                        for d in range(self.dim)) for g in gradients]
-        return x, slopes, abs(determinant)
+        return x, inverse, abs(determinant)
 
     def stored_energy(self):
         """By the judge's own integration of the displacements."""
@@ -265,9 +262,11 @@ class SolidJudge:
             values = [self.u[i] for i in cell.nodes]
             lame, mu = material[cell.body]
             for place, weight in gauss(self.dim, self.degree + 1):
-                x, slopes, dx = self.at(cell, points, place)
-                strain = [[sum(g[j] * v[i] for g, v in zip(slopes, values))
-                           for j in range(self.dim)] for i in range(self.dim)]
+                x, inverse, dx = self.at(cell, points, place)
+                columns = tuple(zip(*inverse))
+                strain = [[dot(row, column) for column in columns]
+                          for row in derivative(slopes(
+                              self.dim, cell.degree, place), values)]
                 trace = sum(strain[i][i] for i in range(self.dim))
                 square = sum((strain[i][j] + strain[j][i])**2 / 4
                              for i in range(self.dim) for j in range(self.dim))

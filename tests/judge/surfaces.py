@@ -164,8 +164,9 @@ class Tree:
                 if distance < best[0]:
                     best = (distance, y, normal, facet)
             return best
-        for part in sorted(self.parts, key=lambda p: p._least(x)):
-            if part._least(x) < best[0]:
+        for least, _, part in sorted((part._least(x), i, part) for i, part in
+                                     enumerate(self.parts)):
+            if least < best[0]:
                 best = part.nearest(x, facing, best)
         return best
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Small vectors as tuples."""
 import math
+from operator import mul, sub as minus
 
 
 def add(a, b, factor=1.):
@@ -8,7 +9,7 @@ def add(a, b, factor=1.):
 
 
 def sub(a, b):
-    return tuple(x - y for x, y in zip(a, b))
+    return tuple(map(minus, a, b))
 
 
 def scale(a, factor):
@@ -16,7 +17,7 @@ def scale(a, factor):
 
 
 def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
+    return sum(map(mul, a, b))
 
 
 def norm(a):
@@ -36,33 +37,17 @@ def cross(a, b):
             a[0] * b[1] - a[1] * b[0])
 
 
-def solve(matrix, right):
-    """A small system by elimination; None if it is singular."""
-    n = len(right)
-    rows = [list(row) + [value] for row, value in zip(matrix, right)]
-    for i in range(n):
-        pivot = max(range(i, n), key=lambda k: abs(rows[k][i]))
-        if rows[pivot][i] == 0:
-            return None
-        rows[i], rows[pivot] = rows[pivot], rows[i]
-        for k in range(n):
-            if k != i and rows[k][i] != 0:
-                factor = rows[k][i] / rows[i][i]
-                rows[k] = [a - factor * b for a, b in zip(rows[k], rows[i])]
-    return [rows[i][n] / rows[i][i] for i in range(n)]
-
-
 def invert(matrix):
-    """Inverse and determinant of a matrix of up to three rows."""
-    n = len(matrix)
-    columns = [solve(matrix, [float(i == k) for i in range(n)])
-               for k in range(n)]
-    if any(column is None for column in columns):
-        return None, 0.
-    inverse = [[columns[k][i] for k in range(n)] for i in range(n)]
-    if n == 2:
-        determinant = (matrix[0][0] * matrix[1][1]
-                       - matrix[0][1] * matrix[1][0])
+    """Inverse and determinant of a matrix of two or three rows, by cofactors."""
+    if len(matrix) == 2:
+        (a, b), (c, d) = matrix
+        determinant = a * d - b * c
+        columns = (d, -c), (-b, a)
     else:
-        determinant = dot(matrix[0], cross(matrix[1], matrix[2]))
-    return inverse, determinant
+        x, y, z = matrix
+        columns = cross(y, z), cross(z, x), cross(x, y)
+        determinant = dot(x, columns[0])
+    if determinant == 0:
+        return None, 0.
+    return [[value / determinant for value in row]
+            for row in zip(*columns)], determinant
