@@ -107,6 +107,7 @@ namespace abut
     else
       i.source_is_outdated = true;
     i.pairs = pairs;
+    i.has_pairs = true;
   }
 
   template <int dim>

@@ -211,7 +211,8 @@ namespace abut
   template <int dim> void ContactAssembler<dim>::Implementation::create_source()
   {
     surfaces = nullptr;
-    if (!pairs.empty())
+    const bool has_obstacle = obstacle.lower || obstacle.upper;
+    if (!pairs.empty() || (has_pairs && !has_obstacle))
     {
       auto made = std::make_unique<shim::SurfacePairRows<dim>>(
           *mapping, *dof_handler, *constraints, pairs,
@@ -226,7 +227,7 @@ namespace abut
     }
     else
     {
-      AssertThrow(obstacle.lower || obstacle.upper,
+      AssertThrow(has_obstacle,
                   ExcMessage("There is nothing to touch: call set_obstacle() "
                              "or set_pairs() first."));
       AssertThrow(

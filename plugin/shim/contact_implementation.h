@@ -134,6 +134,7 @@ namespace abut
     const MPI_Comm communicator;
     Obstacle<dim> obstacle;
     std::vector<ContactPair<dim>> pairs;
+    bool has_pairs = false; ///< they were given, and may be none
     bool axisymmetric = false;
     MethodParameters method;
     SearchParameters search;

@@ -32,29 +32,36 @@ namespace abut::app
                        const Displacement &displacement,
                        const dealii::Point<dim> &point) const override
     {
-      const double volume = dilation(gradient, displacement, point);
+      const double volume = this->dilation(gradient, displacement, point);
       return sum(Hooke<dim>::stress(gradient, displacement, point),
                  c * volume * volume * volume);
+    }
+
+    NominalStress<dim>
+    nominal_stress(const Gradient &gradient, const Displacement &displacement,
+                   const dealii::Point<dim> &point) const override
+    {
+      return nominal(stress(gradient, displacement, point));
     }
 
     double energy(const Gradient &gradient, const Displacement &displacement,
                   const dealii::Point<dim> &point) const override
     {
       return Hooke<dim>::energy(gradient, displacement, point)
-             + 0.25 * c * std::pow(dilation(gradient, displacement, point), 4);
+             + 0.25 * c
+                   * std::pow(this->dilation(gradient, displacement, point), 4);
     }
 
-    Stress<dim> tangent(const Gradient &gradient,
-                        const Displacement &displacement,
-                        const dealii::Point<dim> &point,
-                        const Gradient &gradient_change,
-                        const Displacement &displacement_change) const override
+    NominalStress<dim>
+    tangent(const Gradient &gradient, const Displacement &displacement,
+            const dealii::Point<dim> &point, const Gradient &gradient_change,
+            const Displacement &displacement_change) const override
     {
-      const double volume = dilation(gradient, displacement, point);
-      return sum(
+      const double volume = this->dilation(gradient, displacement, point);
+      return nominal(sum(
           Hooke<dim>::stress(gradient_change, displacement_change, point),
           3. * c * volume * volume
-              * dilation(gradient_change, displacement_change, point));
+              * this->dilation(gradient_change, displacement_change, point)));
     }
 
     dealii::Tensor<1, dim>
@@ -76,12 +83,6 @@ namespace abut::app
     }
 
   private:
-    double dilation(const Gradient &gradient, const Displacement &displacement,
-                    const dealii::Point<dim> &point) const
-    {
-      return trace(gradient) + this->hoop_strain(gradient, displacement, point);
-    }
-
     Stress<dim> sum(Stress<dim> stress, const double pressure) const
     {
       for (unsigned int d = 0; d < dim; ++d)
@@ -89,6 +90,12 @@ namespace abut::app
       if (dim == 2 && this->plane != PlaneModel::stress)
         stress.out_of_plane += pressure;
       return stress;
+    }
+
+    /** Strains are small. */
+    static NominalStress<dim> nominal(const Stress<dim> &stress)
+    {
+      return {stress.tensor, stress.out_of_plane};
     }
 
     const double c;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What is asked of a material, at a point and of bodies: Hooke's law, and a
-// nonlinear material that the program does not have.
+// What is asked of a material, at a point and of bodies: Hooke's law, those for
+// large strain, and a nonlinear material that the program does not have.
 
 #include "app/physics/elasticity.h"
+#include "app/physics/finite_strain.h"
 
 #include "expect.h"
 #include "problem.h"
@@ -22,14 +23,40 @@ namespace
   constexpr double young_modulus = 4. / 3, poisson_ratio = 1. / 3;
   constexpr double stiffening = 3;
 
+  enum class Law
+  {
+    hooke,
+    stiffening,
+    neo_hooke,
+    st_venant_kirchhoff
+  };
+
+  constexpr Law all_laws[] = {Law::hooke, Law::stiffening, Law::neo_hooke,
+                              Law::st_venant_kirchhoff};
+
+  bool is_of_large_strain(const Law law)
+  {
+    return law == Law::neo_hooke || law == Law::st_venant_kirchhoff;
+  }
+
   template <int dim>
-  std::shared_ptr<const Material<dim>> make(const bool is_linear,
+  std::shared_ptr<const Material<dim>> make(const Law law,
                                             const PlaneModel plane)
   {
-    if (is_linear)
+    switch (law)
+    {
+    case Law::hooke:
       return std::make_shared<Hooke<dim>>(young_modulus, poisson_ratio, plane);
-    return std::make_shared<Stiffening<dim>>(young_modulus, poisson_ratio,
-                                             stiffening, plane);
+    case Law::neo_hooke:
+      return std::make_shared<NeoHooke<dim>>(young_modulus, poisson_ratio,
+                                             plane);
+    case Law::st_venant_kirchhoff:
+      return std::make_shared<StVenantKirchhoff<dim>>(young_modulus,
+                                                      poisson_ratio, plane);
+    default:
+      return std::make_shared<Stiffening<dim>>(young_modulus, poisson_ratio,
+                                               stiffening, plane);
+    }
   }
 
   /** A displacement and its gradient at a point. */
@@ -67,14 +94,14 @@ namespace
   }
 
   template <int dim>
-  Stress<dim> stress(const Material<dim> &material, const State<dim> &at)
+  NominalStress<dim> stress(const Material<dim> &material, const State<dim> &at)
   {
-    return material.stress(at.gradient, at.value, at.point);
+    return material.nominal_stress(at.gradient, at.value, at.point);
   }
 
   template <int dim>
-  Stress<dim> tangent(const Material<dim> &material, const State<dim> &at,
-                      const State<dim> &change)
+  NominalStress<dim> tangent(const Material<dim> &material,
+                             const State<dim> &at, const State<dim> &change)
   {
     return material.tangent(at.gradient, at.value, at.point, change.gradient,
                             change.value);
@@ -82,7 +109,7 @@ namespace
 
   /** Power of a stress. */
   template <int dim>
-  double power(const Material<dim> &material, const Stress<dim> &stress,
+  double power(const Material<dim> &material, const NominalStress<dim> &stress,
                const State<dim> &rate)
   {
     double sum = stress.out_of_plane
@@ -117,7 +144,7 @@ namespace
    * lambda is 2 mu lambda / (lambda + 2 mu) = 1/2. */
   template <int dim> void energy_by_hand(const PlaneModel plane)
   {
-    const auto hooke = make<dim>(true, plane);
+    const auto hooke = make<dim>(Law::hooke, plane);
     const auto at = some_state<dim>(1., 3.);
     const double hoop = dim == 2 && plane == PlaneModel::axisymmetric
                             ? at.value[0] / at.point[0]
@@ -160,11 +187,13 @@ namespace
       hessian[i][0][i] += 0.2;
       hessian[i][i][0] += 0.2;
     }
-    for (const bool is_linear : {true, false})
+    for (const Law law : all_laws)
     {
-      const auto material = make<dim>(is_linear, plane);
+      if (is_of_large_strain(law) && plane == PlaneModel::stress)
+        continue;
+      const auto material = make<dim>(law, plane);
       const State<dim> here = state(at);
-      const Stress<dim> s = stress(*material, here);
+      const NominalStress<dim> s = stress(*material, here);
       Tensor<1, dim> expected;
       for (unsigned int j = 0; j < dim; ++j)
       {
@@ -208,7 +237,7 @@ namespace
     points.reinit(mesh.begin_active());
     const unsigned int n = fe.n_dofs_per_cell();
     dealii::FullMatrix<double> own(n, n), general(n, n);
-    const auto material = make<dim>(true, plane);
+    const auto material = make<dim>(Law::hooke, plane);
     material->cell_tangent(points, fe, CellState<dim>(), own);
     material->Material<dim>::cell_tangent(points, fe, CellState<dim>(),
                                           general);
@@ -267,14 +296,14 @@ namespace
   /** The residual is the derivative of the energy and the tangent that of the
    * residual, at a displacement that is no solution. */
   template <int dim>
-  void bodies(const PlaneModel plane, const unsigned int degree,
-              const bool is_linear, const bool other_is_linear)
+  void bodies(const PlaneModel plane, const unsigned int degree, const Law law,
+              const Law other)
   {
-    Bodies<dim> two({{0, make<dim>(is_linear, plane)},
-                     {1, make<dim>(other_is_linear, plane)}},
+    Bodies<dim> two({{0, make<dim>(law, plane)}, {1, make<dim>(other, plane)}},
                     degree);
     Elasticity<dim> &problem = two.problem;
-    Expect::that(problem.is_linear() == (is_linear && other_is_linear),
+    Expect::that(problem.is_linear()
+                     == (law == Law::hooke && other == Law::hooke),
                  "linear if both are");
     const double h = 1e-4;
     la::Vector u = two.some(0.005, 1.);
@@ -303,7 +332,7 @@ namespace
 
   /** A strain of 0.2 along x and none across, held on all sides: its energy
    * and the force on x = 1, by hand. */
-  template <int dim> void stretched(const bool is_linear)
+  template <int dim> void stretched(const Law law)
   {
     Problem<dim> mesh(1, dim);
     unit_cube(mesh, 1);
@@ -312,7 +341,7 @@ namespace
     const Expression<dim> value(dim == 2 ? "0.2*x; 0" : "0.2*x; 0; 0", "s",
                                 dim);
     ElasticData<dim> data;
-    data.materials[0] = make<dim>(is_linear, PlaneModel::strain);
+    data.materials[0] = make<dim>(law, PlaneModel::strain);
     for (const auto id : all_sides<dim>())
       data.supports[id] = {&value, dealii::ComponentMask(dim, true)};
     data.name = [](dealii::types::boundary_id) { return "a side"; };
@@ -322,7 +351,7 @@ namespace
     la::Vector u = problem.vector(), residual = problem.vector();
     dealii::VectorTools::interpolate(problem.mapping, problem.dof_handler,
                                      value, u);
-    const double c = is_linear ? 0 : stiffening;
+    const double c = law == Law::hooke ? 0 : stiffening;
     const double energy = (lambda + 2 * mu) / 2 * e * e + c / 4 * e * e * e * e;
     const double force = (lambda + 2 * mu) * e + c * e * e * e;
     Expect::near(problem.energy(u), energy, 1e-14, "energy of a stretch");
@@ -340,19 +369,97 @@ namespace
                  "force on a side");
   }
 
+  /** A state whose F is a rotation, and one stretched by the given factors
+   * before it. */
+  template <int dim>
+  State<dim> turned(const double angle, const Tensor<1, dim> &stretch)
+  {
+    Tensor<2, dim> turn, along;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      turn[d][d] = d < 2 ? std::cos(angle) : 1.;
+      along[d][d] = stretch[d];
+    }
+    turn[1][0] = std::sin(angle);
+    turn[0][1] = -std::sin(angle);
+    State<dim> result;
+    result.gradient = turn * along;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      result.gradient[d][d] -= 1.;
+      result.point[d] = 1.;
+    }
+    return result;
+  }
+
+  /** Free sides under a stretch of 0.8 along the last axis, turned: stresses of
+   * the roots of the scalar equations (E = 1, nu = 0.3). */
+  template <int dim>
+  void compressed(const double side, const double nominal, const double cauchy)
+  {
+    const NeoHooke<dim> material(1., 0.3, PlaneModel::strain);
+    Tensor<1, dim> stretch;
+    for (unsigned int d = 0; d < dim; ++d)
+      stretch[d] = d + 1 < dim ? side : 0.8;
+    const auto upright = turned<dim>(0., stretch);
+    const NominalStress<dim> p = stress(material, upright);
+    Expect::near(p.tensor[dim - 1][dim - 1], nominal, 1e-14, "nominal stress");
+    Expect::near(p.tensor[0][0], 0., 1e-14, "free side");
+    const Stress<dim> s =
+        material.stress(upright.gradient, upright.value, upright.point);
+    Expect::near(s.tensor[dim - 1][dim - 1], cauchy, 1e-14, "Cauchy's stress");
+    const double angle = 1.1;
+    const auto at = turned<dim>(angle, stretch);
+    const Stress<dim> turned_stress =
+        material.stress(at.gradient, at.value, at.point);
+    Expect::near(turned_stress.von_mises(), s.von_mises(), 1e-14,
+                 "von Mises' stress after a turn");
+    if (dim == 2)
+      Expect::near(turned_stress.tensor[0][0],
+                   std::sin(angle) * std::sin(angle) * cauchy, 1e-14,
+                   "stress that turns with the body");
+  }
+
+  /** No stress in what has only turned, nan in what is turned inside out. */
+  template <int dim> void large_strain(const Law law)
+  {
+    const auto material = make<dim>(law, PlaneModel::strain);
+    Tensor<1, dim> one;
+    for (unsigned int d = 0; d < dim; ++d)
+      one[d] = 1.;
+    const auto at = turned<dim>(2.5, one);
+    Expect::near(stress(*material, at).tensor.norm(), 0., 1e-14,
+                 "stress of a turn");
+    Expect::near(energy(*material, at), 0., 1e-14, "energy of a turn");
+    one[0] = -0.1;
+    const auto inside_out = turned<dim>(0., one);
+    Expect::that(std::isnan(stress(*material, inside_out).tensor[0][0])
+                     && std::isnan(energy(*material, inside_out)),
+                 "no stress of what is inside out");
+    const auto hooke = make<dim>(Law::hooke, PlaneModel::strain);
+    const State<dim> none{Tensor<2, dim>(), Tensor<1, dim>(), at.point};
+    const auto along = some_state<dim>(1., 2.), other = some_state<dim>(1., 5.);
+    Expect::near(power(*material, tangent(*material, none, along), other),
+                 power(*hooke, tangent(*hooke, none, along), other), 1e-14,
+                 "Hooke's law of small strain");
+  }
+
   template <int dim> void all(const PlaneModel plane)
   {
-    derivatives(*make<dim>(true, plane));
-    derivatives(*make<dim>(false, plane));
     energy_by_hand<dim>(plane);
     divergence<dim>(plane);
+    for (const Law law : all_laws)
+      if (!is_of_large_strain(law) || plane != PlaneModel::stress)
+        derivatives(*make<dim>(law, plane));
     for (const unsigned int degree : {1U, 2U})
     {
       cell_tangent<dim>(plane, degree);
-      bodies<dim>(plane, degree, true, true);
-      bodies<dim>(plane, degree, false, true);
+      bodies<dim>(plane, degree, Law::hooke, Law::hooke);
+      bodies<dim>(plane, degree, Law::stiffening, Law::hooke);
     }
-    bodies<dim>(plane, 1, false, false);
+    bodies<dim>(plane, 1, Law::stiffening, Law::stiffening);
+    if (plane != PlaneModel::stress)
+      bodies<dim>(plane, 1, Law::neo_hooke, Law::st_venant_kirchhoff);
   }
 } // namespace
 
@@ -367,10 +474,17 @@ main(int argc, char **argv)
              {PlaneModel::strain, PlaneModel::stress, PlaneModel::axisymmetric})
           all<2>(plane);
         all<3>(PlaneModel::strain);
-        for (const bool is_linear : {true, false})
+        for (const Law law : {Law::hooke, Law::stiffening})
         {
-          stretched<2>(is_linear);
-          stretched<3>(is_linear);
+          stretched<2>(law);
+          stretched<3>(law);
         }
+        for (const Law law : {Law::neo_hooke, Law::st_venant_kirchhoff})
+        {
+          large_strain<2>(law);
+          large_strain<3>(law);
+        }
+        compressed<2>(1.094876055993743, -.268631527879045, -.245353367998561);
+        compressed<3>(1.067338369278968, -.240005381988023, -.210676811410696);
       });
 }

@@ -451,6 +451,9 @@ namespace abut
       }
       u = trial_;
       estimate(scales, part);
+      if (events_.moved)
+        events_.moved({result_.n_steps, part, scales.before, result_.residual,
+                       result_.error});
       return true;
     }
 

@@ -54,6 +54,17 @@ namespace abut
     end     /**< return */
   };
 
+  /** A step of Newton's method that was taken. */
+  struct NewtonStep
+  {
+    unsigned int number = 0; ///< of the linearisation, from 1
+    double part = 1.;        ///< of the way to the linearisation's solution
+    /** Norm of the forces that are not balanced, before and after it; the
+     * former in the linear model, with the contact forces of its solution. */
+    double before = 0., residual = 0.;
+    double error = 0.; ///< as in NewtonResult
+  };
+
   /** What a program may see of ContactSolver at work, and have a say in. All
    * may be empty; all are called on all ranks, and may throw there. */
   struct SolverEvents
@@ -65,6 +76,9 @@ namespace abut
      * has had its update(). */
     std::function<void(const LinearReport &cost, const la::Vector &increment)>
         stepped;
+
+    /** A step of a nonlinear problem was taken. */
+    std::function<void(const NewtonStep &step)> moved;
 
     /** Look at a converged answer: a text that is not empty says why it must
      * not be used. @p search counts calls of detect() so far, from 1. */

@@ -43,9 +43,9 @@ namespace abut
     double smallest_step = 1e-3;
   };
 
-  /** Chooses the length of load steps: those asked for, halved when one fails,
-   * and doubled again up to these after two good ones. All ranks must call the
-   * same functions. */
+  /** Chooses the length of load steps: those asked for, halved when one fails
+   * or was hard to solve, and doubled again up to these after two good ones.
+   * All ranks must call the same functions. */
   class LoadSteps
   {
   public:
@@ -76,11 +76,20 @@ namespace abut
       return reached_;
     }
 
-    /** The step to target() succeeded. */
-    void accept()
+    /** The step to target() succeeded.
+     * @param was_hard with so much work that the next one should be shorter; it
+     * will not be shorter than allowed */
+    void accept(const bool was_hard = false)
     {
       reached_ = target();
       ++n_accepted_;
+      if (was_hard)
+      {
+        n_good_ = 0;
+        if (options_.cut_back && 0.5 * length_ >= shortest_length())
+          length_ *= 0.5;
+        return;
+      }
       ++n_good_;
       if (n_good_ == 2 && length_ < full_length())
       {
@@ -98,10 +107,7 @@ namespace abut
       ++n_rejected_;
       n_good_ = 0;
       length_ *= 0.5;
-      return options_.cut_back
-             // With a smallest step of 0 there would be no end.
-             && length_ >= std::max(options_.smallest_step, 1e-12)
-                               * options_.end_time;
+      return options_.cut_back && length_ >= shortest_length();
     }
 
     /** Number of steps that succeeded. */
@@ -123,6 +129,12 @@ namespace abut
     }
 
   private:
+    /** With a smallest step of 0 there would be no end. */
+    double shortest_length() const
+    {
+      return std::max(options_.smallest_step, 1e-12) * options_.end_time;
+    }
+
     double full_length() const
     {
       return options_.end_time / options_.steps;

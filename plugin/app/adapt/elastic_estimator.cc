@@ -66,11 +66,11 @@ namespace abut::app
         points[displacement].get_function_values(input.solution, values);
         points[displacement].get_function_gradients(input.solution, gradients);
         for (unsigned int q = 0; q < flux.size(); ++q)
-          flux[q] =
-              material
-                  .stress(gradients[q], values[q], points.quadrature_point(q))
-                  .tensor
-              * points.normal_vector(q);
+          flux[q] = material
+                        .nominal_stress(gradients[q], values[q],
+                                        points.quadrature_point(q))
+                        .tensor
+                    * points.normal_vector(q);
         std::fill(stiffness.begin(), stiffness.end(), material.stiffness());
       }
 

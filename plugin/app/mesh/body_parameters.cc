@@ -18,9 +18,18 @@ namespace abut::app
     prm.declare_entry("Refinements", "0", Patterns::Integer(0, 30),
                       "Uniform refinements of this body before those of "
                       "`Refinement/Level`.");
+    prm.declare_entry(
+        "Material", "hooke",
+        Patterns::Selection("hooke|neo-hooke|st venant-kirchhoff"),
+        "What stress follows from: hooke is for small strain; neo-hooke and st "
+        "venant-kirchhoff (Hooke's law in large rotations, for compressions of "
+        "up to a fifth) are for large displacements, with loads per area and "
+        "volume of the undeformed body. All bodies of a scene are of small "
+        "strain or none is.");
     prm.declare_entry("Young modulus", "1",
                       NumberPattern::between(1. / largest_value, largest_value),
-                      "E, force per area.");
+                      "E, force per area; of large strain that at its "
+                      "beginning, as nu.");
     prm.declare_entry("Poisson ratio", "0.3",
                       NumberPattern({nullptr, -1., 0.5, true, true}),
                       "nu. At 0.5 the material would be incompressible, which "
@@ -39,7 +48,8 @@ namespace abut::app
                       "`Support`, without the word free.");
     prm.declare_entry("Pressure", "", Patterns::Anything(),
                       "Pressure on the boundary by id, `1: 5*t`, positive "
-                      "into the body. Adds to `Traction`.");
+                      "into the body. Adds to `Traction`. It acts along the "
+                      "normals of the undeformed body.");
     prm.declare_entry("Body force", "", Patterns::Anything(),
                       "Force per volume: a formula for each component, "
                       "separated by commas. Adds to the weight.");
@@ -60,6 +70,10 @@ namespace abut::app
     mesh.parse(prm, section + "/Mesh");
     prm.leave_subsection();
     refinements = prm.get_integer("Refinements");
+    const std::string word = prm.get("Material");
+    law = word == "hooke"       ? MaterialLaw::hooke
+          : word == "neo-hooke" ? MaterialLaw::neo_hooke
+                                : MaterialLaw::st_venant_kirchhoff;
     young_modulus = prm.get_double("Young modulus");
     poisson_ratio = prm.get_double("Poisson ratio");
     density = prm.get_double("Density");

@@ -10,12 +10,21 @@
 
 namespace abut::app
 {
+  /** Laws of elastic bodies. */
+  enum class MaterialLaw
+  {
+    hooke,              /**< small strain */
+    neo_hooke,          /**< large strain */
+    st_venant_kirchhoff /**< Hooke's law in large rotations */
+  };
+
   /** A section `Body N` of a scene: shape, material, supports and loads. */
   struct BodyParameters
   {
     std::string section; ///< "Body 1"
     MeshParameters mesh;
     unsigned int refinements = 0;
+    MaterialLaw law = MaterialLaw::hooke;
     double young_modulus = 1.;
     double poisson_ratio = 0.3;
     double density = 0.;

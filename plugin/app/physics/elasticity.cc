@@ -160,6 +160,8 @@ namespace abut::app
     if (!is_linear())
     {
       assemble_tangent(this->vector());
+      undeformed.reinit(this->stiffness);
+      undeformed.copy_from(this->stiffness);
       return;
     }
     this->stiffness = 0.;
@@ -178,7 +180,7 @@ namespace abut::app
   {
     this->stiffness = 0.;
     dealii::FullMatrix<double> tangent(this->fe.n_dofs_per_cell());
-    for_each_state(*this, this->ghosted(u),
+    for_each_state(*this, this->ghosted_field(u),
                    [&](const auto &cell, const auto &points, const auto &state,
                        const auto &dofs)
                    {
@@ -352,9 +354,9 @@ namespace abut::app
   la::Vector Elasticity<dim>::internal_forces(
       const la::Vector &u, const dealii::AffineConstraints<double> &rules) const
   {
-    const la::Vector ghosted = this->ghosted(u);
     if (is_linear())
-      return linear_forces(ghosted, rules);
+      return linear_forces(this->ghosted(u), rules);
+    const la::Vector ghosted = this->ghosted_field(u);
     la::Vector open = this->open_load();
     dealii::Vector<double> force(this->fe.n_dofs_per_cell());
     for_each_state(*this, ghosted,
@@ -413,7 +415,7 @@ namespace abut::app
   double Elasticity<dim>::stored_energy(const la::Vector &u) const
   {
     double energy = 0.;
-    for_each_state(*this, this->ghosted(u),
+    for_each_state(*this, this->ghosted_field(u),
                    [&](const auto &cell, const auto &points, const auto &state,
                        const auto &)
                    {

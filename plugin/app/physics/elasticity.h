@@ -56,6 +56,14 @@ namespace abut::app
      * Collective. */
     void assemble_stiffness();
 
+    /** That tangent, whatever was asked of tangent() since. */
+    const la::Matrix &undeformed_stiffness() const
+    {
+      return is_linear() ? this->stiffness : undeformed;
+    }
+
+    /** Of linear materials for @p u with the prescribed values of the present
+     * time, of others for @p u as it is: these may be on their way. */
     void residual(const la::Vector &u, la::Vector &result) const override;
     const la::Matrix &tangent(const la::Vector &u) override;
 
@@ -112,6 +120,7 @@ namespace abut::app
     double stored_energy(const la::Vector &u) const;
     void assemble_tangent(const la::Vector &u);
 
+    la::Matrix undeformed; ///< of nonlinear materials
     std::unique_ptr<Materials<dim>> materials;
     std::unique_ptr<StiffnessCache<dim>> cache;
   };

@@ -158,7 +158,11 @@ namespace abut::app
           u[c] = value[c][q];
           du[c] = gradient[c][q];
         }
-        return 2. * material.energy(du, u, point);
+        // Of the undeformed body, where that depends on the displacement.
+        const NominalStress<dim> change =
+            material.tangent({}, {}, point, du, u);
+        return scalar_product(change.tensor, du)
+               + change.out_of_plane * material.hoop_strain(du, u, point);
       }
 
     private:

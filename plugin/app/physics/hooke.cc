@@ -55,14 +55,25 @@ namespace abut::app
   }
 
   template <int dim>
-  Stress<dim>
+  NominalStress<dim>
+  Hooke<dim>::nominal_stress(const dealii::Tensor<2, dim> &gradient,
+                             const dealii::Tensor<1, dim> &displacement,
+                             const dealii::Point<dim> &point) const
+  {
+    const Stress<dim> s = Hooke<dim>::stress(gradient, displacement, point);
+    return {s.tensor, s.out_of_plane};
+  }
+
+  template <int dim>
+  NominalStress<dim>
   Hooke<dim>::tangent(const dealii::Tensor<2, dim> &,
                       const dealii::Tensor<1, dim> &,
                       const dealii::Point<dim> &point,
                       const dealii::Tensor<2, dim> &gradient_change,
                       const dealii::Tensor<1, dim> &displacement_change) const
   {
-    return Hooke<dim>::stress(gradient_change, displacement_change, point);
+    return Hooke<dim>::nominal_stress(gradient_change, displacement_change,
+                                      point);
   }
 
   template <int dim>

@@ -24,11 +24,16 @@ namespace abut::app
                        const dealii::Tensor<1, dim> &displacement,
                        const dealii::Point<dim> &point) const override;
 
+    NominalStress<dim>
+    nominal_stress(const dealii::Tensor<2, dim> &gradient,
+                   const dealii::Tensor<1, dim> &displacement,
+                   const dealii::Point<dim> &point) const override;
+
     double energy(const dealii::Tensor<2, dim> &gradient,
                   const dealii::Tensor<1, dim> &displacement,
                   const dealii::Point<dim> &point) const override;
 
-    Stress<dim>
+    NominalStress<dim>
     tangent(const dealii::Tensor<2, dim> &gradient,
             const dealii::Tensor<1, dim> &displacement,
             const dealii::Point<dim> &point,

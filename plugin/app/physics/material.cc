@@ -37,6 +37,14 @@ namespace abut::app
   }
 
   template <int dim>
+  double Material<dim>::dilation(const dealii::Tensor<2, dim> &gradient,
+                                 const dealii::Tensor<1, dim> &displacement,
+                                 const dealii::Point<dim> &point) const
+  {
+    return trace(gradient) + hoop_strain(gradient, displacement, point);
+  }
+
+  template <int dim>
   dealii::Tensor<1, dim>
   Material<dim>::stress_divergence(const dealii::Tensor<3, dim> &hessian,
                                    const dealii::Tensor<2, dim> &gradient,
@@ -55,7 +63,7 @@ namespace abut::app
       dealii::Tensor<1, dim> radial;
       if (is_axisymmetric())
         radial[0] = gradient[0][j] - (j == 0 ? hoop : 0.);
-      const Stress<dim> change =
+      const NominalStress<dim> change =
           tangent(gradient, displacement, point, along, radial);
       for (unsigned int i = 0; i < dim; ++i)
         result[i] += change.tensor[i][j];
@@ -63,9 +71,54 @@ namespace abut::app
     if (is_axisymmetric())
     {
       // What the turning base vectors add.
-      const Stress<dim> s = stress(gradient, displacement, point);
+      const NominalStress<dim> s =
+          nominal_stress(gradient, displacement, point);
       result[0] += (s.tensor[0][0] - s.out_of_plane) / point[0];
-      result[1] += s.tensor[0][1] / point[0];
+      result[1] += s.tensor[1][0] / point[0];
+    }
+    return result;
+  }
+
+  template <int dim>
+  NominalStress<dim>
+  Material<dim>::Moduli::change(const unsigned int component,
+                                const dealii::Tensor<1, dim> &shape_gradient,
+                                const double shape_value) const
+  {
+    NominalStress<dim> result;
+    const auto add = [&](const double factor, const NominalStress<dim> &part)
+    {
+      result.tensor += factor * part.tensor;
+      result.out_of_plane += factor * part.out_of_plane;
+    };
+    for (unsigned int d = 0; d < dim; ++d)
+      add(shape_gradient[d], of_gradient[component][d]);
+    if (component == 0 && has_radius)
+      add(shape_value, of_radius);
+    return result;
+  }
+
+  template <int dim>
+  typename Material<dim>::Moduli
+  Material<dim>::moduli(const dealii::Tensor<2, dim> &gradient,
+                        const dealii::Tensor<1, dim> &displacement,
+                        const dealii::Point<dim> &point) const
+  {
+    Moduli result;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+      {
+        dealii::Tensor<2, dim> one;
+        one[i][j] = 1.;
+        result.of_gradient[i][j] =
+            tangent(gradient, displacement, point, one, {});
+      }
+    result.has_radius = is_axisymmetric();
+    if (result.has_radius)
+    {
+      dealii::Tensor<1, dim> one;
+      one[0] = 1.;
+      result.of_radius = tangent(gradient, displacement, point, {}, one);
     }
     return result;
   }
@@ -89,14 +142,12 @@ namespace abut::app
         u = state.value[q];
         du = state.gradient[q];
       }
+      const Moduli moduli = this->moduli(du, u, x);
       for (unsigned int column = 0; column < fe.n_dofs_per_cell(); ++column)
       {
         const auto [component, node] = fe.system_to_component_index(column);
-        dealii::Tensor<1, dim> shape;
-        dealii::Tensor<2, dim> gradient;
-        shape[component] = values.shape_value(node, q);
-        gradient[component] = values.shape_grad(node, q);
-        const Stress<dim> change = tangent(du, u, x, gradient, shape);
+        const NominalStress<dim> change = moduli.change(
+            component, values.shape_grad(node, q), values.shape_value(node, q));
         for (unsigned int i = 0; i < n_nodes; ++i)
         {
           const auto force = nodal_force(values, change, i, q);
@@ -109,10 +160,9 @@ namespace abut::app
   }
 
   template <int dim>
-  dealii::Tensor<1, dim>
-  Material<dim>::nodal_force(const dealii::FEValues<dim> &values,
-                             const Stress<dim> &stress, const unsigned int node,
-                             const unsigned int q) const
+  dealii::Tensor<1, dim> Material<dim>::nodal_force(
+      const dealii::FEValues<dim> &values, const NominalStress<dim> &stress,
+      const unsigned int node, const unsigned int q) const
   {
     dealii::Tensor<1, dim> force = stress.tensor * values.shape_grad(node, q);
     if (is_axisymmetric())
@@ -133,7 +183,8 @@ namespace abut::app
     {
       const dealii::Point<dim> &x = values.quadrature_point(q);
       const double weight = values.JxW(q) * measure(x);
-      const Stress<dim> s = stress(state.gradient[q], state.value[q], x);
+      const NominalStress<dim> s =
+          nominal_stress(state.gradient[q], state.value[q], x);
       for (unsigned int i = 0; i < n_nodes; ++i)
       {
         const auto force = nodal_force(values, s, i, q);

@@ -15,6 +15,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <vector>
@@ -30,7 +31,8 @@ namespace abut::app
     axisymmetric /**< hoop strain u_x / x */
   };
 
-  /** Stress at a point, positive in tension. */
+  /** Stress at a point, positive in tension: force per area of the deformed
+   * body (Cauchy's), where that differs. */
   template <int dim> struct Stress
   {
     dealii::SymmetricTensor<2, dim> tensor;
@@ -39,6 +41,15 @@ namespace abut::app
 
     /** sqrt(3/2 s:s) with the deviator s of all three directions. */
     double von_mises() const;
+  };
+
+  /** Force per area of the undeformed body: tensor[i][j] is component i of the
+   * force on an area that had its normal along j (first Piola and Kirchhoff).
+   * Of small strain the same as Stress. */
+  template <int dim> struct NominalStress
+  {
+    dealii::Tensor<2, dim> tensor;
+    double out_of_plane = 0.; ///< as in Stress
   };
 
   /** The displacement at the quadrature points of a cell. */
@@ -51,7 +62,9 @@ namespace abut::app
   /** A material. All that the program knows of stress and stiffness goes
    * through these functions. The state at a point is the gradient[i][j] =
    * du_i/dx_j of the displacement, and for axisymmetric bodies its value and
-   * the point, too. */
+   * the point, too; x is where the point is in the undeformed body. What is not
+   * a state of any body, as one turned inside out, has stress and energy nan.
+   */
   template <int dim> class Material
   {
   public:
@@ -71,21 +84,28 @@ namespace abut::app
                                const dealii::Tensor<1, dim> &displacement,
                                const dealii::Point<dim> &point) const = 0;
 
-    /** Stored energy per volume. */
+    /** The same by undeformed area: the derivative of energy() by the
+     * gradient. */
+    virtual NominalStress<dim>
+    nominal_stress(const dealii::Tensor<2, dim> &gradient,
+                   const dealii::Tensor<1, dim> &displacement,
+                   const dealii::Point<dim> &point) const = 0;
+
+    /** Stored energy per undeformed volume. */
     virtual double energy(const dealii::Tensor<2, dim> &gradient,
                           const dealii::Tensor<1, dim> &displacement,
                           const dealii::Point<dim> &point) const = 0;
 
-    /** Change of the stress of a state per change of its gradient and
+    /** Change of the nominal stress of a state per change of its gradient and
      * displacement. */
-    virtual Stress<dim>
+    virtual NominalStress<dim>
     tangent(const dealii::Tensor<2, dim> &gradient,
             const dealii::Tensor<1, dim> &displacement,
             const dealii::Point<dim> &point,
             const dealii::Tensor<2, dim> &gradient_change,
             const dealii::Tensor<1, dim> &displacement_change) const = 0;
 
-    /** Divergence of the stress, a force per volume; hessian[i][j][k] =
+    /** Divergence of the nominal stress, a force per volume; hessian[i][j][k] =
      * d^2 u_i / dx_j dx_k. Not on the axis of an axisymmetric body. From
      * tangent(), where a material knows no faster way. */
     virtual dealii::Tensor<1, dim>
@@ -104,7 +124,7 @@ namespace abut::app
                               const CellState<dim> &state,
                               dealii::FullMatrix<double> &result) const;
 
-    /** Internal forces of a cell, int stress : strain(phi); arguments as
+    /** Internal forces of a cell, int nominal stress : grad phi; arguments as
      * above. */
     void cell_forces(const dealii::FEValues<dim> &values,
                      const dealii::FiniteElement<dim> &fe,
@@ -120,6 +140,19 @@ namespace abut::app
 
     /** Of small strain, -1 < nu < 1/2. */
     virtual double poisson_ratio() const = 0;
+
+    /** Relative change of volume, or its logarithm: what dilation_stiffness()
+     * goes with. */
+    virtual double dilation(const dealii::Tensor<2, dim> &gradient,
+                            const dealii::Tensor<1, dim> &displacement,
+                            const dealii::Point<dim> &point) const;
+
+    /** Least length of a line as a part of its undeformed one down to which the
+     * material may be used; 0: all. */
+    virtual double least_stretch() const
+    {
+      return 0.;
+    }
 
     /** Whether volumes are those of rings. */
     bool is_axisymmetric() const
@@ -140,9 +173,27 @@ namespace abut::app
     const PlaneModel plane;
 
   private:
+    /** Changes of the nominal stress at a point by each entry of the gradient,
+     * and by the radial displacement of axisymmetric bodies. */
+    struct Moduli
+    {
+      /** By the change that a shape function of one component makes. */
+      NominalStress<dim> change(unsigned int component,
+                                const dealii::Tensor<1, dim> &shape_gradient,
+                                double shape_value) const;
+
+      std::array<std::array<NominalStress<dim>, dim>, dim> of_gradient;
+      NominalStress<dim> of_radius;
+      bool has_radius = false;
+    };
+
+    Moduli moduli(const dealii::Tensor<2, dim> &gradient,
+                  const dealii::Tensor<1, dim> &displacement,
+                  const dealii::Point<dim> &point) const;
+
     /** What a stress at point @p q does to a node, per volume. */
     dealii::Tensor<1, dim> nodal_force(const dealii::FEValues<dim> &values,
-                                       const Stress<dim> &stress,
+                                       const NominalStress<dim> &stress,
                                        unsigned int node, unsigned int q) const;
   };
 

@@ -26,9 +26,7 @@ namespace abut::app
       {
         const dealii::Point<dim> &x = points.quadrature_point(q);
         const double weight = points.JxW(q) * material.measure(x);
-        double dilation = trace(gradient[q]);
-        if (material.is_axisymmetric())
-          dilation += u[q][0] / x[0];
+        const double dilation = material.dilation(gradient[q], u[q], x);
         volume += weight;
         first += weight * dilation;
         second += weight * dilation * dilation;

@@ -2,6 +2,7 @@
 #include "step_table.h"
 
 #include "app/input/collective.h"
+#include "app/input/short_number.h"
 #include "app/restart/disk.h"
 
 #include <deal.II/base/mpi.h>
@@ -16,7 +17,11 @@ namespace abut::app
     const std::vector<std::string> columns = {
         "level",  "step",    "n_active", "n_changes",   "linear_iterations",
         "setups", "penalty", "barrier",  "penetration", "outer"};
-  }
+
+    const std::vector<std::string> newton_columns = {
+        "load_step", "level",    "linearisation", "part",
+        "before",    "residual", "error"};
+  } // namespace
 
   void StepTable::add(Report &report, const unsigned int level,
                       const unsigned int step, const abut_progress &progress,
@@ -33,6 +38,37 @@ namespace abut::app
                     + " linear iterations");
   }
 
+  void StepTable::add(Report &report, const unsigned int load_step,
+                      const unsigned int level, const NewtonStep &step)
+  {
+    newton.push_back({double(load_step), double(level), double(step.number),
+                      step.part, step.before, step.residual, step.error});
+    report.progress(
+        "  linearisation " + std::to_string(step.number)
+        + ": forces out of balance " + short_number(step.before, 3) + " -> "
+        + short_number(step.residual, 3)
+        + (step.part < 1. ? " by " + short_number(step.part, 3) + " of the step"
+                          : std::string())
+        + ", error " + short_number(step.error, 2));
+  }
+
+  void StepTable::write(const std::filesystem::path &file,
+                        const std::vector<std::string> &columns,
+                        const Rows &rows)
+  {
+    std::ostringstream out;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      out << (i > 0 ? "," : "") << columns[i];
+    out << '\n' << std::setprecision(17);
+    for (const auto &row : rows)
+    {
+      for (std::size_t i = 0; i < row.size(); ++i)
+        out << (i > 0 ? "," : "") << row[i];
+      out << '\n';
+    }
+    replace_on_disk(file, out.str());
+  }
+
   void StepTable::write(const MPI_Comm communicator,
                         const std::filesystem::path &folder) const
   {
@@ -42,17 +78,9 @@ namespace abut::app
                  if (dealii::Utilities::MPI::this_mpi_process(communicator)
                      != 0)
                    return;
-                 std::ostringstream out;
-                 for (std::size_t i = 0; i < columns.size(); ++i)
-                   out << (i > 0 ? "," : "") << columns[i];
-                 out << '\n' << std::setprecision(17);
-                 for (const auto &row : rows)
-                 {
-                   for (std::size_t i = 0; i < row.size(); ++i)
-                     out << (i > 0 ? "," : "") << row[i];
-                   out << '\n';
-                 }
-                 replace_on_disk(folder / "steps.csv", out.str());
+                 write(folder / "steps.csv", columns, rows);
+                 if (!newton.empty())
+                   write(folder / "newton.csv", newton_columns, newton);
                });
   }
 } // namespace abut::app

@@ -11,11 +11,13 @@ namespace abut::app
     constexpr double many_layers = 300.;
   } // namespace
 
-  void choose_law_of_bodies(MethodParameters &method, const bool tied)
+  void choose_law_of_bodies(MethodParameters &method, const bool tied,
+                            const bool large_strain)
   {
     if (method.law_is_automatic && !tied && method.discretisation
         && discretisation_info(*method.discretisation).row_per_point)
-      method.options.law = abut_law_find("nitsche");
+      method.options.law =
+          abut_law_find(large_strain ? "augmented lagrangian" : "nitsche");
   }
 
   void choose_law_of_membrane(MethodParameters &method, const bool cold,

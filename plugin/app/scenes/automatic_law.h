@@ -13,8 +13,10 @@
 namespace abut::app
 {
   /** For elastic bodies. @param tied whether some surfaces are glued, which
-   * not all laws can do. */
-  void choose_law_of_bodies(MethodParameters &method, bool tied);
+   * not all laws can do
+   * @param large_strain which not all can, either */
+  void choose_law_of_bodies(MethodParameters &method, bool tied,
+                            bool large_strain);
 
   /** For contact all over a mesh or on a part of its boundary.
    * @param cold whether the solve starts from displacement 0

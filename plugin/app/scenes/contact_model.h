@@ -5,6 +5,8 @@
 #include "app/physics/discrete_problem.h"
 #include "contact_run_state.h"
 
+#include <abut/dealii/contact_solver_types.h>
+
 #include <deal.II/distributed/tria.h>
 
 #include <map>
@@ -130,6 +132,13 @@ namespace abut::app
       return "";
     }
 
+    /** How accurately nonlinear problems are solved, and when they are given
+     * up. */
+    virtual NewtonParameters newton_parameters() const
+    {
+      return NewtonParameters();
+    }
+
     virtual DiscreteProblem<dim> &problem() = 0;
     virtual const DiscreteProblem<dim> &problem() const = 0;
 
@@ -207,6 +216,20 @@ namespace abut::app
     virtual bool allows_large_strain() const
     {
       return false;
+    }
+
+    /** Whether strains are computed as what they are, so that they may be of
+     * any size. */
+    virtual bool has_large_strain() const
+    {
+      return false;
+    }
+
+    /** What materials say of the present solution, and figures of it into the
+     * report. */
+    virtual std::vector<ContactFinding> examine_materials() const
+    {
+      return {};
     }
 
     /** What is stored, and what external forces could still do. */

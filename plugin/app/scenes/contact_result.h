@@ -23,6 +23,7 @@ namespace abut::app
     double time = 0.;
     unsigned int level = 0; ///< number of the mesh
     unsigned int steps = 0; ///< linear systems
+    unsigned int linearisations = 0;
     LinearReport linear;
     abut_progress progress = {};
     dealii::types::global_dof_index cells = 0, dofs = 0, rows = 0, active = 0;

@@ -59,7 +59,7 @@ namespace abut::app
     state.contact.set_parameters(state.method, state.settings.solver);
     contact_is_ready = false;
     model.setup_mesh();
-    if (model.has_contact())
+    if (model.has_contact() || !model.problem().is_linear())
       return;
     linear_solver =
         std::make_unique<solve::MaskedSolver>(state.settings.solver);
@@ -85,12 +85,12 @@ namespace abut::app
 
   template <int dim> std::string ContactRun<dim>::free_motion()
   {
-    if (!model.has_contact() || model.has_inertia()
-        || !model.problem().is_linear())
+    if (!model.has_contact() || model.has_inertia())
       return "";
     try
     {
-      state.contact.check_supports(model.problem().tangent(state.u));
+      state.contact.check_supports(
+          model.problem().tangent(model.problem().vector()));
     }
     catch (const SolverFailure &failure)
     {
@@ -130,7 +130,7 @@ namespace abut::app
 
   template <int dim> NewtonParameters ContactRun<dim>::newton_parameters() const
   {
-    NewtonParameters parameters;
+    NewtonParameters parameters = model.newton_parameters();
     parameters.useless_imbalance = 0.; // refuse() knows better what it is
     const unsigned int sweeps = state.settings.refinement.relaxation_sweeps;
     if (abut_law_needs_open_start(state.method.options.law))
@@ -169,6 +169,8 @@ namespace abut::app
     };
     events.stepped = [this](const LinearReport &cost, const la::Vector &step)
     { note_step(cost, step); };
+    events.moved = [this](const NewtonStep &step)
+    { steps.add(report, state.present.load_step, state.present.level, step); };
     events.refuse = [this](const la::Vector &, const unsigned int search)
     { return refuse(search); };
     events.missed = [this](const std::size_t n_nodes)
@@ -256,6 +258,7 @@ namespace abut::app
     NewtonResult result;
     name_parameter(model, [&] { result = solver.solve(state.u); });
     state.n_repeated_searches += std::max(1u, result.n_searches) - 1;
+    state.present.linearisations += result.n_steps;
     if (!result.converged())
       failure = failure_of(result);
     return result.converged();
@@ -299,7 +302,9 @@ namespace abut::app
   {
     if (has_new_tangent && linear_solver)
       linear_solver->reinit(model.tangent(state.u));
-    return model.has_contact() ? solve_with_contact() : solve_without_contact();
+    return model.has_contact() || !model.problem().is_linear()
+               ? solve_with_contact()
+               : solve_without_contact();
   }
 
   template <int dim> bool ContactRun<dim>::solve()
@@ -425,6 +430,13 @@ namespace abut::app
     state.control.begin_mesh(start);
   }
 
+  template <int dim> bool ContactRun<dim>::is_hard() const
+  {
+    return !model.problem().is_linear()
+           && 2 * state.present.linearisations
+                  > model.newton_parameters().max_steps;
+  }
+
   template <int dim> bool ContactRun<dim>::take_load_step()
   {
     LoadSteps &load_steps = state.load_steps;
@@ -437,7 +449,7 @@ namespace abut::app
       if (model.has_contact())
         state.contact.commit(state.u);
       const std::string why = model.commit();
-      load_steps.accept();
+      load_steps.accept(is_hard());
       if (!why.empty())
       {
         report.warn(why);

@@ -57,6 +57,9 @@ namespace abut::app
     /** One of the problems of a step. */
     bool solve_problem(bool has_new_tangent);
     bool solve();
+    /** Whether the last solve took so many linearisations that a shorter load
+     * step is due. */
+    bool is_hard() const;
 
     // Meshes and load steps
     bool solve_on_hierarchy();

@@ -112,11 +112,21 @@ namespace abut::app
                      examination = state.contact.examine(
                          state.u, nullptr, model.allows_large_strain());
                    });
+    std::vector<ContactFinding> &findings = examination.findings;
+    if (model.has_large_strain())
+      findings.erase(std::remove_if(findings.begin(), findings.end(),
+                                    [](const ContactFinding &finding) {
+                                      return finding.failure
+                                             == ABUT_FAILURE_LARGE_STRAIN;
+                                    }),
+                     findings.end());
+    for (const ContactFinding &found : model.examine_materials())
+      findings.push_back(found);
     report.set("largest_strain", examination.strain);
     report.set("deformation", examination.deformation);
     report.set("missed_depth", examination.missed_depth);
     if (const std::optional<ContactFinding> found = examine_works())
-      examination.findings.push_back(*found);
+      findings.push_back(*found);
     return examination.is_usable();
   }
 
@@ -155,6 +165,8 @@ namespace abut::app
     report.add_row(row);
     state.results.push_back(present);
     report.add("nonlinear_iterations", present.steps);
+    if (!model.problem().is_linear())
+      report.add("linearisations", present.linearisations);
     report.add("linear_iterations", present.linear.n_iterations);
     report.add("matvecs", present.linear.n_matvecs);
     report.progress(model.line_of(present) + state.control.progress());

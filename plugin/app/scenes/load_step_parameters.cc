@@ -23,6 +23,14 @@ namespace abut::app
                       "Length of a step, as part of the whole time, below "
                       "which a failure ends the run; of a motion as part of "
                       "Time/Step.");
+    prm.declare_entry("Newton steps", "20", Patterns::Integer(1),
+                      "Of large strain: linearisations after which a step has "
+                      "found no answer. After one that needed more than half "
+                      "of them the next is half as long.");
+    prm.declare_entry("Newton tolerance", "1e-8",
+                      NumberPattern({nullptr, 1e-14, 1., false, true}),
+                      "Of large strain: error of the iteration relative to the "
+                      "displacement, in the energy norm.");
     prm.leave_subsection();
   }
 
@@ -33,6 +41,8 @@ namespace abut::app
     end_time = prm.get_double("End time");
     cut_back = prm.get_bool("Cut back");
     smallest_step = prm.get_double("Smallest step");
+    newton_steps = prm.get_integer("Newton steps");
+    newton_tolerance = prm.get_double("Newton tolerance");
     prm.leave_subsection();
   }
 } // namespace abut::app

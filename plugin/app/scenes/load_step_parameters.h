@@ -11,6 +11,11 @@ namespace abut::app
   /** Section `Load steps`: the way from time 0 to the end. */
   struct LoadStepParameters : LoadStepOptions
   {
+    /** Linearisations of a step of large strain after which it has failed. */
+    unsigned int newton_steps = 20;
+    /** Their error relative to the displacement, in the energy norm. */
+    double newton_tolerance = 1e-8;
+
     static void declare(dealii::ParameterHandler &prm);
     void parse(dealii::ParameterHandler &prm);
   };

@@ -38,7 +38,8 @@ namespace abut::app
   {
     static_assert(std::is_trivially_copyable_v<abut_progress>,
                   "written as it stands in memory");
-    archive &r.load_step &r.time &r.level &r.steps &r.linear;
+    archive &r.load_step &r.time &r.level &r.steps &r.linearisations;
+    archive &r.linear;
     archive &boost::serialization::make_binary_object(&r.progress,
                                                       sizeof(r.progress));
     archive &r.cells &r.dofs &r.rows &r.active;

@@ -202,13 +202,26 @@ namespace abut::app
       return rules;
     }
 
+    bool has_large_strain(const SceneValues &values)
+    {
+      return values("Body 1/Material") != "hooke";
+    }
+
     EffectRules of_load_steps()
     {
       return {setting(
-          "Load steps/Smallest step",
-          [](const SceneValues &values)
-          { return values.is_true("Load steps/Cut back"); },
-          "it belongs to Load steps/Cut back = true.")};
+                  "Load steps/Smallest step",
+                  [](const SceneValues &values)
+                  { return values.is_true("Load steps/Cut back"); },
+                  "it belongs to Load steps/Cut back = true."),
+              setting("Load steps/Newton*", has_large_strain,
+                      "Body 1/Material is hooke, whose forces are linear in "
+                      "the displacement."),
+              setting(
+                  "Solid/Allow large strain",
+                  [](const SceneValues &values)
+                  { return !has_large_strain(values); },
+                  "Body 1/Material is for strains of any size.")};
     }
 
     /** A number of a time scheme. */

@@ -3,6 +3,7 @@
 
 #include "app/input/collective.h"
 #include "app/input/input_error.h"
+#include "app/physics/finite_strain.h"
 #include "app/physics/hooke.h"
 
 #include <algorithm>
@@ -10,6 +11,25 @@
 namespace abut::app
 {
   using dealii::types::boundary_id;
+
+  namespace
+  {
+    template <int dim>
+    std::shared_ptr<const Material<dim>>
+    make_material(const BodyParameters &body, const PlaneModel plane)
+    {
+      const double e = body.young_modulus, nu = body.poisson_ratio;
+      switch (body.law)
+      {
+      case MaterialLaw::neo_hooke:
+        return std::make_shared<NeoHooke<dim>>(e, nu, plane);
+      case MaterialLaw::st_venant_kirchhoff:
+        return std::make_shared<StVenantKirchhoff<dim>>(e, nu, plane);
+      default:
+        return std::make_shared<Hooke<dim>>(e, nu, plane);
+      }
+    }
+  } // namespace
 
   template <int dim>
   SolidFunctions<dim>::SolidFunctions(const SolidParameters &parameters)
@@ -78,9 +98,8 @@ namespace abut::app
       require_effect(bodies, body, result);
       if (own.force->is_present())
         result.body_force[body] = own.force.get();
-      const BodyParameters &given = parameters.bodies[body];
-      result.materials[body] = std::make_shared<Hooke<dim>>(
-          given.young_modulus, given.poisson_ratio, parameters.plane);
+      result.materials[body] =
+          make_material<dim>(parameters.bodies[body], parameters.plane);
     }
     return result;
   }

@@ -300,9 +300,10 @@ namespace abut::app
   template <int dim>
   void SolidModel<dim>::prepare_contact(ContactAssembler<dim> &contact)
   {
-    // Penalties and loads are measured by the stiffness, without inertia.
-    if (motion)
-      contact.set_reference_stiffness(elasticity.stiffness);
+    // Penalties and loads are measured by the stiffness, without inertia, and
+    // of the undeformed bodies: they must not change on the way.
+    if (motion || has_large_strain())
+      contact.set_reference_stiffness(elasticity.undeformed_stiffness());
   }
 
   template <int dim> std::string SolidModel<dim>::save_state() const
@@ -489,6 +490,8 @@ namespace abut::app
                                         "setup_seconds",
                                         "krylov_seconds",
                                         "seconds"};
+    if (has_large_strain())
+      columns.push_back("linearisations");
     if (motion)
       for (const std::string &column : motion->columns())
         columns.push_back(column);
@@ -512,6 +515,8 @@ namespace abut::app
       row["friction_force"] = result.friction_force;
       row["dissipation"] = result.dissipation;
     }
+    if (has_large_strain())
+      row["linearisations"] = result.linearisations;
     if (motion)
       motion->add_to_row(row);
     row["load_step"] = result.load_step;

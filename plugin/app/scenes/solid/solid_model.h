@@ -45,6 +45,7 @@ namespace abut::app
     double small_force() const override;
     const la::Matrix &tangent(const la::Vector &u) override;
     bool next_solve(const la::Vector &u) override;
+    NewtonParameters newton_parameters() const override;
     void end_solve() override;
     std::string commit() override;
     DiscreteProblem<dim> &problem() override
@@ -89,6 +90,11 @@ namespace abut::app
     {
       return parameters.large_strain;
     }
+    bool has_large_strain() const override
+    {
+      return parameters.has_large_strain();
+    }
+    std::vector<ContactFinding> examine_materials() const override;
     double energy(const la::Vector &u) const override;
     double solution_norm() const override;
     /** With the initial gaps as the rows have them. */

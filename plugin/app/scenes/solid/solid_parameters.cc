@@ -202,6 +202,37 @@ namespace abut::app
                              "damping, or hht.");
   }
 
+  void SolidParameters::check_materials() const
+  {
+    for (const BodyParameters &body : bodies)
+      if ((body.law != MaterialLaw::hooke) != has_large_strain())
+        throw InputError(body.parameter("Material"),
+                         "hooke is for small strain, and "
+                             + bodies.front().parameter("Material")
+                             + " is not of the same kind: set both to hooke, "
+                               "or both to neo-hooke or st venant-kirchhoff. A "
+                               "stiff body hardly strains with any of them.");
+    if (!has_large_strain())
+      return;
+    const auto refuse = [](const std::string &parameter, const std::string &why)
+    {
+      throw InputError(parameter, why
+                                      + " Or describe bodies of small strain: "
+                                        "Body N/Material = hooke.");
+    };
+    if (plane == PlaneModel::stress)
+      refuse("Solid/Plane", "large strain is computed in plane strain, around "
+                            "an axis and in space, not in plane stress: set "
+                            "strain, or model the plate in three dimensions.");
+    if (time.is_on)
+      refuse("Time/Scheme", "motions are those of small strain: set none and "
+                            "Load steps/Steps for a way in equilibrium.");
+    if (refinement.has_target())
+      refuse("Refinement/Target error",
+             "what the error estimate promises is known of small strain only; "
+             "Refinement/Adaptive cycles refines by it all the same.");
+  }
+
   void SolidParameters::begin_motion()
   {
     for (const BodyParameters &body : bodies)
@@ -270,6 +301,7 @@ namespace abut::app
     load_steps.parse(prm);
     refinement.parse(prm);
     time.parse(prm);
+    check_materials();
     if (time.is_on)
       begin_motion();
 

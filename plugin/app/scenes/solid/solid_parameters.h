@@ -71,7 +71,17 @@ namespace abut::app
                         const SolidCounts &counts);
     void parse(dealii::ParameterHandler &prm, const SolidCounts &counts);
 
+    /** Whether bodies are of materials for large strain. */
+    bool has_large_strain() const
+    {
+      return bodies.front().law != MaterialLaw::hooke;
+    }
+
   private:
+    /** Whether all bodies are of small strain, or of large, and nothing is
+     * asked for that large strain does not have. Throws InputError. */
+    void check_materials() const;
+
     /** Make all else fit a motion; throws InputError for what does not. */
     void begin_motion();
   };

@@ -355,7 +355,9 @@ namespace abut::app
                  {"contact rows"});
     report.model("meshes", true, "with unknowns and pattern of each",
                  {"mesh", "unknowns and pattern", "transfer"});
-    report.model("stiffness", true, "assembled once on each mesh",
+    report.model("stiffness", true,
+                 model.has_large_strain() ? "assembled for each linearisation"
+                                          : "assembled once on each mesh",
                  {"assembly"});
     const bool searches = std::any_of(
         pairs.pairs().begin(), pairs.pairs().end(),
@@ -383,8 +385,10 @@ namespace abut::app
                  model.has_inertia()
                      ? std::string("scheme ") + parameters.time.scheme.name
                      : "each load step is in equilibrium");
-    report.model("large strain", false,
-                 "strains are linear in the displacement");
+    report.model("large strain", model.has_large_strain(),
+                 model.has_large_strain()
+                     ? "strains and rotations of any size"
+                     : "strains are linear in the displacement");
     unsigned int n_steps = 0;
     for (const ContactResult &state : run.results)
       n_steps += state.steps;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_scene.h"
 
+#include "app/input/input_error.h"
 #include "app/scenes/automatic_law.h"
 #include "app/scenes/contact_scene.h"
 #include "solid_effects.h"
@@ -30,10 +31,17 @@ namespace abut::app
       {
         parameters.parse(prm, counts);
         search.parse_parameters(prm);
-        choose_law_of_bodies(this->method, std::any_of(parameters.pairs.begin(),
-                                                       parameters.pairs.end(),
-                                                       [](const auto &pair)
-                                                       { return pair.tied; }));
+        choose_law_of_bodies(
+            this->method,
+            std::any_of(parameters.pairs.begin(), parameters.pairs.end(),
+                        [](const auto &pair) { return pair.tied; }),
+            parameters.has_large_strain());
+        if (parameters.has_large_strain()
+            && abut_law_needs_stress(this->method.options.law))
+          throw InputError("Method/Enforcement",
+                           "nitsche takes the stress for linear in the "
+                           "displacement, and Body 1/Material is for large "
+                           "strain: use lagrange or augmented lagrangian.");
       }
 
       std::vector<EffectRule> effects() const override

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// How bodies of large strain are solved, and what is looked at in the answer.
+#include "app/input/short_number.h"
+#include "app/physics/stretches.h"
+#include "solid_model.h"
+
+namespace abut::app
+{
+  template <int dim> NewtonParameters SolidModel<dim>::newton_parameters() const
+  {
+    NewtonParameters result;
+    result.tolerance = parameters.load_steps.newton_tolerance;
+    result.max_steps = parameters.load_steps.newton_steps;
+    return result;
+  }
+
+  template <int dim>
+  std::vector<ContactFinding> SolidModel<dim>::examine_materials() const
+  {
+    if (!has_large_strain())
+      return {};
+    const Stretches seen =
+        find_stretches(elasticity.mapping, elasticity.dof_handler,
+                       elasticity.ghosted(run.u), data.materials);
+    run.report.set("least_stretch", seen.least);
+    run.report.set("least_volume", seen.least_volume);
+    if (seen.excess <= 0.)
+      return {};
+    const auto percent = [](const double part)
+    { return short_number(100. * part, 3) + " %"; };
+    return {
+        {ABUT_FAILURE_LARGE_STRAIN, true,
+         coded(ABUT_FAILURE_LARGE_STRAIN,
+               "Body " + std::to_string(seen.where + 1) + " is compressed to "
+                   + percent(seen.allowed - seen.excess)
+                   + " of its length where St. Venant and Kirchhoff's law "
+                     "is of use down to "
+                   + percent(seen.allowed)
+                   + ": beyond, it becomes softer the more it is pressed. "
+                     "Set "
+                   + bodies[seen.where].parameter("Material")
+                   + " = neo-hooke, or look at the units of loads and "
+                     "stiffness.")}};
+  }
+
+  template NewtonParameters SolidModel<2>::newton_parameters() const;
+  template std::vector<ContactFinding> SolidModel<2>::examine_materials() const;
+  template NewtonParameters SolidModel<3>::newton_parameters() const;
+  template std::vector<ContactFinding> SolidModel<3>::examine_materials() const;
+} // namespace abut::app
