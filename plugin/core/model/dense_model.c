@@ -144,10 +144,24 @@ find_stiffness(dense_host *host)
   return ABUT_SUCCESS;
 }
 
+/* What pressures are measured in. A stiffness of 1e13, such as mass by the
+ * square of a short time, looks singular beside the ones of B: there it is the
+ * largest stiffness, so that all unknowns are lengths. Else it is 1: matrices
+ * that friction makes nearly singular are sensitive to their pivots. */
+static double
+pressure_unit(const dense_host *host)
+{
+  static const double ordinary = 1e6;
+  double largest = 0;
+  for (int32_t i = 0; i < host->m; ++i)
+    largest = fmax(largest, host->stiffness[i]);
+  return largest > ordinary || largest * ordinary < 1 ? largest : 1;
+}
+
 /* Add a block of the laws, k rows from @p first on. */
 static void
-add_block(dense_host *host, int32_t first, int32_t k, const double *a,
-          const double *b)
+add_block(dense_host *host, int32_t first, int32_t k, double unit,
+          const double *a, const double *b)
 {
   const int64_t n = host->n, size = n + host->m;
   for (int32_t r = 0; r < k; ++r)
@@ -155,34 +169,32 @@ add_block(dense_host *host, int32_t first, int32_t k, const double *a,
     {
       double *row = host->matrix + (n + first + r) * size;
       const double *gap = host->b + (first + c) * n;
-      row[n + first + c] = a[r * k + c] * host->stiffness[first + c];
+      row[n + first + c] = a[r * k + c] * unit;
       for (int64_t j = 0; j < n && b[r * k + c] != 0; ++j)
         row[j] += b[r * k + c] * gap[j];
     }
 }
 
-/* The matrix of the head comment. The unknowns of pressures are lengths,
- * pressures by the stiffness of their rows: else a stiffness of 1e13, such as
- * mass by the square of a short time, looks singular beside the ones of B. */
+/* The matrix of the head comment, with pressures in their unit. */
 static void
 assemble(dense_host *host, const abut_request *request)
 {
   const int64_t n = host->n, size = n + host->m;
   const double *weight = host->points.component_weight;
+  const double unit = host->m > 0 ? pressure_unit(host) : 1;
   memset(host->matrix, 0, (size_t)(size * size) * sizeof(double));
   for (int64_t i = 0; i < n; ++i)
     memcpy(host->matrix + i * size, host->model->stiffness + i * n,
            (size_t)n * sizeof(double));
   for (int32_t i = 0; i < host->m; ++i)
     for (int64_t j = 0; j < n; ++j)
-      host->matrix[j * size + n + i] -=
-          host->b[i * n + j] * weight[i] * host->stiffness[i];
+      host->matrix[j * size + n + i] -= host->b[i * n + j] * weight[i] * unit;
   int64_t at = 0;
   for (int32_t i = 0, block = 0; i < host->m; ++block)
   {
     const int32_t k =
         request->block_size == NULL ? 1 : request->block_size[block];
-    add_block(host, i, k, request->d_pressure + at, request->d_gap + at);
+    add_block(host, i, k, unit, request->d_pressure + at, request->d_gap + at);
     i += k;
     at += (int64_t)k * k;
   }
@@ -234,13 +246,14 @@ solve(void *user, const abut_request *request)
   if (status != ABUT_SUCCESS)
     return status;
   abut_dense_lu_solve(size, host->matrix, host->pivot, host->scale, host->x);
+  const double unit = host->m > 0 ? pressure_unit(host) : 1;
   for (int32_t i = 0; i < host->m; ++i)
   {
     double change = 0;
     for (int32_t j = 0; j < host->n; ++j)
       change += host->b[(int64_t)i * host->n + j] * host->x[j];
     request->gap_change[i] = change;
-    request->pressure_change[i] = host->stiffness[i] * host->x[host->n + i];
+    request->pressure_change[i] = unit * host->x[host->n + i];
   }
   return ABUT_SUCCESS;
 }
