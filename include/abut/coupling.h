@@ -274,6 +274,14 @@ extern "C"
      * the tangent plane, and t2 = n x t1. Their numbers follow that of the
      * normal: numbers of points that are given must leave room. */
     bool tangents;
+    /** Points move: [n_nodes * dimension] positions of the secondary's nodes
+     * that weights are measured at, those of the undeformed body, while all
+     * else is that of the present ones. Gaps are then those of
+     * abut_obstacle_gap(), the first direction of a point is minus their
+     * gradient, not of unit length where that is not, and the view has their
+     * second derivatives. Nodes and quadrature points against an obstacle only,
+     * without tangents and ties. NULL (default): points are fixed. */
+    const double *reference;
   } abut_coupling_target;
 
   enum
@@ -294,7 +302,8 @@ extern "C"
                                          0,
                                          0.,
                                          false,
-                                         false};
+                                         false,
+                                         NULL};
     return target;
   }
 
@@ -341,6 +350,10 @@ extern "C"
     const double *full_weight;
     const double *position; /**< [n_points * dimension] where the point sits:
                                  the node, or the quadrature point */
+    /** [n_points * dimension^2] second derivatives of the gaps with respect to
+     * the place of the point, which is the sum of the secondary's part of the
+     * stencil; NULL: the points are fixed. */
+    const double *hessian;
   } abut_coupling_view;
 
   /** View of the last build. O(1). */

@@ -161,13 +161,21 @@ extern "C"
      * thousandth of it as their step. 0 (default): the largest coordinate of
      * the points asked for, in the obstacle's frame. */
     double length;
+    /** The derivative of the value where the gradient of evaluate is another
+     * vector, such as the axis of a height: (h', -1) instead of (0, -1).
+     * abut_obstacle_gap() needs it. NULL (default): the gradient is the
+     * derivative. Returns as evaluate does.
+     * @param points [n * dimension]
+     * @param derivative [n * dimension] out, finite */
+    int (*derivative)(void *user, int32_t n, const double *points,
+                      double *derivative);
   } abut_obstacle_function;
 
   /** Defaults: 3D, no function yet. */
   static inline abut_obstacle_function abut_obstacle_function_defaults(void)
   {
     const abut_obstacle_function function = {
-        sizeof(abut_obstacle_function), 3, NULL, NULL, false, 0.};
+        sizeof(abut_obstacle_function), 3, NULL, NULL, false, 0., NULL};
     return function;
   }
 
@@ -215,6 +223,15 @@ extern "C"
                                               double *distance,
                                               double *gradient,
                                               double *hessian);
+
+  /** Gaps of n points that move: the same as abut_obstacle_distance(), but for
+   * functions with a derivative. Of these it is the value as it is, with that
+   * derivative as gradient, which is not of unit length, and the derivative of
+   * that as hessian: a pressure is then the force by the change of this gap.
+   * Arguments, errors and cost as there. */
+  ABUT_API abut_status abut_obstacle_gap(abut_obstacle *obstacle, int32_t n,
+                                         const double *points, double *gap,
+                                         double *gradient, double *hessian);
 
   /** What an obstacle is, and what it has found. */
   typedef struct abut_obstacle_view

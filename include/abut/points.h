@@ -9,7 +9,8 @@
  * Point i has a weight w_i (tributary area of its node, or volume for a volume
  * obstacle), one stencil c_l over nodes, and up to three components that share
  * it. Component a has a direction f_a (the normal n first, then the tangents
- * t1, t2), and at displacements v of the nodes the value
+ * t1, t2; not of unit length where a gap is no distance), and at displacements
+ * v of the nodes the value
  *
  *     g_a(v) = g_a + sigma_a f_a . sum_l c_l v_l
  *
@@ -66,7 +67,7 @@ extern "C"
     int32_t kind;         /**< abut_point_kind */
     int32_t n_components; /**< 1 .. dimension */
     double weight;        /**< w > 0 */
-    const double *frame;  /**< [n_components * dimension] f_a, unit vectors */
+    const double *frame;  /**< [n_components * dimension] f_a */
     const double *gap;    /**< [n_components] g_a, length */
     int32_t n_nodes;      /**< entries of the stencil */
     int32_t n_secondary;  /**< of these, nodes of the secondary: they come first
@@ -183,6 +184,15 @@ extern "C"
                                        int32_t n_nodes,
                                        const double *displacement,
                                        double *value);
+
+  /** Take the gaps g_a of the points first .. first + n_points - 1 for those
+   * at displacements of the nodes [n_nodes * dimension]: g_a(v) becomes, at
+   * these displacements, what g_a was. For points that were made where the
+   * nodes are now. After a failure nothing has changed. */
+  ABUT_API abut_status abut_points_set_origin(abut_points *points,
+                                              int32_t first, int32_t n_points,
+                                              int32_t n_nodes,
+                                              const double *displacement);
 
   /** Add the contact force on the nodes to force [n_nodes * dimension], for
    * pressures (tractions) [n_components]. */

@@ -128,6 +128,25 @@ extern "C"
       abut_facet_kind kind, const double *nodes,
       const abut_projection *projection, double *gradient, double *hessian);
 
+  /** The same of the signed distance g = side |x - y|, wherever the nearest
+   * point y is: inside, where it is the gap as above, on an edge, or at a
+   * corner. On an edge T and E are those along it, at a corner there are none,
+   * and the direction n = (x - y) / g turns about the edge or the corner:
+   *
+   *     d2g += v' (I - n n' - t t') v / g,  v = dx - sum N dx,
+   *
+   * with the unit tangent t of the edge. Where y passes from the inside to an
+   * edge g and dg are continuous, and d2g are those of the side that the
+   * projection is on.
+   * @param x [dimension] the point that was projected
+   * @param side 1 where x is outside of the surface, -1 inside; the facet's own
+   *   normal does not tell beside a corner. Without meaning inside the facet
+   * UNSUPPORTED where x lies on the edge, besides what is said above. */
+  ABUT_API abut_status abut_facet_distance_derivatives(
+      abut_facet_kind kind, const double *nodes, const double *x,
+      const abut_projection *projection, double side, double *gradient,
+      double *hessian);
+
 #ifdef __cplusplus
 }
 #endif

@@ -109,6 +109,10 @@ namespace abut
       for (const global_dof_index dof : all)
         pattern.add_entries(dof, all.begin(), all.end(), true);
     }
+    for (const shim::MatrixLine &line :
+         i.present_source().geometric_lines(nullptr))
+      for (const global_dof_index column : line.column)
+        pattern.add(line.row, column);
   }
 
   template <int dim>
@@ -127,6 +131,13 @@ namespace abut
     {
       i.take_matrix(matrix);
       i.begin(matrix, residual);
+    }
+    if (i.geometry != nullptr)
+    {
+      residual = i.with_geometry(residual);
+      for (const shim::MatrixLine &line :
+           i.source->geometric_lines(i.start_pressure.data()))
+        matrix.add(line.row, line.column, line.value);
     }
     const solve::PointOperator &rows = i.coefficients;
     i.local.reinit(i.request, rows.n_rows(), rows.weights(), i.communicator);

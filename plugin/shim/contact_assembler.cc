@@ -211,7 +211,9 @@ namespace abut
     AssertThrow(!i.is_nitsche(), ExcMessage("Nitsche's method is for linear "
                                             "elastic bodies: do not call "
                                             "linearise() with it."));
-    if (i.is_started)
+    if (i.moves())
+      i.move_rows(displacement);
+    else if (i.is_started)
     {
       i.record_present();
       i.start_from_present();
@@ -219,6 +221,21 @@ namespace abut
     i.iteration_tolerance = linear_tolerance;
     i.has_new_matrix = true;
     i.begin_at(displacement);
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::follow(const la::Vector &displacement)
+  {
+    Implementation &i = *implementation;
+    i.check_rows("follow()");
+    i.check_size("follow()", "displacement", displacement.size());
+    if (i.moves())
+      i.follow(displacement);
+  }
+
+  template <int dim> bool ContactAssembler<dim>::points_move() const
+  {
+    return implementation->moves();
   }
 
   template <int dim>
@@ -267,6 +284,10 @@ namespace abut
     increment = 0.;
     if (!i.is_started)
       i.begin(matrix, residual);
+    la::Vector moved;
+    if (i.geometry != nullptr)
+      moved = i.with_geometry(residual);
+    const la::Vector &forces = i.geometry != nullptr ? moved : residual;
     LinearReport report;
     double tolerance = 0.;
     while (i.request.action == ABUT_ACTION_SOLVE
@@ -275,7 +296,7 @@ namespace abut
       report.n_systems += i.request.action == ABUT_ACTION_SOLVE;
       tolerance = i.request.linear_tolerance;
       report +=
-          i.solver->solve(residual, i.request, i.smallest_residual, increment);
+          i.solver->solve(forces, i.request, i.smallest_residual, increment);
       i.next();
     }
     if (i.request.action == ABUT_ACTION_MOVE && i.request.step_length != 1.)
@@ -295,6 +316,8 @@ namespace abut
                 ExcMessage("Call solve() or add() before update()."));
     if (i.request.action == ABUT_ACTION_STOP)
       return false;
+    if (i.geometry != nullptr)
+      i.present_displacement = displacement;
     std::vector<double> before;
     if (i.was_added)
       before.swap(i.gap);
@@ -358,6 +381,8 @@ namespace abut
     i.check_size("evaluate()", "displacement", displacement.size());
     i.check_size("evaluate()", "force", forces.size());
     AssertThrow(i.is_started, ExcMessage("Call solve() before evaluate()."));
+    if (i.moves())
+      return implementation->evaluate_moved(displacement, forces);
     forces = 0.;
     add_contact_forces(forces);
     std::vector<double> gap(i.coefficients.n_rows());

@@ -526,6 +526,7 @@ namespace abut
     was_added = false;
     start_displacement = displacement;
     compute_gap(displacement);
+    find_geometry();
   }
 
   template <int dim>
@@ -593,13 +594,14 @@ namespace abut
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::prepare_solver(
-      const la::Matrix &matrix)
+      const la::Matrix &of_host)
   {
     const bool is_renewed = solver != nullptr && constant_matrix;
     if (is_renewed && !has_new_matrix)
       return;
     has_new_matrix = false;
-    take_matrix(matrix);
+    take_matrix(of_host);
+    const la::Matrix &matrix = with_geometry(of_host);
     if (is_renewed)
     {
       solver->renew(matrix, coefficients, row_stiffness);

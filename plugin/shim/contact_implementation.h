@@ -12,6 +12,7 @@
 
 #include <abut/dealii/contact_assembler.h>
 
+#include <map>
 #include <optional>
 
 namespace abut
@@ -99,6 +100,41 @@ namespace abut
     /** Make what has been reached the start of the next iteration. */
     void start_from_present();
     void begin_at(const la::Vector &displacement);
+    /** Whether rows are where the bodies are. */
+    bool moves() const;
+    /** What rows have, by their numbers: pressures and, unless the iteration
+     * has none, states. */
+    struct RowValues
+    {
+      std::map<std::int64_t, std::pair<double, std::uint8_t>> of;
+      bool has_states = false;
+    };
+    RowValues row_values() const;
+    /** Make rows at this displacement, which start from what those of the same
+     * number have. Collective. */
+    void move_rows(const la::Vector &displacement);
+    /** Take the rows to this displacement, if they are the same there.
+     * Collective. */
+    void follow(const la::Vector &displacement);
+    /** Another set of points, by the operator of its rows. */
+    struct RowsElsewhere
+    {
+      shim::Handle<abut_points> points;
+      solve::PointOperator rows;
+    };
+    /** The rows at this displacement, while the present ones stay. Collective.
+     */
+    RowsElsewhere rows_at(const la::Vector &displacement);
+    /** What the forces of the rows' pressures change by because rows move.
+     * Collective. */
+    void find_geometry();
+    /** The host's matrix with that; lives until the next call. Collective. */
+    const la::Matrix &with_geometry(const la::Matrix &matrix);
+    /** The residual with that, as far as the iteration has come. */
+    la::Vector with_geometry(const la::Vector &residual) const;
+    /** See ContactAssembler::evaluate(), with rows of that displacement.
+     * Collective. */
+    double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
     void begin(const la::Matrix &matrix, const la::Vector &residual);
     /** Made once for each mesh. Collective. */
     const solve::NearNullSpace &near_null_space() const;
@@ -187,6 +223,11 @@ namespace abut
     shim::ContactHistory::Penalty penalty;    ///< of this iteration
     shim::ContactHistory::Penalty resumed;    ///< that it may go on with
     la::Vector start_displacement;
+    /** Of rows that move, by the pressures that an iteration starts from; null:
+     * nothing. */
+    std::unique_ptr<la::Matrix> geometry;
+    std::unique_ptr<la::Matrix> sum_with_geometry; ///< null: not made yet
+    la::Vector present_displacement;               ///< with geometry
     std::vector<double> gap;   ///< [rows] at the present displacement
     bool has_friction = false; ///< some pair has, on all ranks
     la::Vector committed;      ///< displacement of the last commit(); empty: 0

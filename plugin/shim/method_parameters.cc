@@ -314,6 +314,38 @@ namespace abut
     return "";
   }
 
+  std::string sliding_refusal(const abut_law &law,
+                              const abut_discretisation discretisation,
+                              const bool has_obstacle, const bool has_friction,
+                              const bool has_geometric_gap)
+  {
+    const std::string why = "Method/Sliding = large ";
+    if (!has_obstacle)
+      return why
+             + "follows points against rigid obstacles only, not between two "
+               "bodies. Use small.";
+    if (discretisation_info(discretisation).is_weighted)
+      return why
+             + "follows nodes and quadrature points, not Method/"
+               "Discretisation = "
+             + abut_discretisation_name(discretisation)
+             + ". Use node to segment or quadrature point.";
+    if (abut_law_needs_stress(&law) || abut_law_is_interior(&law))
+      return why
+             + "does not go with Method/Enforcement = " + std::string(law.name)
+             + ". Use lagrange, penalty, quadratic penalty or augmented "
+               "lagrangian.";
+    if (has_friction)
+      return why
+             + "has no friction yet: leave out the friction of the pair, or "
+               "use small.";
+    if (!has_geometric_gap)
+      return why
+             + "measures gaps where the surfaces are: they must count (leave "
+               "out the gap that stands for them), or use small.";
+    return "";
+  }
+
   void MethodParameters::declare_parameters(ParameterHandler &prm)
   {
     const abut_strategy_options defaults = abut_strategy_defaults();
@@ -341,6 +373,14 @@ namespace abut
     declare_penalty(prm, defaults);
     declare_barrier(prm, defaults);
     declare_stopping(prm, defaults);
+    prm.declare_entry("Sliding", "auto",
+                      Patterns::Selection("auto|small|large"),
+                      "Where contact is looked at. `small`: on the undeformed "
+                      "bodies; gaps are linear in the displacement. `large`: "
+                      "where the bodies are; points move, and their gaps, "
+                      "directions and second derivatives are made anew at each "
+                      "linearisation. For nodes and quadrature points against "
+                      "rigid obstacles, without friction. `auto`: small.");
     prm.declare_entry("System", "auto",
                       Patterns::Selection("auto|condensed|saddle point"),
                       "Linear system: `condensed` eliminates the pressures "
@@ -371,6 +411,10 @@ namespace abut
       discretisation = way;
     else
       discretisation.reset();
+    const std::string slides = prm.get("Sliding");
+    sliding = slides == "small"   ? Sliding::small
+              : slides == "large" ? Sliding::large
+                                  : Sliding::automatic;
     const std::string law = prm.get("Enforcement");
     law_is_automatic = law == "auto";
     options.law = abut_law_find(law_is_automatic ? automatic_law(discretisation)

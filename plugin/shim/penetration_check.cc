@@ -66,47 +66,6 @@ namespace abut::shim
       return result;
     }
 
-    /** The sides of a pair where the bodies are, until this goes. */
-    template <int dim> class Displaced
-    {
-    public:
-      using Points = std::vector<dealii::Point<dim>>;
-
-      Displaced(abut_context *context, SurfaceSide<dim> &secondary,
-                SurfaceSide<dim> &primary, const Points &reference)
-          : context_(context),
-            sides_{&secondary, &primary},
-            reference_(reference)
-      {
-      }
-
-      Displaced(const Displaced &) = delete;
-      Displaced &operator=(const Displaced &) = delete;
-
-      void move(const Points &present)
-      {
-        for (SurfaceSide<dim> *side : sides_)
-          move_side(context_, present, *side);
-      }
-
-      ~Displaced()
-      {
-        try
-        {
-          move(reference_);
-        }
-        catch (const std::exception &)
-        {
-          // Not of points that the sides were made of.
-        }
-      }
-
-    private:
-      abut_context *const context_;
-      SurfaceSide<dim> *const sides_[2];
-      const Points &reference_;
-    };
-
     /** Whether a support keeps node @p n of the secondary of @p pair from
      * having a row. */
     template <typename Pair>
@@ -258,8 +217,8 @@ namespace abut::shim
           check_obstacle(pair, marks, present, tolerance, missed);
           continue;
         }
-        Displaced<dim> sides(context_, pair.secondary, pair.primary, reference);
-        sides.move(present);
+        const DisplacedSides<dim> sides(context_, pair.secondary, pair.primary,
+                                        reference, present);
         check_surfaces(pair, marks, present,
                        std::max(pair.data.reach, 1.5 * motions[p]), tolerance,
                        missed);

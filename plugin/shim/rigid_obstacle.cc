@@ -55,12 +55,38 @@ namespace abut
         }
       }
 
+      /** The derivative of the value, where it is not the gradient. */
+      static int derive(void *user, const std::int32_t n, const double *numbers,
+                        double *derivative) noexcept
+      {
+        auto &self = *static_cast<HostFunction *>(user);
+        self.thrown = nullptr;
+        try
+        {
+          self.fill_derivative(to_points<dim>(n, numbers), derivative);
+          return 0;
+        }
+        catch (...)
+        {
+          self.thrown = std::current_exception();
+          return 1;
+        }
+      }
+
+      virtual bool has_derivative() const
+      {
+        return false;
+      }
+
       /** What the last evaluation threw, or null. */
       std::exception_ptr thrown;
 
     protected:
       virtual void fill(const std::vector<Point<dim>> &points, double *value,
                         double *gradient) = 0;
+      virtual void fill_derivative(const std::vector<Point<dim>> &, double *)
+      {
+      }
     };
 
     template <int dim> class DistanceFunction : public HostFunction<dim>
@@ -110,29 +136,64 @@ namespace abut
         parameters.height->set_time(time);
       }
 
+      bool has_derivative() const override
+      {
+        return parameters.along_axis;
+      }
+
     protected:
+      void fill_derivative(const std::vector<Point<dim>> &points,
+                           double *derivative) override
+      {
+        const std::vector<Tensor<1, dim>> slopes = find_slopes(feet_of(points));
+        for (std::size_t i = 0; i < points.size(); ++i)
+          put_slope(slopes[i], derivative + dim * i);
+      }
+
       void fill(const std::vector<Point<dim>> &points, double *value,
                 double *gradient) override
       {
         const unsigned int axis = parameters.axis;
-        const double sign = parameters.material_above ? -1. : 1.;
-        std::vector<Point<dim>> feet = points;
-        for (Point<dim> &foot : feet)
-          foot[axis] = 0.;
+        const std::vector<Point<dim>> feet = feet_of(points);
         std::vector<double> heights(points.size());
-        std::vector<Tensor<1, dim>> slopes(points.size());
         parameters.height->value_list(feet, heights);
-        if (!parameters.along_axis)
-          parameters.height->gradient_list(feet, slopes);
+        const std::vector<Tensor<1, dim>> slopes =
+            parameters.along_axis ? std::vector<Tensor<1, dim>>(points.size())
+                                  : find_slopes(feet);
         for (std::size_t i = 0; i < points.size(); ++i)
         {
-          value[i] = sign * (points[i][axis] - heights[i]);
-          for (unsigned int d = 0; d < dim; ++d)
-            gradient[dim * i + d] = d == axis ? sign : -sign * slopes[i][d];
+          value[i] = sign() * (points[i][axis] - heights[i]);
+          put_slope(slopes[i], gradient + dim * i);
         }
       }
 
     private:
+      double sign() const
+      {
+        return parameters.material_above ? -1. : 1.;
+      }
+
+      std::vector<Point<dim>> feet_of(std::vector<Point<dim>> points) const
+      {
+        for (Point<dim> &point : points)
+          point[parameters.axis] = 0.;
+        return points;
+      }
+
+      std::vector<Tensor<1, dim>>
+      find_slopes(const std::vector<Point<dim>> &feet) const
+      {
+        std::vector<Tensor<1, dim>> slopes(feet.size());
+        parameters.height->gradient_list(feet, slopes);
+        return slopes;
+      }
+
+      void put_slope(const Tensor<1, dim> &slope, double *gradient) const
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          gradient[d] = d == parameters.axis ? sign() : -sign() * slope[d];
+      }
+
       const HeightObstacle<dim> parameters;
     };
   } // namespace
@@ -186,6 +247,8 @@ namespace abut
       data.user = function.get();
       data.evaluate = &HostFunction<dim>::evaluate;
       data.hollow = hollow;
+      if (function->has_derivative())
+        data.derivative = &HostFunction<dim>::derive;
       abut_obstacle *made = nullptr;
       shim::check(context.get(),
                   abut_obstacle_create_function(context.get(), &data, &made));

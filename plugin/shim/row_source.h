@@ -29,6 +29,14 @@ namespace abut::shim
     std::array<double, 3> place = {}; ///< of that sample, where it is now
   };
 
+  /** Entries of a row of a matrix, by unknowns. */
+  struct MatrixLine
+  {
+    dealii::types::global_dof_index row = 0;
+    std::vector<dealii::types::global_dof_index> column;
+    std::vector<double> value;
+  };
+
   /** A way to make contact points from a DoFHandler, and to bring what is known
    * of their components, the rows of the linear systems, back to its unknowns.
    * All else in the assembler deals with points and rows only. */
@@ -65,6 +73,23 @@ namespace abut::shim
 
     /** Keep those rows only; see abut_points_filter(). */
     virtual void filter(const std::vector<std::uint8_t> &keep) = 0;
+
+    /** Whether points move with the bodies: find() makes those at its
+     * displacement, with gaps that are right there. */
+    virtual bool moves() const
+    {
+      return false;
+    }
+
+    /** Minus the second derivatives of the gaps of this rank's points, times
+     * their weights and @p row_pressure [rows]: what the force of these
+     * pressures changes with the unknowns because points move, as a residual
+     * sees it. Without pressures (null) the same places with any values. Equal
+     * places add up. */
+    virtual std::vector<MatrixLine> geometric_lines(const double *) const
+    {
+      return {};
+    }
 
     /** The unknowns of the points' nodes. */
     virtual const solve::NodeMap &nodes() const = 0;

@@ -213,7 +213,9 @@ namespace abut::shim
           if (!tied)
             result.least_pressure =
                 std::min(result.least_pressure, row_pressure[i]);
-          result.initial_gap_work += weight * row_pressure[i] * view_.gap[i];
+          // Of points that move the gaps at displacement 0 are none.
+          if (row.place.hessian.empty())
+            result.initial_gap_work += weight * row_pressure[i] * view_.gap[i];
         });
     for_each_row(
         [&](const Component &row)
@@ -227,7 +229,10 @@ namespace abut::shim
             return [&](const Node node, const double c)
             {
               force += c * total;
-              moment += cross(surface_.nodes[node].point, Direction(c * total));
+              moment +=
+                  cross(row.place.hessian.empty() ? surface_.nodes[node].point
+                                                  : present_[node],
+                        Direction(c * total));
             };
           };
           for_each_secondary(

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -131,6 +132,15 @@ namespace abut::shim
                           "Leave one pair out, or use penalty or augmented "
                           "lagrangian."));
     pair.reach = data.reach;
+    pair.moves = settings_.method.sliding == Sliding::large && !data.tied;
+    const std::string fixed =
+        pair.moves
+            ? sliding_refusal(law, pair.discretisation,
+                              data.obstacle != nullptr,
+                              data.friction != nullptr, data.geometric_gap)
+            : "";
+    if (!fixed.empty())
+      throw ContactError("Pair '" + data.name + "': " + fixed);
     pairs_.push_back(std::move(pair));
   }
 
@@ -331,6 +341,12 @@ namespace abut::shim
     target.gap = pair.data.gap;
     target.tangents = pair.data.friction != nullptr;
     target.flush = !pair.data.geometric_gap;
+    std::vector<double> reference;
+    if (pair.moves)
+      for (const Node node : side.node)
+        for (unsigned int d = 0; d < dim; ++d)
+          reference.push_back(reference_[node][d]);
+    target.reference = pair.moves ? reference.data() : nullptr;
     build(pair, pair.coupling.get(), dropped, motion, target);
 
     abut_coupling_view view;
@@ -345,6 +361,8 @@ namespace abut::shim
         place.position[d] = view.position[i * dim + d];
       places_.push_back(place);
     }
+    if (pair.moves)
+      take_hessians(view);
     check(context_, abut_points_get(points_, &view_));
   }
 
@@ -382,6 +400,10 @@ namespace abut::shim
     const std::size_t first = places_.size();
     unsigned int n_dropped = 0;
     int shift = 0;
+    std::optional<DisplacedSides<dim>> displaced;
+    if (pair.moves)
+      displaced.emplace(context_, pair.secondary, pair.primary, reference_,
+                        present_);
     auto groups =
         pair.data.tied
             ? tie_groups(pair, taken)
@@ -397,6 +419,8 @@ namespace abut::shim
       for (unsigned int d = 0; d < dim; ++d)
         shift += group.axes >> d & 1;
     }
+
+    displaced.reset();
 
     // A node has points of one pair only: two would constrain it twice. Several
     // obstacles may hold one node in a corner.
@@ -477,6 +501,7 @@ namespace abut::shim
     places_.clear();
     checks_.clear();
     check(context_, abut_points_clear(points_));
+    note_place(u);
     std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {

@@ -17,9 +17,10 @@ namespace abut::shim
    * are those of the points' components.
    *
    * The geometry is that of the reference configuration (displacement 0), so
-   * that the gap is linear in the displacement. A point is on the rank that
-   * owns its secondary node, or for quadrature points the facet's cell. Nodes
-   * are those of the gathered surface. */
+   * that the gap is linear in the displacement, or, of pairs that move, that of
+   * the displacement of find(), with weights of the reference. A point is on
+   * the rank that owns its secondary node, or for quadrature points the facet's
+   * cell. Nodes are those of the gathered surface. */
   template <int dim> class SurfacePairRows : public RowSource
   {
   public:
@@ -56,6 +57,14 @@ namespace abut::shim
     void drop_held_tangents(std::vector<std::uint8_t> &keep) const override;
 
     void filter(const std::vector<std::uint8_t> &keep) override;
+    bool moves() const override;
+    std::vector<MatrixLine>
+    geometric_lines(const double *row_pressure) const override;
+
+    struct Kept;
+    /** Take the points of find() out, and put them back after another one. */
+    Kept keep();
+    void put_back(Kept kept);
 
     /** Take the gaps of @p pairs, which differ in nothing else from those given
      * before. */
@@ -205,6 +214,7 @@ namespace abut::shim
     struct Pair
     {
       ContactPair<dim> data;
+      bool moves = false; ///< its points are where the bodies are
       abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
       SurfaceSide<dim> secondary, primary;
       Handle<abut_coupling> coupling;
@@ -242,8 +252,24 @@ namespace abut::shim
       Node node;                   ///< -1: quadrature point
       std::int32_t facet;          ///< of a quadrature point
       dealii::Point<dim> position; ///< where the point sits
+      /** [dim * dim] second derivatives of the gap with respect to that;
+       * empty: the point is fixed. */
+      std::vector<double> hessian;
     };
 
+  public:
+    /** The points of a find(), to be put back after another one. */
+    struct Kept
+    {
+      abut_points *points = nullptr;
+      std::vector<Place> places;
+      std::vector<PairCheck> checks;
+      std::vector<std::vector<std::uint8_t>> dropped;
+      std::vector<dealii::Point<dim>> present;
+      std::vector<double> displacement;
+    };
+
+  private:
     /** A component of a point, which is a row for everybody else. */
     struct Component
     {
@@ -253,6 +279,13 @@ namespace abut::shim
       /** Along which the secondary closes the gap: normal, or axis of a tie. */
       Direction direction;
     };
+
+    /** The direction of a row, of unit length. */
+    Direction unit_direction(const Component &row) const
+    {
+      return row.place.hessian.empty() ? row.direction
+                                       : row.direction / row.direction.norm();
+    }
 
     bool is_tangent(const Component &row) const
     {
@@ -337,6 +370,8 @@ namespace abut::shim
     void build(const Pair &pair, abut_coupling *coupling,
                const std::vector<std::uint8_t> &dropped, double motion,
                const abut_coupling_target &target) const;
+    void note_place(const std::vector<Direction> &u);
+    void take_hessians(const abut_coupling_view &view);
     /** Directions of a tie that the same nodes are dropped for. */
     struct TieGroup
     {
@@ -382,6 +417,10 @@ namespace abut::shim
     abut_points_view view_ = {};
     std::vector<RigidPose<dim>> committed_poses_; ///< [pairs], or empty
     std::vector<Place> places_;                   ///< [points]
+    /** Of pairs that move: where the nodes are and were, and their
+     * displacements [nodes * dim], at the last find(). */
+    std::vector<dealii::Point<dim>> present_, reference_;
+    std::vector<double> present_displacement_;
     /** [pairs] of the present points; empty: they have to be made anew. */
     std::vector<Origin> origins_;
     std::vector<PairCheck> checks_;

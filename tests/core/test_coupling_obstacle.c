@@ -314,6 +314,216 @@ test_failures(void **state)
   scene_free(&s);
 }
 
+/* A height along the last axis: g = z - x^2 / 2 - y^3 / 6 in space, z - x^2 / 2
+ * in the plane; the gradient of evaluate is the axis. */
+static int
+height(void *user, int32_t n, const double *x, double *value, double *gradient)
+{
+  const int32_t dim = *(const int32_t *)user;
+  for (int32_t i = 0; i < n; ++i, x += dim)
+  {
+    value[i] = x[dim - 1] - 0.5 * x[0] * x[0]
+               - (dim == 3 ? x[1] * x[1] * x[1] / 6. : 0.);
+    for (int32_t d = 0; d < dim; ++d)
+      gradient[dim * i + d] = d == dim - 1;
+  }
+  return 0;
+}
+
+static int
+slope(void *user, int32_t n, const double *x, double *derivative)
+{
+  const int32_t dim = *(const int32_t *)user;
+  for (int32_t i = 0; i < n; ++i, x += dim)
+  {
+    derivative[dim * i] = -x[0];
+    if (dim == 3)
+      derivative[dim * i + 1] = -0.5 * x[1] * x[1];
+    derivative[dim * i + dim - 1] = 1.;
+  }
+  return 0;
+}
+
+static abut_obstacle *
+make_height(int32_t *dim)
+{
+  abut_obstacle_function f = abut_obstacle_function_defaults();
+  abut_obstacle *o = NULL;
+  f.dimension = *dim;
+  f.user = dim;
+  f.evaluate = height;
+  f.derivative = slope;
+  require(abut_obstacle_create_function(context, &f, &o));
+  /* Turned and shifted a little. */
+  const double c = cos(0.1), s = sin(0.1), shift[3] = {0.1, -0.35, -0.3};
+  const double turn2[4] = {c, -s, s, c},
+               turn3[9] = {1., 0., 0., 0., c, -s, 0., s, c};
+  require(abut_obstacle_set_pose(o, *dim == 2 ? turn2 : turn3, shift));
+  return o;
+}
+
+/* Points at positions x with weights of the reference. */
+static void
+build_moving(couple *c, const double *x, const double *reference)
+{
+  require(abut_surface_update(c->secondary, x));
+  require(abut_points_clear(c->points));
+  abut_coupling_target target = abut_coupling_target_defaults(c->points);
+  target.reference = reference;
+  require(abut_coupling_build(c->coupling, NULL, 10., &target));
+}
+
+/* The gaps, directions and second derivatives of points that move, against
+ * differences over the nodes; weights of the reference; gaps at displacements.
+ */
+static void
+check_moving(const scene_mesh *mesh, abut_obstacle *obstacle,
+             abut_discretisation discretisation)
+{
+  const int dim = mesh->dimension, n = mesh->n_nodes * dim;
+  const double h = 1e-4;
+  double x[300], u[300];
+  assert_true(n <= 300);
+  abut_coupling_options options = abut_coupling_defaults();
+  options.discretisation = discretisation;
+  options.search.reach = 10.;
+  couple c = couple_obstacle(mesh, obstacle, &options);
+  abut_points_view p;
+  require(abut_points_get(c.points, &p));
+  const int32_t n_points = p.n_points;
+  assert_true(n_points > 0);
+  double *weight = malloc(sizeof(double) * (size_t)n_points),
+         *gap = malloc(sizeof(double) * (size_t)n_points),
+         *step = calloc((size_t)n_points * (size_t)(1 + dim), sizeof(double)),
+         *frame = malloc(sizeof(double) * (size_t)(n_points * dim)),
+         *hessian = malloc(sizeof(double) * (size_t)(n_points * dim * dim));
+  memcpy(weight, p.weight, sizeof(double) * (size_t)n_points);
+  for (int i = 0; i < n; ++i)
+  {
+    u[i] = 0.05 * sin(1. + 3. * i);
+    x[i] = mesh->position[i] + u[i];
+  }
+  build_moving(&c, x, mesh->position);
+  abut_coupling_view view;
+  require(abut_coupling_get(c.coupling, &view));
+  require(abut_points_get(c.points, &p));
+  assert_int_equal(p.n_points, n_points);
+  memcpy(gap, p.gap, sizeof(double) * (size_t)n_points);
+  memcpy(frame, p.frame, sizeof(double) * (size_t)(n_points * dim));
+  memcpy(hessian, view.hessian,
+         sizeof(double) * (size_t)(n_points * dim * dim));
+  for (int32_t i = 0; i < n_points; ++i)
+    near(p.weight[i], weight[i], 1e-15, "weight of the reference");
+  for (int k = 0; k < n; ++k)
+  {
+    double dg[1000], df[3000];
+    memset(dg, 0, sizeof(dg));
+    memset(df, 0, sizeof(df));
+    assert_true(n_points <= 1000);
+    for (int side = -1; side <= 1; side += 2)
+    {
+      x[k] += side * h;
+      build_moving(&c, x, mesh->position);
+      require(abut_points_get(c.points, &p));
+      for (int32_t i = 0; i < n_points; ++i)
+      {
+        dg[i] += side * p.gap[i] / (2. * h);
+        for (int d = 0; d < dim; ++d)
+          df[i * dim + d] += side * p.frame[i * dim + d] / (2. * h);
+      }
+      x[k] -= side * h;
+    }
+    for (int32_t i = 0; i < n_points; ++i)
+    {
+      double part = 0.;
+      for (int64_t e = p.start[i]; e < p.start[i + 1]; ++e)
+        part += p.node[e] == k / dim ? p.coefficient[e] : 0.;
+      near(dg[i], -part * frame[i * dim + k % dim], 1e-7, "direction");
+      for (int d = 0; d < dim; ++d)
+        near(-df[i * dim + d], part * hessian[(i * dim + d) * dim + k % dim],
+             1e-7, "second derivative");
+    }
+  }
+  /* Gaps as those at the displacements. */
+  build_moving(&c, x, mesh->position);
+  require(abut_points_set_origin(c.points, 0, n_points, mesh->n_nodes, u));
+  require(abut_points_gap(c.points, mesh->n_nodes, u, step));
+  for (int32_t i = 0; i < n_points; ++i)
+    near(step[i], gap[i], 1e-14, "gap at the displacements");
+  assert_int_equal(
+      abut_points_set_origin(c.points, 1, n_points, mesh->n_nodes, u),
+      ABUT_INVALID_ARGUMENT);
+  free(weight);
+  free(gap);
+  free(step);
+  free(frame);
+  free(hessian);
+  couple_destroy(&c);
+}
+
+static void
+test_moving(void **state)
+{
+  (void)state;
+  static const abut_facet_kind kinds[3] = {ABUT_FACET_QUAD4, ABUT_FACET_QUAD9,
+                                           ABUT_FACET_TRI3};
+  const double p[5] = {0., 0., 1., 1., 0.1};
+  static const abut_discretisation ways[2] = {
+      ABUT_DISCRETISATION_NODE_TO_SEGMENT,
+      ABUT_DISCRETISATION_QUADRATURE_POINT};
+  double x[10] = {0., 0., 0.4, 0.1, 1., 0.05, 1.5, 0., 2., 0.1};
+  int32_t lines[8] = {0, 1, 1, 2, 2, 3, 3, 4};
+  const scene_mesh plane = {2, 5, 4, ABUT_FACET_LINE2, x, lines};
+  for (int32_t dim = 2; dim <= 3; ++dim)
+  {
+    int32_t own = dim;
+    abut_obstacle_shape shape = abut_obstacle_shape_defaults();
+    shape.dimension = dim;
+    shape.kind = ABUT_OBSTACLE_SPHERE;
+    shape.point[dim - 1] = -2.;
+    abut_obstacle *o[2] = {make_height(&own), make(&shape)};
+    for (int k = 0; k < 4; ++k)
+      for (int i = 0; i < (dim == 2 ? 1 : 3); ++i)
+      {
+        scene_mesh space = {0};
+        if (dim == 3)
+          space = scene_patch(kinds[i], 2, 2, scene_plane, p, true);
+        check_moving(dim == 2 ? &plane : &space, o[k % 2], ways[k / 2]);
+        if (dim == 3)
+          scene_free(&space);
+      }
+    require(abut_obstacle_destroy(&o[0]));
+    require(abut_obstacle_destroy(&o[1]));
+  }
+}
+
+/* What cannot move says so. */
+static void
+test_not_moving(void **state)
+{
+  (void)state;
+  double x[4] = {0., 0., 1., 0.};
+  int32_t lines[2] = {0, 1};
+  const scene_mesh s = {2, 2, 1, ABUT_FACET_LINE2, x, lines};
+  int32_t dim = 2;
+  abut_obstacle *o = make_height(&dim);
+  for (int k = 0; k < 3; ++k)
+  {
+    abut_coupling_options options = abut_coupling_defaults();
+    options.discretisation = k == 0 ? ABUT_DISCRETISATION_DUAL_MORTAR
+                                    : ABUT_DISCRETISATION_NODE_TO_SEGMENT;
+    couple c = couple_obstacle(&s, o, &options);
+    abut_coupling_target target = abut_coupling_target_defaults(c.points);
+    target.reference = x;
+    target.tangents = k == 1;
+    target.tie_axes = k == 2;
+    assert_int_equal(abut_coupling_build(c.coupling, NULL, 0., &target),
+                     ABUT_INVALID_ARGUMENT);
+    couple_destroy(&c);
+  }
+  require(abut_obstacle_destroy(&o));
+}
+
 int
 main(void)
 {
@@ -324,6 +534,8 @@ main(void)
       cmocka_unit_test_setup_teardown(test_sphere, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_surface, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_thin, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_moving, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_not_moving, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_failures, set_up, tear_down)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include <abut/projection.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -185,11 +186,143 @@ test_refusal(void **state)
       ABUT_UNSUPPORTED);
 }
 
+/* Which edges a nearest point is on: bits, 0 inside. */
+static int
+edges_of(abut_facet_kind kind, const abut_projection *p)
+{
+  const double tiny = 1e-12, a = p->local[0], b = p->local[1];
+  if (p->inside)
+    return 0;
+  if (abut_facet_n_corners(kind) == 3)
+    return (a <= tiny) + 2 * (b <= tiny) + 4 * (1. - a - b <= tiny);
+  const int first = 1. - fabs(a) <= tiny ? (a > 0. ? 1 : 2) : 0,
+            second = 1. - fabs(b) <= tiny ? (b > 0. ? 4 : 8) : 0;
+  return abut_facet_dimension(kind) == 2 ? first : first + second;
+}
+
+static int
+distance_of(abut_facet_kind kind, const double *z, double side, double *value,
+            double *gradient, double *hessian)
+{
+  abut_projection p;
+  const int dim = abut_facet_dimension(kind);
+  assert_int_equal(abut_facet_project(kind, z + dim, z, &p), ABUT_SUCCESS);
+  *value = p.inside ? p.gap : side * p.distance;
+  assert_int_equal(abut_facet_distance_derivatives(kind, z + dim, z, &p, side,
+                                                   gradient, hessian),
+                   ABUT_SUCCESS);
+  return edges_of(kind, &p);
+}
+
+/* A point somewhere around a facet, beside its edges and corners too. */
+static void
+random_around(uint64_t *seed, abut_facet_kind kind, double *z)
+{
+  const int dim = abut_facet_dimension(kind), n = abut_facet_n_nodes(kind);
+  double *nodes = z + dim;
+  random_facet(seed, kind, n > abut_facet_n_corners(kind) ? 0.06 : 0.2, 1.,
+               nodes);
+  for (int d = 0; d < dim; ++d)
+  {
+    z[d] = uniform(seed, -2., 2.);
+    for (int k = 0; k < n; ++k)
+      z[d] += nodes[dim * k + d] / n;
+  }
+}
+
+/* The same differences beside edges and corners, with both signs. */
+static void
+test_edges_and_corners(void **state)
+{
+  (void)state;
+  uint64_t seed = 31;
+  const double h = 1e-4;
+  int n_edge = 0, n_corner = 0;
+  for (int k = 0; k < ABUT_FACET_N_KINDS; ++k)
+    for (int i = 0; i < n_cases; ++i)
+    {
+      const abut_facet_kind kind = (abut_facet_kind)k;
+      const int dim = abut_facet_dimension(kind),
+                n = dim * (1 + abut_facet_n_nodes(kind));
+      const double side = i % 2 == 0 ? 1. : -1.;
+      double z[max_unknowns], g[max_unknowns], f[max_unknowns], value,
+          H[max_unknowns * max_unknowns];
+      random_around(&seed, kind, z);
+      const int where = distance_of(kind, z, side, &value, g, H);
+      if (fabs(value) < 0.2)
+        continue;
+      double worst[2] = {0., 0.};
+      bool stays = true;
+      for (int u = 0; u < n && stays; ++u)
+      {
+        double slope = 0., row[max_unknowns] = {0.};
+        const double middle = z[u];
+        for (int way = -1; way <= 1; way += 2)
+        {
+          z[u] = middle + way * h;
+          stays = stays && distance_of(kind, z, side, &value, f, NULL) == where;
+          slope += way / (2. * h) * value;
+          for (int v = 0; v < n; ++v)
+            row[v] += way / (2. * h) * f[v];
+        }
+        z[u] = middle;
+        worst[0] = fmax(worst[0], fabs(slope - g[u]));
+        for (int v = 0; v < n; ++v)
+        {
+          assert_true(H[u * n + v] == H[v * n + u]);
+          worst[1] = fmax(worst[1], fabs(row[v] - H[u * n + v]));
+        }
+      }
+      /* Points that pass to another edge meet a kink. */
+      if (!stays || where == 0)
+        continue;
+      const bool corner = dim == 2 || (where & (where - 1)) != 0;
+      n_corner += corner;
+      n_edge += !corner;
+      /* Near a centre of curvature third derivatives, and so the errors of the
+       * differences, are large. */
+      double largest = 1.;
+      for (int u = 0; u < n * n; ++u)
+        largest = fmax(largest, fabs(H[u]));
+      assert_true(worst[0] < 1e-6);
+      assert_true(worst[1] < 1e-6 * largest * largest);
+    }
+  assert_true(n_edge > 200 && n_corner > 200);
+}
+
+/* At the kink between the inside and an edge distance and gradient go on, and
+ * each side has its own second derivative: over the end of a segment that of a
+ * plane, 0, and that of a circle, 1 / distance along it. */
+static void
+test_kink(void **state)
+{
+  (void)state;
+  const double segment[4] = {-1., 0., 1., 0.}, e = 1e-9;
+  double h[2][36], g[2][6];
+  for (int k = 0; k < 2; ++k)
+  {
+    const double x[2] = {k == 0 ? 1. - e : 1. + e, -0.5};
+    abut_projection p;
+    assert_int_equal(abut_facet_project(ABUT_FACET_LINE2, segment, x, &p),
+                     ABUT_SUCCESS);
+    assert_int_equal(abut_facet_distance_derivatives(ABUT_FACET_LINE2, segment,
+                                                     x, &p, 1., g[k], h[k]),
+                     ABUT_SUCCESS);
+  }
+  for (int u = 0; u < 6; ++u)
+    assert_near(g[0][u], g[1][u], 1e-8);
+  assert_near(h[0][0], 0., 1e-8);
+  assert_near(h[1][0], 2., 1e-8);
+}
+
 int
 main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_finite_differences), cmocka_unit_test(test_balance),
-      cmocka_unit_test(test_segment), cmocka_unit_test(test_refusal)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_finite_differences),
+                                     cmocka_unit_test(test_balance),
+                                     cmocka_unit_test(test_segment),
+                                     cmocka_unit_test(test_refusal),
+                                     cmocka_unit_test(test_edges_and_corners),
+                                     cmocka_unit_test(test_kink)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -343,6 +343,8 @@ obstacles(world *w)
   TRY(abut_surface_update(w->b, w->mesh_b.position));
   TRY(abut_obstacle_distance(w->obstacle, w->mesh_a.n_nodes, w->mesh_a.position,
                              distance, NULL, NULL));
+  TRY(abut_obstacle_gap(w->obstacle, w->mesh_a.n_nodes, w->mesh_a.position,
+                        distance, gradient, hessian));
   abut_coupling_options options = abut_coupling_defaults();
   options.discretisation = (abut_discretisation)(w->kind / 3);
   TRY(abut_coupling_create_obstacle(w->context, w->a, w->obstacle, &options,
@@ -392,6 +394,7 @@ points(world *w)
   double u[20] = {0}, value[14], force[20] = {0};
   u[5] = 0.3;
   TRY(abut_points_gap(w->points, 10, u, value));
+  TRY(abut_points_set_origin(w->points, 0, 1, 10, u));
   TRY(abut_points_add_force(w->points, 10, value, force));
   for (int i = 0; i < 12; ++i)
     note(w, value[i] + force[i]);

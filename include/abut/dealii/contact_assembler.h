@@ -179,6 +179,19 @@ namespace abut
     virtual void linearise(const la::Vector &displacement,
                            double linear_tolerance = 0.);
 
+    /** Whether points move with the bodies (MethodParameters::sliding): then
+     * linearise() makes them anew at its displacement, solve() and add() take
+     * into account that the directions of their pressures change, with the
+     * pressures that they start from, and evaluate() looks at them where they
+     * are. Not collective. */
+    virtual bool points_move() const;
+
+    /** Take points that move to @p displacement, with their pressures and
+     * states: what pair_results() and the fields tell is then of there. To be
+     * called at the end of a Newton iteration; ContactSolver does. Does nothing
+     * where points are fixed. */
+    virtual void follow(const la::Vector &displacement);
+
     /** Earlier name of linearise(). */
     [[deprecated("is called linearise()")]] void
     restart(const la::Vector &displacement, double linear_tolerance = 0.)

@@ -154,7 +154,8 @@ namespace abut
     /** The same on the primary; against an obstacle minus the first. */
     dealii::Tensor<1, dim> primary_force;
     /** Moment about the origin, of the forces on the secondary side at the
-     * reference positions; in 2D the third component alone is not 0. */
+     * reference positions (where points move: at the present ones); in 2D the
+     * third component alone is not 0. */
     dealii::Tensor<1, 3> secondary_moment;
     /** The same on the primary side. */
     dealii::Tensor<1, 3> primary_moment;

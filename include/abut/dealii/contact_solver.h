@@ -78,8 +78,10 @@ namespace abut
     NewtonResult solve(la::Vector &u)
     {
       result_ = NewtonResult();
+      // Points that move are linear in nothing.
+      linear_ = problem_.linear && !contact_.points_move();
       allocate(u);
-      if (problem_.linear)
+      if (linear_)
         constraints_.distribute(u);
       try
       {
@@ -110,7 +112,7 @@ namespace abut
     void allocate(const la::Vector &u)
     {
       residual_.reinit(u, true);
-      if (problem_.linear)
+      if (linear_)
         return;
       for (la::Vector *vector : {&increment_, &step_, &product_, &forces_,
                                  &trial_, &goal_, &change_})
@@ -121,7 +123,7 @@ namespace abut
      * the free unknowns are the same. */
     const la::Vector &goal(const la::Vector &u)
     {
-      if (problem_.linear)
+      if (linear_)
         return u;
       goal_ = u;
       constraints_.distribute(goal_);
@@ -162,7 +164,7 @@ namespace abut
       if (parameters_.relaxation_sweeps == 0)
         return;
       find_residual(u);
-      if (problem_.linear)
+      if (linear_)
       {
         contact_.relax(problem_.tangent(u), residual_,
                        parameters_.relaxation_sweeps, u);
@@ -208,7 +210,7 @@ namespace abut
     /** false: stopped without an answer. */
     bool iterate(la::Vector &u)
     {
-      return problem_.linear ? solve_linear(u) : solve_nonlinear(u);
+      return linear_ ? solve_linear(u) : solve_nonlinear(u);
     }
 
     /** A linear problem is its own linearisation. */
@@ -259,7 +261,10 @@ namespace abut
         if (!solve_linearised(tangent, trial_) || !move(tangent, u))
           return false;
         if (result_.error <= parameters_.tolerance)
+        {
+          contact_.follow(goal(u));
           return true;
+        }
       }
       return stop(NewtonReason::step_limit,
                   "Newton's method has not converged after "
@@ -296,7 +301,7 @@ namespace abut
      * solution. */
     bool solve_linearised(const la::Matrix &tangent, la::Vector &u)
     {
-      const bool is_direct = problem_.linear && problem_.residual_is_cheap;
+      const bool is_direct = linear_ && problem_.residual_is_cheap;
       if (!is_direct)
         step_ = u;
       bool is_first = true;
@@ -377,6 +382,7 @@ namespace abut
       double energy = 0.; ///< energy norm of the displacement
       double force = 0.;
       bool is_positive = true; ///< whether energies say anything
+      double defect = 0.;      ///< of the law, before the step
       /** Forces out of balance, and what prescribed values change of them:
        * their squares and product, before the step. */
       double squares[3] = {0., 0., 0.};
@@ -385,6 +391,7 @@ namespace abut
     Scales measure(const la::Matrix &tangent, const la::Vector &u)
     {
       Scales scales;
+      scales.defect = defect_;
       scales.before = imbalance();
       if (has_change_)
       {
@@ -422,13 +429,37 @@ namespace abut
                  : result_.residual <= parameters_.tolerance * scales.force;
     }
 
+    /** The forces of contact at @p u and how far pressures and gaps are from
+     * the law there. Points that do not move have the same forces everywhere,
+     * and no defect once their problem is solved: asked for @p at_start alone.
+     */
+    void find_contact(const la::Vector &u, const bool at_start)
+    {
+      if (contact_.points_move())
+        defect_ = contact_.evaluate(goal(u), forces_);
+      else if (at_start)
+      {
+        forces_ = 0.;
+        contact_.add_contact_forces(forces_);
+      }
+      else
+        return;
+      constraints_.set_zero(forces_);
+    }
+
+    /** A defect, root of an energy, as a force, so that both can be added. */
+    static double as_force(const Scales &scales, const double defect)
+    {
+      return defect > 0. && scales.energy > 0.
+                 ? defect / scales.energy * scales.force
+                 : 0.;
+    }
+
     /** Go from @p u towards trial_ as far as the residual falls, estimate the
      * error there, and set the next linear tolerance. */
     bool move(const la::Matrix &tangent, la::Vector &u)
     {
-      forces_ = 0.;
-      contact_.add_contact_forces(forces_);
-      constraints_.set_zero(forces_);
+      find_contact(u, true);
       step_ = trial_;
       step_ -= u;
       const Scales scales = measure(tangent, u);
@@ -438,9 +469,12 @@ namespace abut
       for (unsigned int halving = 0;; ++halving)
       {
         find_residual(trial_);
+        find_contact(trial_, false);
         result_.residual = imbalance();
-        if (result_.residual
-                <= (1. - 1e-3 * part) * imbalance_to_lower(scales, part)
+        if (result_.residual + as_force(scales, defect_)
+                <= (1. - 1e-3 * part)
+                       * (imbalance_to_lower(scales, part)
+                          + as_force(scales, scales.defect))
             || is_at_end(scales))
           break;
         if (halving == parameters_.max_halvings)
@@ -478,6 +512,8 @@ namespace abut
               "Forces balance, but the tangent is not positive along the last "
               "step: the equilibrium may be unstable.";
       }
+      if (scales.energy > 0.)
+        result_.error = std::max(result_.error, defect_ / scales.energy);
       if (has_change_ && part < 1.) // prescribed values are not there yet
         result_.error = std::max(result_.error, 1. - part);
       // No more than the end of the iteration needs.
@@ -584,9 +620,11 @@ namespace abut
     const NewtonParameters parameters_;
     const SolverEvents events_;
     NewtonResult result_;
+    bool linear_ = false; ///< the problem is its own linearisation
     la::Vector residual_, increment_, step_, product_, forces_, trial_;
-    la::Vector goal_;   ///< present displacement with prescribed values
-    la::Vector change_; ///< of the residual by prescribed values, linearised
+    la::Vector goal_;    ///< present displacement with prescribed values
+    la::Vector change_;  ///< of the residual by prescribed values, linearised
+    double defect_ = 0.; ///< of the law at the last trial, where points move
     bool has_change_ = false; ///< whether they differ from the present ones
     double linear_tolerance_ = 1e-2;
   };

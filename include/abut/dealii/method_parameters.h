@@ -28,6 +28,17 @@ namespace abut
     saddle_point /**< pressures are unknowns of the linear system */
   };
 
+  /** Where contact is looked at. */
+  enum class Sliding
+  {
+    automatic, /**< what a program takes that knows its bodies; else small */
+    small,     /**< gaps are linear in the displacement, as they are made of
+                    the undeformed bodies */
+    large      /**< points move with the bodies: at each linearisation gaps,
+                    directions and their derivatives are those of the present
+                    places */
+  };
+
   /** The word of a parameter file for a discretisation, `auto` for none. */
   std::string
   discretisation_name(std::optional<abut_discretisation> discretisation);
@@ -42,6 +53,13 @@ namespace abut
                       System system, bool tied);
 
   struct MethodParameters;
+
+  /** Why points cannot move with a method, with what to take instead; empty if
+   * they can. Ties never do. */
+  std::string sliding_refusal(const abut_law &law,
+                              abut_discretisation discretisation,
+                              bool has_obstacle, bool has_friction,
+                              bool has_geometric_gap);
 
   /** Why there is no friction with a method, with what to take instead; empty
    * if there is. */
@@ -103,6 +121,9 @@ namespace abut
     /** As in abut_coupling_options: integrate over the exact common parts of
      * facets. */
     bool segments = true;
+
+    /** Whether points move with the bodies. */
+    Sliding sliding = Sliding::automatic;
 
     /** Declare the section `Method` in the present section of @p prm. */
     static void declare_parameters(dealii::ParameterHandler &prm);

@@ -39,13 +39,16 @@ namespace abut
   template <int dim> struct HeightObstacle
   {
     /** Height as a function of the point; its coordinate along the axis is
-     * zero. Gradients are asked for only if along_axis is false. */
+     * zero. Gradients are asked for only if along_axis is false, or if points
+     * move (Sliding::large). */
     std::shared_ptr<dealii::Function<dim>> height;
     unsigned int axis = dim - 1; /**< 0 .. dim - 1 */
     /** The material is above the height, seen along the axis: a die. */
     bool material_above = false;
     /** The gap is measured along the axis, and its gradient is the axis: an
-     * obstacle in the sense of a height above each point. Otherwise it is
+     * obstacle in the sense of a height above each point. Of points that move
+     * it is the same gap with its own gradient, (-h', 1) in the plane: it is
+     * not of unit length, and a pressure is force by that gap. Otherwise it is
      * measured normal to the surface, to first order in the gap. */
     bool along_axis = true;
   };

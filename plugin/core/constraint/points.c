@@ -130,6 +130,12 @@ abut_points_dimension(const abut_points *points)
   return points->dimension;
 }
 
+double *
+abut_points_gaps(abut_points *points)
+{
+  return points->gap.data;
+}
+
 void
 abut_points_truncate(abut_points *points, int32_t n)
 {

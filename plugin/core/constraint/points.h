@@ -11,6 +11,9 @@ abut_context *abut_points_context(const abut_points *points);
 int32_t abut_points_n(const abut_points *points);
 int32_t abut_points_dimension(const abut_points *points);
 
+/* The gaps of all components. */
+double *abut_points_gaps(abut_points *points);
+
 /* Keep the first n points: takes back what was appended after them. */
 void abut_points_truncate(abut_points *points, int32_t n);
 

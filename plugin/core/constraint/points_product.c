@@ -19,14 +19,14 @@ begin(const abut_points *points, const char *call, int32_t n_nodes,
   return abut_points_check_nodes(points, call, n_nodes);
 }
 
-/* g + sigma f . sum_l c_l v_l of a component of point i. */
+/* sigma f . sum_l c_l v_l of a component of point i. */
 static double
-gap_of(const abut_points_view *v, int32_t i, int32_t row, const double *u)
+change_of(const abut_points_view *v, int32_t i, int32_t row, const double *u)
 {
   const int32_t dim = v->dimension;
   const double sign = abut_point_sign(v->kind[i], row - v->component_start[i]);
   const double *f = v->frame + (int64_t)row * dim;
-  double sum = v->gap[row];
+  double sum = 0.;
   for (int64_t e = v->start[i]; e < v->start[i + 1]; ++e)
     for (int32_t d = 0; d < dim; ++d)
       sum += sign * f[d] * v->coefficient[e] * u[(int64_t)dim * v->node[e] + d];
@@ -48,7 +48,7 @@ abut_points_gap(const abut_points *points, int32_t n_nodes,
     for (int32_t row = v.component_start[i]; row < v.component_start[i + 1];
          ++row)
     {
-      value[row] = gap_of(&v, i, row, displacement);
+      value[row] = v.gap[row] + change_of(&v, i, row, displacement);
       probe += value[row] * 0.0;
     }
   return probe == 0 ? ABUT_SUCCESS
@@ -90,5 +90,34 @@ abut_points_add_force(const abut_points *points, int32_t n_nodes,
     for (int32_t row = v.component_start[i]; row < v.component_start[i + 1];
          ++row)
       add_force_of(&v, i, row, pressure[row], force);
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_points_set_origin(abut_points *points, int32_t first, int32_t n_points,
+                       int32_t n_nodes, const double *displacement)
+{
+  static const char call[] = "abut_points_set_origin";
+  abut_points_view v;
+  const abut_status status =
+      begin(points, call, n_nodes, displacement, displacement, &v);
+  if (status != ABUT_SUCCESS)
+    return status;
+  if (first < 0 || n_points < 0 || first > v.n_points - n_points)
+    return abut_fail(abut_points_context(points), ABUT_INVALID_ARGUMENT, call,
+                     "there are no such points");
+  double probe = 0, *gap = abut_points_gaps(points);
+  const int32_t end = first + n_points;
+  for (int32_t i = first; i < end; ++i)
+    for (int32_t row = v.component_start[i]; row < v.component_start[i + 1];
+         ++row)
+      probe += change_of(&v, i, row, displacement) * 0.0;
+  if (!(probe == 0))
+    return abut_fail(abut_points_context(points), ABUT_NOT_FINITE, call,
+                     "a displacement is not finite");
+  for (int32_t i = first; i < end; ++i)
+    for (int32_t row = v.component_start[i]; row < v.component_start[i + 1];
+         ++row)
+      gap[row] -= change_of(&v, i, row, displacement);
   return ABUT_SUCCESS;
 }

@@ -48,6 +48,7 @@ list_arrays(abut_coupling *c, array_size *list)
                             {&c->asked, sizeof(double)},
                             {&c->distance, sizeof(double)},
                             {&c->gradient, sizeof(double)},
+                            {&c->hessian, sizeof(double)},
                             {&c->asked_normal, sizeof(double)},
                             {&c->walkers, sizeof(char)},
                             {&c->walk, sizeof(double)},
@@ -65,6 +66,7 @@ list_arrays(abut_coupling *c, array_size *list)
                             {&c->point_number, sizeof(int32_t)},
                             {&c->point_full, sizeof(double)},
                             {&c->point_position, sizeof(double)},
+                            {&c->point_hessian, sizeof(double)},
                             {&c->stencil_node, sizeof(int32_t)},
                             {&c->stencil_coefficient, sizeof(double)}};
   const int n = (int)(sizeof(all) / sizeof(all[0]));

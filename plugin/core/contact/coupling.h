@@ -39,6 +39,7 @@ typedef struct abut_coupling_point
   double distance;                    /* obstacle: phi; else zero */
   double normal[3];                   /* of the secondary facet; obstacle:
                                          - grad phi */
+  int64_t answer;                     /* obstacle: number of it */
   int32_t primary;                    /* facet; obstacle: -1 */
   int32_t number;                     /* within the facet */
   double shape[ABUT_FACET_MAX_NODES]; /* of the secondary */
@@ -52,6 +53,7 @@ typedef struct abut_coupling_facet
   abut_facet_kind kind;
   int32_t n;                                    /* nodes */
   double x[3 * ABUT_FACET_MAX_NODES];           /* [n * dimension] */
+  double reference[3 * ABUT_FACET_MAX_NODES];   /* where weights are measured */
   double normal[3];                             /* mean */
   double node_normal[3 * ABUT_FACET_MAX_NODES]; /* [3 * n] averaged; at a
                                                    feature the facet's own */
@@ -92,6 +94,7 @@ typedef struct abut_coupling_share
   double distance;
   double normal[3];   /* integral of psi n */
   double position[3]; /* quadrature point: where it is */
+  int64_t answer;     /* of the obstacle */
 } abut_coupling_share;
 
 typedef struct abut_coupling_entry
@@ -161,6 +164,7 @@ struct abut_coupling
   /* Obstacles: points asked for, in the order in which the answers are taken.
    */
   abut_array asked, distance, gradient; /* double */
+  abut_array hessian;       /* double, [n_asked * dimension^2] if they move */
   abut_array asked_normal;  /* double, [3 n_asked] of the surface there */
   abut_array walkers, walk; /* of coupling_far_side.c */
   int64_t n_asked, n_answered;
@@ -180,11 +184,19 @@ struct abut_coupling
   const abut_coupling_target *target;
   abut_array point_node, point_facet, point_number; /* int32_t */
   abut_array point_full, point_position;            /* double */
+  abut_array point_hessian;                         /* double */
   abut_array stencil_node;                          /* int32_t, of one point */
   abut_array stencil_coefficient;                   /* double */
   abut_coupling_view view;
   abut_coupling_statistics statistics;
 };
+
+/* Whether the points of this build move. */
+static inline bool
+abut_coupling_moves(const abut_coupling *c)
+{
+  return c->target->reference != NULL;
+}
 
 /* Whether the rows are weighted means over facets. */
 bool abut_coupling_is_mortar(const abut_coupling *c);

@@ -155,6 +155,13 @@ add_entries(abut_coupling *c, int side, const int64_t *list, int64_t n,
 static void
 normal_of(abut_coupling *c, const abut_coupling_share *total, double *n)
 {
+  if (abut_coupling_moves(c))
+  {
+    /* Minus the gradient of the gap as it is. */
+    for (int d = 0; d < 3; ++d)
+      n[d] = total->normal[d] / total->weight;
+    return;
+  }
   const int32_t dim = c->secondary->view.dimension;
   const double limit = cos(0.5 * c->secondary->feature_angle);
   double mean[3] = {total->normal[0], total->normal[1], total->normal[2]};
@@ -181,11 +188,13 @@ note_point(abut_coupling *c, const abut_coupling_share *total, double full)
   {
     abut_array *array;
     int64_t each;
-  } const list[] = {{&c->point_node, 1},
-                    {&c->point_facet, 1},
-                    {&c->point_number, 1},
-                    {&c->point_full, 1},
-                    {&c->point_position, dim}};
+  } const list[] = {
+      {&c->point_node, 1},
+      {&c->point_facet, 1},
+      {&c->point_number, 1},
+      {&c->point_full, 1},
+      {&c->point_position, dim},
+      {&c->point_hessian, abut_coupling_moves(c) ? dim * dim : 0}};
   for (size_t k = 0; k < sizeof(list) / sizeof(list[0]); ++k)
   {
     const abut_status status = abut_array_reserve(
@@ -203,6 +212,10 @@ note_point(abut_coupling *c, const abut_coupling_share *total, double full)
   ((double *)c->point_full.data)[i] = full;
   memcpy((double *)c->point_position.data + i * dim, position,
          sizeof(double) * (size_t)dim);
+  if (abut_coupling_moves(c))
+    memcpy((double *)c->point_hessian.data + i * dim * dim,
+           (const double *)c->hessian.data + total->answer * dim * dim,
+           sizeof(double) * (size_t)(dim * dim));
   return ABUT_SUCCESS;
 }
 
@@ -407,5 +420,6 @@ abut_coupling_append(abut_coupling *c)
   v->point = c->point_number.data;
   v->full_weight = c->point_full.data;
   v->position = c->point_position.data;
+  v->hessian = abut_coupling_moves(c) ? c->point_hessian.data : NULL;
   return ABUT_SUCCESS;
 }

@@ -127,13 +127,14 @@ build(abut_coupling *c, double motion)
 
 /* On the axis of revolution or on its positive side. */
 static bool
-has_radii(const abut_surface *s)
+has_radii(const abut_surface *s, const double *reference)
 {
   abut_surface_view v = s->view;
+  const double *position = reference != NULL ? reference : v.position;
   double largest = 0., least = 0.;
   for (int32_t e = 0; e < v.facet_start[v.n_facets]; ++e)
   {
-    const double x = v.position[2 * (int64_t)v.connectivity[e]];
+    const double x = position[2 * (int64_t)v.connectivity[e]];
     largest = max2(largest, x);
     least = min2(least, x);
   }
@@ -151,6 +152,11 @@ fault_of_target(const abut_coupling *c, const abut_coupling_target *t)
     return "an axis of a tie does not exist";
   if (!(fabs(t->gap) <= ABUT_FACET_LIMIT))
     return "the gap to be added is not finite";
+  if (t->reference != NULL
+      && (c->obstacle == NULL || abut_coupling_is_mortar(c) || t->tangents
+          || t->tie_axes != 0))
+    return "only nodes and quadrature points against an obstacle, without "
+           "tangents and ties, can move";
   return NULL;
 }
 
@@ -173,7 +179,8 @@ abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
   const char *fault = fault_of_target(c, &place);
   if (fault == NULL && !(motion >= 0 && motion <= ABUT_FACET_LIMIT))
     fault = "motion is negative or not finite";
-  if (fault == NULL && c->options.axisymmetric && !has_radii(c->secondary))
+  if (fault == NULL && c->options.axisymmetric
+      && !has_radii(c->secondary, place.reference))
     fault = "axisymmetric: a node of the secondary surface has a negative "
             "radius x";
   if (fault != NULL)

@@ -71,6 +71,21 @@ set_node_normals(const abut_coupling *c, abut_coupling_facet *facet)
   }
 }
 
+/* Positions that the facet's weights are measured at: of the undeformed body,
+ * where points move. */
+static void
+load_reference(const abut_coupling *c, abut_coupling_facet *facet)
+{
+  const abut_surface_view *v = &c->secondary->view;
+  const int32_t *node = v->connectivity + v->facet_start[facet->index];
+  const int32_t dim = v->dimension;
+  const double *from =
+      abut_coupling_moves(c) ? c->target->reference : v->position;
+  for (int32_t a = 0; a < facet->n; ++a)
+    memcpy(facet->reference + dim * a, from + (int64_t)dim * node[a],
+           sizeof(double) * (size_t)dim);
+}
+
 void
 abut_coupling_load(const abut_coupling *c, int32_t f,
                    abut_coupling_facet *facet)
@@ -80,6 +95,7 @@ abut_coupling_load(const abut_coupling *c, int32_t f,
   facet->index = f;
   facet->kind = (abut_facet_kind)c->secondary->view.kinds[f];
   facet->n = abut_surface_gather(c->secondary, f, facet->x);
+  load_reference(c, facet);
   if (c->secondary->view.dimension == 2)
     abut_measure2(facet->kind, facet->x, &m, &vector_area, &lowest_cosine);
   else
@@ -124,7 +140,11 @@ abut_coupling_finish_point(const abut_coupling *c,
   position(dim, facet->n, facet->x, p->shape, x);
   memcpy(p->normal, facet->normal, sizeof(p->normal));
   if (c->options.axisymmetric)
-    p->weight *= 2. * 3.14159265358979323846 * x[0];
+  {
+    double at[3];
+    position(dim, facet->n, facet->reference, p->shape, at);
+    p->weight *= 2. * 3.14159265358979323846 * at[0];
+  }
   if (c->primary == NULL || p->primary < 0)
     return;
   double y[3];
@@ -193,7 +213,7 @@ abut_coupling_whole(abut_coupling *c, const abut_coupling_facet *facet)
     double t[2][3], n[3];
     p->number = q;
     memcpy(p->local, rule.local[q], sizeof(p->local));
-    abut_coupling_shape(facet->kind, facet->x, p->local, p->shape, t);
+    abut_coupling_shape(facet->kind, facet->reference, p->local, p->shape, t);
     if (c->secondary->view.dimension == 2)
       memcpy(n, t[0], sizeof(n));
     else

@@ -97,6 +97,9 @@ arrive(abut_coupling *c, const walker *w, double distance,
   ((double *)c->distance.data)[w->point] = distance + w->way * cosine;
   memcpy((double *)c->gradient.data + w->point * dim, gradient,
          sizeof(double) * (size_t)dim);
+  if (abut_coupling_moves(c))
+    memset((double *)c->hessian.data + w->point * dim * dim, 0,
+           sizeof(double) * (size_t)(dim * dim));
 }
 
 /* One step of all walkers; those that have arrived or are lost leave. */

@@ -65,11 +65,18 @@ abut_coupling_measure_obstacle(abut_coupling *c)
   if (status == ABUT_SUCCESS)
     status =
         abut_array_reserve(c->context, &c->gradient, 0, c->n_asked * dim + 1);
+  if (status == ABUT_SUCCESS && abut_coupling_moves(c))
+    status = abut_array_reserve(c->context, &c->hessian, 0,
+                                c->n_asked * dim * dim + 1);
   if (status != ABUT_SUCCESS || c->n_asked == 0)
     return status;
-  status =
-      abut_obstacle_distance(c->obstacle, (int32_t)c->n_asked, c->asked.data,
-                             c->distance.data, c->gradient.data, NULL);
+  status = abut_coupling_moves(c)
+               ? abut_obstacle_gap(c->obstacle, (int32_t)c->n_asked,
+                                   c->asked.data, c->distance.data,
+                                   c->gradient.data, c->hessian.data)
+               : abut_obstacle_distance(c->obstacle, (int32_t)c->n_asked,
+                                        c->asked.data, c->distance.data,
+                                        c->gradient.data, NULL);
   return status == ABUT_SUCCESS ? abut_coupling_leave_far_side(c) : status;
 }
 
@@ -133,11 +140,13 @@ abut_coupling_face_obstacle(abut_coupling *c, const abut_coupling_facet *facet,
   c->n_answered += n_points + 1;
   c->n_points = 0;
   answer(c, first + n_points, &distance, normal);
+  unit3(normal, 0.);
   if (!(-dot3(normal, facet->normal) <= c->options.normal_cosine))
     return ABUT_SUCCESS;
   for (int64_t q = 0; q < n_points; ++q)
   {
     answer(c, first + q, &p[q].distance, p[q].normal);
+    p[q].answer = first + q;
     if (is_kept(c, facet, p + q))
       p[n++] = p[q];
   }
@@ -160,6 +169,7 @@ abut_coupling_add_node_obstacle(abut_coupling *c, int32_t node)
   s->facet = -1;
   s->weight = weight;
   s->distance = weight * distance;
+  s->answer = node;
   for (int d = 0; d < 3; ++d)
     s->normal[d] = weight * normal[d];
   return abut_coupling_new_entry(c, &s->n_secondary, node, weight);

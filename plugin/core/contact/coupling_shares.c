@@ -191,6 +191,7 @@ abut_coupling_add_points(abut_coupling *c, const abut_coupling_facet *facet,
     s->node = -1;
     s->facet = facet->index;
     s->point = p->number;
+    s->answer = p->answer;
     s->weight = p->weight;
     s->distance = p->weight * p->distance;
     for (int d = 0; d < 3; ++d)

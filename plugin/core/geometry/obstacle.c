@@ -264,16 +264,14 @@ turn(int64_t n, int64_t dimension, double *distance, double *gradient,
     negate(n * dimension * dimension, hessian);
 }
 
-abut_status
-abut_obstacle_distance(abut_obstacle *obstacle, int32_t n, const double *points,
-                       double *distance, double *gradient, double *hessian)
+/* Distances, or gaps of points that move. */
+static abut_status
+ask(abut_obstacle *o, bool moving, int32_t n, const double *points,
+    double *distance, double *gradient, double *hessian)
 {
-  if (obstacle == NULL)
-    return ABUT_INVALID_ARGUMENT;
-  abut_obstacle *o = obstacle;
   if (n < 0 || (n > 0 && (points == NULL || distance == NULL)))
     return abut_fail(o->context, ABUT_INVALID_ARGUMENT,
-                     "abut_obstacle_distance",
+                     moving ? "abut_obstacle_gap" : "abut_obstacle_distance",
                      "n is negative, or points or distance is NULL");
   o->view.n_beyond = 0;
   if (n == 0)
@@ -285,7 +283,9 @@ abut_obstacle_distance(abut_obstacle *obstacle, int32_t n, const double *points,
   if (status == ABUT_SUCCESS)
     status = prepare(o, n, points, &local, &g);
   if (status == ABUT_SUCCESS)
-    status = o->methods->evaluate(o, n, local, distance, g, hessian);
+    status = (moving && o->methods->gap != NULL
+                  ? o->methods->gap
+                  : o->methods->evaluate)(o, n, local, distance, g, hessian);
   if (status != ABUT_SUCCESS)
     return status;
   if (o->placed && gradient != NULL)
@@ -295,4 +295,22 @@ abut_obstacle_distance(abut_obstacle *obstacle, int32_t n, const double *points,
   if (o->view.hollow)
     turn(n, o->view.dimension, distance, gradient, hessian);
   return ABUT_SUCCESS;
+}
+
+abut_status
+abut_obstacle_distance(abut_obstacle *obstacle, int32_t n, const double *points,
+                       double *distance, double *gradient, double *hessian)
+{
+  return obstacle == NULL
+             ? ABUT_INVALID_ARGUMENT
+             : ask(obstacle, false, n, points, distance, gradient, hessian);
+}
+
+abut_status
+abut_obstacle_gap(abut_obstacle *obstacle, int32_t n, const double *points,
+                  double *gap, double *gradient, double *hessian)
+{
+  return obstacle == NULL
+             ? ABUT_INVALID_ARGUMENT
+             : ask(obstacle, true, n, points, gap, gradient, hessian);
 }

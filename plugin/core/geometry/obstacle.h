@@ -17,6 +17,9 @@ typedef struct abut_obstacle_methods
   abut_status (*evaluate)(abut_obstacle *obstacle, int32_t n,
                           const double *points, double *distance,
                           double *gradient, double *hessian);
+  /* The same of abut_obstacle_gap(); NULL: evaluate. */
+  abut_status (*gap)(abut_obstacle *obstacle, int32_t n, const double *points,
+                     double *gap, double *gradient, double *hessian);
   /* Release what the kind owns besides its struct; NULL: nothing. */
   void (*release)(abut_obstacle *obstacle);
 } abut_obstacle_methods;

@@ -8,7 +8,10 @@
  * Second derivatives are those of a distance that has the same level surface
  * through the point, H = P (D grad f) P / |grad f| with P = I - n n'. D are
  * differences of the caller's gradient of fourth order, with four evaluations
- * for each axis: (8 (g(+h) - g(-h)) - (g(+2h) - g(-2h))) / (12 h). */
+ * for each axis: (8 (g(+h) - g(-h)) - (g(+2h) - g(-2h))) / (12 h).
+ *
+ * Gaps of points that move are the value itself where the caller has its
+ * derivative, and second derivatives the differences of that. */
 #include "geometry/obstacle.h"
 
 #include "geometry/kernels.h"
@@ -50,11 +53,21 @@ length_of(const function_obstacle *f, int64_t size, const double *points)
   return length > 0. ? length : 1.;
 }
 
+/* What second derivatives are differences of. */
+static int
+slopes(const function_obstacle *f, bool moving, int32_t n, const double *points)
+{
+  return moving ? f->function.derivative(f->function.user, n, points,
+                                         f->gradients.data)
+                : f->function.evaluate(f->function.user, n, points,
+                                       f->values.data, f->gradients.data);
+}
+
 /* hessian[i][a][d] += factor * gradient_a at the points moved by `step` along
  * axis d. */
 static abut_status
-add_moved(function_obstacle *f, int32_t n, const double *points, int32_t d,
-          double step, double factor, double *hessian)
+add_moved(function_obstacle *f, bool moving, int32_t n, const double *points,
+          int32_t d, double step, double factor, double *hessian)
 {
   const int32_t dimension = f->base.view.dimension;
   double *moved = f->points.data;
@@ -62,9 +75,7 @@ add_moved(function_obstacle *f, int32_t n, const double *points, int32_t d,
   memcpy(moved, points, (size_t)n * (size_t)dimension * sizeof(*moved));
   for (int64_t i = 0; i < n; ++i)
     moved[i * dimension + d] += step;
-  if (f->function.evaluate(f->function.user, n, moved, f->values.data,
-                           f->gradients.data)
-      != 0)
+  if (slopes(f, moving, n, moved) != 0)
     return abut_obstacle_fail(&f->base, ABUT_CALLBACK_FAILED, 0,
                               "the obstacle's function failed near points that "
                               "begin");
@@ -77,7 +88,7 @@ add_moved(function_obstacle *f, int32_t n, const double *points, int32_t d,
 
 /* Differences of the caller's gradient. */
 static abut_status
-differences(function_obstacle *f, int32_t n, const double *points,
+differences(function_obstacle *f, bool moving, int32_t n, const double *points,
             double *hessian)
 {
   const int32_t dimension = f->base.view.dimension;
@@ -94,7 +105,7 @@ differences(function_obstacle *f, int32_t n, const double *points,
     for (int32_t k = -2; k <= 2 && status == ABUT_SUCCESS; ++k)
       if (k != 0)
         status = add_moved(
-            f, n, points, d, k * h,
+            f, moving, n, points, d, k * h,
             (k % 2 != 0 ? 8. : -1.) * (k > 0 ? 1. : -1.) / (12. * h), hessian);
   return status;
 }
@@ -163,7 +174,7 @@ evaluate(abut_obstacle *o, int32_t n, const double *points, double *distance,
   if (hessian != NULL)
   {
     const abut_status status =
-        differences((function_obstacle *)o, n, points, hessian);
+        differences((function_obstacle *)o, false, n, points, hessian);
     if (status != ABUT_SUCCESS)
       return status;
   }
@@ -190,7 +201,59 @@ evaluate(abut_obstacle *o, int32_t n, const double *points, double *distance,
   return ABUT_SUCCESS;
 }
 
-static const abut_obstacle_methods methods = {evaluate, release};
+/* A value and its derivative are to be used as they are. */
+static abut_status
+check_finite(abut_obstacle *o, int32_t n, const double *value,
+             const double *derivative)
+{
+  for (int32_t i = 0; i < n; ++i)
+  {
+    double probe = 0. * value[i];
+    for (int32_t d = 0; d < o->view.dimension; ++d)
+      probe += 0. * derivative[(int64_t)i * o->view.dimension + d];
+    if (probe != 0.)
+      return abut_obstacle_fail(o, ABUT_NOT_FINITE, i,
+                                "the obstacle's function or its derivative is "
+                                "not finite");
+  }
+  return ABUT_SUCCESS;
+}
+
+static void
+make_symmetric(int32_t dimension, double *hessian)
+{
+  for (int32_t a = 0; a < dimension; ++a)
+    for (int32_t d = 0; d < a; ++d)
+    {
+      double *one = hessian + a * dimension + d,
+             *other = hessian + d * dimension + a;
+      *one = *other = 0.5 * (*one + *other);
+    }
+}
+
+static abut_status
+gap(abut_obstacle *o, int32_t n, const double *points, double *value,
+    double *derivative, double *hessian)
+{
+  function_obstacle *self = (function_obstacle *)o;
+  const abut_obstacle_function *f = &self->function;
+  const int64_t square = (int64_t)o->view.dimension * o->view.dimension;
+  if (f->derivative == NULL)
+    return evaluate(o, n, points, value, derivative, hessian);
+  if (f->evaluate(f->user, n, points, value, derivative) != 0
+      || f->derivative(f->user, n, points, derivative) != 0)
+    return abut_obstacle_fail(o, ABUT_CALLBACK_FAILED, 0,
+                              "the obstacle's function failed for points that "
+                              "begin");
+  abut_status status = check_finite(o, n, value, derivative);
+  if (status == ABUT_SUCCESS && hessian != NULL)
+    status = differences(self, true, n, points, hessian);
+  for (int64_t i = 0; i < n && hessian != NULL && status == ABUT_SUCCESS; ++i)
+    make_symmetric(o->view.dimension, hessian + i * square);
+  return status;
+}
+
+static const abut_obstacle_methods methods = {evaluate, gap, release};
 
 abut_status
 abut_obstacle_create_function(abut_context *context,

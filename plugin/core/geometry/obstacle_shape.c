@@ -42,7 +42,7 @@ evaluate(abut_obstacle *o, int32_t n, const double *points, double *distance,
   return ABUT_SUCCESS;
 }
 
-static const abut_obstacle_methods methods = {evaluate, NULL};
+static const abut_obstacle_methods methods = {evaluate, NULL, NULL};
 
 static bool
 is_length(double v)

@@ -113,7 +113,7 @@ evaluate(abut_obstacle *o, int32_t n, const double *points, double *distance,
   return ABUT_SUCCESS;
 }
 
-static const abut_obstacle_methods methods = {evaluate, release};
+static const abut_obstacle_methods methods = {evaluate, NULL, release};
 
 static abut_status
 refuse_facet(abut_context *context, const char *call, int32_t f,

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Rows that move with the bodies: they are made at each linearisation, and go
+// on from what rows of the same number had; what their forces change by because
+// their directions do is a part of the tangent.
+#include "contact_implementation.h"
+
+#include "solve/row_stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  template <int dim> bool ContactAssembler<dim>::Implementation::moves() const
+  {
+    if (source != nullptr && !source_is_outdated)
+      return source->moves();
+    return method.sliding == Sliding::large
+           && std::any_of(pairs.begin(), pairs.end(),
+                          [](const ContactPair<dim> &pair)
+                          { return !pair.tied; });
+  }
+
+  template <int dim>
+  typename ContactAssembler<dim>::Implementation::RowValues
+  ContactAssembler<dim>::Implementation::row_values() const
+  {
+    RowValues values;
+    values.has_states = is_started || !start_state.empty();
+    for (int row = 0; row < coefficients.n_rows(); ++row)
+      values.of[coefficients.ids()[row]] = {
+          row_pressure(row), is_started            ? request.state[row]
+                             : start_state.empty() ? std::uint8_t(0)
+                                                   : start_state[row]};
+    return values;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::move_rows(
+      const la::Vector &displacement)
+  {
+    const RowValues before = row_values();
+    record_present();
+    is_restarted = is_restarted || is_started;
+    find_points(displacement);
+    take_points();
+    start_pressure.assign(coefficients.n_rows(), 0.);
+    start_state.assign(before.has_states ? coefficients.n_rows() : 0,
+                       ABUT_STATE_OPEN);
+    for (int row = 0; row < coefficients.n_rows(); ++row)
+    {
+      const auto it = before.of.find(coefficients.ids()[row]);
+      if (it == before.of.end())
+        continue;
+      start_pressure[row] = it->second.first;
+      if (before.has_states)
+        start_state[row] = it->second.second;
+    }
+    limit_start();
+  }
+
+  template <int dim> void ContactAssembler<dim>::Implementation::find_geometry()
+  {
+    geometry.reset();
+    if (!moves())
+      return;
+    // The solver keeps what it was made of until it gets the next one.
+    has_new_matrix = true;
+    const std::vector<shim::MatrixLine> lines =
+        source->geometric_lines(row_pressures().data());
+    if (!MPI::logical_or(!lines.empty(), communicator))
+      return;
+    const dealii::IndexSet &owned = dof_handler->locally_owned_dofs();
+    dealii::IndexSet ghosts(owned.size());
+    for (const shim::MatrixLine &line : lines)
+      if (!owned.is_element(line.row))
+        ghosts.add_index(line.row);
+    ghosts.compress();
+    geometry = std::make_unique<la::Matrix>(
+        la::assemble(owned, ghosts, communicator,
+                     [&](const auto &visit)
+                     {
+                       for (const shim::MatrixLine &line : lines)
+                         visit(line.row, line.column, line.value);
+                     }));
+    present_displacement = start_displacement;
+  }
+
+  template <int dim>
+  const la::Matrix &
+  ContactAssembler<dim>::Implementation::with_geometry(const la::Matrix &matrix)
+  {
+    if (geometry == nullptr)
+      return matrix;
+    sum_with_geometry =
+        std::make_unique<la::Matrix>(la::sum(matrix, *geometry));
+    return *sum_with_geometry;
+  }
+
+  template <int dim>
+  la::Vector ContactAssembler<dim>::Implementation::with_geometry(
+      const la::Vector &residual) const
+  {
+    if (geometry == nullptr)
+      return residual;
+    la::Vector way(present_displacement), result(residual);
+    way -= start_displacement;
+    geometry->vmult_add(result, way);
+    return result;
+  }
+
+  template <int dim>
+  typename ContactAssembler<dim>::Implementation::RowsElsewhere
+  ContactAssembler<dim>::Implementation::rows_at(const la::Vector &displacement)
+  {
+    RowsElsewhere result;
+    result.points = shim::create_points(context.get(), points_dimension);
+    const auto kept = surfaces->keep();
+    try
+    {
+      surfaces->find(displacement, result.points.get());
+    }
+    catch (...)
+    {
+      surfaces->put_back(kept);
+      throw;
+    }
+    abut_points_view there = {};
+    check(abut_points_get(result.points.get(), &there));
+    result.rows = solve::PointOperator(dof_handler->locally_owned_dofs(), there,
+                                       source->nodes(), communicator);
+    surfaces->put_back(kept);
+    return result;
+  }
+
+  template <int dim>
+  void
+  ContactAssembler<dim>::Implementation::follow(const la::Vector &displacement)
+  {
+    const std::vector<std::int64_t> before = row_numbers();
+    auto kept = surfaces->keep();
+    shim::Handle<abut_points> old_points = std::move(points);
+    find_points(displacement);
+    take_points();
+    // Rows come and go where gaps are as large as the reach: then those of the
+    // last linearisation tell as much.
+    if (MPI::logical_or(before != row_numbers(), communicator))
+    {
+      points = std::move(old_points);
+      surfaces->put_back(std::move(kept));
+      take_points();
+      return;
+    }
+    compute_gap(displacement);
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::Implementation::evaluate_moved(
+      const la::Vector &displacement, la::Vector &forces)
+  {
+    std::map<std::int64_t, int> row_of;
+    for (int row = 0; row < coefficients.n_rows(); ++row)
+      row_of[coefficients.ids()[row]] = row;
+    const RowsElsewhere there = rows_at(displacement);
+    const solve::PointOperator &rows = there.rows;
+    const int n = rows.n_rows();
+    const std::vector<double> stiffness_there =
+        solve::row_stiffness(law_compliance, rows);
+    std::vector<double> gap_there(n), force(n, 0.);
+    rows.gap(displacement, gap_there.data());
+    double sum = 0.;
+    for (int row = 0; row < n; ++row)
+    {
+      if (rows.begin(row) == rows.end(row)) // between nodes that cannot move
+        continue;
+      const auto it = row_of.find(rows.ids()[row]);
+      double defect = std::min(0., gap_there[row]);
+      if (it != row_of.end())
+      {
+        force[row] = rows.weight(row) * request.pressure[it->second];
+        defect = law_defect(it->second, gap_there[row]);
+        row_of.erase(it);
+      }
+      sum += rows.weight(row) * stiffness_there[row] * defect * defect;
+    }
+    // Rows that are gone there.
+    for (const auto &[id, row] : row_of)
+      sum += coefficients.weight(row) * request.pressure[row]
+             * request.pressure[row] / stiffness[row];
+    forces = 0.;
+    rows.add_transposed(force.data(), forces);
+    return std::sqrt(MPI::sum(sum, communicator));
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template bool ContactAssembler<dim>::Implementation::moves() const;          \
+  template void ContactAssembler<dim>::Implementation::move_rows(              \
+      const la::Vector &);                                                     \
+  template void ContactAssembler<dim>::Implementation::find_geometry();        \
+  template const la::Matrix &                                                  \
+  ContactAssembler<dim>::Implementation::with_geometry(const la::Matrix &);    \
+  template la::Vector ContactAssembler<dim>::Implementation::with_geometry(    \
+      const la::Vector &) const;                                               \
+  template void ContactAssembler<dim>::Implementation::follow(                 \
+      const la::Vector &);                                                     \
+  template double ContactAssembler<dim>::Implementation::evaluate_moved(       \
+      const la::Vector &, la::Vector &);
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut
