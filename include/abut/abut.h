@@ -19,6 +19,7 @@
 #include <abut/history.h>
 #include <abut/law.h>
 #include <abut/limits.h>
+#include <abut/multigrid.h>
 #include <abut/obstacle.h>
 #include <abut/obstacle_surface.h>
 #include <abut/parts.h>

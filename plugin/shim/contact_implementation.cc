@@ -5,6 +5,7 @@
 #include "agree.h"
 #include "bodies.h"
 #include "fnv_hash.h"
+#include "mesh_hierarchy.h"
 #include "nodal_obstacle_rows.h"
 #include "solve/make_row_solver.h"
 #include "solve/row_stiffness.h"
@@ -586,9 +587,14 @@ namespace abut
   ContactAssembler<dim>::Implementation::near_null_space() const
   {
     if (!bodies)
+    {
       bodies = surfaces == nullptr
                    ? solve::NearNullSpace()
                    : shim::make_near_null_space(*mapping, *dof_handler);
+      if (solver_parameters.linear == SolverParameters::Linear::geometric)
+        bodies->meshes = std::make_shared<const solve::MeshHierarchy>(
+            shim::make_mesh_hierarchy(*dof_handler, *constraints));
+    }
     return *bodies;
   }
 

@@ -2,7 +2,7 @@
 #include "condensed_solver.h"
 
 #include "failures.h"
-#include "multigrid.h"
+#include "geometric_multigrid.h"
 
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
@@ -130,6 +130,8 @@ namespace abut::solve
     row_stiffness_ = row_stiffness;
     is_symmetric_ = is_symmetric(stiffness);
     matrix_.reinit(stiffness, rows);
+    if (parameters_.linear == SolverParameters::Linear::geometric)
+      missing_ = why_not_geometric(stiffness, space_);
   }
 
   bool CondensedSolver::is_direct() const
@@ -196,6 +198,20 @@ namespace abut::solve
     return result;
   }
 
+  std::unique_ptr<Multigrid>
+  CondensedSolver::make_cycle(const la::Matrix &system) const
+  {
+    if (!is_geometric())
+      return make_multigrid(system, parameters_, space_);
+    std::vector<std::uint8_t> held(diagonal_.size(), 0);
+    for (const std::int64_t pivot : built_.pivot)
+      if (pivot != Condensate::none)
+        held[rows_->column(pivot)] = 1;
+    auto result = std::make_unique<GeometricMultigrid>(system, *space_.meshes);
+    result->hold(held, {});
+    return result;
+  }
+
   void CondensedSolver::build()
   {
     filter_.reset();
@@ -229,7 +245,7 @@ namespace abut::solve
     if (!parameters_.contact_filter
         || MPI::max(stiffest, rows_->communicator()) <= stiff)
     {
-      multigrid_ = make_multigrid(system, parameters_, space_);
+      multigrid_ = make_cycle(system);
       return;
     }
     std::vector<std::uint8_t> wanted(rows_->n_rows());
@@ -245,7 +261,7 @@ namespace abut::solve
     softened.reinit(*stiffness_, *rows_);
     softened.set(soft);
     softened_ = std::make_unique<la::Matrix>(softened.assemble());
-    multigrid_ = make_multigrid(*softened_, parameters_, space_);
+    multigrid_ = make_cycle(*softened_);
     la::Vector count(rows_->owned(), rows_->communicator());
     rows_->add_counts(wanted.data(), count);
     matrix_.zero_pivots(count);
@@ -287,7 +303,8 @@ namespace abut::solve
         is_direct()
             ? DirectSolver::name()
             : std::string(is_definite() ? "conjugate gradients" : "FGMRES")
-                  + (filter_ ? ", ML with contact filter" : ", ML");
+                  + ", " + multigrid_name(parameters_, missing_)
+                  + (filter_ ? " with contact filter" : "");
     report.setup_seconds = timer.wall_time();
     return report;
   }

@@ -10,8 +10,6 @@
 
 #include <abut/dealii/solver_parameters.h>
 
-#include <deal.II/lac/trilinos_precondition.h>
-
 #include <memory>
 
 namespace abut::solve
@@ -95,7 +93,14 @@ namespace abut::solve
     {
       return is_symmetric_ && !matrix_.has_blocks();
     }
+    bool is_geometric() const
+    {
+      return parameters_.linear == SolverParameters::Linear::geometric
+             && missing_.empty();
+    }
     void build();
+    /** A multigrid cycle for a matrix with the present pivots. */
+    std::unique_ptr<Multigrid> make_cycle(const la::Matrix &system) const;
     /** What a symmetric preconditioner is built for. */
     Condensate without_friction_forces() const;
     bool iterate(const la::Vector &rhs, unsigned int max_iterations,
@@ -112,13 +117,14 @@ namespace abut::solve
     std::vector<double> diagonal_, row_stiffness_;
     bool is_symmetric_ = true;
     CondensedMatrix matrix_;
+    std::string missing_; ///< why geometric multigrid is not taken
 
     /** What the preconditioner was built on. */
     std::unique_ptr<la::Matrix> assembled_;
     std::unique_ptr<la::Matrix> softened_; ///< and its multigrid, if filtered
     Condensate built_;
     PreconditionerKeeper keeper_;
-    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid_;
+    std::unique_ptr<Multigrid> multigrid_;
     std::unique_ptr<ContactFilter> filter_;
     std::unique_ptr<DirectSolver> direct_;
   };

@@ -43,10 +43,9 @@ namespace abut::solve
     }
   } // namespace
 
-  ContactFilter::ContactFilter(
-      const la::Matrix &matrix,
-      const dealii::TrilinosWrappers::PreconditionBase &multigrid,
-      const std::vector<std::uint8_t> &picked)
+  ContactFilter::ContactFilter(const la::Matrix &matrix,
+                               const Multigrid &multigrid,
+                               const std::vector<std::uint8_t> &picked)
       : matrix_(matrix), multigrid_(multigrid)
   {
     for (std::size_t i = 0; i < picked.size(); ++i)

@@ -3,10 +3,9 @@
 #define ABUT_SOLVE_CONTACT_FILTER_H
 
 #include "direct_solver.h"
+#include "multigrid.h"
 
 #include <abut/dealii/linear_algebra.h>
-
-#include <deal.II/lac/trilinos_precondition.h>
 
 #include <cstdint>
 #include <memory>
@@ -32,8 +31,7 @@ namespace abut::solve
   public:
     /** Take A and B, which must outlive this object, and @p picked [owned].
      * Factorises Q^T A Q. Collective. */
-    ContactFilter(const la::Matrix &matrix,
-                  const dealii::TrilinosWrappers::PreconditionBase &multigrid,
+    ContactFilter(const la::Matrix &matrix, const Multigrid &multigrid,
                   const std::vector<std::uint8_t> &picked);
 
     /** dst = M src: one cycle, two products with A, two direct solves.
@@ -44,7 +42,7 @@ namespace abut::solve
     void add_correction(la::Vector &x) const;
 
     const la::Matrix &matrix_;
-    const dealii::TrilinosWrappers::PreconditionBase &multigrid_;
+    const Multigrid &multigrid_;
     std::vector<int> unknowns_; ///< those picked
     std::unique_ptr<la::Matrix> small_;
     std::unique_ptr<DirectSolver> direct_;

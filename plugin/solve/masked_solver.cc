@@ -42,16 +42,25 @@ namespace abut::solve
 
   void MaskedSolver::reinit(const la::Matrix &matrix)
   {
-    matrix_ = &matrix;
-    diagonal_ = la::diagonal(la::local_rows(matrix));
+    take(matrix);
     keeper_.forget();
     amg_.reset();
+    geometric_.reset();
     direct_.reset();
+  }
+
+  void MaskedSolver::take(const la::Matrix &matrix)
+  {
+    matrix_ = &matrix;
+    diagonal_ = la::diagonal(la::local_rows(matrix));
+    if (parameters_.linear == SolverParameters::Linear::geometric)
+      missing_ = why_not_geometric(matrix, space_);
   }
 
   void MaskedSolver::renew(const la::Matrix &matrix)
   {
-    if (&matrix != matrix_ || !keeper_.is_built() || is_direct())
+    if (&matrix != matrix_ || !keeper_.is_built() || is_direct()
+        || is_geometric())
     {
       reinit(matrix);
       return;
@@ -76,6 +85,8 @@ namespace abut::solve
 
   bool MaskedSolver::is_outdated(const Mask &mask) const
   {
+    if (is_geometric())
+      return geometric_ == nullptr;
     if (keeper_.must_build())
       return true;
     double n_changed = 0.;
@@ -130,6 +141,16 @@ namespace abut::solve
 
   void MaskedSolver::build(const Mask &mask)
   {
+    built_mask_ = mask;
+    keeper_.note_built();
+    if (is_geometric())
+    {
+      geometric_ =
+          std::make_unique<GeometricMultigrid>(*matrix_, *space_.meshes);
+      geometric_->hold(mask.held, mask.diagonal);
+      cut_ = mask.held;
+      return;
+    }
     is_plain_ = is_plain(mask);
     if (!is_plain_)
     {
@@ -141,8 +162,6 @@ namespace abut::solve
       direct_ = std::make_unique<DirectSolver>(system);
     else
       amg_ = make_multigrid(system, parameters_, space_);
-    built_mask_ = mask;
-    keeper_.note_built();
   }
 
   double MaskedSolver::load(const Mask &mask, const la::Vector &rhs) const
@@ -161,7 +180,9 @@ namespace abut::solve
   ScaledPreconditioner
   MaskedSolver::preconditioner(const Mask &mask, const la::Vector &model) const
   {
-    std::vector<double> scaling(mask.held.size());
+    std::vector<double> scaling(mask.held.size(), 1.);
+    if (is_geometric())
+      return ScaledPreconditioner(*geometric_, std::move(scaling), model);
     for (std::size_t i = 0; i < scaling.size(); ++i)
       scaling[i] = mask.held[i]
                        ? 0.
@@ -204,7 +225,7 @@ namespace abut::solve
     if (!state.keeper.is_built())
       return;
     build({state.held, state.stiffness});
-    if (!is_direct() && !is_plain_)
+    if (!is_geometric() && !is_direct() && !is_plain_)
       cut_off(state.cut, built_mask_, false);
     keeper_.restore(state.keeper);
   }
@@ -212,7 +233,15 @@ namespace abut::solve
   LinearReport MaskedSolver::prepare(const Mask &mask)
   {
     LinearReport report;
-    if (is_outdated(mask) || (is_plain_ && !is_plain(mask)))
+    if (is_geometric() && geometric_ != nullptr)
+    {
+      const dealii::Timer timer;
+      geometric_->hold(mask.held, mask.diagonal);
+      built_mask_ = mask;
+      cut_ = mask.held;
+      report.setup_seconds = timer.wall_time();
+    }
+    else if (is_outdated(mask) || (is_plain_ && !is_plain(mask)))
     {
       const dealii::Timer timer;
       build(mask);
@@ -226,8 +255,9 @@ namespace abut::solve
       if (changed)
         cut_off(mask.held, built_mask_, false);
     }
-    report.method =
-        is_direct() ? DirectSolver::name() : "conjugate gradients, ML";
+    report.method = is_direct() ? DirectSolver::name()
+                                : "conjugate gradients, "
+                                      + multigrid_name(parameters_, missing_);
     return report;
   }
 

@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_MASKED_SOLVER_H
 
 #include "direct_solver.h"
+#include "geometric_multigrid.h"
 #include "near_null_space.h"
 #include "preconditioner_state.h"
 
@@ -10,7 +11,6 @@
 #include <abut/dealii/solver_parameters.h>
 
 #include <deal.II/lac/solver_control.h>
-#include <deal.II/lac/trilinos_precondition.h>
 
 #include <cstdint>
 #include <memory>
@@ -58,9 +58,8 @@ namespace abut::solve
   {
   public:
     /** @p scaling [owned]; vectors that come in must be 0 where it is 0. */
-    ScaledPreconditioner(
-        const dealii::TrilinosWrappers::PreconditionBase &inner,
-        std::vector<double> scaling, const la::Vector &model)
+    ScaledPreconditioner(const Multigrid &inner, std::vector<double> scaling,
+                         const la::Vector &model)
         : inner_(inner), scaling_(std::move(scaling)), scaled_(model)
     {
       for (const double s : scaling_)
@@ -85,7 +84,7 @@ namespace abut::solve
     }
 
   private:
-    const dealii::TrilinosWrappers::PreconditionBase &inner_;
+    const Multigrid &inner_;
     std::vector<double> scaling_;
     mutable la::Vector scaled_;
     bool only_masks_ = true;
@@ -102,7 +101,9 @@ namespace abut::solve
    *     M -> S M S,  s = sqrt(d_old / d_new),
    * where d is the diagonal of K + D (s = 0 on held unknowns, which is the
    * limit d -> infinity), accounts for a changed D. It is built anew when too
-   * many entries changed or the iteration slows down. */
+   * many entries changed or the iteration slows down.
+   *
+   * Geometric multigrid follows each mask, at the cost of what changed. */
   class MaskedSolver
   {
   public:
@@ -157,6 +158,12 @@ namespace abut::solve
     }
 
   private:
+    bool is_geometric() const
+    {
+      return parameters_.linear == SolverParameters::Linear::geometric
+             && missing_.empty();
+    }
+    void take(const la::Matrix &matrix);
     bool is_outdated(const Mask &mask) const;
     bool is_plain(const Mask &mask) const;
     void cut_off(const std::vector<std::uint8_t> &held, const Mask &mask,
@@ -177,7 +184,9 @@ namespace abut::solve
     std::vector<std::uint8_t> cut_; ///< held unknowns of truncated_
     bool is_plain_ = false;         ///< built on K itself: nothing held, no D
     PreconditionerKeeper keeper_{1. / 3.};
-    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg_;
+    std::string missing_; ///< why geometric multigrid is not taken
+    std::unique_ptr<Multigrid> amg_;
+    std::unique_ptr<GeometricMultigrid> geometric_;
     std::unique_ptr<DirectSolver> direct_;
   };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "multigrid.h"
 
+#include <deal.II/lac/trilinos_precondition.h>
+
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 
@@ -11,6 +13,17 @@ namespace abut::solve
 
   namespace
   {
+    class AlgebraicMultigrid : public Multigrid
+    {
+    public:
+      void vmult(la::Vector &dst, const la::Vector &src) const override
+      {
+        amg.vmult(dst, src);
+      }
+
+      PreconditionAMG amg;
+    };
+
     /** Positions about their centre, as parts of the largest distance. */
     std::vector<dealii::Tensor<1, 3>>
     relative_positions(const NearNullSpace &space, const MPI_Comm communicator)
@@ -70,18 +83,18 @@ namespace abut::solve
     }
   } // namespace
 
-  std::unique_ptr<PreconditionAMG>
-  make_multigrid(const la::Matrix &matrix, const SolverParameters &parameters,
-                 const NearNullSpace &space)
+  std::unique_ptr<Multigrid> make_multigrid(const la::Matrix &matrix,
+                                            const SolverParameters &parameters,
+                                            const NearNullSpace &space)
   {
     PreconditionAMG::AdditionalData data;
     data.elliptic = true;
     data.aggregation_threshold = parameters.aggregation_threshold;
     data.smoother_sweeps = parameters.smoother_sweeps;
-    auto multigrid = std::make_unique<PreconditionAMG>();
+    auto multigrid = std::make_unique<AlgebraicMultigrid>();
     if (space.n_components == 1)
     {
-      multigrid->initialize(matrix, data);
+      multigrid->amg.initialize(matrix, data);
       return multigrid;
     }
 
@@ -96,7 +109,7 @@ namespace abut::solve
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", modes.NumVectors());
     list.set("null space: vectors", modes.Values());
-    multigrid->initialize(matrix, list);
+    multigrid->amg.initialize(matrix, list);
     return multigrid;
   }
 } // namespace abut::solve

@@ -7,18 +7,29 @@
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
 
-#include <deal.II/lac/trilinos_precondition.h>
+#include <memory>
 
 namespace abut::solve
 {
+  /** One multigrid cycle: what preconditions a system that is symmetric and
+   * positive definite. */
+  class Multigrid
+  {
+  public:
+    virtual ~Multigrid() = default;
+
+    /** dst = about A^-1 src. */
+    virtual void vmult(la::Vector &dst, const la::Vector &src) const = 0;
+  };
+
   /** ML's smoothed aggregation for @p matrix, with the rigid motions of the
    * near-null space as coarse functions: of displacements the translations
    * and, where positions are known, the rotations, which halve the number of
    * iterations. The matrix must outlive the result.
    * Collective. */
-  std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG>
-  make_multigrid(const la::Matrix &matrix, const SolverParameters &parameters,
-                 const NearNullSpace &space);
+  std::unique_ptr<Multigrid> make_multigrid(const la::Matrix &matrix,
+                                            const SolverParameters &parameters,
+                                            const NearNullSpace &space);
 } // namespace abut::solve
 
 #endif

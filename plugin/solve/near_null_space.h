@@ -2,9 +2,12 @@
 #ifndef ABUT_SOLVE_NEAR_NULL_SPACE_H
 #define ABUT_SOLVE_NEAR_NULL_SPACE_H
 
+#include "mesh_hierarchy.h"
+
 #include <deal.II/base/point.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,6 +30,8 @@ namespace abut::solve
     std::vector<dealii::Point<3>> point;
     /** [n_bodies] for messages; empty: body 1, body 2, ... */
     std::vector<std::string> names;
+    /** The coarser meshes, for geometric multigrid; null: not known. */
+    std::shared_ptr<const MeshHierarchy> meshes;
   };
 } // namespace abut::solve
 

@@ -22,11 +22,13 @@ namespace abut
     const SolverParameters standard;
     prm.enter_subsection("Solver");
     prm.declare_entry(
-        "Linear solver", "auto", Selection("auto|iterative|direct"),
+        "Linear solver", "auto", Selection("auto|iterative|direct|geometric"),
         "iterative: conjugate gradients with ML's smoothed aggregation "
         "(FGMRES for saddle points); direct: a factorisation by Amesos (MUMPS "
-        "where it is built in, else KLU); auto: direct up to `Direct limit` "
-        "unknowns, else iterative.");
+        "where it is built in, else KLU); geometric: conjugate gradients with "
+        "multigrid over the meshes that the mesh was refined from, for linear "
+        "elements on one rank (elsewhere as iterative, and the report says "
+        "why); auto: direct up to `Direct limit` unknowns, else iterative.");
     prm.declare_entry("Maximum iterations",
                       std::to_string(standard.max_iterations), Integer(1),
                       "Iterations after which a linear solve is given up.");
@@ -66,6 +68,7 @@ namespace abut
     const std::string word = prm.get("Linear solver");
     linear = word == "direct"      ? Linear::direct
              : word == "iterative" ? Linear::iterative
+             : word == "geometric" ? Linear::geometric
                                    : Linear::automatic;
     max_iterations = prm.get_integer("Maximum iterations");
     direct_limit = prm.get_integer("Direct limit");

@@ -18,6 +18,7 @@ ROOMS = [
     ("core/search", "core/base core/geometry"),
     ("core/law", "core/base"),
     ("core/time", "core/base"),
+    ("core/multigrid", "core/base"),
     ("core/constraint", "core/base core/geometry core/search core/law"),
     ("core/history", "core/base"),
     ("core/contact", "core/base core/geometry core/search core/law "

@@ -1,0 +1,434 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Creation, what changes with the set, and the cycle. */
+#include "multigrid/multigrid.h"
+
+#include <math.h>
+#include <string.h>
+
+enum
+{
+  POWER_STEPS = 10
+};
+
+static const char create_call[] = "abut_multigrid_create";
+static const char hold_call[] = "abut_multigrid_hold";
+
+static const char *
+wrong_mesh(const abut_multigrid_hierarchy *h, int32_t l)
+{
+  const abut_multigrid_mesh *mesh = &h->mesh[l];
+  if (mesh->n_nodes < 0 || mesh->n_nodes > INT32_MAX / h->block)
+    return "a mesh has no number of nodes";
+  if (l + 1 == h->n_meshes)
+    return NULL;
+  if (mesh->start == NULL || mesh->start[0] != 0
+      || (mesh->start[mesh->n_nodes] > 0
+          && (mesh->parent == NULL || mesh->weight == NULL)))
+    return "a mesh lacks the weights of the next coarser one";
+  double probe = 0;
+  for (int32_t i = 0; i < mesh->n_nodes; ++i)
+  {
+    if (mesh->start[i + 1] < mesh->start[i])
+      return "a node has a negative number of weights";
+    for (int64_t e = mesh->start[i]; e < mesh->start[i + 1]; ++e)
+    {
+      if (mesh->parent[e] < 0 || mesh->parent[e] >= mesh[1].n_nodes)
+        return "a parent is no node of the next coarser mesh";
+      probe += 0.0 * mesh->weight[e];
+    }
+  }
+  return probe == 0 ? NULL : "a weight is not finite";
+}
+
+static const char *
+wrong_hierarchy(const abut_multigrid_hierarchy *h)
+{
+  if (h->block < 1 || h->block > 3)
+    return "a node has 1 to 3 unknowns";
+  if (h->n_meshes < 1 || h->n_meshes > ABUT_MULTIGRID_MESHES || h->mesh == NULL)
+    return "there are 1 to 32 meshes";
+  for (int32_t l = 0; l < h->n_meshes; ++l)
+  {
+    const char *what = wrong_mesh(h, l);
+    if (what != NULL)
+      return what;
+  }
+  return NULL;
+}
+
+static void
+take_parents(abut_pool *pool, const abut_multigrid_mesh *mesh,
+             abut_node_rows *rows)
+{
+  const int64_t n = mesh->n_nodes, m = mesh->start[n];
+  rows->start = abut_pool_take(pool, n + 1, sizeof(int64_t));
+  rows->node = abut_pool_take(pool, m, sizeof(int32_t));
+  rows->weight = abut_pool_take(pool, m, sizeof(float));
+  if (pool->failed)
+    return;
+  memcpy(rows->start, mesh->start, (size_t)(n + 1) * sizeof(int64_t));
+  for (int64_t e = 0; e < m; ++e)
+  {
+    rows->node[e] = mesh->parent[e];
+    rows->weight[e] = (float)mesh->weight[e];
+  }
+}
+
+/* The same by parents: their children, in the order of their numbers. */
+static void
+transpose(abut_pool *pool, const abut_node_rows *rows, int32_t n, int32_t n_new,
+          abut_node_rows *result)
+{
+  const int64_t m = rows->start[n];
+  result->start = abut_pool_take(pool, (int64_t)n_new + 2, sizeof(int64_t));
+  result->node = abut_pool_take(pool, m, sizeof(int32_t));
+  result->weight = abut_pool_take(pool, m, sizeof(float));
+  if (pool->failed)
+    return;
+  /* Counted two places ahead, so that filling leaves the right beginnings. */
+  int64_t *next = result->start + 1;
+  for (int64_t e = 0; e < m; ++e)
+    if (rows->node[e] + 1 < n_new)
+      next[rows->node[e] + 1] += 1;
+  for (int32_t k = 1; k < n_new; ++k)
+    next[k] += next[k - 1];
+  for (int32_t i = 0; i < n; ++i)
+    for (int64_t e = rows->start[i]; e < rows->start[i + 1]; ++e)
+    {
+      const int64_t at = next[rows->node[e]]++;
+      result->node[at] = i;
+      result->weight[at] = rows->weight[e];
+    }
+}
+
+static void
+take_mesh(abut_multigrid *mg, const abut_multigrid_mesh *mesh, int32_t l)
+{
+  abut_multigrid_level *level = &mg->level[l];
+  abut_pool *pool = &mg->structure;
+  const int32_t b = mg->block;
+  const int64_t n = (int64_t)mesh->n_nodes * b;
+  level->n = mesh->n_nodes;
+  level->fixed = abut_pool_take(pool, n, 1);
+  level->held = abut_pool_take(pool, n, 1);
+  level->dirty = abut_pool_take(pool, mesh->n_nodes, 1);
+  level->inverse = abut_pool_take(pool, n * b, sizeof(float));
+  level->x = abut_pool_take(pool, n, sizeof(float));
+  level->r = abut_pool_take(pool, n, sizeof(float));
+  level->z = abut_pool_take(pool, n, sizeof(float));
+  if (!pool->failed && mesh->fixed != NULL)
+    for (int64_t u = 0; u < n; ++u)
+      level->fixed[u] = mesh->fixed[u] != 0;
+  if (l + 1 == mg->n_levels)
+    return;
+  take_parents(pool, mesh, &level->parents);
+  if (!pool->failed)
+    transpose(pool, &level->parents, mesh->n_nodes, mesh[1].n_nodes,
+              &level->children);
+}
+
+/* False if the numbers are no permutation. */
+static bool
+take_unknowns(abut_multigrid *mg, const int32_t *unknown)
+{
+  const int64_t n = (int64_t)mg->level[0].n * mg->block;
+  for (int64_t u = 0; u < n; ++u)
+    mg->unknown[u] = unknown == NULL ? (int32_t)u : unknown[u];
+  bool good = true;
+  for (int64_t u = 0; u < n && good; ++u)
+  {
+    good = mg->unknown[u] >= 0 && mg->unknown[u] < n
+           && mg->held[mg->unknown[u]] == 0;
+    if (good)
+      mg->held[mg->unknown[u]] = 1;
+  }
+  for (int64_t u = 0; u < n; ++u)
+    mg->held[u] = 0;
+  return good;
+}
+
+static abut_status
+build(abut_multigrid *mg, const abut_multigrid_hierarchy *h)
+{
+  int32_t most = 0;
+  for (int32_t l = 0; l < mg->n_levels; ++l)
+  {
+    take_mesh(mg, &h->mesh[l], l);
+    most = most > h->mesh[l].n_nodes ? most : h->mesh[l].n_nodes;
+  }
+  const int64_t n = (int64_t)mg->level[0].n * mg->block;
+  mg->unknown = abut_pool_take(&mg->structure, n, sizeof(int32_t));
+  mg->held = abut_pool_take(&mg->structure, n, 1);
+  mg->added = abut_pool_take(&mg->structure, n, sizeof(double));
+  mg->plain = abut_pool_take(&mg->structure, n, sizeof(float));
+  mg->place = abut_pool_take(&mg->structure, most, sizeof(int32_t));
+  if (mg->structure.failed)
+    return abut_fail(mg->context, ABUT_OUT_OF_MEMORY, create_call, "no memory");
+  return take_unknowns(mg, h->unknown)
+             ? ABUT_SUCCESS
+             : abut_fail(mg->context, ABUT_INVALID_ARGUMENT, create_call,
+                         "the unknowns are no permutation of the rows");
+}
+
+abut_status
+abut_multigrid_create(abut_context *context,
+                      const abut_multigrid_hierarchy *hierarchy,
+                      abut_multigrid **multigrid)
+{
+  if (context == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  if (multigrid == NULL || hierarchy == NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, create_call,
+                     "an argument is NULL");
+  abut_multigrid_hierarchy taken = {sizeof(taken), 1, 0, NULL, NULL};
+  abut_status status =
+      abut_take(context, create_call, &taken, sizeof(taken), hierarchy);
+  if (status != ABUT_SUCCESS)
+    return status;
+  const char *what = wrong_hierarchy(&taken);
+  if (what != NULL)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, create_call, what);
+  abut_multigrid *mg = abut_object_create(context, sizeof(abut_multigrid));
+  if (mg == NULL)
+    return abut_fail(context, ABUT_OUT_OF_MEMORY, create_call, "no memory");
+  mg->context = context;
+  mg->block = taken.block;
+  mg->n_levels = taken.n_meshes;
+  mg->structure.context = mg->matrices.context = mg->coarsest.context = context;
+  status = build(mg, &taken);
+  if (status == ABUT_SUCCESS)
+    *multigrid = mg;
+  else
+    abut_multigrid_destroy(&mg);
+  return status;
+}
+
+void
+abut_multigrid_destroy(abut_multigrid **multigrid)
+{
+  if (multigrid == NULL || *multigrid == NULL)
+    return;
+  abut_multigrid *mg = *multigrid;
+  abut_pool_release(&mg->structure);
+  abut_pool_release(&mg->matrices);
+  abut_pool_release(&mg->coarsest);
+  abut_object_destroy(mg->context, mg, sizeof(*mg));
+  *multigrid = NULL;
+}
+
+static void
+keep_plain_diagonal(abut_multigrid *mg)
+{
+  const abut_multigrid_level *level = &mg->level[0];
+  const int32_t b = mg->block;
+  for (int32_t i = 0; i < level->n; ++i)
+    for (int32_t c = 0; c < b; ++c)
+      mg->plain[(int64_t)i * b + c] =
+          level->diagonal[i] < 0
+              ? 0
+              : level->matrix
+                    .weight[level->diagonal[i] * b * b + (int64_t)c * (b + 1)];
+}
+
+abut_status
+abut_multigrid_set_matrix(abut_multigrid *mg,
+                          const abut_multigrid_matrix *matrix)
+{
+  static const char call[] = "abut_multigrid_set_matrix";
+  if (mg == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_multigrid_matrix taken = {sizeof(taken), 0, NULL, NULL, NULL};
+  abut_status status =
+      matrix == NULL
+          ? abut_fail(mg->context, ABUT_INVALID_ARGUMENT, call, "no matrix")
+          : abut_take(mg->context, call, &taken, sizeof(taken), matrix);
+  if (status != ABUT_SUCCESS)
+    return status;
+  mg->is_ready = mg->has_matrix = false;
+  abut_pool_release(&mg->matrices);
+  status = abut_multigrid_fill(mg, &taken);
+  if (status != ABUT_SUCCESS)
+    return status;
+  keep_plain_diagonal(mg);
+  for (int32_t l = 0; l + 1 < mg->n_levels && !mg->matrices.failed; ++l)
+    abut_galerkin_pattern(mg, l);
+  if (mg->matrices.failed)
+    return abut_fail(mg->context, ABUT_OUT_OF_MEMORY, call, "no memory");
+  mg->has_matrix = true;
+  return ABUT_SUCCESS;
+}
+
+/* Take the diagonal of node i of the finest level, and whether it changed. */
+static bool
+take_node(abut_multigrid *mg, int32_t i, const uint8_t *held,
+          const double *added)
+{
+  abut_multigrid_level *level = &mg->level[0];
+  const int32_t b = mg->block;
+  bool changed = false;
+  for (int32_t c = 0; c < b; ++c)
+  {
+    const int64_t u = (int64_t)i * b + c;
+    const int32_t row = mg->unknown[u];
+    const uint8_t is_held = held != NULL && held[row];
+    const double more = added == NULL ? 0 : added[row];
+    changed |= is_held != mg->held[u] || more != mg->added[u];
+    mg->held[u] = is_held;
+    mg->added[u] = more;
+    level->held[u] = is_held || level->fixed[u];
+    if (level->diagonal[i] >= 0)
+      level->matrix.weight[level->diagonal[i] * b * b + (int64_t)c * (b + 1)] =
+          (float)((double)mg->plain[u] + more);
+  }
+  return changed;
+}
+
+/* Mark the rows of the finest level that differ from the last time. */
+static void
+mark_finest(abut_multigrid *mg, const uint8_t *held, const double *added,
+            bool all)
+{
+  abut_multigrid_level *level = &mg->level[0];
+  memset(level->dirty, all, (size_t)level->n);
+  for (int32_t i = 0; i < level->n; ++i)
+    if (take_node(mg, i, held, added) && !all)
+      for (int64_t e = level->matrix.start[i]; e < level->matrix.start[i + 1];
+           ++e)
+        level->dirty[level->matrix.node[e]] = 1;
+}
+
+/* Mark the rows of level l + 1 that depend on those marked on level l. */
+static bool
+mark_coarse(abut_multigrid *mg, int32_t l)
+{
+  const abut_multigrid_level *fine = &mg->level[l];
+  abut_multigrid_level *coarse = &mg->level[l + 1];
+  bool any = false;
+  memset(coarse->dirty, 0, (size_t)coarse->n);
+  for (int32_t i = 0; i < fine->n; ++i)
+    for (int64_t e = fine->parents.start[i];
+         fine->dirty[i] && e < fine->parents.start[i + 1]; ++e)
+    {
+      coarse->dirty[fine->parents.node[e]] = 1;
+      any = true;
+    }
+  return any;
+}
+
+/* What is held takes nothing from the largest eigenvalue of the finest level:
+ * its bound is found once for each matrix. */
+static void
+prepare_finest(abut_multigrid *mg)
+{
+  mark_finest(mg, NULL, NULL, true);
+  abut_multigrid_invert(mg, 0);
+  abut_multigrid_bound(mg, 0, POWER_STEPS);
+}
+
+static bool
+holds_numbers(const abut_multigrid *mg, const double *added)
+{
+  bool good = true;
+  for (int64_t u = 0; added != NULL && u < (int64_t)mg->level[0].n * mg->block;
+       ++u)
+    good &= isfinite(added[u]) && added[u] >= 0;
+  return good;
+}
+
+abut_status
+abut_multigrid_hold(abut_multigrid *mg, const uint8_t *held,
+                    const double *added)
+{
+  if (mg == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  if (!mg->has_matrix)
+    return abut_fail(mg->context, ABUT_INVALID_ARGUMENT, hold_call,
+                     "there is no matrix yet");
+  if (!holds_numbers(mg, added))
+    return abut_fail(mg->context, ABUT_INVALID_ARGUMENT, hold_call,
+                     "what is added is negative or not finite");
+  const bool first = !mg->is_ready;
+  mg->is_ready = false;
+  mg->n_renewed = 0;
+  if (first)
+    prepare_finest(mg);
+  mark_finest(mg, held, added, first);
+  abut_multigrid_invert(mg, 0);
+  for (int32_t l = 0; l + 1 < mg->n_levels; ++l)
+  {
+    if (!mark_coarse(mg, l))
+      continue;
+    abut_galerkin_rows(mg, l);
+    abut_multigrid_invert(mg, l + 1);
+    if (l + 2 < mg->n_levels)
+      abut_multigrid_bound(mg, l + 1, POWER_STEPS);
+  }
+  const abut_status status = abut_multigrid_factorise(mg);
+  mg->is_ready = status == ABUT_SUCCESS;
+  return status;
+}
+
+static void
+cycle(abut_multigrid *mg, int32_t l)
+{
+  abut_multigrid_level *level = &mg->level[l];
+  if (l + 1 == mg->n_levels)
+  {
+    abut_multigrid_solve_coarsest(mg);
+    return;
+  }
+  abut_level_smooth_first(level, mg->block);
+  abut_level_restrict(level, mg->block, &mg->level[l + 1]);
+  cycle(mg, l + 1);
+  abut_level_prolong(level, mg->block, &mg->level[l + 1]);
+  abut_level_smooth_last(level, mg->block);
+}
+
+abut_status
+abut_multigrid_cycle(abut_multigrid *mg, const double *r, double *x)
+{
+  static const char call[] = "abut_multigrid_cycle";
+  if (mg == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  if (!mg->is_ready || r == NULL || x == NULL)
+    return abut_fail(mg->context, ABUT_INVALID_ARGUMENT, call,
+                     mg->is_ready ? "a vector is NULL"
+                                  : "abut_multigrid_hold() comes first");
+  abut_multigrid_level *level = &mg->level[0];
+  const int64_t n = (int64_t)level->n * mg->block;
+  double size = 0;
+  for (int64_t u = 0; u < n; ++u)
+    size = fmax(size, fabs(r[u]));
+  const double scale = size > 0 ? 1 / size : 0;
+  for (int64_t u = 0; u < n; ++u)
+    level->r[u] = level->held[u] ? 0 : (float)(scale * r[mg->unknown[u]]);
+  cycle(mg, 0);
+  for (int64_t u = 0; u < n; ++u)
+    x[mg->unknown[u]] = size * (double)level->x[u];
+  return ABUT_SUCCESS;
+}
+
+abut_status
+abut_multigrid_describe_sized(const abut_multigrid *mg,
+                              abut_multigrid_report *report)
+{
+  if (mg == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  abut_multigrid_report made;
+  memset(&made, 0, sizeof(made));
+  made.struct_size = sizeof(made);
+  made.n_meshes = mg->n_levels;
+  made.n_coarsest = mg->is_ready ? mg->factor.n : 0;
+  made.n_renewed = mg->n_renewed;
+  for (int32_t l = 0; l < mg->n_levels; ++l)
+  {
+    const abut_multigrid_level *level = &mg->level[l];
+    if (mg->has_matrix)
+      made.n_entries += level->matrix.start[level->n] * mg->block * mg->block;
+    made.largest[l] = level->largest;
+  }
+  return report == NULL ? abut_fail(mg->context, ABUT_INVALID_ARGUMENT,
+                                    "abut_multigrid_describe", "no report")
+                        : abut_give(mg->context, "abut_multigrid_describe",
+                                    report, sizeof(made), &made);
+}

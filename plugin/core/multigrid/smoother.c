@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Smoothing and transfer on one level.
+ *
+ * The smoother is Chebyshev's polynomial of the fourth kind of degree 2 with
+ * the weights that are best in a V-cycle (Lottes, Numer. Linear Algebra Appl.
+ * 30, 2023): it needs a bound of the largest eigenvalue only. With residual r
+ * and S the inverse of the diagonal blocks, its correction is
+ *     z = 4/3 S r / largest
+ *     weight_1 z + weight_2 (z / 5 + 12/5 S (r - A z) / largest),
+ * the same before and after the coarse level, which makes the cycle symmetric.
+ * Each line is one pass over the rows.
+ */
+#include "multigrid/multigrid.h"
+
+#include <string.h>
+
+static const float weight_1 = 1.02387287570313f;
+static const float weight_2 = 1.26408905371085f;
+
+/* t = row i of the matrix times v. */
+ABUT_INLINE void
+row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
+          const float *v, float *t)
+{
+  for (int32_t r = 0; r < b; ++r)
+    t[r] = 0;
+  const int64_t end = level->matrix.start[i + 1];
+  for (int64_t e = level->matrix.start[i]; e < end; ++e)
+  {
+    const float *a = level->matrix.weight + e * b * b;
+    const float *x = v + (int64_t)level->matrix.node[e] * b;
+    for (int32_t r = 0; r < b; ++r)
+      for (int32_t c = 0; c < b; ++c)
+        t[r] += a[r * b + c] * x[c];
+  }
+}
+
+/* s = factor * inverse of node i times t. */
+ABUT_INLINE void
+scale(const abut_multigrid_level *level, const int32_t b, int32_t i,
+      float factor, const float *t, float *s)
+{
+  const float *a = level->inverse + (int64_t)i * b * b;
+  for (int32_t r = 0; r < b; ++r)
+  {
+    float sum = 0;
+    for (int32_t c = 0; c < b; ++c)
+      sum += a[r * b + c] * t[c];
+    s[r] = factor * sum;
+  }
+}
+
+/* What is added to x with z from the first line. */
+ABUT_INLINE void
+second_line(abut_multigrid_level *level, const int32_t b, int32_t i, bool first)
+{
+  float t[3], s[3];
+  const int64_t at = (int64_t)i * b;
+  row_times(level, b, i, level->z, t);
+  for (int32_t r = 0; r < b; ++r)
+    t[r] = level->r[at + r] - t[r];
+  scale(level, b, i, (float)(2.4 / level->largest), t, s);
+  for (int32_t r = 0; r < b; ++r)
+  {
+    const float z = level->z[at + r];
+    const float step = weight_1 * z + weight_2 * (0.2f * z + s[r]);
+    level->x[at + r] = first ? step : level->x[at + r] + step;
+  }
+}
+
+ABUT_INLINE void
+smooth_first(abut_multigrid_level *level, const int32_t b)
+{
+  const float factor = (float)(4. / (3. * level->largest));
+  for (int32_t i = 0; i < level->n; ++i)
+    scale(level, b, i, factor, level->r + (int64_t)i * b,
+          level->z + (int64_t)i * b);
+  for (int32_t i = 0; i < level->n; ++i)
+    second_line(level, b, i, true);
+}
+
+ABUT_INLINE void
+smooth_last(abut_multigrid_level *level, const int32_t b)
+{
+  const float factor = (float)(4. / (3. * level->largest));
+  for (int32_t i = 0; i < level->n; ++i)
+  {
+    float t[3];
+    const int64_t at = (int64_t)i * b;
+    row_times(level, b, i, level->x, t);
+    for (int32_t r = 0; r < b; ++r)
+      level->r[at + r] -= t[r];
+    scale(level, b, i, factor, level->r + at, level->z + at);
+  }
+  for (int32_t i = 0; i < level->n; ++i)
+    second_line(level, b, i, false);
+}
+
+ABUT_INLINE void
+restrict_residual(abut_multigrid_level *level, const int32_t b,
+                  abut_multigrid_level *coarse)
+{
+  memset(coarse->r, 0, (size_t)coarse->n * (size_t)b * sizeof(float));
+  for (int32_t i = 0; i < level->n; ++i)
+  {
+    float t[3];
+    const int64_t at = (int64_t)i * b;
+    row_times(level, b, i, level->x, t);
+    for (int32_t r = 0; r < b; ++r)
+      t[r] = level->held[at + r] ? 0 : level->r[at + r] - t[r];
+    for (int64_t e = level->parents.start[i]; e < level->parents.start[i + 1];
+         ++e)
+      for (int32_t r = 0; r < b; ++r)
+        coarse->r[(int64_t)level->parents.node[e] * b + r] +=
+            level->parents.weight[e] * t[r];
+  }
+}
+
+ABUT_INLINE void
+prolong(abut_multigrid_level *level, const int32_t b,
+        const abut_multigrid_level *coarse)
+{
+  for (int32_t i = 0; i < level->n; ++i)
+  {
+    float t[3] = {0, 0, 0};
+    const int64_t at = (int64_t)i * b;
+    for (int64_t e = level->parents.start[i]; e < level->parents.start[i + 1];
+         ++e)
+      for (int32_t r = 0; r < b; ++r)
+        t[r] += level->parents.weight[e]
+                * coarse->x[(int64_t)level->parents.node[e] * b + r];
+    for (int32_t r = 0; r < b; ++r)
+      level->x[at + r] += level->held[at + r] ? 0 : t[r];
+  }
+}
+
+ABUT_INLINE double
+quotient(abut_multigrid_level *level, const int32_t b)
+{
+  double above = 0, below = 0;
+  for (int32_t i = 0; i < level->n; ++i)
+  {
+    float t[3];
+    const int64_t at = (int64_t)i * b;
+    row_times(level, b, i, level->x, t);
+    scale(level, b, i, 1, t, level->z + at);
+    for (int32_t r = 0; r < b; ++r)
+    {
+      above += (double)level->z[at + r] * (double)t[r];
+      below += (double)level->x[at + r] * (double)t[r];
+    }
+  }
+  return below > 0 ? above / below : 0;
+}
+
+/* The loops above are compiled for each size of blocks. */
+#define ABUT_FOR_BLOCK(block, call_1, call_2, call_3)                          \
+  switch (block)                                                               \
+  {                                                                            \
+  case 1:                                                                      \
+    call_1;                                                                    \
+    break;                                                                     \
+  case 2:                                                                      \
+    call_2;                                                                    \
+    break;                                                                     \
+  default:                                                                     \
+    call_3;                                                                    \
+  }
+
+void
+abut_level_smooth_first(abut_multigrid_level *level, int32_t block)
+{
+  ABUT_FOR_BLOCK(block, smooth_first(level, 1), smooth_first(level, 2),
+                 smooth_first(level, 3))
+}
+
+void
+abut_level_smooth_last(abut_multigrid_level *level, int32_t block)
+{
+  ABUT_FOR_BLOCK(block, smooth_last(level, 1), smooth_last(level, 2),
+                 smooth_last(level, 3))
+}
+
+void
+abut_level_restrict(abut_multigrid_level *level, int32_t block,
+                    abut_multigrid_level *coarse)
+{
+  ABUT_FOR_BLOCK(block, restrict_residual(level, 1, coarse),
+                 restrict_residual(level, 2, coarse),
+                 restrict_residual(level, 3, coarse))
+}
+
+void
+abut_level_prolong(abut_multigrid_level *level, int32_t block,
+                   const abut_multigrid_level *coarse)
+{
+  ABUT_FOR_BLOCK(block, prolong(level, 1, coarse), prolong(level, 2, coarse),
+                 prolong(level, 3, coarse))
+}
+
+double
+abut_level_quotient(abut_multigrid_level *level, int32_t block)
+{
+  ABUT_FOR_BLOCK(block, return quotient(level, 1), return quotient(level, 2),
+                 return quotient(level, 3))
+}

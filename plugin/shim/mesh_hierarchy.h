@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_MESH_HIERARCHY_H
+#define ABUT_SHIM_MESH_HIERARCHY_H
+
+#include "solve/mesh_hierarchy.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/lac/affine_constraints.h>
+
+namespace abut::shim
+{
+  /** The meshes that the mesh of a field was refined from, for linear elements
+   * on one rank; @p constraints are hanging nodes and prescribed values.
+   * Hanging nodes are welcome on all meshes. */
+  template <int dim>
+  solve::MeshHierarchy
+  make_mesh_hierarchy(const dealii::DoFHandler<dim> &dof_handler,
+                      const dealii::AffineConstraints<double> &constraints);
+} // namespace abut::shim
+
+#endif

@@ -1,0 +1,430 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Geometric multigrid with held unknowns: convergence that depends neither on
+ * the mesh nor on what is held, coarse matrices, symmetry. */
+#include "grid.h"
+#include "multigrid/multigrid.h"
+#include "scarce.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static abut_multigrid *
+open_multigrid(abut_context *context, const grid *g)
+{
+  abut_multigrid *mg = NULL;
+  assert_ok(abut_multigrid_create(context, &g->hierarchy, &mg));
+  assert_ok(abut_multigrid_set_matrix(mg, &g->matrix));
+  return mg;
+}
+
+/* What to hold: nothing; parts at random; a disc. Of fields with one unknown
+ * anywhere, as an obstacle holds a membrane; of displacements the last
+ * component on the last side, as a plane holds a body. */
+typedef enum set
+{
+  NOTHING,
+  FEW,
+  MANY,
+  DISC,
+  ALL_SETS
+} set;
+
+static uint8_t *
+make_set(const grid *g, set which, uint64_t seed)
+{
+  uint8_t *held = calloc((size_t)g->n, 1);
+  const int32_t side = g->side[0], nodes = g->mesh[0].n_nodes;
+  for (int32_t i = 0; i < g->n; ++i)
+  {
+    const int32_t node = i / g->block;
+    const double x = (double)(node % side) / (side - 1) - 0.5;
+    const double y = g->dim == 2 && g->block > 1
+                         ? 0
+                         : (double)(node / side % side) / (side - 1) - 0.4;
+    const double chance = fixture_random(&seed);
+    if (g->block > 1
+        && (i % g->block != g->block - 1 || node < nodes - nodes / side))
+      continue;
+    held[i] = (which == FEW && chance < 0.05) || (which == MANY && chance < 0.3)
+              || (which == DISC && x * x + y * y < 0.04);
+  }
+  return held;
+}
+
+static int32_t
+iterations(int32_t dim, int32_t block, int32_t level, set which)
+{
+  grid g;
+  grid_open(&g, dim, block, level, 1);
+  abut_context *context = fixture_context();
+  abut_multigrid *mg = open_multigrid(context, &g);
+  uint8_t *held = make_set(&g, which, 3);
+  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  const int32_t result = grid_iterations(&g, mg, held, 1e-10);
+  abut_multigrid_destroy(&mg);
+  assert_ok(abut_context_destroy(&context));
+  free(held);
+  grid_close(&g);
+  return result;
+}
+
+/* No more iterations than `most` on any mesh with any set. */
+static void
+expect_flat(int32_t dim, int32_t block, int32_t first, int32_t last,
+            int32_t most)
+{
+  for (int which = NOTHING; which < ALL_SETS; ++which)
+    for (int32_t level = first; level <= last; ++level)
+    {
+      const int32_t n = iterations(dim, block, level, (set)which);
+      if (n > most)
+        fail_msg("%d iterations at level %d with set %d", n, level, which);
+    }
+}
+
+static void
+test_poisson_is_flat(void **state)
+{
+  (void)state;
+  expect_flat(2, 1, 4, 6, 9);
+}
+
+static void
+test_elasticity_is_flat(void **state)
+{
+  (void)state;
+  expect_flat(2, 2, 3, 5, 14);
+  expect_flat(3, 3, 2, 3, 13);
+}
+
+static void
+test_cycle_is_symmetric_and_leaves_held(void **state)
+{
+  (void)state;
+  grid g;
+  grid_open(&g, 2, 2, 4, 1);
+  abut_context *context = fixture_context();
+  abut_multigrid *mg = open_multigrid(context, &g);
+  uint8_t *held = make_set(&g, FEW, 5);
+  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  const size_t n = (size_t)g.n;
+  double *a = calloc(4 * n, sizeof(double));
+  double *b = a + n, *ma = b + n, *mb = ma + n;
+  uint64_t seed = 11;
+  for (int32_t i = 0; i < g.n; ++i)
+  {
+    a[i] = fixture_random(&seed) - 0.5;
+    b[i] = fixture_random(&seed) - 0.5;
+  }
+  assert_ok(abut_multigrid_cycle(mg, a, ma));
+  assert_ok(abut_multigrid_cycle(mg, b, mb));
+  double left = 0, right = 0, own = 0;
+  for (int32_t i = 0; i < g.n; ++i)
+  {
+    left += a[i] * mb[i];
+    right += b[i] * ma[i];
+    own += a[i] * ma[i];
+    if (grid_is_out(&g, held, i))
+      assert_true(ma[i] == 0 && mb[i] == 0);
+  }
+  assert_true(own > 0);
+  assert_close(left / own, right / own, 1e-5);
+  free(a);
+  free(held);
+  abut_multigrid_destroy(&mg);
+  assert_ok(abut_context_destroy(&context));
+  grid_close(&g);
+}
+
+/* sum_ij w_i A_ij w_j of two coarse functions over what is free. */
+static double
+coarse_product(const grid *g, const uint8_t *held, int32_t k, int32_t l)
+{
+  double *left = calloc(3 * (size_t)g->n, sizeof(double));
+  double *right = left + g->n, *image = right + g->n;
+  for (int32_t i = 0; i < g->n; ++i)
+    for (int64_t e = g->mesh[0].start[i]; e < g->mesh[0].start[i + 1]; ++e)
+    {
+      left[i] += g->mesh[0].parent[e] == k ? g->mesh[0].weight[e] : 0;
+      right[i] += g->mesh[0].parent[e] == l ? g->mesh[0].weight[e] : 0;
+    }
+  grid_times(g, held, right, image);
+  double sum = 0;
+  for (int32_t i = 0; i < g->n; ++i)
+    sum += left[i] * image[i];
+  free(left);
+  return g->mesh[1].fixed[k] || g->mesh[1].fixed[l] ? 0 : sum;
+}
+
+static void
+test_coarse_matrix_is_that_of_galerkin(void **state)
+{
+  (void)state;
+  grid g;
+  grid_open(&g, 2, 1, 4, 3);
+  /* Times 6 all entries are whole numbers and exact in single precision. */
+  for (int32_t e = 0; e < g.start[g.n]; ++e)
+    g.value[e] = nearbyint(6 * g.value[e]);
+  abut_context *context = fixture_context();
+  abut_multigrid *mg = open_multigrid(context, &g);
+  uint8_t *held = make_set(&g, MANY, 17);
+  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  const abut_node_rows *rows = &mg->level[1].matrix;
+  int32_t n_nonzero = 0;
+  for (int32_t k = 0; k < g.mesh[1].n_nodes; ++k)
+    for (int32_t l = 0; l < g.mesh[1].n_nodes; ++l)
+    {
+      double found = 0;
+      for (int64_t e = rows->start[k]; e < rows->start[k + 1]; ++e)
+        found += rows->node[e] == l ? (double)rows->weight[e] : 0;
+      assert_close(found, coarse_product(&g, held, k, l), 1e-14);
+      n_nonzero += found != 0;
+    }
+  assert_true(n_nonzero > 200);
+  free(held);
+  abut_multigrid_destroy(&mg);
+  assert_ok(abut_context_destroy(&context));
+  grid_close(&g);
+}
+
+static void
+assert_same_levels(const abut_multigrid *a, const abut_multigrid *b)
+{
+  for (int32_t l = 1; l < a->n_levels; ++l)
+  {
+    const abut_multigrid_level *x = &a->level[l], *y = &b->level[l];
+    const size_t n =
+        (size_t)x->matrix.start[x->n] * (size_t)(a->block * a->block);
+    assert_memory_equal(x->matrix.weight, y->matrix.weight, n * sizeof(float));
+    assert_memory_equal(x->held, y->held, (size_t)(x->n * a->block));
+  }
+}
+
+static void
+test_what_changed_is_made_anew_and_no_more(void **state)
+{
+  (void)state;
+  grid g;
+  grid_open(&g, 2, 2, 5, 1);
+  abut_context *context = fixture_context();
+  abut_multigrid *mg = open_multigrid(context, &g);
+  uint8_t *held = make_set(&g, FEW, 23);
+  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  abut_multigrid_report report = {sizeof(report), 0, 0, 0, 0, {0}};
+  assert_ok(abut_multigrid_describe_sized(mg, &report));
+  const int64_t all = report.n_renewed;
+  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_ok(abut_multigrid_describe_sized(mg, &report));
+  assert_int_equal(report.n_renewed, 0);
+
+  const int32_t middle = g.n / 2 + 2;
+  held[middle] = !held[middle];
+  double *added = calloc((size_t)g.n, sizeof(double));
+  added[g.n / 3] = 2.5;
+  assert_ok(abut_multigrid_hold(mg, held, added));
+  assert_ok(abut_multigrid_describe_sized(mg, &report));
+  assert_in_range(report.n_renewed, 2, all / 4);
+  abut_multigrid *fresh = open_multigrid(context, &g);
+  assert_ok(abut_multigrid_hold(fresh, held, added));
+  assert_same_levels(mg, fresh);
+
+  free(added);
+  free(held);
+  abut_multigrid_destroy(&mg);
+  abut_multigrid_destroy(&fresh);
+  assert_ok(abut_context_destroy(&context));
+  grid_close(&g);
+}
+
+static void
+test_one_mesh_is_solved(void **state)
+{
+  (void)state;
+  grid g;
+  grid_open(&g, 3, 3, 2, 2);
+  abut_context *context = fixture_context();
+  abut_multigrid *mg = open_multigrid(context, &g);
+  uint8_t *held = make_set(&g, DISC, 1);
+  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_true(grid_iterations(&g, mg, held, 1e-5) < 3);
+  /* All held: nothing to do. */
+  memset(held, 1, (size_t)g.n);
+  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  double *x = calloc(2 * (size_t)g.n, sizeof(double));
+  x[0] = x[g.n - 1] = 1;
+  assert_ok(abut_multigrid_cycle(mg, x, x + g.n));
+  for (int32_t i = 0; i < g.n; ++i)
+    assert_true(x[g.n + i] == 0);
+  free(x);
+  free(held);
+  abut_multigrid_destroy(&mg);
+  assert_ok(abut_context_destroy(&context));
+  grid_close(&g);
+}
+
+static void
+test_unknowns_in_any_order(void **state)
+{
+  (void)state;
+  grid g;
+  grid_open(&g, 2, 1, 3, 1);
+  /* The same matrix with its rows in reversed order. */
+  int32_t *unknown = calloc((size_t)g.n, sizeof(int32_t));
+  int32_t *start = calloc((size_t)g.n + 1, sizeof(int32_t));
+  int32_t *column = calloc((size_t)g.start[g.n], sizeof(int32_t));
+  double *value = calloc((size_t)g.start[g.n], sizeof(double));
+  double *r = calloc(4 * (size_t)g.n, sizeof(double));
+  for (int32_t i = 0; i < g.n; ++i)
+  {
+    const int32_t from = unknown[i] = g.n - 1 - i;
+    start[i + 1] = start[i];
+    for (int32_t e = g.start[from]; e < g.start[from + 1]; ++e)
+    {
+      column[start[i + 1]] = g.n - 1 - g.column[e];
+      value[start[i + 1]++] = g.value[e];
+    }
+    r[i] = r[2 * g.n + from] = i % 7;
+  }
+  abut_context *context = fixture_context();
+  abut_multigrid *mg = open_multigrid(context, &g);
+  grid reversed = g;
+  reversed.hierarchy.unknown = unknown;
+  reversed.matrix.start = start;
+  reversed.matrix.column = column;
+  reversed.matrix.value = value;
+  abut_multigrid *other = open_multigrid(context, &reversed);
+  assert_ok(abut_multigrid_hold(mg, NULL, NULL));
+  assert_ok(abut_multigrid_hold(other, NULL, NULL));
+  assert_ok(abut_multigrid_cycle(mg, r, r + g.n));
+  assert_ok(abut_multigrid_cycle(other, r + 2 * g.n, r + 3 * g.n));
+  for (int32_t i = 0; i < g.n; ++i)
+    assert_close(r[3 * g.n + g.n - 1 - i], r[g.n + i], 1e-5);
+  unknown[3] = unknown[4];
+  abut_multigrid *none = NULL;
+  assert_int_equal(abut_multigrid_create(context, &reversed.hierarchy, &none),
+                   ABUT_INVALID_ARGUMENT);
+  abut_multigrid_destroy(&mg);
+  abut_multigrid_destroy(&other);
+  assert_ok(abut_context_destroy(&context));
+  free(unknown);
+  free(start);
+  free(column);
+  free(value);
+  free(r);
+  grid_close(&g);
+}
+
+static void
+test_mistakes_are_told(void **state)
+{
+  (void)state;
+  grid g;
+  grid_open(&g, 2, 1, 2, 1);
+  abut_context *context = fixture_context();
+  abut_multigrid *mg = NULL;
+  abut_multigrid_hierarchy wrong = g.hierarchy;
+  wrong.block = 4;
+  assert_int_equal(abut_multigrid_create(context, &wrong, &mg),
+                   ABUT_INVALID_ARGUMENT);
+  abut_multigrid_mesh few[2] = {g.mesh[0], g.mesh[1]};
+  few[1].n_nodes -= 1;
+  wrong = g.hierarchy;
+  wrong.mesh = few;
+  assert_int_equal(abut_multigrid_create(context, &wrong, &mg),
+                   ABUT_INVALID_ARGUMENT);
+  assert_null(mg);
+
+  assert_ok(abut_multigrid_create(context, &g.hierarchy, &mg));
+  double *x = calloc((size_t)g.n, sizeof(double));
+  assert_int_equal(abut_multigrid_hold(mg, NULL, NULL), ABUT_INVALID_ARGUMENT);
+  assert_int_equal(abut_multigrid_cycle(mg, x, x), ABUT_INVALID_ARGUMENT);
+  g.matrix.n -= 1;
+  assert_int_equal(abut_multigrid_set_matrix(mg, &g.matrix),
+                   ABUT_INVALID_ARGUMENT);
+  g.matrix.n += 1;
+  g.value[3] = NAN;
+  assert_int_equal(abut_multigrid_set_matrix(mg, &g.matrix), ABUT_NOT_FINITE);
+  g.value[3] = 1;
+  assert_ok(abut_multigrid_set_matrix(mg, &g.matrix));
+  x[2] = -1;
+  assert_int_equal(abut_multigrid_hold(mg, NULL, x), ABUT_INVALID_ARGUMENT);
+  free(x);
+  abut_multigrid_destroy(&mg);
+  assert_ok(abut_context_destroy(&context));
+  grid_close(&g);
+}
+
+static void
+test_too_many_unknowns_to_factorise(void **state)
+{
+  (void)state;
+  grid g;
+  grid_open(&g, 2, 1, 6, 6);
+  abut_context *context = fixture_context();
+  abut_multigrid *mg = open_multigrid(context, &g);
+  assert_int_equal(abut_multigrid_hold(mg, NULL, NULL), ABUT_UNSUPPORTED);
+  abut_multigrid_destroy(&mg);
+  assert_ok(abut_context_destroy(&context));
+  grid_close(&g);
+}
+
+/* All calls with the k-th request for memory refused: nothing is lost, and
+ * what had worked works again. Returns whether some call failed. */
+static bool
+fails_cleanly(const grid *g, int64_t k)
+{
+  scarce_memory memory = {0, k, k, 0, 0};
+  const abut_context_options options = scarce_options(&memory);
+  abut_context *context = NULL;
+  if (abut_context_create(&options, &context) != ABUT_SUCCESS)
+    return true;
+  abut_multigrid *mg = NULL;
+  bool failed =
+      abut_multigrid_create(context, &g->hierarchy, &mg) != ABUT_SUCCESS;
+  if (!failed)
+  {
+    failed = abut_multigrid_set_matrix(mg, &g->matrix) != ABUT_SUCCESS
+             || abut_multigrid_hold(mg, NULL, NULL) != ABUT_SUCCESS;
+    if (failed)
+    {
+      assert_ok(abut_multigrid_set_matrix(mg, &g->matrix));
+      assert_ok(abut_multigrid_hold(mg, NULL, NULL));
+    }
+    assert_true(grid_iterations(g, mg, NULL, 1e-8) < 10);
+  }
+  abut_multigrid_destroy(&mg);
+  assert_ok(abut_context_destroy(&context));
+  assert_int_equal(memory.n_live, 0);
+  return failed;
+}
+
+static void
+test_scarce_memory(void **state)
+{
+  (void)state;
+  grid g;
+  grid_open(&g, 2, 1, 3, 1);
+  int64_t k = 0;
+  while (fails_cleanly(&g, k))
+    ++k;
+  assert_true(k > 20);
+  grid_close(&g);
+}
+
+int
+main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_poisson_is_flat),
+      cmocka_unit_test(test_elasticity_is_flat),
+      cmocka_unit_test(test_cycle_is_symmetric_and_leaves_held),
+      cmocka_unit_test(test_coarse_matrix_is_that_of_galerkin),
+      cmocka_unit_test(test_what_changed_is_made_anew_and_no_more),
+      cmocka_unit_test(test_one_mesh_is_solved),
+      cmocka_unit_test(test_unknowns_in_any_order),
+      cmocka_unit_test(test_mistakes_are_told),
+      cmocka_unit_test(test_too_many_unknowns_to_factorise),
+      cmocka_unit_test(test_scarce_memory),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
