@@ -61,9 +61,8 @@ namespace abut::shim
       std::string why_not() const;
       void find_unknowns();
       void find_middles();
-      template <typename Visit>
-      void for_each_cell(int level, const Visit &visit) const;
-      Draft draft(int level) const;
+      std::vector<unsigned int> vertices() const;
+      Draft draft(int level, const std::vector<unsigned int> &finer) const;
       void mark_hanging(int level, Draft &mesh) const;
       bool has_other_constraints(const Draft &finest) const;
       std::vector<std::uint8_t> fixed(const Draft &mesh) const;
@@ -133,29 +132,18 @@ namespace abut::shim
 
     template <int dim> void HierarchyMaker<dim>::find_middles()
     {
+      // What is refined belongs to a cell that is.
       for (const auto &cell : triangulation_.cell_iterators())
       {
+        if (!cell->has_children())
+          continue;
         for (const unsigned int line : cell->line_indices())
-          if (cell->line(line)->has_children())
-            note_middle(cell->line(line), middle_);
+          note_middle(cell->line(line), middle_);
         if constexpr (dim == 3)
           for (const unsigned int face : cell->face_indices())
-            if (cell->face(face)->has_children())
-              note_middle(cell->face(face), middle_);
-        if (cell->has_children())
-          note_middle(cell, middle_);
+            note_middle(cell->face(face), middle_);
+        note_middle(cell, middle_);
       }
-    }
-
-    template <int dim>
-    template <typename Visit>
-    void HierarchyMaker<dim>::for_each_cell(const int level,
-                                            const Visit &visit) const
-    {
-      for (int l = 0; l <= level; ++l)
-        for (const auto &cell : triangulation_.cell_iterators_on_level(l))
-          if (l == level || cell->is_active())
-            visit(cell);
     }
 
     template <int dim>
@@ -167,43 +155,54 @@ namespace abut::shim
           mesh.hangs[object->child(0)->vertex_index(object->n_vertices() - 1)] =
               1;
       };
-      for_each_cell(level,
-                    [&](const Cell &cell)
-                    {
-                      if (cell->level() == level)
-                        return;
-                      for (const unsigned int line : cell->line_indices())
-                        mark(cell->line(line));
-                      if constexpr (dim == 3)
-                        for (const unsigned int face : cell->face_indices())
-                          mark(cell->face(face));
-                    });
+      for (int l = 0; l < level; ++l)
+        for (const auto &cell : triangulation_.cell_iterators_on_level(l))
+        {
+          if (!cell->is_active())
+            continue;
+          for (const unsigned int line : cell->line_indices())
+            mark(cell->line(line));
+          if constexpr (dim == 3)
+            for (const unsigned int face : cell->face_indices())
+              mark(cell->face(face));
+        }
+    }
+
+    /** Those with unknowns, in the order of the matrix for the sake of caches.
+     */
+    template <int dim>
+    std::vector<unsigned int> HierarchyMaker<dim>::vertices() const
+    {
+      constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+      std::vector<unsigned int> by_unknown(dof_handler_.n_dofs(), none), result;
+      for (unsigned int v = 0; v < triangulation_.n_vertices(); ++v)
+        if (unknown_[v * n_components_] != dealii::numbers::invalid_dof_index)
+          by_unknown[unknown_[v * n_components_]] = v;
+      for (const unsigned int v : by_unknown)
+        if (v != none)
+          result.push_back(v);
+      return result;
     }
 
     template <int dim>
     typename HierarchyMaker<dim>::Draft
-    HierarchyMaker<dim>::draft(const int level) const
+    HierarchyMaker<dim>::draft(const int level,
+                               const std::vector<unsigned int> &finer) const
     {
       Draft mesh;
       mesh.node.assign(triangulation_.n_vertices(), -1);
       mesh.hangs.assign(triangulation_.n_vertices(), 0);
-      for_each_cell(level,
-                    [&](const Cell &cell)
-                    {
-                      for (const unsigned int v : cell->vertex_indices())
-                        mesh.node[cell->vertex_index(v)] = 0;
-                    });
-      for (unsigned int v = 0; v < mesh.node.size(); ++v)
+      for (int l = 0; l <= level; ++l)
+        for (const auto &cell : triangulation_.cell_iterators_on_level(l))
+          if (l == level || cell->is_active())
+            for (const unsigned int v : cell->vertex_indices())
+              mesh.node[cell->vertex_index(v)] = 0;
+      for (const unsigned int v : finer)
         if (mesh.node[v] == 0)
+        {
+          mesh.node[v] = static_cast<std::int32_t>(mesh.vertex.size());
           mesh.vertex.push_back(v);
-      // In the order of the matrix, for the sake of caches.
-      std::sort(mesh.vertex.begin(), mesh.vertex.end(),
-                [&](const unsigned int a, const unsigned int b) {
-                  return unknown_[a * n_components_]
-                         < unknown_[b * n_components_];
-                });
-      for (std::size_t i = 0; i < mesh.vertex.size(); ++i)
-        mesh.node[mesh.vertex[i]] = static_cast<std::int32_t>(i);
+        }
       mark_hanging(level, mesh);
       return mesh;
     }
@@ -300,7 +299,7 @@ namespace abut::shim
       find_unknowns();
       find_middles();
       int level = static_cast<int>(triangulation_.n_levels()) - 1;
-      Draft fine = draft(level);
+      Draft fine = draft(level, vertices());
       if (has_other_constraints(fine))
         result.missing = "unknowns are tied to others";
       for (const unsigned int v : fine.vertex)
@@ -314,7 +313,7 @@ namespace abut::shim
         mesh.n_nodes = static_cast<std::int32_t>(n);
         mesh.fixed = fixed(fine);
         const bool is_last = level == 0 || n * n_components_ <= coarse_enough;
-        Draft coarse = is_last ? Draft() : draft(level - 1);
+        Draft coarse = is_last ? Draft() : draft(level - 1, fine.vertex);
         if (!is_last)
           add_weights(fine, coarse, mesh);
         result.meshes.push_back(std::move(mesh));

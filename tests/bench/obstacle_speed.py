@@ -7,7 +7,8 @@ one rank (or more). The contact solve counts all levels of nested iteration:
 assembly, transfer, contact rows and start, linear solves, to the final linear
 tolerance; mesh, numbering and sparsity pattern are listed apart. The linear
 solve is assembly + ML + CG to 1e-10 of the same problem without obstacle on
-the finest mesh, the median of five in the same run. Medians over runs.
+the finest mesh, the median of five in the same run. Medians over runs; `ratio
+of work` is that of processor times, for machines with other work on them.
 
     tests/bench/obstacle_speed.py build/release/abut prm/step-41.prm
 """
@@ -15,6 +16,7 @@ import statistics
 
 import measured
 
+COUNTED = ["assembly", "transfer", "contact rows and start", "solve"]
 SECTIONS = ["mesh", "unknowns and pattern", "assembly", "transfer",
             "contact rows and start", "solve"]
 
@@ -28,6 +30,12 @@ def run(arguments, level):
         arguments.ranks)
 
 
+def work_ratio(one):
+    """Processor time of the contact solve by that of the linear solve."""
+    return (sum(one.seconds(name, "processor_seconds") for name in COUNTED)
+            / one.summary["linear_solve_processor_seconds"])
+
+
 def main():
     parser = measured.options(__doc__)
     parser.add_argument("scene", help="a scene of the kind obstacle")
@@ -38,7 +46,7 @@ def main():
     arguments = parser.parse_args()
 
     columns = ["level", "unknowns", "linear solve", "contact solve", "ratio",
-               "all-in"] + SECTIONS + ["ML set-up, last level",
+               "ratio of work", "iterations, last level", "all-in"] + SECTIONS + ["ML set-up, last level",
                                        "Krylov, last level",
                                        "bytes per unknown"]
     measured.head(columns)
@@ -53,6 +61,8 @@ def main():
                f"{middle(lambda r: r.summary['linear_solve_seconds']):.3f}",
                f"{middle(lambda r: r.summary['contact_solve_seconds']):.3f}",
                f"{middle(lambda r: r.summary['contact_to_linear_ratio']):.2f}"]
+        row.append(f"{middle(work_ratio):.2f}")
+        row.append(f"{runs[0].levels[-1]['linear_iterations']}")
         all_in = middle(lambda r: sum(map(r.seconds, SECTIONS)))
         row.append(f"{all_in:.3f}")
         for name in SECTIONS:

@@ -11,6 +11,7 @@
 #include "app/restart/restart.h"
 #include "diagnosis.h"
 #include "name_parameter.h"
+#include "shim/mesh_hierarchy.h"
 
 #include <deal.II/distributed/grid_refinement.h>
 
@@ -63,6 +64,14 @@ namespace abut::app
       return;
     linear_solver =
         std::make_unique<solve::MaskedSolver>(state.settings.solver);
+    if (state.settings.solver.linear == SolverParameters::Linear::geometric)
+    {
+      solve::NearNullSpace space;
+      space.meshes = std::make_shared<const solve::MeshHierarchy>(
+          shim::make_mesh_hierarchy(model.problem().dof_handler,
+                                    model.problem().constraints));
+      linear_solver->set_near_null_space(space);
+    }
     linear_solver->reinit(model.problem().stiffness);
   }
 

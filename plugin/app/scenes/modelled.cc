@@ -18,6 +18,16 @@ namespace abut::app
                  {"error estimate"});
   }
 
+  void model_linear_systems(Report &report, const std::string &how_many,
+                            const LinearReport &last)
+  {
+    report.set("linear_solver", last.method);
+    report.model(
+        "linear systems", true,
+        how_many + (last.method.empty() ? "" : "; the last: " + last.method),
+        {"solve"});
+  }
+
   void model_files(Report &report, const bool are_written)
   {
     report.model("files", are_written,

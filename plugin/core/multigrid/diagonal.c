@@ -9,7 +9,7 @@
  * others, as in rigid motions of a coarse function that is nearly cut off. */
 static const double smallest_pivot = 1e-6;
 /* What the power method may have missed. */
-static const double margin = 1.15;
+static const double margin = 1.2;
 
 /* The inverse of the free part of a symmetric block, by Gauss and Jordan. */
 static void

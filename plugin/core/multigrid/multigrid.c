@@ -7,7 +7,7 @@
 
 enum
 {
-  POWER_STEPS = 10
+  POWER_STEPS = 6
 };
 
 static const char create_call[] = "abut_multigrid_create";

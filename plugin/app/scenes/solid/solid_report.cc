@@ -392,8 +392,9 @@ namespace abut::app
     unsigned int n_steps = 0;
     for (const ContactResult &state : run.results)
       n_steps += state.steps;
-    report.model("linear systems", true,
-                 std::to_string(n_steps) + " in all states", {"solve"});
+    model_linear_systems(report, std::to_string(n_steps) + " in all states",
+                         run.results.empty() ? LinearReport()
+                                             : run.results.back().linear);
     model_files(report, parameters.fields || run.options.pictures);
     explain_accuracy(report, refinement, run.control);
     explain_steps(report, refinement, method, n_steps,
