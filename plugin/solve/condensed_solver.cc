@@ -158,7 +158,8 @@ namespace abut::solve
                        || built_.pivot[i] != Condensate::none
                        || now.stiffness[i] > 0. || built_.stiffness[i] > 0.;
       n_changed += changed;
-      n_in_contact += any;
+      // Each row of a point with friction may change, but it is one contact.
+      n_in_contact += any && (is_direct() || !rows_->is_tangent(i));
     }
     return PreconditionerKeeper::are_too_many(
         n_changed, n_in_contact, is_direct(), rows_->communicator());

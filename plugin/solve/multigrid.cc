@@ -6,6 +6,8 @@
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 
+#include <utility>
+
 namespace abut::solve
 {
   using dealii::TrilinosWrappers::PreconditionAMG;
@@ -81,6 +83,77 @@ namespace abut::solve
           }
       return modes;
     }
+
+    /** Takes the couplings between different bodies out of a matrix and, when
+     * this goes, puts them back. */
+    class Apart
+    {
+    public:
+      Apart(const la::Matrix &matrix, const NearNullSpace &space)
+          : rows_(la::local_rows(matrix))
+      {
+        const MPI_Comm communicator = matrix.get_mpi_communicator();
+        // ML restricts anew on kept aggregates on one rank only.
+        if (space.n_bodies == 1 || MPI::n_mpi_processes(communicator) > 1)
+          return;
+        la::Vector body(matrix.locally_owned_range_indices(), communicator);
+        std::copy(space.body.begin(), space.body.end(), la::data(body));
+        const std::vector<double> body_of = la::gather(matrix, body);
+        for (int i = 0; i < rows_.n_rows; ++i)
+          for (int e = rows_.start[i]; e < rows_.start[i + 1]; ++e)
+            if (body_of[rows_.column[e]] != body_of[i] && rows_.value[e] != 0.)
+            {
+              taken_.emplace_back(e, rows_.value[e]);
+              rows_.value[e] = 0.;
+            }
+        any_ = !taken_.empty();
+      }
+
+      Apart(const Apart &) = delete;
+      Apart &operator=(const Apart &) = delete;
+
+      ~Apart()
+      {
+        for (const auto &[entry, value] : taken_)
+          rows_.value[entry] = value;
+      }
+
+      /** Whether there are any. */
+      bool any() const
+      {
+        return any_;
+      }
+
+    private:
+      la::LocalRows rows_;
+      std::vector<std::pair<int, double>> taken_;
+      bool any_ = false;
+    };
+
+    /** Aggregates of each body for itself, on which then the whole matrix is
+     * restricted: coarse functions that move both sides of a contact at once
+     * could not let them slide on each other. */
+    void initialize_by_bodies(const la::Matrix &matrix,
+                              Teuchos::ParameterList &list,
+                              const NearNullSpace &space,
+                              PreconditionAMG &multigrid)
+    {
+      // Below this part of the diagonal entries count as none.
+      constexpr double nothing = 1e-12;
+      bool coupled = false;
+      {
+        const Apart apart(matrix, space);
+        coupled = apart.any();
+        if (coupled)
+        {
+          list.set("aggregation: threshold", nothing);
+          list.set("reuse: enable", true);
+        }
+        multigrid.initialize(matrix, list);
+      }
+      if (coupled)
+        multigrid.reinit();
+    }
   } // namespace
 
   std::unique_ptr<Multigrid> make_multigrid(const la::Matrix &matrix,
@@ -109,7 +182,7 @@ namespace abut::solve
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", modes.NumVectors());
     list.set("null space: vectors", modes.Values());
-    multigrid->amg.initialize(matrix, list);
+    initialize_by_bodies(matrix, list, space, multigrid->amg);
     return multigrid;
   }
 } // namespace abut::solve
