@@ -3,6 +3,8 @@
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature.h>
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 
@@ -57,6 +59,18 @@ namespace abut::app
             rows.value[k] = own[i];
     }
 
+    /** A component of the velocity at a place of what turns about an axis of
+     * the origin, once in 2 pi of time. */
+    template <int dim>
+    double turned(const dealii::Point<dim> &place, const unsigned int axis,
+                  const unsigned int component)
+    {
+      const unsigned int next = (axis + 1) % 3, last = (axis + 2) % 3;
+      return component == next   ? -place[last]
+             : component == last ? place[next]
+                                 : 0.;
+    }
+
     /** The inverse of its diagonal. */
     struct DiagonalInverse
     {
@@ -88,23 +102,49 @@ namespace abut::app
     projection_.clear();
     dt_ = 0.;
     mark_massless();
+    find_rigid_motions();
+  }
+
+  template <int dim> void BodyMotion<dim>::find_rigid_motions()
+  {
     const auto &fe = elasticity_.fe;
     const auto &owned = elasticity_.dof_handler.locally_owned_dofs();
-    std::vector<la::Vector> unit(dim, elasticity_.vector());
+    dealii::FEValues<dim> places(
+        elasticity_.mapping, fe.base_element(0),
+        dealii::Quadrature<dim>(fe.base_element(0).get_unit_support_points()),
+        dealii::update_quadrature_points);
+    std::vector<la::Vector> along(dim, elasticity_.vector()),
+        about(n_rotations<dim>, elasticity_.vector());
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
     for (const auto &cell : elasticity_.dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned())
         continue;
+      places.reinit(
+          static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+              cell));
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (owned.is_element(dofs[i]))
-          la::data(unit[fe.system_to_component_index(i)
-                            .first])[owned.index_within_set(dofs[i])] = 1.;
+      {
+        if (!owned.is_element(dofs[i]))
+          continue;
+        const auto k = owned.index_within_set(dofs[i]);
+        const auto [component, node] = fe.system_to_component_index(i);
+        la::data(along[component])[k] = 1.;
+        for (unsigned int r = 0; r < about.size(); ++r)
+          la::data(about[r])[k] = turned(places.quadrature_point(node),
+                                         dim == 2 ? 2 : r, component);
+      }
     }
-    mass_of_component_.assign(dim, elasticity_.vector());
-    for (unsigned int d = 0; d < dim; ++d)
-      mass_->vmult(mass_of_component_[d], unit[d]);
+    const auto times_mass = [&](const std::vector<la::Vector> &motions,
+                                std::vector<la::Vector> &result)
+    {
+      result.assign(motions.size(), elasticity_.vector());
+      for (std::size_t m = 0; m < motions.size(); ++m)
+        mass_->vmult(result[m], motions[m]);
+    };
+    times_mass(along, mass_of_component_);
+    times_mass(about, mass_of_rotation_);
   }
 
   template <int dim> void BodyMotion<dim>::mark_massless()
@@ -440,6 +480,8 @@ namespace abut::app
     result.energy.strain = 0.5 * (elasticity_.stiffness_times(u) * free);
     for (unsigned int d = 0; d < dim; ++d)
       result.momentum[d] = mass_of_component_[d] * v;
+    for (unsigned int r = 0; r < n_rotations<dim>; ++r)
+      result.angular_momentum[r] = mass_of_rotation_[r] * v;
     return result;
   }
 

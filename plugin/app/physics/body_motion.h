@@ -13,12 +13,16 @@
 
 #include <abut/time.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace abut::app
 {
+  /** Axes that bodies can turn about. */
+  template <int dim> constexpr unsigned int n_rotations = dim == 2 ? 1 : 3;
+
   /** What stands in the balance of a motion at a time. */
   template <int dim> struct MotionRecord
   {
@@ -26,6 +30,9 @@ namespace abut::app
     abut_time_energy energy = {};
     double contact_force = 0.; ///< sum over all pairs
     dealii::Tensor<1, dim> momentum;
+    /** About the origin, of the undeformed places, at which small strain has
+     * its forces act; in 2D one component. */
+    std::array<double, n_rotations<dim>> angular_momentum = {};
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
@@ -34,6 +41,8 @@ namespace abut::app
       archive &energy.dissipated &energy.external_work;
       for (unsigned int d = 0; d < dim; ++d)
         archive &momentum[d];
+      for (double &each : angular_momentum)
+        archive &each;
     }
   };
 
@@ -168,6 +177,7 @@ namespace abut::app
     void set_forces_before();
     void find_acceleration();
     void mark_massless();
+    void find_rigid_motions();
     MotionRecord<dim> measure(const la::Vector &u, const la::Vector &v) const;
     double damping_energy(const la::Vector &way) const;
 
@@ -175,8 +185,9 @@ namespace abut::app
     const Settings settings_;
     std::unique_ptr<const la::Matrix> mass_, free_mass_;
     la::Matrix tangent_, projection_;
-    abut_time_stage stage_ = ABUT_TIME_STEP;    ///< of the problem in work
-    std::vector<la::Vector> mass_of_component_; ///< M times a unit motion
+    abut_time_stage stage_ = ABUT_TIME_STEP; ///< of the problem in work
+    /** M times a unit motion along, and about, each axis. */
+    std::vector<la::Vector> mass_of_component_, mass_of_rotation_;
     std::vector<std::uint8_t> massless_;
     double dt_ = 0.; ///< of the tangent; 0: none
 

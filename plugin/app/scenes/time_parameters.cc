@@ -44,10 +44,17 @@ namespace abut::app
         "Scheme", schemes.substr(0, schemes.find('|')),
         Patterns::Selection(schemes),
         "How what has mass moves. none: each load step is in equilibrium.");
-    prm.declare_entry("Step", "0", NumberPattern::from(0.),
-                      "Length of a time step; a little less where `End` is no "
-                      "multiple of it. A step that fails is halved, see `Load "
-                      "steps/Cut back`.");
+    const bool has_impulses =
+        schemes.find("velocity level") != std::string::npos;
+    prm.declare_entry(
+        "Step", "0", NumberPattern::from(0.),
+        std::string("Length of a time step; a little less where `End` is no "
+                    "multiple of it. ")
+            + (has_impulses
+                   ? "0, of a bar: the time that a wave needs for an element, "
+                     "or .9 of the limit of an explicit scheme."
+                   : "A step that fails is halved, see `Load steps/Cut "
+                     "back`."));
     prm.declare_entry("End", "1", NumberPattern::positive(),
                       "Time of the end; the motion begins at 0.");
     prm.declare_entry("Alpha", "-0.1", NumberPattern::between(-1. / 3., 0.),
@@ -58,14 +65,15 @@ namespace abut::app
                       "frequencies.");
     prm.declare_entry("Beta", "0.25", NumberPattern::positive(), "Of newmark.");
     prm.declare_entry("Gamma", "0.5", NumberPattern::from(0.5), "Of newmark.");
-    if (schemes.find("velocity level") != std::string::npos)
+    if (has_impulses)
       prm.declare_entry("Restitution", "0", NumberPattern::between(0., 1.),
                         "Of velocity level: part of the velocity that an "
                         "impact gives back.");
     prm.leave_subsection();
   }
 
-  void TimeParameters::parse(dealii::ParameterHandler &prm)
+  void TimeParameters::parse(dealii::ParameterHandler &prm,
+                             const bool finds_step)
   {
     prm.enter_subsection("Time");
     Given given;
@@ -83,9 +91,16 @@ namespace abut::app
     if (!is_on)
       return;
     scheme = make_scheme(given);
+    if (step == 0. && finds_step)
+      return;
     if (step == 0.)
       throw InputError("Time/Step", "Time/Scheme = " + given.scheme
                                         + " needs the length of a time step.");
+    check_step();
+  }
+
+  void TimeParameters::check_step() const
+  {
     if (end / step > most_steps)
       throw InputError("Time/Step", "more than 1e9 steps to Time/End.");
     if (step > end * (1. + 1e-9))

@@ -24,8 +24,13 @@ namespace abut::app
     static void declare(dealii::ParameterHandler &prm,
                         const std::string &schemes);
 
-    /** Throws InputError for values that contradict each other. */
-    void parse(dealii::ParameterHandler &prm);
+    /** Throws InputError for values that contradict each other.
+     * @param finds_step the scene makes a step of its own where the file has
+     * 0 */
+    void parse(dealii::ParameterHandler &prm, bool finds_step = false);
+
+    /** Throws InputError if the step does not fit the end. */
+    void check_step() const;
 
     /** The way to the end in equal steps of at most @ref step, with what
      * @p given says of steps that fail. */

@@ -52,6 +52,7 @@ namespace abut::app
       std::vector<double> load_at(const MassSystem &system, double time) const;
       void describe(Report &report, const MassSystem &system) const;
       unsigned int n_steps() const;
+      void find_step(double limit);
       bool take_steps(Report &report, Motion &motion, MotionRecord &record,
                       const MassSystem &system);
       void fill_summary(Report &report, const Motion &motion,
@@ -252,7 +253,7 @@ namespace abut::app
     {
       parse_masses(prm);
       parse_loads(prm);
-      time.parse(prm);
+      time.parse(prm, row.is_bar);
       parse_mass(prm);
       plane.restitution = time.restitution;
       if (time.scheme.beta == 0. && time.scheme.contact_in_step)
@@ -365,6 +366,18 @@ namespace abut::app
           std::max(1., std::ceil(time.end / time.step * (1. - 1e-9))));
     }
 
+    /** The step of a bar whose file has none. */
+    void MotionScene::find_step(const double limit)
+    {
+      if (time.step > 0.)
+        return;
+      constexpr double part = 0.9;
+      time.step = time.scheme.beta == 0. ? part * limit
+                                         : std::sqrt(row.mass / row.spring);
+      time.step = std::min(time.step, time.end);
+      time.check_step();
+    }
+
     void MotionScene::describe(Report &report, const MassSystem &system) const
     {
       const char *const masses[] = {"consistent", "lumped", "modified"};
@@ -387,6 +400,7 @@ namespace abut::app
       const MassSystem system = make_system();
       load_at(system, 0.);
       load_at(system, time.end);
+      find_step(Motion(system, plane, time.scheme).stable_step());
       describe(report, system);
     }
 
@@ -476,11 +490,12 @@ namespace abut::app
     Outcome MotionScene::run(const RunOptions &options, Report &report)
     {
       const MassSystem system = make_system();
-      describe(report, system);
       Motion motion(system, plane, time.scheme);
+      const double limit = motion.stable_step();
+      find_step(limit);
+      describe(report, system);
       MotionRecord record(time.scheme, row.dimension);
       record.declare_columns(report);
-      const double limit = motion.stable_step();
       report.set("stable_time_step", limit);
       if (time.end / n_steps() > limit)
         report.warn(coded(ABUT_FAILURE_BLOW_UP,

@@ -14,6 +14,12 @@ namespace abut::app
   {
     constexpr const char *axes[] = {"x", "y", "z"};
 
+    /** The column of the table; 2D has one axis. */
+    template <int dim> std::string angular_momentum_about(const unsigned int r)
+    {
+      return std::string("angular_momentum_") + axes[dim == 2 ? 2 : r];
+    }
+
     template <int dim>
     std::vector<double> components(const dealii::Tensor<1, dim> &vector)
     {
@@ -53,7 +59,7 @@ namespace abut::app
     const std::size_t n = parameters.pairs.size();
     const std::vector<std::vector<double>> nothing(
         n, std::vector<double>(dim, 0.));
-    records = {{motion.record(), nothing, nothing}};
+    records = {{motion.record(), nothing, nothing, std::vector<double>(n, 0.)}};
     balance = {};
     balance.struct_size = sizeof(balance);
     dissipated = work = 0.;
@@ -93,10 +99,25 @@ namespace abut::app
     is_new = is_new || changed;
     const std::vector<std::vector<double>> nothing(
         parameters.pairs.size(), std::vector<double>(dim, 0.));
-    present = {{}, nothing, nothing};
+    present = {
+        {}, nothing, nothing, std::vector<double>(parameters.pairs.size(), 0.)};
     on_supports = elasticity.vector();
     friction_of_step = 0.;
     return changed;
+  }
+
+  /* What friction takes in a step: the scheme brakes by the forces at both of
+   * its ends, and the assembler knows the slip under the last one. */
+  template <int dim>
+  double SolidMotion<dim>::friction_work(const PairResult<dim> &result,
+                                         const double before) const
+  {
+    const abut_time_scheme &scheme = parameters.time.scheme;
+    const double now = scheme.projects != 0 ? 1. : scheme.gamma;
+    return result.friction_force > 0.
+               ? result.dissipation
+                     * (now + (1. - now) * before / result.friction_force)
+               : 0.;
   }
 
   template <int dim>
@@ -107,7 +128,8 @@ namespace abut::app
     const auto results = run.contact.pair_results();
     for (std::size_t p = 0; p < results.size(); ++p)
     {
-      friction_of_step += results[p].dissipation;
+      present.friction[p] += results[p].friction_force;
+      friction_of_step += friction_work(results[p], records.back().friction[p]);
       for (unsigned int d = 0; d < dim; ++d)
         present.force[p][d] += results[p].secondary_force[d];
       for (const auto &obstacle : obstacles)
@@ -207,6 +229,8 @@ namespace abut::app
                                        "external_work",  "balance"};
     for (unsigned int d = 0; d < dim; ++d)
       result.push_back(std::string("momentum_") + axes[d]);
+    for (unsigned int r = 0; r < n_rotations<dim>; ++r)
+      result.push_back(angular_momentum_about<dim>(r));
     for (std::size_t p = 1; p <= parameters.pairs.size(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         result.push_back("pair_" + std::to_string(p) + "_force_" + axes[d]);
@@ -223,6 +247,8 @@ namespace abut::app
     row["dissipated"] = e.dissipated;
     row["external_work"] = e.external_work;
     row["balance"] = present.balance();
+    for (unsigned int r = 0; r < n_rotations<dim>; ++r)
+      row[angular_momentum_about<dim>(r)] = present.bodies.angular_momentum[r];
     for (unsigned int d = 0; d < dim; ++d)
     {
       row[std::string("momentum_") + axes[d]] = present.bodies.momentum[d];
@@ -247,6 +273,9 @@ namespace abut::app
     report.set("external_work", last.energy.external_work);
     report.set("balance", records.back().balance());
     report.set("momentum", components(last.momentum));
+    report.set("angular_momentum",
+               std::vector<double>(last.angular_momentum.begin(),
+                                   last.angular_momentum.end()));
     // What each pair has given to its secondary over all steps.
     for (std::size_t p = 0; p < parameters.pairs.size(); ++p)
     {

@@ -92,6 +92,7 @@ namespace abut::app
       /** By pair: force on the secondary, and how far the obstacle has come
        * since time 0. */
       std::vector<std::vector<double>> force, place;
+      std::vector<double> friction; ///< by pair: sum of its magnitudes
 
       /** B of abut_time_balance. */
       double balance() const
@@ -103,7 +104,7 @@ namespace abut::app
 
       template <class Archive> void serialize(Archive &archive, unsigned int)
       {
-        archive &bodies &force &place;
+        archive &bodies &force &place &friction;
       }
     };
 
@@ -116,6 +117,7 @@ namespace abut::app
   private:
     double step_length() const;
     void measure_contact(const SolidPairs<dim> &pairs);
+    double friction_work(const PairResult<dim> &result, double before) const;
     double work_of_obstacles() const;
     /** Tell the limit of an explicit scheme, and warn above it. Collective. */
     void look_at_step();
