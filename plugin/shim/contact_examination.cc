@@ -179,6 +179,29 @@ namespace abut
                            "them.");
     }
 
+    /** Facets that turn by a large angle: polygons that are in each other. */
+    template <int dim>
+    void judge_corners(const PairResult<dim> &pair, const PairCheck &check,
+                       const double depth, const Scale &scale,
+                       Findings &findings)
+    {
+      const bool turns =
+          std::any_of(check.warnings.begin(), check.warnings.end(),
+                      [](const std::string &warning) {
+                        return failure_of(warning) == ABUT_FAILURE_COARSE_CURVE;
+                      });
+      if (turns
+          && scale.is_more(depth - std::max(0., pair.penetration), useless))
+        findings.add(ABUT_FAILURE_COARSE_CURVE, true,
+                     pair.name
+                         + ": corners of the secondary surface are inside the "
+                           "other side, which their constraints see in the "
+                           "mean alone, by up to "
+                         + scale.compared(depth)
+                         + ": refine the surfaces; if they are meant to fit, "
+                           "do not take their gap from the mesh (Mesh gap).");
+    }
+
     template <int dim>
     void judge_between(const PairResult<dim> &pair, const bool is_obstacle,
                        const double peak, const double size, const Scale &scale,
@@ -383,6 +406,14 @@ namespace abut
           pairs[p], is_obstacle, Deepest(unseen, p, i.communicator).peak,
           std::min(checks[p].facet_size, narrow.width), scale, findings);
       judge_width(pairs[p].name, narrow.width, narrow.facet, findings);
+      if (!is_obstacle)
+        judge_corners(pairs[p], checks[p], i.surfaces->held_in_the_mean(p),
+                      scale, findings);
+      for (const ContactFinding &refused : i.surfaces->refused(p))
+        findings.add(refused.failure, true,
+                     pairs[p].name
+                         + " would be refused; what was found is there to be "
+                           "measured, and no answer.");
       if (is_obstacle && i.pairs[p].geometric_gap)
         judge_inside(pairs[p].name,
                      shim::find_obstacle_in_bodies(*i.mapping, *i.dof_handler,

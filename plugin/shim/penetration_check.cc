@@ -162,6 +162,8 @@ namespace abut::shim
         pair.held_inside = std::max(pair.held_inside, found);
       else if (held[node] == 0 && is_owned(node))
         missed.push_back({pair.data.name, present[node], found, false, false});
+      else if (is_owned(node))
+        pair.held_in_the_mean = std::max(pair.held_in_the_mean, found);
     }
     for (const Inside &inside : penetrating_nodes(
              context_, pair.primary, pair.secondary, settings_.search, reach,
@@ -208,7 +210,7 @@ namespace abut::shim
       try
       {
         Pair &pair = pairs_[p];
-        pair.between_rows = pair.held_inside = 0.;
+        pair.between_rows = pair.held_inside = pair.held_in_the_mean = 0.;
         if (pair.data.tied || !pair.data.geometric_gap)
           continue;
         const std::uint8_t *marks = held.data() + p * surface_.nodes.size();
@@ -232,6 +234,7 @@ namespace abut::shim
     {
       pair.between_rows = MPI::max(pair.between_rows, communicator_);
       pair.held_inside = MPI::max(pair.held_inside, communicator_);
+      pair.held_in_the_mean = MPI::max(pair.held_in_the_mean, communicator_);
     }
     return everywhere(missed, communicator_);
   }

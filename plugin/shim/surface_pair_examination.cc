@@ -373,7 +373,7 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::string SurfacePairRows<dim>::wrong_side(const Pair &pair) const
+  std::string SurfacePairRows<dim>::wrong_side(Pair &pair) const
   {
     const SurfaceSide<dim> &side = pair.secondary;
     const double *normal = nullptr;
@@ -428,12 +428,12 @@ namespace abut::shim
             "Turn the obstacle (its Normal, the sign of a distance, Axis or "
             "Hollow), or take the side of the body that faces it; a thin "
             "obstacle may have passed through the surface.";
-    throw ContactError("Pair '" + pair.data.name
-                       + "': " + coded(ABUT_FAILURE_WRONG_SIDE, text.str()));
+    refuse(pair, coded(ABUT_FAILURE_WRONG_SIDE, text.str()));
+    return text.str();
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::refuse_inside(const Pair &pair,
+  void SurfacePairRows<dim>::refuse_inside(Pair &pair,
                                            const la::Vector &displacement) const
   {
     if (!pair.data.geometric_gap)
@@ -446,9 +446,7 @@ namespace abut::shim
     std::ostringstream depth;
     depth.precision(3);
     depth << found.elsewhere;
-    throw ContactError(
-        "Pair '" + pair.data.name
-        + "': " + coded(ABUT_FAILURE_WRONG_SIDE, found.text(depth.str())));
+    refuse(pair, coded(ABUT_FAILURE_WRONG_SIDE, found.text(depth.str())));
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
@@ -465,8 +463,8 @@ namespace abut::shim
   template void SurfacePairRows<dim>::examine(                                 \
       const la::Vector &, const double *, const std::uint8_t *,                \
       const std::vector<Unseen> &);                                            \
-  template std::string SurfacePairRows<dim>::wrong_side(const Pair &) const;   \
-  template void SurfacePairRows<dim>::refuse_inside(const Pair &,              \
+  template std::string SurfacePairRows<dim>::wrong_side(Pair &) const;         \
+  template void SurfacePairRows<dim>::refuse_inside(Pair &,                    \
                                                     const la::Vector &) const;
 
   ABUT_INSTANTIATE(2)

@@ -160,7 +160,7 @@ namespace abut::shim
     }
     if (result.n_rows == 0 && pair.data.obstacle)
     {
-      const std::string side = wrong_side(pair);
+      const std::string side = wrong_side(pairs_[number]);
       result.warnings.push_back(coded(
           side.empty() ? ABUT_FAILURE_NO_PARTNER : ABUT_FAILURE_WRONG_SIDE,
           "no node of the surface is within reach of the obstacle"
@@ -172,8 +172,13 @@ namespace abut::shim
     // Rigid obstacles may come nearer in later steps; the reference
     // configuration of bodies stays as it is.
     if (result.n_rows == 0 && !pair.data.obstacle)
-      throw ContactError("Pair '" + pair.data.name
-                         + "': " + result.warnings.back());
+      refuse(pairs_[number], result.warnings.back());
+    std::vector<std::string> &said = checks_.back().warnings;
+    for (const ContactFinding &refused : pair.refused)
+      if (std::none_of(said.begin(), said.end(),
+                       [&](const std::string &warning)
+                       { return failure_of(warning) == refused.failure; }))
+        said.push_back(refused.text);
   }
 
   template <int dim>

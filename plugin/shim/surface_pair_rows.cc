@@ -103,7 +103,7 @@ namespace abut::shim
     const std::string reason =
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
-      throw ContactError("Pair '" + data.name + "': " + reason);
+      refuse(pair, reason);
     std::string no_friction =
         data.friction == nullptr
             ? ""
@@ -123,14 +123,13 @@ namespace abut::shim
     for (const Pair &other : pairs_)
       if (are_both_sides(data, other.data)
           && (data.tied || !abut_law_has_penalty(&law)))
-        throw ContactError(
-            "Pair '" + data.name + "': "
-            + coded(ABUT_FAILURE_BOTH_SIDES,
-                    "it has the sides of pair '" + other.data.name
-                        + "' exchanged. Conditions on both sides say the same "
-                          "twice, and their pressures are not determined. "
-                          "Leave one pair out, or use penalty or augmented "
-                          "lagrangian."));
+        refuse(pair,
+               coded(ABUT_FAILURE_BOTH_SIDES,
+                     "it has the sides of pair '" + other.data.name
+                         + "' exchanged. Conditions on both sides say the same "
+                           "twice, and their pressures are not determined. "
+                           "Leave one pair out, or use penalty or augmented "
+                           "lagrangian."));
     pair.reach = data.reach;
     pair.moves = settings_.method.sliding == Sliding::large && !data.tied;
     const std::string fixed =
@@ -142,6 +141,19 @@ namespace abut::shim
     if (!fixed.empty())
       throw ContactError("Pair '" + data.name + "': " + fixed);
     pairs_.push_back(std::move(pair));
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::refuse(Pair &pair, const std::string &text) const
+  {
+    const abut_failure failure = failure_of(text);
+    if (!settings_.method.run_refused || failure == ABUT_FAILURE_NONE)
+      throw ContactError("Pair '" + pair.data.name + "': " + text);
+    const bool is_noted = std::any_of(pair.refused.begin(), pair.refused.end(),
+                                      [&](const ContactFinding &each)
+                                      { return each.failure == failure; });
+    if (!is_noted)
+      pair.refused.push_back({failure, true, text});
   }
 
   template <int dim>

@@ -6,6 +6,7 @@
 #include "surface_exchange.h"
 #include "surface_side.h"
 
+#include <abut/dealii/contact_examination.h>
 #include <abut/dealii/contact_pair.h>
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/normal_stress.h>
@@ -122,6 +123,20 @@ namespace abut::shim
       return pairs_[pair].narrow;
     }
 
+    /** How deep nodes of the secondary that have rows are in the other side,
+     * length >= 0, by the last penetrations(): rows of mortar hold them in the
+     * mean of the facets around them alone. */
+    double held_in_the_mean(std::size_t pair) const
+    {
+      return pairs_[pair].held_in_the_mean;
+    }
+
+    /** Why a pair would be refused but for MethodParameters::run_refused. */
+    const std::vector<ContactFinding> &refused(std::size_t pair) const
+    {
+      return pairs_[pair].refused;
+    }
+
     /** States to start from when a pair that must hold a body has no closed
      * row: closed are then the rows with pressure, or those of the smallest
      * gaps. Empty if there is no such pair. Collective.
@@ -229,6 +244,9 @@ namespace abut::shim
       std::vector<std::uint8_t> dropped;
       // As in PairResult.
       double between_rows = 0., held_inside = 0.;
+      double held_in_the_mean = 0.; ///< as the function
+      /** Known failures that it was made with all the same. */
+      std::vector<ContactFinding> refused;
       double slip = 0., gap_error = 0., missed_depth = 0.;
       Narrow narrow;
     };
@@ -341,8 +359,12 @@ namespace abut::shim
                        const std::vector<std::uint8_t> &touching_facets,
                        std::vector<Unseen> &found) const;
     void find_narrow(Pair &pair, const std::vector<Direction> &u) const;
-    std::string wrong_side(const Pair &pair) const;
-    void refuse_inside(const Pair &pair, const la::Vector &displacement) const;
+    std::string wrong_side(Pair &pair) const;
+    void refuse_inside(Pair &pair, const la::Vector &displacement) const;
+
+    /** Throws ContactError with the text; if it is a known failure that is to
+     * be measured, it is noted in place of that. */
+    void refuse(Pair &pair, const std::string &text) const;
 
     void create_pair(const ContactPair<dim> &data);
     void gather();

@@ -6,6 +6,8 @@
 #include "pair_diagnosis.h"
 #include "surface_pair_rows.h"
 
+#include <abut/dealii/coded.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -241,10 +243,13 @@ namespace abut::shim
       for (const auto *side : {&pair.secondary, &pair.primary})
         for (const Node node : side->node)
           if (!std::isfinite(u[node].norm_square()) && message.tellp() == 0)
-            message << "Pair '" << pair.data.name
-                    << "': the displacement of the node at ("
+            message << "Pair '" << pair.data.name << "': "
+                    << coded(ABUT_FAILURE_NOT_FINITE,
+                             "the displacement of the node at (")
                     << surface_.nodes[node].point
-                    << ") is not a number or is infinite.";
+                    << ") is infinite or not a number. Look for loads, "
+                       "supports and stiffnesses that are not finite, or off "
+                       "by many powers of ten.";
     throw_everywhere<ContactError>(communicator_, message.str());
   }
 

@@ -16,6 +16,15 @@ namespace abut
     return entry == nullptr ? text : entry->code + (": " + text);
   }
 
+  /** The failure whose code the message begins with, or ABUT_FAILURE_NONE. */
+  inline abut_failure failure_of(const std::string &message)
+  {
+    for (int i = 0; abut_failure_at(i) != nullptr; ++i)
+      if (message.rfind(abut_failure_at(i)->code, 0) == 0)
+        return abut_failure_at(i)->failure;
+    return ABUT_FAILURE_NONE;
+  }
+
   /** The message without the code that it may begin with. */
   inline std::string uncoded(const std::string &message)
   {

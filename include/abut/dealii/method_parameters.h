@@ -125,6 +125,12 @@ namespace abut
     /** Whether points move with the bodies. */
     Sliding sliding = Sliding::automatic;
 
+    /** Whether pairs that are known to fail, with a code ABUT-F.., are solved
+     * where they would be refused, to measure how they fail;
+     * ContactAssembler::examine() then has an error with the code. Not a
+     * parameter of the section. */
+    bool run_refused = false;
+
     /** Declare the section `Method` in the present section of @p prm. */
     static void declare_parameters(dealii::ParameterHandler &prm);
 

@@ -5,6 +5,7 @@
 #include "app/input/expression.h"
 #include "app/input/input_error.h"
 #include "app/input/parameters.h"
+#include "app/input/short_number.h"
 
 #include <cmath>
 #include <limits>
@@ -332,7 +333,8 @@ namespace abut::app
     {
     public:
       explicit Motion(const RigidObstacleParameters &parameters)
-          : first(first_pose<dim>(parameters)),
+          : parameters(parameters),
+            first(first_pose<dim>(parameters)),
             translation(parameters, "Motion", dim),
             angle(parameters, "Rotation angle", 1)
       {
@@ -350,11 +352,20 @@ namespace abut::app
           moved[d] = shift[d];
         const RigidPose<dim> motion = RigidPose<dim>::turned(
             degree * angle.at(time)[0], centre, axis, moved);
-        return {motion.rotation * first.rotation,
-                motion.rotation * first.translation + motion.translation};
+        const Tensor<1, dim> place =
+            motion.rotation * first.translation + motion.translation;
+        if (!(place.norm() <= ABUT_FACET_LIMIT))
+          throw InputError(
+              parameters.parameter(
+                  moved.norm() > first.translation.norm() ? "Motion" : "Move"),
+              "at time " + short_number(time)
+                  + " it takes the obstacle further away than "
+                    "1e40.");
+        return {motion.rotation * first.rotation, place};
       }
 
     private:
+      const RigidObstacleParameters parameters;
       const RigidPose<dim> first;
       TimeFormula<dim> translation, angle;
       Point<dim> centre;

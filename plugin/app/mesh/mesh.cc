@@ -116,10 +116,16 @@ namespace abut::app
       }
       catch (const std::exception &error)
       {
-        throw InputError(parameter, "the mesh file '" + path.string()
-                                        + "' cannot be read as a mesh in "
-                                        + std::to_string(dim) + " dimensions: "
-                                        + dealii_message(error));
+        // deal.II's words about it are a page of possible reasons.
+        const bool is_garbled =
+            dynamic_cast<const dealii::StandardExceptions::ExcIO *>(&error);
+        throw InputError(parameter,
+                         "the mesh file '" + path.string()
+                             + "' cannot be read as a mesh in "
+                             + std::to_string(dim) + " dimensions: "
+                             + (is_garbled ? "it ends too early, or is not "
+                                             "what its ending says."
+                                           : dealii_message(error)));
       }
     }
 

@@ -195,6 +195,12 @@ namespace abut::app
       return "";
     }
 
+    /** Whether the results of all load steps, taken together, are an answer. */
+    virtual bool is_usable() const
+    {
+      return true;
+    }
+
     /** Whether what a failed solve has reached is reported, too. */
     virtual bool reports_failures() const
     {

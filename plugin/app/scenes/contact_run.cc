@@ -480,7 +480,11 @@ namespace abut::app
                       + short_number(load_steps.target(), 6) + ": "
                       + (failure == told ? "for the same reason" : failure));
     else
+    {
+      // Perhaps the reason.
+      model.look_at_rows(true);
       report.warn(failure);
+    }
     told = failure;
     if (!goes_on && model.reports_failures())
     {
@@ -553,7 +557,7 @@ namespace abut::app
       report.warn(missed_target);
     for (const ContactFinding &finding : examination.findings)
       report.warn(finding.text);
-    converged = converged && missed_target.empty();
+    converged = converged && missed_target.empty() && model.is_usable();
     model.report_result(converged);
     model.report_model();
     return converged ? Outcome::converged : Outcome::unusable;

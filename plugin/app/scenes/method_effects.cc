@@ -111,6 +111,11 @@ namespace abut::app
     return {
         setting("Method/Law *", is_user, user),
         setting("Method/Friction *", has_friction, "nothing has friction."),
+        setting(
+            "Method/Friction parameters",
+            [](const SceneValues &values)
+            { return values.is_set("Method/Friction file"); },
+            "they are those of a law of your own: give Method/Friction file."),
         of_laws("Penalty",
                 "penalty, quadratic penalty, augmented lagrangian or nitsche",
                 has_penalty),

@@ -11,6 +11,10 @@
 
 namespace abut::app
 {
+  /** Energy that a scheme has made, by what there was, above which a motion is
+   * no answer. */
+  constexpr double useless_gain = 0.1;
+
   /** Section `Time`: motion by a scheme of the core. */
   struct TimeParameters
   {

@@ -3,6 +3,7 @@
 
 #include "app/input/short_number.h"
 #include "app/pictures/time_picture.h"
+#include "app/scenes/time_parameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +95,7 @@ namespace abut::app
     return false;
   }
 
-  void MotionRecord::judge_end(Report &report) const
+  bool MotionRecord::judge_end(Report &report) const
   {
     if (gains)
       report.warn(coded(
@@ -104,6 +105,7 @@ namespace abut::app
               + short_number(gain_time, 6)
               + ": take hht or contact stabilised with the mass that they are "
                 "made for, or a smaller Time/Step"));
+    return !gains || balance.gain <= useless_gain;
   }
 
   void MotionRecord::fill_summary(Report &report) const

@@ -22,8 +22,9 @@ namespace abut::app
      * is told then. */
     bool add(Report &report, const Motion &motion, double time);
 
-    /** Warn if the scheme has made energy. */
-    void judge_end(Report &report) const;
+    /** Warn if the scheme has made energy. Returns whether it is less than what
+     * leaves no answer. */
+    bool judge_end(Report &report) const;
 
     void fill_summary(Report &report) const;
 

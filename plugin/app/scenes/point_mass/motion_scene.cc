@@ -49,6 +49,7 @@ namespace abut::app
       void parse_mass(ParameterHandler &prm);
       MassSystem make_system() const;
       std::vector<double> values(RowFormula &formula, double time) const;
+      std::vector<double> start_of(const MassSystem &system) const;
       std::vector<double> load_at(const MassSystem &system, double time) const;
       void describe(Report &report, const MassSystem &system) const;
       unsigned int n_steps() const;
@@ -349,6 +350,26 @@ namespace abut::app
       return result;
     }
 
+    /** Displacements at the start, which must be above the plane: a scheme
+     * would push masses out with energy from nowhere. */
+    std::vector<double> MotionScene::start_of(const MassSystem &system) const
+    {
+      const std::vector<double> start = values(*displacement, 0.);
+      for (const std::size_t mass : system.candidates)
+      {
+        const double u = start[mass * row.dimension + row.dimension - 1],
+                     height = plane.gap + u;
+        if (height < -1e-12 * (plane.gap + std::abs(u)))
+          throw InputError("Motion/Initial displacement",
+                           "mass " + std::to_string(mass + 1)
+                               + " begins below the plane, by "
+                               + short_number(-height)
+                               + ": Motion/Gap and its displacement must not "
+                                 "be negative together.");
+      }
+      return start;
+    }
+
     std::vector<double> MotionScene::load_at(const MassSystem &system,
                                              const double now) const
     {
@@ -398,6 +419,7 @@ namespace abut::app
     void MotionScene::check(const RunOptions &, Report &report)
     {
       const MassSystem system = make_system();
+      start_of(system);
       load_at(system, 0.);
       load_at(system, time.end);
       find_step(Motion(system, plane, time.scheme).stable_step());
@@ -428,8 +450,7 @@ namespace abut::app
           report.progress(record.line(k, n));
         before = after;
       }
-      record.judge_end(report);
-      return true;
+      return record.judge_end(report);
     }
 
     void MotionScene::fill_summary(Report &report, const Motion &motion,
@@ -502,7 +523,7 @@ namespace abut::app
                           "the time step is above the limit of the scheme, "
                               + short_number(limit, 4)
                               + ": make Time/Step smaller"));
-      motion.start(values(*displacement, 0.), values(*velocity, 0.),
+      motion.start(start_of(system), values(*velocity, 0.),
                    load_at(system, 0.));
       const bool done = [&]
       {

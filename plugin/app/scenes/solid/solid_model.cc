@@ -362,6 +362,11 @@ namespace abut::app
     return held;
   }
 
+  template <int dim> bool SolidModel<dim>::is_usable() const
+  {
+    return !motion || motion->keeps_energy();
+  }
+
   template <int dim> std::string SolidModel<dim>::refuse() const
   {
     for (unsigned int k = 0; k < parts.size() && !motion; ++k)

@@ -48,6 +48,7 @@ namespace abut::app
     NewtonParameters newton_parameters() const override;
     void end_solve() override;
     std::string commit() override;
+    bool is_usable() const override;
     DiscreteProblem<dim> &problem() override
     {
       return elasticity;

@@ -216,6 +216,11 @@ namespace abut::app
     return "";
   }
 
+  template <int dim> bool SolidMotion<dim>::keeps_energy() const
+  {
+    return balance.gain <= useless_gain;
+  }
+
   template <int dim> double SolidMotion<dim>::energy() const
   {
     const abut_time_energy &e = present.bodies.energy;

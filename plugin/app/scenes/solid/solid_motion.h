@@ -64,6 +64,9 @@ namespace abut::app
      * end, or nothing. */
     std::string commit();
 
+    /** Whether the energy made so far leaves an answer. */
+    bool keeps_energy() const;
+
     /** Kinetic, strain and contact energy after the last end_step(). */
     double energy() const;
 

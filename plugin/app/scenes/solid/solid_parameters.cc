@@ -79,6 +79,11 @@ namespace abut::app
                         "mean of a body, are an answer to be used (exit code "
                         "0) although they are computed as small ones, linear "
                         "in the displacement.");
+      prm.declare_entry("Run what fails", "false", Patterns::Bool(),
+                        "Solve pairs that are known to fail (codes ABUT-F01, "
+                        "F02, F11, F23, F24) where they would be refused, to "
+                        "measure how they fail: exit code 3 if they still "
+                        "would be in the end.");
       prm.declare_entry("Gravity", "", Patterns::Anything(),
                         "Acceleration: a formula for each component, separated "
                         "by commas. Empty: none.");
@@ -282,6 +287,7 @@ namespace abut::app
             : word == "stress" ? PlaneModel::stress
                                : PlaneModel::axisymmetric;
     large_strain = prm.get_bool("Allow large strain");
+    run_refused = prm.get_bool("Run what fails");
     gravity = prm.get("Gravity");
     prm.leave_subsection();
     bodies.resize(counts.bodies);

@@ -47,6 +47,7 @@ namespace abut::app
     unsigned int degree = 1;
     PlaneModel plane = PlaneModel::strain;
     bool large_strain = false; ///< allowed
+    bool run_refused = false;  ///< pairs that are known to fail
     std::string gravity;
     std::vector<BodyParameters> bodies;
     std::vector<PairParameters> pairs;

@@ -42,6 +42,7 @@ namespace abut::app
                            "nitsche takes the stress for linear in the "
                            "displacement, and Body 1/Material is for large "
                            "strain: use lagrange or augmented lagrangian.");
+        this->method.run_refused = parameters.run_refused;
       }
 
       std::vector<EffectRule> effects() const override
