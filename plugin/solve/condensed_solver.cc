@@ -203,7 +203,7 @@ namespace abut::solve
   CondensedSolver::make_cycle(const la::Matrix &system) const
   {
     if (!is_geometric())
-      return make_multigrid(system, parameters_, space_);
+      return make_multigrid(system, parameters_, space_, matrix_.has_blocks());
     std::vector<std::uint8_t> held(diagonal_.size(), 0);
     for (const std::int64_t pivot : built_.pivot)
       if (pivot != Condensate::none)

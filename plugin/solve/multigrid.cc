@@ -158,7 +158,8 @@ namespace abut::solve
 
   std::unique_ptr<Multigrid> make_multigrid(const la::Matrix &matrix,
                                             const SolverParameters &parameters,
-                                            const NearNullSpace &space)
+                                            const NearNullSpace &space,
+                                            const bool slides)
   {
     PreconditionAMG::AdditionalData data;
     data.elliptic = true;
@@ -182,7 +183,10 @@ namespace abut::solve
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", modes.NumVectors());
     list.set("null space: vectors", modes.Values());
-    initialize_by_bodies(matrix, list, space, multigrid->amg);
+    if (slides)
+      initialize_by_bodies(matrix, list, space, multigrid->amg);
+    else
+      multigrid->amg.initialize(matrix, list);
     return multigrid;
   }
 } // namespace abut::solve

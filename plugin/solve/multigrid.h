@@ -25,12 +25,14 @@ namespace abut::solve
   /** ML's smoothed aggregation for @p matrix, with the rigid motions of the
    * near-null space as coarse functions: of displacements the translations
    * and, where positions are known, the rotations, which halve the number of
-   * iterations. On one rank, aggregates do not reach from one body to the
-   * next, as what slides would stick on coarse levels then. The matrix must
-   * outlive the result. Collective. */
+   * iterations. With @p slides, on one rank, aggregates do not reach from
+   * one body to the next, as what slides would stick on coarse levels then:
+   * that halves the iterations with friction and nearly doubles the set-up. The
+   * matrix must outlive the result. Collective. */
   std::unique_ptr<Multigrid> make_multigrid(const la::Matrix &matrix,
                                             const SolverParameters &parameters,
-                                            const NearNullSpace &space);
+                                            const NearNullSpace &space,
+                                            bool slides = false);
 } // namespace abut::solve
 
 #endif
