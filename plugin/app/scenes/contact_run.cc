@@ -208,10 +208,12 @@ namespace abut::app
 
   template <int dim> bool ContactRun<dim>::is_balanced(std::string &why)
   {
-    // Coarser meshes are solved roughly on purpose, and with a target error
-    // all are; and not every variant of Nitsche's method balances forces.
+    // Without contact Newton's method has looked. Coarser meshes are solved
+    // roughly on purpose, and with a target error all are; and not every
+    // variant of Nitsche's method balances forces.
     const MethodParameters &method = state.method;
-    if (!state.is_last_mesh() || state.settings.refinement.has_target()
+    if (!model.has_contact() || !state.is_last_mesh()
+        || state.settings.refinement.has_target()
         || (abut_law_needs_stress(method.options.law)
             && method.nitsche_theta != 0.))
       return true;
