@@ -91,7 +91,7 @@ extern "C"
       abut_multigrid **multigrid);
 
   /** Destroy and set the handle to NULL. */
-  ABUT_API void abut_multigrid_destroy(abut_multigrid **multigrid);
+  ABUT_API abut_status abut_multigrid_destroy(abut_multigrid **multigrid);
 
   /** Take a matrix, or another one. Call hold() next. O(entries). */
   ABUT_API abut_status abut_multigrid_set_matrix(

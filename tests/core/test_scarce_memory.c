@@ -7,6 +7,7 @@
  * again: then the story ends with the numbers that it has with plenty. Which
  * calls belong here is checked by tests/house/check_memory_calls.py. */
 #include "fixture.h"
+#include "grid.h"
 #include "membrane.h"
 #include "scarce.h"
 #include "scenes.h"
@@ -33,8 +34,10 @@ typedef struct world
   abut_obstacle *obstacle;
   abut_history *history, *other;
   abut_strategy *strategy;
+  abut_multigrid *multigrid;
   scene_mesh mesh_a, mesh_b;
   membrane membrane;
+  grid grid;
   /* Numbers that the story came to. */
   int n_digests;
   double digest[MOST_DIGESTS];
@@ -67,6 +70,8 @@ note(world *w, double value)
 static void
 forget(world *w)
 {
+  assert_ok(abut_multigrid_destroy(&w->multigrid));
+  grid_close(&w->grid);
   assert_ok(abut_strategy_destroy(&w->strategy));
   assert_ok(abut_history_destroy(&w->history));
   assert_ok(abut_history_destroy(&w->other));
@@ -518,6 +523,26 @@ masses(world *w)
   return ABUT_SUCCESS;
 }
 
+static abut_status
+multigrids(world *w)
+{
+  grid_open(&w->grid, 2, 1, 3, 1);
+  TRY(abut_multigrid_create(w->context, &w->grid.hierarchy, &w->multigrid));
+  TRY(abut_multigrid_set_matrix(w->multigrid, &w->grid.matrix));
+  uint8_t held[81] = {0};
+  double r[81], x[81];
+  for (int32_t i = 0; i < 81; ++i)
+    r[i] = i % 5;
+  held[40] = 1;
+  TRY(abut_multigrid_hold(w->multigrid, held, NULL));
+  held[31] = 1;
+  TRY(abut_multigrid_hold(w->multigrid, held, NULL));
+  TRY(abut_multigrid_cycle(w->multigrid, r, x));
+  for (int32_t i = 0; i < 81; ++i)
+    note(w, x[i]);
+  return ABUT_SUCCESS;
+}
+
 static void
 surfaces_without_memory(void **unused)
 {
@@ -606,6 +631,13 @@ masses_without_memory(void **unused)
   deny_each(masses, 0, 2);
 }
 
+static void
+multigrids_without_memory(void **unused)
+{
+  (void)unused;
+  deny_each(multigrids, 0, 40);
+}
+
 int
 main(void)
 {
@@ -621,6 +653,7 @@ main(void)
       cmocka_unit_test(frictions_without_memory),
       cmocka_unit_test(dense_models_without_memory),
       cmocka_unit_test(masses_without_memory),
+      cmocka_unit_test(multigrids_without_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -199,21 +199,24 @@ abut_multigrid_create(abut_context *context,
   if (status == ABUT_SUCCESS)
     *multigrid = mg;
   else
-    abut_multigrid_destroy(&mg);
+    (void)abut_multigrid_destroy(&mg);
   return status;
 }
 
-void
+abut_status
 abut_multigrid_destroy(abut_multigrid **multigrid)
 {
-  if (multigrid == NULL || *multigrid == NULL)
-    return;
+  if (multigrid == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  if (*multigrid == NULL)
+    return ABUT_SUCCESS;
   abut_multigrid *mg = *multigrid;
   abut_pool_release(&mg->structure);
   abut_pool_release(&mg->matrices);
   abut_pool_release(&mg->coarsest);
   abut_object_destroy(mg->context, mg, sizeof(*mg));
   *multigrid = NULL;
+  return ABUT_SUCCESS;
 }
 
 static void
