@@ -41,8 +41,9 @@ extern "C"
     /** [n_nodes * block] nonzero for unknowns that never take part:
      * prescribed values, components of hanging nodes. NULL: none. */
     const uint8_t *fixed;
-    /** [n_nodes + 1] node i of this mesh has the weights start[i] ..
-     * start[i + 1] - 1 of the next coarser one; NULL on the coarsest. */
+    /** [n_nodes + 1] the weights of node i of this mesh over nodes of the next
+     * coarser one begin at start[i] and end before start[i + 1]; NULL on the
+     * coarsest. */
     const int64_t *start;
     const int32_t *parent; /**< nodes of the next coarser mesh */
     const double *weight;  /**< of these */

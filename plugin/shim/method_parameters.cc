@@ -380,7 +380,8 @@ namespace abut
                       "where the bodies are; points move, and their gaps, "
                       "directions and second derivatives are made anew at each "
                       "linearisation. For nodes and quadrature points against "
-                      "rigid obstacles, without friction. `auto`: small.");
+                      "rigid obstacles, without friction. `auto`: large for "
+                      "bodies of large strain where that can be, else small.");
     prm.declare_entry("System", "auto",
                       Patterns::Selection("auto|condensed|saddle point"),
                       "Linear system: `condensed` eliminates the pressures "

@@ -329,9 +329,13 @@ namespace abut::shim
           if (pair.data.tied || row_state == nullptr
               || row_state[row.row] == ABUT_STATE_OPEN)
             return;
-          Direction motion;
+          // Of the place, and since the point was made there.
+          Direction motion, since;
           const auto add = [&](const Node node, const double c)
-          { motion += c * u[node]; };
+          {
+            motion += c * u[node];
+            since += c * (u[node] - (pair.moves ? made_at(node) : Direction()));
+          };
           for_each_secondary(row.point, add);
           for_each_primary(row.point, add);
           const Direction tangential =
@@ -341,7 +345,7 @@ namespace abut::shim
           if (!pair.data.obstacle || !pair.data.geometric_gap
               || discretisation_info(pair.discretisation).is_weighted)
             return;
-          points[row.place.pair].push_back(row.place.position + motion);
+          points[row.place.pair].push_back(row.place.position + since);
           gaps[row.place.pair].push_back(row_gap[row.row] - pair.data.gap);
         });
     run_everywhere<ContactError>(

@@ -443,6 +443,11 @@ namespace abut::shim
      * displacements [nodes * dim], at the last find(). */
     std::vector<dealii::Point<dim>> present_, reference_;
     std::vector<double> present_displacement_;
+    Direction made_at(const Node node) const
+    {
+      return present_[node] - reference_[node];
+    }
+
     /** [pairs] of the present points; empty: they have to be made anew. */
     std::vector<Origin> origins_;
     std::vector<PairCheck> checks_;

@@ -59,10 +59,11 @@ namespace abut
   {
     unsigned int number = 0; ///< of the linearisation, from 1
     double part = 1.;        ///< of the way to the linearisation's solution
-    /** Norm of the forces that are not balanced, before and after it; the
-     * former in the linear model, with the contact forces of its solution. */
-    double before = 0., residual = 0.;
-    double error = 0.; ///< as in NewtonResult
+    /** Norm of the forces that are not balanced before it, in the linear model
+     * with the contact forces of its solution. */
+    double before = 0.;
+    double residual = 0.; ///< the same after it
+    double error = 0.;    ///< as in NewtonResult
   };
 
   /** What a program may see of ContactSolver at work, and have a say in. All

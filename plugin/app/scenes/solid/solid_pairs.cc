@@ -41,6 +41,14 @@ namespace abut::app
     }
   }
 
+  template <int dim> bool is_frictional(const PairParameters &pair)
+  {
+    const Expression<dim> coefficient(pair.friction,
+                                      pair.parameter("Friction"));
+    return !coefficient.is_constant()
+           || coefficient.evaluate({dealii::Point<dim>()})[0] != 0.;
+  }
+
   template <int dim>
   std::shared_ptr<const Friction<dim>>
   SolidPairs<dim>::make_friction(const PairParameters &pair)
@@ -52,11 +60,8 @@ namespace abut::app
       return [expression = friction.back()](const dealii::Point<dim> &place)
       { return expression->evaluate({place})[0]; };
     };
-    const Expression<dim> coefficient(pair.friction,
-                                      pair.parameter("Friction"));
     // Contact without friction pays nothing for it.
-    if (coefficient.is_constant()
-        && coefficient.evaluate({dealii::Point<dim>()})[0] == 0.)
+    if (!is_frictional<dim>(pair))
       return nullptr;
     auto made = std::make_shared<Friction<dim>>();
     made->coefficient = formula(pair.friction, "Friction");
@@ -230,6 +235,8 @@ namespace abut::app
                               : "Secondary");
   }
 
+  template bool is_frictional<2>(const PairParameters &);
+  template bool is_frictional<3>(const PairParameters &);
   template class SolidPairs<2>;
   template class SolidPairs<3>;
 } // namespace abut::app

@@ -17,6 +17,10 @@
 
 namespace abut::app
 {
+  /** Whether a pair's coefficient of friction is anything but 0. Throws
+   * InputError for a formula that cannot be read. */
+  template <int dim> bool is_frictional(const PairParameters &pair);
+
   /** The contact pairs of a scene `solid` with their obstacles. */
   template <int dim> class SolidPairs
   {

@@ -6,6 +6,7 @@
 #include "app/scenes/contact_scene.h"
 #include "solid_effects.h"
 #include "solid_model.h"
+#include "solid_pairs.h"
 
 #include <algorithm>
 
@@ -13,6 +14,25 @@ namespace abut::app
 {
   namespace
   {
+    /** Whether points can move with the bodies in all pairs that may slide. */
+    template <int dim>
+    bool can_move(const MethodParameters &method,
+                  const std::vector<PairParameters> &pairs)
+    {
+      const abut_discretisation discretisation =
+          method.discretisation.value_or(ABUT_DISCRETISATION_NODE_TO_SEGMENT);
+      return std::all_of(
+          pairs.begin(), pairs.end(),
+          [&](const PairParameters &pair)
+          {
+            return pair.tied
+                   || sliding_refusal(*method.options.law, discretisation,
+                                      pair.obstacle > 0,
+                                      is_frictional<dim>(pair), pair.mesh_gap)
+                          .empty();
+          });
+    }
+
     template <int dim> class SolidScene : public ContactScene<dim>
     {
     public:
@@ -42,6 +62,10 @@ namespace abut::app
                            "nitsche takes the stress for linear in the "
                            "displacement, and Body 1/Material is for large "
                            "strain: use lagrange or augmented lagrangian.");
+        if (parameters.has_large_strain()
+            && this->method.sliding == Sliding::automatic
+            && can_move<dim>(this->method, parameters.pairs))
+          this->method.sliding = Sliding::large;
         this->method.run_refused = parameters.run_refused;
       }
 
