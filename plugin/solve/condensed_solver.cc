@@ -111,6 +111,8 @@ namespace abut::solve
                               const PointOperator &rows,
                               const std::vector<double> &row_stiffness)
   {
+    // The last one may be gone.
+    stiffness_ = &stiffness;
     // Multigrid looks at the matrix that it was built on, which must be an own
     // copy to last.
     if (!keeper_.is_built() || is_direct() || assembled_ == nullptr
