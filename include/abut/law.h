@@ -46,7 +46,9 @@ extern "C"
     ABUT_LAW_INTERIOR = 2, /**< needs p > 0 and s > 0; the state is not used */
     ABUT_LAW_SLACK = 4,    /**< s is an unknown of its own (field slack) */
     ABUT_LAW_STRESS = 8    /**< the gap that the law is given is g + sigma_n/eps
-                                with the body's normal stress (Nitsche) */
+                                with the body's normal stress (Nitsche), and
+                                with friction the slip s - sigma_t/eps with its
+                                traction along the surface */
   } abut_law_flag;
 
   /** Outer iteration that a law asks for. */

@@ -253,11 +253,18 @@ extern "C"
      * laws start from; NULL: 0 */
     const double *reference_traction;
     const void *parameters; /**< handed to the friction law */
+    /** Where contacts share a node, which has no more ways to go than its
+     * dimensions: [n_rivals] points that have no friction while the other
+     * contact's normal, a row, is closed. Laws with springs need none. */
+    int32_t n_rivals;
+    const int32_t *rival_point; /**< [n_rivals] index of a point, ascending */
+    const int32_t *rival_row;   /**< [n_rivals] row */
   } abut_strategy_friction;
 
   /** Friction for all starts that follow, copied; NULL: none. Where it is given
-   * it must be given on all ranks, be it for no point. UNSUPPORTED for interior
-   * laws and nitsche. */
+   * it must be given on all ranks, be it for no point. Laws with
+   * ABUT_LAW_STRESS take no reference_traction: the body's stress remembers.
+   * UNSUPPORTED for interior laws. */
   ABUT_API abut_status abut_strategy_set_friction(
       abut_strategy *strategy, const abut_strategy_friction *friction);
 

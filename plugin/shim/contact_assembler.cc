@@ -118,10 +118,10 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::set_normal_stress(
-      std::shared_ptr<const NormalStress<dim>> normal_stress)
+  void ContactAssembler<dim>::set_surface_traction(
+      std::shared_ptr<const SurfaceTraction<dim>> traction)
   {
-    implementation->normal_stress = std::move(normal_stress);
+    implementation->surface_traction = std::move(traction);
   }
 
   template <int dim>

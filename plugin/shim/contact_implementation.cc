@@ -298,7 +298,7 @@ namespace abut
     make_operator();
     // Rows between nodes that cannot move say nothing.
     std::vector<std::uint8_t> rows = coefficients.rows_with_columns();
-    source->drop_held_tangents(rows);
+    source->drop_needless(rows);
     if (MPI::logical_or(std::count(rows.begin(), rows.end(), 0) > 0,
                         communicator))
     {
@@ -376,6 +376,13 @@ namespace abut
     friction.coefficient = points_with_friction.coefficient.data();
     friction.cap = points_with_friction.cap.data();
     friction.reference_traction = traction.empty() ? nullptr : traction.data();
+    if (!abut_law_has_penalty(method.options.law))
+    {
+      friction.n_rivals =
+          static_cast<std::int32_t>(points_with_friction.rival_point.size());
+      friction.rival_point = points_with_friction.rival_point.data();
+      friction.rival_row = points_with_friction.rival_row.data();
+    }
     method.set_law(friction);
     check(abut_strategy_set_friction(strategy.get(), &friction));
   }
@@ -392,18 +399,18 @@ namespace abut
         surfaces != nullptr,
         ExcMessage("Method/Enforcement = nitsche is for elastic bodies, "
                    "not for membranes. Use lagrange."));
-    AssertThrow(normal_stress != nullptr,
+    AssertThrow(surface_traction != nullptr,
                 ExcMessage("Method/Enforcement = nitsche needs the stress of "
-                           "the bodies: call set_normal_stress() first."));
+                           "the bodies: call set_surface_traction() first."));
     const solve::NodeMap nodes =
-        surfaces->find_stress(*normal_stress, stress.get());
+        surfaces->find_stress(*surface_traction, stress.get());
     abut_points_view stress_view;
     check(abut_points_get(stress.get(), &stress_view));
     nitsche.stress = solve::PointOperator(dof_handler->locally_owned_dofs(),
                                           stress_view, nodes, communicator);
     nitsche.theta = method.nitsche_theta;
     nitsche.compliance.assign(coefficients.n_rows(), 0.);
-    nitsche.normal_stress.assign(coefficients.n_rows(), 0.);
+    nitsche.present.assign(coefficients.n_rows(), 0.);
   }
 
   template <int dim>
@@ -415,7 +422,7 @@ namespace abut
     for (std::size_t row = 0; row < slip_reference.size(); ++row)
       gap[row] -= slip_reference[row];
     if (is_nitsche())
-      nitsche.stress.gap(displacement, nitsche.normal_stress.data());
+      nitsche.stress.gap(displacement, nitsche.present.data());
   }
 
   template <int dim>
@@ -425,8 +432,7 @@ namespace abut
       return gap.data();
     nitsche_gap.resize(coefficients.n_rows());
     for (int i = 0; i < coefficients.n_rows(); ++i)
-      nitsche_gap[i] =
-          gap[i] + nitsche.compliance[i] * nitsche.normal_stress[i];
+      nitsche_gap[i] = gap[i] + nitsche.compliance[i] * nitsche.present[i];
     return nitsche_gap.data();
   }
 
@@ -551,16 +557,16 @@ namespace abut
     strategy = shim::create_strategy(context.get(), options);
     set_friction();
 
+    if (!is_nitsche() && surfaces != nullptr && is_penalty(*method.options.law))
+      surfaces->make_uniform(stiffness);
+    if (surfaces != nullptr)
+      surfaces->copy_to_tangents(stiffness);
     if (is_nitsche())
     {
       method.options.penalty = abut_strategy_first_penalty(&method.options);
       for (int i = 0; i < coefficients.n_rows(); ++i)
         nitsche.compliance[i] = 1. / (method.options.penalty * stiffness[i]);
     }
-    else if (surfaces != nullptr && is_penalty(*method.options.law))
-      surfaces->make_uniform(stiffness);
-    if (surfaces != nullptr)
-      surfaces->copy_to_tangents(stiffness);
     if (surfaces != nullptr && !is_restarted
         && !abut_law_is_interior(method.options.law))
     {

@@ -205,10 +205,10 @@ namespace abut
     solve::PointOperator coefficients; ///< B, by component of the points
     dealii::types::global_dof_index n_rows = 0;
 
-    std::shared_ptr<const NormalStress<dim>> normal_stress;
+    std::shared_ptr<const SurfaceTraction<dim>> surface_traction;
     shim::Handle<abut_points> stress = shim::create_points(context.get(), 1);
     solve::NitscheTerms nitsche;
-    std::vector<double> nitsche_gap; ///< [rows] gap + sigma_n / gamma
+    std::vector<double> nitsche_gap; ///< [rows] gap + stress / gamma
 
     shim::ContactHistory history{context.get(), communicator};
     bool is_forgotten = false; ///< by reinit(), unless set_pressure() follows

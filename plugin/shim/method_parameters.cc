@@ -303,10 +303,15 @@ namespace abut
     const std::string with = "Method/Enforcement = " + std::string(law.name);
     if (tied)
       return "surfaces that are tied do not slide: leave out its friction.";
-    if (abut_law_is_interior(&law) || abut_law_needs_stress(&law))
+    if (abut_law_is_interior(&law))
       return with
-             + " has no friction. Use lagrange, penalty, quadratic penalty or "
-               "augmented lagrangian.";
+             + " has no friction. Use lagrange, penalty, quadratic penalty, "
+               "augmented lagrangian or nitsche.";
+    if (abut_law_needs_stress(&law) && method.nitsche_theta != 0.)
+      return with
+             + " has friction with Method/Nitsche theta = 0 only: the other "
+               "variants act on the stress of the body, too, so that tractions "
+               "are no balance of forces along the surface.";
     if (info.row_per_point && method.segments && !has_obstacle)
       return "friction needs points that last: on the common parts of facets "
              "they change with the pairs. Use Method/Segments = false, or dual "

@@ -64,10 +64,12 @@ namespace abut::shim
                         abut_points *points) = 0;
 
     /** Mark with 0 the rows that are no constraints although they have
-     * unknowns: tangents along which supports hold the node of the point, where
-     * the unknowns are those of its neighbours. With them standard multipliers
-     * would outnumber what they hold. Not collective. */
-    virtual void drop_held_tangents(std::vector<std::uint8_t> &) const
+     * unknowns. Tangents along which supports hold the node of the point, where
+     * the unknowns are those of its neighbours: with them standard multipliers
+     * would outnumber what they hold. Contacts with friction, or beside such,
+     * that another one of the same node and direction keeps from closing. Not
+     * collective. */
+    virtual void drop_needless(std::vector<std::uint8_t> &) const
     {
     }
 
@@ -111,6 +113,9 @@ namespace abut::shim
       std::vector<std::int32_t> first;      ///< row of the normal
       std::vector<std::uint8_t> n_tangents; ///< rows behind it
       std::vector<double> coefficient, cap; ///< mu, and largest traction
+      /** Points, by their place in these lists, and normals of other contacts
+       * of the same node. */
+      std::vector<std::int32_t> rival_point, rival_row;
     };
 
     /** Those of the present points. Throws on all ranks. Collective. */

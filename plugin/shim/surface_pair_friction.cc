@@ -58,6 +58,9 @@ namespace abut::shim
      * the way along the surface, sin(a) / a. */
     constexpr double largest_turn = 15.01 * M_PI / 180.;
 
+    /** Normals that differ by less, 1 - cosine, are the same. */
+    constexpr double same_direction = 1e-12;
+
     /** How far the point of a rigid body that is at @p place now has come. */
     template <int dim>
     dealii::Tensor<1, dim> way_of(const dealii::Point<dim> &place,
@@ -141,7 +144,74 @@ namespace abut::shim
         message = "Pair '" + pair.data.name + "': " + wrong;
     }
     throw_everywhere<ContactError>(communicator_, message);
+    if (result.any)
+      find_rivals(result);
     return result;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::drop_covered(std::vector<std::uint8_t> &keep) const
+  {
+    // Springs share the load.
+    if (abut_law_has_penalty(settings_.method.options.law))
+      return;
+    const auto normal = [&](const std::size_t i)
+    {
+      Direction n;
+      for (unsigned int d = 0; d < dim; ++d)
+        n[d] = view_.frame[view_.component_start[i] * std::size_t(dim) + d];
+      return n;
+    };
+    std::multimap<Node, std::size_t> seen;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      const Pair &pair = pairs_[places_[i].pair];
+      if (places_[i].node < 0 || pair.data.obstacle == nullptr || pair.moves)
+        continue;
+      const auto [begin, end] = seen.equal_range(places_[i].node);
+      for (auto other = begin; other != end; ++other)
+      {
+        const std::size_t j = other->second;
+        const bool slides = pair.data.friction != nullptr
+                            || pairs_[places_[j].pair].data.friction != nullptr;
+        if (!slides || normal(i) * normal(j) < 1. - same_direction)
+          continue;
+        // Both gaps change by the same, so that one stays behind.
+        const std::size_t behind =
+            view_.gap[view_.component_start[i]]
+                    >= view_.gap[view_.component_start[j]]
+                ? i
+                : j;
+        for (auto row = view_.component_start[behind];
+             row < view_.component_start[behind + 1]; ++row)
+          keep[row] = 0;
+      }
+      seen.emplace(places_[i].node, i);
+    }
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::find_rivals(FrictionalPoints &points) const
+  {
+    std::multimap<Node, std::int32_t> normals;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      if (places_[i].node >= 0 && view_.kind[i] == ABUT_POINT_CONTACT)
+        normals.emplace(places_[i].node, view_.component_start[i]);
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      if (k == points.first.size()
+          || points.first[k] != view_.component_start[i])
+        continue;
+      const auto [begin, end] = normals.equal_range(places_[i].node);
+      for (auto other = begin; other != end; ++other)
+        if (other->second != points.first[k])
+        {
+          points.rival_point.push_back(static_cast<std::int32_t>(k));
+          points.rival_row.push_back(other->second);
+        }
+      ++k;
+    }
   }
 
   template <int dim>
@@ -266,6 +336,9 @@ namespace abut::shim
   template std::vector<double> SurfacePairRows<dim>::slip_reference(           \
       const la::Vector &);                                                     \
   template bool SurfacePairRows<dim>::is_guided(std::size_t) const;            \
+  template void SurfacePairRows<dim>::drop_covered(                            \
+      std::vector<std::uint8_t> &) const;                                      \
+  template void SurfacePairRows<dim>::find_rivals(FrictionalPoints &) const;   \
   template void SurfacePairRows<dim>::refuse_turns(                            \
       const std::vector<RigidPose<dim>> &,                                     \
       const std::vector<RigidPose<dim>> &) const;                              \

@@ -526,9 +526,10 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::drop_held_tangents(
-      std::vector<std::uint8_t> &keep) const
+  void
+  SurfacePairRows<dim>::drop_needless(std::vector<std::uint8_t> &keep) const
   {
+    drop_covered(keep);
     for_each_row(
         [&](const Component &row)
         {

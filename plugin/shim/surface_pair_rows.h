@@ -9,7 +9,7 @@
 #include <abut/dealii/contact_examination.h>
 #include <abut/dealii/contact_pair.h>
 #include <abut/dealii/method_parameters.h>
-#include <abut/dealii/normal_stress.h>
+#include <abut/dealii/surface_traction.h>
 
 namespace abut::shim
 {
@@ -55,7 +55,7 @@ namespace abut::shim
       return dim;
     }
     Change find(const la::Vector &displacement, abut_points *points) override;
-    void drop_held_tangents(std::vector<std::uint8_t> &keep) const override;
+    void drop_needless(std::vector<std::uint8_t> &keep) const override;
 
     void filter(const std::vector<std::uint8_t> &keep) override;
     bool moves() const override;
@@ -76,12 +76,13 @@ namespace abut::shim
       return surface_.map;
     }
 
-    /** Replace @p stress, of dimension 1, by the normal stress at the present
-     * points, which must be those of quadrature: the same numbers and weights,
-     * with d sigma_n/du as coefficients over the unknowns of the cells, each
-     * of which is a node of the map returned. Throws on all ranks. Collective.
-     */
-    solve::NodeMap find_stress(const NormalStress<dim> &normal_stress,
+    /** Replace @p stress, of dimension 1, by what the stress of the bodies does
+     * at the present points, which must be those of quadrature: the same rows
+     * and weights, of the normal n.sigma n, of tangents -t.sigma n (minus the
+     * pressure or traction that it would be), with the derivatives as
+     * coefficients over the unknowns of the cells, each of which is a node of
+     * the map returned. Throws on all ranks. Collective. */
+    solve::NodeMap find_stress(const SurfaceTraction<dim> &traction,
                                abut_points *stress) const;
 
     std::uint64_t mesh_signature() const override;
@@ -341,6 +342,10 @@ namespace abut::shim
     /** Whether what supports leave free at a point moves it along a tangent
      * only as it moves along the normal or the other tangent. */
     bool is_guided(std::size_t point) const;
+    /** Mark with 0 the rows of contacts that are behind another one. */
+    void drop_covered(std::vector<std::uint8_t> &keep) const;
+    /** Note where contacts share a node of the secondary. */
+    void find_rivals(FrictionalPoints &points) const;
     void check_obstacle(Pair &pair, const std::uint8_t *held,
                         const std::vector<dealii::Point<dim>> &present,
                         double tolerance,
@@ -413,13 +418,17 @@ namespace abut::shim
     void find_pair(std::size_t pair, double motion,
                    std::vector<std::uint8_t> &taken);
     std::vector<Origin> origins(const std::vector<Direction> &u) const;
-    solve::NodeMap append_stress(const NormalStress<dim> &normal_stress,
+    solve::NodeMap append_stress(const SurfaceTraction<dim> &traction,
                                  abut_points *stress) const;
     void make_check(std::size_t pair, unsigned int n_dropped);
     la::Vector field() const;
     /** Pairs with rows at quadrature points, and these rows. Collective. */
     template <typename Function>
     void for_each_point_pair(const Function &function) const;
+    template <typename Points>
+    void project_tractions(const Points &points,
+                           const std::vector<std::size_t> &rows,
+                           double *value) const;
     template <typename Function>
     void for_each_share(const Function &function) const;
     template <typename Function>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The bodies' own normal stress at quadrature points, for Nitsche's method.
+// The bodies' own stress at quadrature points, for Nitsche's method.
 #include "agree.h"
 #include "surface_pair_rows.h"
 
@@ -52,23 +52,55 @@ namespace abut::shim
       std::unordered_map<global_dof_index, std::int32_t> number_;
       solve::NodeMap map_;
     };
+
+    /** Derivatives of tractions along a direction, [dofs_per_cell]; @p row is
+     * that of their first component. */
+    template <int dim>
+    std::vector<double> along(const dealii::FullMatrix<double> &derivative,
+                              const unsigned int row,
+                              const dealii::Tensor<1, dim> &direction)
+    {
+      std::vector<double> result(derivative.n(), 0.);
+      for (unsigned int k = 0; k < derivative.n(); ++k)
+        for (unsigned int d = 0; d < dim; ++d)
+          result[k] += direction[d] * derivative(row + d, k);
+      return result;
+    }
+
+    /** Those that are not 0, over nodes. */
+    struct Stencil
+    {
+      std::vector<std::int32_t> node;
+      std::vector<double> coefficient;
+
+      Stencil(const std::vector<double> &values,
+              const std::vector<global_dof_index> &dofs, CellNodes &nodes)
+      {
+        for (std::size_t k = 0; k < values.size(); ++k)
+          if (values[k] != 0.)
+          {
+            node.push_back(nodes(dofs[k]));
+            coefficient.push_back(values[k]);
+          }
+      }
+    };
   } // namespace
 
   template <int dim>
   solve::NodeMap
-  SurfacePairRows<dim>::find_stress(const NormalStress<dim> &normal_stress,
+  SurfacePairRows<dim>::find_stress(const SurfaceTraction<dim> &traction,
                                     abut_points *stress) const
   {
     abut_points_clear(stress);
     solve::NodeMap map;
-    run_everywhere<ContactError>(
-        communicator_, [&] { map = append_stress(normal_stress, stress); });
+    run_everywhere<ContactError>(communicator_, [&]
+                                 { map = append_stress(traction, stress); });
     return map;
   }
 
   template <int dim>
   solve::NodeMap
-  SurfacePairRows<dim>::append_stress(const NormalStress<dim> &normal_stress,
+  SurfacePairRows<dim>::append_stress(const SurfaceTraction<dim> &traction,
                                       abut_points *stress) const
   {
     const unsigned int n_dofs = dof_handler_.get_fe().n_dofs_per_cell();
@@ -97,34 +129,39 @@ namespace abut::shim
           normals[i - first][d] =
               view_.frame[view_.component_start[i] * std::size_t(dim) + d];
       }
-      dealii::FullMatrix<double> derivative(end - first, n_dofs);
-      normal_stress.evaluate(cell, points, normals, derivative);
+      dealii::FullMatrix<double> derivative((end - first) * dim, n_dofs);
+      traction.evaluate(cell, points, normals, derivative);
       cell->get_dof_indices(dofs);
       for (std::size_t i = first; i < end; ++i)
-      {
-        std::vector<std::int32_t> node;
-        std::vector<double> coefficient;
-        for (unsigned int k = 0; k < n_dofs; ++k)
-          if (derivative(i - first, k) != 0.)
-          {
-            node.push_back(nodes(dofs[k]));
-            coefficient.push_back(derivative(i - first, k));
-          }
-        const abut_status status = abut_points_append_scalar(
-            stress, view_.id[i], view_.weight[i], 0., ABUT_POINT_CONTACT,
-            static_cast<std::int32_t>(node.size()), node.data(),
-            coefficient.data());
-        if (status != ABUT_SUCCESS)
-          throw ContactError("Pair '" + pairs_[places_[i].pair].data.name
-                             + "': the normal stress of a body: "
-                             + message_of(context_, status));
-      }
+        for (std::int32_t row = view_.component_start[i];
+             row < view_.component_start[i + 1]; ++row)
+        {
+          Direction direction;
+          for (unsigned int d = 0; d < dim; ++d)
+            direction[d] = view_.frame[row * std::size_t(dim) + d];
+          // Tractions act on the secondary, pressures against it.
+          direction *=
+              -abut_point_sign(view_.kind[i], row - view_.component_start[i]);
+          const Stencil stencil(along(derivative, (i - first) * dim, direction),
+                                dofs, nodes);
+          const abut_status status = abut_points_append_scalar(
+              stress, view_.component_id[row], view_.weight[i], 0.,
+              ABUT_POINT_CONTACT,
+              static_cast<std::int32_t>(stencil.node.size()),
+              stencil.node.data(), stencil.coefficient.data());
+          if (status != ABUT_SUCCESS)
+            throw ContactError("Pair '" + pairs_[places_[i].pair].data.name
+                               + "': the stress of a body: "
+                               + message_of(context_, status));
+        }
     }
     return nodes.map();
   }
 
   template solve::NodeMap
-  SurfacePairRows<2>::find_stress(const NormalStress<2> &, abut_points *) const;
+  SurfacePairRows<2>::find_stress(const SurfaceTraction<2> &,
+                                  abut_points *) const;
   template solve::NodeMap
-  SurfacePairRows<3>::find_stress(const NormalStress<3> &, abut_points *) const;
+  SurfacePairRows<3>::find_stress(const SurfaceTraction<3> &,
+                                  abut_points *) const;
 } // namespace abut::shim

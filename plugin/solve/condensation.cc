@@ -195,7 +195,7 @@ namespace abut::solve
   {
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
-    floating_.check(*rows_, local_, request);
+    floating_.check(*rows_, local_, request, row_stiffness_);
     if (!condense())
     {
       if (saddle_point_ == nullptr)

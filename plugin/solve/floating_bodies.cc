@@ -25,6 +25,10 @@ namespace abut::solve
      * square of it. */
     constexpr double free_gap = 1e-14;
 
+    /** Springs of what slips are none if they are softer, as a part of the
+     * surface's own stiffness. */
+    constexpr double no_spring = 1e-9;
+
     /** Rigid motions of all bodies at once; each body turns about its centre,
      * with displacements of about 1 at its rim. */
     class Motions
@@ -273,17 +277,25 @@ namespace abut::solve
 
   void FloatingBodies::check(const PointOperator &rows,
                              const LocalElimination &local,
-                             const abut_request &request) const
+                             const abut_request &request,
+                             const std::vector<double> &row_stiffness) const
   {
+    std::vector<std::uint8_t> resists = local.resisting();
     if (local.blocks().empty())
     {
-      check(rows, local.resisting());
+      check(rows, resists);
       return;
     }
     std::vector<std::uint8_t> closed(rows.n_rows());
     for (int i = 0; i < rows.n_rows(); ++i)
+    {
       closed[i] = request.state[i] != ABUT_STATE_OPEN;
-    check(rows, local.resisting(), closed);
+      // The springs of what slips vanish at the solution, but for round-off.
+      if (rows.is_tangent(i) && !local.is_held(i)
+          && local.spring()[i] <= no_spring * rows.weight(i) * row_stiffness[i])
+        resists[i] = 0;
+    }
+    check(rows, resists, closed);
   }
 
   void FloatingBodies::check_all(const PointOperator &rows) const

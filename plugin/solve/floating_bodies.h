@@ -37,11 +37,12 @@ namespace abut::solve
                const std::vector<std::uint8_t> &resists,
                const std::vector<std::uint8_t> &sticks) const;
 
-    /** The same with what constraints and springs of a @p request resist; if
-     * it has friction, points that are not open are what would stick.
-     * Collective. */
+    /** The same with what constraints and springs of a @p request resist, for
+     * rows with @p row_stiffness; if it has friction, points that are not open
+     * are what would stick. Collective. */
     void check(const PointOperator &rows, const LocalElimination &local,
-               const abut_request &request) const;
+               const abut_request &request,
+               const std::vector<double> &row_stiffness) const;
 
     /** The same if all rows resisted: what is free then no set of rows holds.
      */

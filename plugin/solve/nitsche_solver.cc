@@ -11,26 +11,26 @@ namespace abut::solve
 {
   using dealii::types::global_dof_index;
 
+  /** A vector over few unknowns: a row of B + factor S. */
+  struct NitscheSolver::Line
+  {
+    std::vector<global_dof_index> column;
+    std::vector<double> value;
+
+    void take(const PointOperator &rows, const int i, const double factor)
+    {
+      if (factor == 0.)
+        return;
+      for (auto e = rows.begin(i); e < rows.end(i); ++e)
+      {
+        column.push_back(rows.global_column(rows.column(e)));
+        value.push_back(factor * rows.coefficient(e));
+      }
+    }
+  };
+
   namespace
   {
-    /** A vector over few unknowns: a row of B + factor S. */
-    struct Line
-    {
-      std::vector<global_dof_index> column;
-      std::vector<double> value;
-
-      void take(const PointOperator &rows, const int i, const double factor)
-      {
-        if (factor == 0.)
-          return;
-        for (auto e = rows.begin(i); e < rows.end(i); ++e)
-        {
-          column.push_back(rows.global_column(rows.column(e)));
-          value.push_back(factor * rows.coefficient(e));
-        }
-      }
-    };
-
     /** Springs of this method are never so stiff that they need a filter. */
     SolverParameters unfiltered(SolverParameters parameters)
     {
@@ -39,7 +39,7 @@ namespace abut::solve
     }
 
     /** Visit the lines of factor * test trial^T. */
-    template <typename Visit>
+    template <typename Line, typename Visit>
     void visit_product(const double factor, const Line &test, const Line &trial,
                        const Visit &visit)
     {
@@ -50,6 +50,25 @@ namespace abut::solve
           values[j] = factor * test.value[i] * trial.value[j];
         visit(test.column[i], trial.column, values);
       }
+    }
+
+    /** Call function(row, other, force per length) for all springs, which with
+     * friction couple the rows of a point. */
+    template <typename Function>
+    void for_each_spring(const LocalElimination &local, const int n_rows,
+                         const Function &function)
+    {
+      const RowBlocks &blocks = local.blocks();
+      for (int i = 0; blocks.empty() && i < n_rows; ++i)
+        if (local.spring()[i] != 0.)
+          function(i, i, local.spring()[i]);
+      for (int b = 0; !blocks.empty() && b < blocks.n_blocks(); ++b)
+        for (int r = 0, k = blocks.size(b); r < k; ++r)
+          for (int c = 0; c < k; ++c)
+            if (const double spring =
+                    local.spring_blocks()[blocks.at[b] + r * k + c];
+                spring != 0.)
+              function(blocks.first[b] + r, blocks.first[b] + c, spring);
     }
   } // namespace
 
@@ -90,17 +109,33 @@ namespace abut::solve
     result *= -1.;
     std::vector<double> couple(rows_->n_rows());
     for (int i = 0; i < rows_->n_rows(); ++i)
-      couple[i] =
-          terms_.theta * terms_.compliance[i]
-          * (local_.force()[i] + rows_->weight(i) * terms_.normal_stress[i]);
+      couple[i] = terms_.theta * terms_.compliance[i]
+                  * (local_.force()[i] + rows_->weight(i) * terms_.present[i]);
     rows_->add_transposed(local_.force().data(), result);
     terms_.stress.add_transposed(couple.data(), result);
     return result;
   }
 
+  NitscheSolver::Line NitscheSolver::line(const int row,
+                                          const double part) const
+  {
+    Line result;
+    result.take(*rows_, row, 1.);
+    result.take(terms_.stress, row, part * terms_.compliance[row]);
+    return result;
+  }
+
+  Condensate NitscheSolver::springs() const
+  {
+    Condensate result(local_.spring(), std::vector<std::int64_t>(
+                                           rows_->n_rows(), Condensate::none));
+    if (!local_.blocks().empty())
+      choose_pivots(*rows_, local_, result);
+    return result;
+  }
+
   la::Matrix NitscheSolver::assemble() const
   {
-    const std::vector<double> &spring = local_.spring();
     dealii::IndexSet ghosts = rows_->ghosts();
     ghosts.add_indices(terms_.stress.ghosts());
     return la::sum(
@@ -108,20 +143,20 @@ namespace abut::solve
         la::assemble(rows_->owned(), ghosts, rows_->communicator(),
                      [&](const auto &visit)
                      {
-                       for (int i = 0; i < rows_->n_rows(); ++i)
+                       for_each_spring(
+                           local_, rows_->n_rows(),
+                           [&](const int i, const int j, const double spring) {
+                             visit_product(spring, line(i, terms_.theta),
+                                           line(j, 1.), visit);
+                           });
+                       for (int i = 0;
+                            terms_.theta != 0. && i < rows_->n_rows(); ++i)
                        {
-                         const double c = terms_.compliance[i];
-                         Line test, trial, stress;
-                         test.take(*rows_, i, 1.);
-                         test.take(terms_.stress, i, terms_.theta * c);
-                         trial.take(*rows_, i, 1.);
-                         trial.take(terms_.stress, i, c);
+                         Line stress;
                          stress.take(terms_.stress, i, 1.);
-                         if (spring[i] != 0.)
-                           visit_product(spring[i], test, trial, visit);
-                         if (terms_.theta != 0.)
-                           visit_product(-terms_.theta * rows_->weight(i) * c,
-                                         stress, stress, visit);
+                         visit_product(-terms_.theta * rows_->weight(i)
+                                           * terms_.compliance[i],
+                                       stress, stress, visit);
                        }
                      }));
   }
@@ -135,11 +170,7 @@ namespace abut::solve
                               const double tolerance, la::Vector &x,
                               LinearReport &report)
   {
-    report.setup_seconds +=
-        model_
-            .prepare({local_.spring(), std::vector<std::int64_t>(
-                                           rows_->n_rows(), Condensate::none)})
-            .setup_seconds;
+    report.setup_seconds += model_.prepare(springs()).setup_seconds;
     dealii::SolverControl control(parameters_.max_iterations, tolerance);
     dealii::SolverFGMRES<la::Vector> solver(
         control, dealii::SolverFGMRES<la::Vector>::AdditionalData(60));

@@ -11,10 +11,11 @@ namespace abut::solve
   /** What Nitsche's method needs of each row beside its gap. */
   struct NitscheTerms
   {
-    PointOperator stress;           ///< S = d sigma_n / du, sigma_n(0) as gap
+    PointOperator stress; ///< S = d sigma / du, sigma(0) as gap; sigma is
+                          ///< sigma_n at normals, -sigma_t at tangents
     std::vector<double> compliance; ///< [rows] 1/gamma, length per pressure
-    std::vector<double> normal_stress; ///< [rows] sigma_n at the present u
-    double theta = 0.;                 ///< 1: symmetric, 0, -1
+    std::vector<double> present;    ///< [rows] sigma at the present u
+    double theta = 0.;              ///< 1: symmetric, 0, -1
   };
 
   /** Rows under Nitsche's method (Chouly, Hild and Renard, Math. Comp. 84
@@ -25,7 +26,11 @@ namespace abut::solve
    * so that the change of g~ is (B + S/gamma) du, where the body's own normal
    * stress sigma_n takes the place of a multiplier; it acts on
    * B + theta S/gamma, and K loses theta S^T w/gamma S. The request's gaps are
-   * g~. The matrix is symmetric for theta = 1 only. */
+   * g~. The matrix is symmetric for theta = 1 only.
+   *
+   * With friction (theta = 0) the traction is sigma_t - gamma s, projected on
+   * the disc of radius rho: the law of a penalty with the slips
+   * s - sigma_t/gamma and no reference. */
   class NitscheSolver : public RowSolver
   {
   public:
@@ -47,7 +52,12 @@ namespace abut::solve
                        la::Vector &increment) override;
 
   private:
+    struct Line;
+
     la::Vector right_hand_side(const la::Vector &residual) const;
+    /** Row @p row of B + part S/gamma. */
+    Line line(int row, double part) const;
+    Condensate springs() const;
     la::Matrix assemble() const;
     bool is_direct() const;
     void iterate(const la::Matrix &matrix, const la::Vector &rhs,

@@ -419,7 +419,7 @@ namespace abut::solve
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
     System system = assemble(residual, request);
-    floating_.check(*rows_, local_, request);
+    floating_.check(*rows_, local_, request, leading_.row_stiffness());
 
     std::vector<double> multiplier;
     LinearReport report;

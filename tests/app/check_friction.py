@@ -39,6 +39,8 @@ def words(vector):
 def without_coefficient():
     """Bit by bit the run of a scene that does not know of friction."""
     for name, more in (("greco.prm", {}),
+                       ("greco.prm", {"Refinement/Level": 4,
+                                      "Method/Enforcement": "nitsche"}),
                        ("dragged-block.prm", {}),
                        ("cattaneo.prm", {"Refinement/Adaptive cycles": 2})):
         text = (p.source / "prm" / name).read_text()

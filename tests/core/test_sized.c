@@ -222,8 +222,12 @@ older_friction_of_a_strategy(void **unused)
   const abut_strategy_options o = abut_strategy_defaults();
   abut_strategy *s = NULL;
   require(abut_strategy_create(context, &o, &s));
-  const abut_strategy_friction friction = {
-      sizeof(friction), NULL, 1, &first, &n_tangents, &mu, NULL, &wrong, NULL};
+  const abut_strategy_friction friction = {.struct_size = sizeof(friction),
+                                           .n = 1,
+                                           .first = &first,
+                                           .n_tangents = &n_tangents,
+                                           .coefficient = &mu,
+                                           .reference_traction = &wrong};
   assert_int_equal(abut_strategy_set_friction(s, &friction), ABUT_NOT_FINITE);
   abut_strategy_friction *old =
       resized(&friction, sizeof(friction),

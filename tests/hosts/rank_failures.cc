@@ -179,7 +179,7 @@ namespace
   }
 
   /** A material that one rank does not know. */
-  class Stress : public NormalStress<2>
+  class Stress : public SurfaceTraction<2>
   {
   public:
     Stress(const bool throws, const bool is_bad)
@@ -212,7 +212,7 @@ namespace
       hosts::TwoBlocks<2> blocks(run);
       blocks.prepare({blocks.pair()});
       const bool here = me() == rank_at_interface(blocks);
-      blocks.contact().set_normal_stress(
+      blocks.contact().set_surface_traction(
           std::make_shared<Stress>(here && throws, here));
       throws_everywhere(throws ? "stress that throws" : "stress of NaN",
                         [&] { blocks.contact().detect(blocks.displacement()); },

@@ -45,9 +45,9 @@
 #include <abut/dealii/contact_pair.h>
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/method_parameters.h>
-#include <abut/dealii/normal_stress.h>
 #include <abut/dealii/search_parameters.h>
 #include <abut/dealii/solver_parameters.h>
+#include <abut/dealii/surface_traction.h>
 #include <abut/strategy.h>
 
 #include <deal.II/base/function.h>
@@ -140,10 +140,10 @@ namespace abut
      * Default: false. Not collective. */
     virtual void set_axisymmetric(bool axisymmetric);
 
-    /** The normal stress of the bodies, which `nitsche` needs. Takes effect at
-     * detect(). Not collective. */
+    /** The traction of the bodies at their surface, which `nitsche` needs.
+     * Takes effect at detect(). Not collective. */
     virtual void
-    set_normal_stress(std::shared_ptr<const NormalStress<dim>> normal_stress);
+    set_surface_traction(std::shared_ptr<const SurfaceTraction<dim>> traction);
 
     /** Say that the matrix given to solve() is the same until the next
      * reinit() or linearise(): preconditioners are then kept. Default: false.

@@ -15,7 +15,8 @@ namespace abut
 {
   /** What ContactSolver needs from the host. The functions are called on all
    * ranks. For `nitsche`, whose bodies must be linear elastic, give the
-   * ContactAssembler the stress, see ContactAssembler::set_normal_stress(). */
+   * ContactAssembler their traction, see
+   * ContactAssembler::set_surface_traction(). */
   struct HostProblem
   {
     /** Internal minus external forces at u, without contact. u has no ghosts

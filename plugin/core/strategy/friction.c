@@ -105,6 +105,10 @@ abut_friction_start(abut_strategy *s)
         return abut_friction_reject(s, ABUT_INVALID_ARGUMENT, i,
                                     "one of its rows is a tie");
   }
+  for (int32_t k = 0; k < f->n_rivals; ++k)
+    if (f->rival_row[k] >= s->n)
+      return abut_friction_reject(s, ABUT_INVALID_ARGUMENT, f->rival_point[k],
+                                  "its rival's row is behind the last one");
   const abut_status status = place_arrays(s);
   if (status != ABUT_SUCCESS)
     return status;
@@ -143,6 +147,27 @@ gather(abut_strategy *s)
       f->reference[t] = updates ? s->reference[row + k] : f->committed[t];
     }
   }
+}
+
+/* Points of a node that another contact holds have no friction. */
+static void
+drop_bounds_of_rivals(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  for (int32_t k = 0; k < f->n_rivals; ++k)
+    if (s->state[f->rival_row[k]] != ABUT_STATE_OPEN)
+      f->bound[f->rival_point[k]] = f->d_bound[f->rival_point[k]] = 0;
+}
+
+/* The same for states: what has no friction does not stick. */
+static void
+release_rivals(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  for (int32_t k = 0; k < f->n_rivals; ++k)
+    if (s->state[f->rival_row[k]] != ABUT_STATE_OPEN
+        && f->state[f->rival_point[k]] == ABUT_STATE_CLOSED)
+      f->state[f->rival_point[k]] = ABUT_STATE_SLIP;
 }
 
 abut_status
@@ -185,6 +210,7 @@ abut_friction_find_bounds(abut_strategy *s)
     else if (f->rung == ABUT_RUNG_BOUND && f->pressure[i] <= 0)
       f->d_bound[i] = 0;
   }
+  drop_bounds_of_rivals(s);
   return status;
 }
 
@@ -238,6 +264,7 @@ abut_friction_first_state(abut_strategy *s, const uint8_t *state)
     else if (f->state[i] == ABUT_STATE_SLIP && !(f->pressure[i] > 0)
              && f->d_bound[i] > 0)
       f->state[i] = ABUT_STATE_CLOSED;
+  release_rivals(s);
   if (status == ABUT_SUCCESS)
     write_row_states(s);
   return status;
@@ -411,6 +438,7 @@ abut_friction_take_states(abut_strategy *s, bool all, double only)
   for (int32_t i = 0; i < f->n; ++i)
     if (all || (double)s->id[f->first[i]] == only)
       f->state[i] = f->trial[i];
+  release_rivals(s);
   write_row_states(s);
 }
 

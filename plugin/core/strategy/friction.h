@@ -45,6 +45,8 @@ typedef struct abut_friction_rows
   double *coefficient, *cap, *committed;     /* [n], [n], [m] */
   int32_t *first;                            /* [n] row of the normal */
   uint8_t *n_tangents;                       /* [n] */
+  int32_t n_rivals;
+  int32_t *rival_point, *rival_row; /* [n_rivals] */
 
   /* Made at the start of a solve. */
   abut_array numbers, bytes;

@@ -74,16 +74,25 @@ check_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t *m,
       || in->law->name == NULL)
     return abut_fail(s->context, ABUT_INVALID_ARGUMENT, call,
                      "the law's table is incomplete or of another version");
-  if (abut_law_is_interior(s->options.law)
-      || abut_law_needs_stress(s->options.law))
+  if (abut_law_is_interior(s->options.law))
   {
     abut_text text = abut_fail_begin(s->context, call);
     abut_text_add(&text, "the law '");
     abut_text_add(&text, s->options.law->name);
     abut_text_add(&text, "' has no friction: use lagrange, penalty, quadratic "
-                         "penalty or augmented lagrangian");
+                         "penalty, augmented lagrangian or nitsche");
     return ABUT_UNSUPPORTED;
   }
+  if (in->n_rivals < 0
+      || (in->n_rivals > 0
+          && (in->rival_point == NULL || in->rival_row == NULL)))
+    return abut_fail(s->context, ABUT_INVALID_ARGUMENT, call,
+                     "an array of rivals is NULL, or n_rivals is negative");
+  for (int32_t k = 0; k < in->n_rivals; ++k)
+    if (in->rival_point[k] < 0 || in->rival_point[k] >= in->n
+        || in->rival_row[k] < 0)
+      return abut_fail(s->context, ABUT_INVALID_ARGUMENT, call,
+                       "a rival belongs to no point or has no row");
   *m = *blocks = 0;
   int32_t row = 0;
   for (int32_t i = 0; i < in->n; ++i)
@@ -107,7 +116,8 @@ copy_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t m)
   abut_status status =
       abut_array_reserve(s->context, &f->given, 0, 2 * (int64_t)n + m);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &f->given_rows, 0, n);
+    status = abut_array_reserve(s->context, &f->given_rows, 0,
+                                (int64_t)n + 2 * (int64_t)in->n_rivals);
   if (status == ABUT_SUCCESS)
     status = abut_array_reserve(s->context, &f->given_bytes, 0, n);
   if (status != ABUT_SUCCESS || n == 0)
@@ -117,6 +127,13 @@ copy_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t m)
   f->committed = f->cap + n;
   f->first = f->given_rows.data;
   f->n_tangents = f->given_bytes.data;
+  f->rival_point = f->first + n;
+  f->rival_row = f->rival_point + in->n_rivals;
+  for (int32_t k = 0; k < in->n_rivals; ++k)
+  {
+    f->rival_point[k] = in->rival_point[k];
+    f->rival_row[k] = in->rival_row[k];
+  }
   for (int32_t i = 0; i < n; ++i)
   {
     f->coefficient[i] = in->coefficient[i];
@@ -124,9 +141,11 @@ copy_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t m)
     f->first[i] = in->first[i];
     f->n_tangents[i] = in->n_tangents[i];
   }
+  /* A body's own stress remembers by itself. */
+  const bool remembers =
+      in->reference_traction != NULL && !abut_law_needs_stress(s->options.law);
   for (int32_t k = 0; k < m; ++k)
-    f->committed[k] =
-        in->reference_traction == NULL ? 0 : in->reference_traction[k];
+    f->committed[k] = remembers ? in->reference_traction[k] : 0;
   return status;
 }
 
@@ -140,7 +159,7 @@ abut_strategy_set_friction(abut_strategy *strategy,
   abut_friction_rows *f = &s->friction;
   s->phase = ABUT_PHASE_CREATED;
   f->law = NULL;
-  f->n = f->m = f->blocks = 0;
+  f->n = f->m = f->blocks = f->n_rivals = 0;
   if (friction == NULL)
     return ABUT_SUCCESS;
   abut_strategy_friction taken = {.struct_size = sizeof(taken)};
@@ -160,6 +179,7 @@ abut_strategy_set_friction(abut_strategy *strategy,
   f->parameters = taken.parameters;
   f->has_cap = taken.cap != NULL;
   f->n = taken.n;
+  f->n_rivals = taken.n_rivals;
   f->m = m;
   f->blocks = blocks;
   return ABUT_SUCCESS;

@@ -6,7 +6,7 @@
 #include "app/input/short_number.h"
 #include "app/mesh/curved_sides.h"
 #include "app/physics/contact_traction.h"
-#include "app/physics/elastic_normal_stress.h"
+#include "app/physics/elastic_traction.h"
 #include "app/pictures/contact_output.h"
 #include "app/restart/archive.h"
 #include "shim/bodies.h"
@@ -291,7 +291,7 @@ namespace abut::app
   {
     pairs->set_time(time);
     contact.set_pairs(pairs->pairs());
-    contact.set_normal_stress(std::make_shared<ElasticNormalStress<dim>>(
+    contact.set_surface_traction(std::make_shared<ElasticTraction<dim>>(
         elasticity.mapping, data.materials));
     if (motion && motion->has_new_tangent())
       prepare_contact(contact);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_DEALII_NORMAL_STRESS_H
-#define ABUT_DEALII_NORMAL_STRESS_H
+#ifndef ABUT_DEALII_SURFACE_TRACTION_H
+#define ABUT_DEALII_SURFACE_TRACTION_H
 
 /** @file
  * What Nitsche's method must know of the host's material.
@@ -15,19 +15,20 @@
 
 namespace abut
 {
-  /** Normal stress n.sigma(u)n of a linear elastic body at its surface. Derive
-   * a class from this one, see ContactAssembler::set_normal_stress(). */
-  template <int dim> class NormalStress
+  /** Traction sigma(u)n of a linear elastic body at its surface. Derive a class
+   * from this one, see ContactAssembler::set_surface_traction(). */
+  template <int dim> class SurfaceTraction
   {
   public:
-    virtual ~NormalStress() = default;
+    virtual ~SurfaceTraction() = default;
 
     /** Its derivatives by the unknowns of a cell.
      * @param cell a locally owned cell
      * @param unit_point points of the unit cell, on its boundary
      * @param normal [points] outward unit normals
-     * @param derivative [points][dofs_per_cell] out, has its size: stress per
-     *   length, positive in tension
+     * @param derivative [points * dim][dofs_per_cell] out, has its size: row
+     *   q * dim + d is component d of the traction at point q, stress per
+     *   length; along the normal it is positive in tension
      * Not collective. */
     virtual void
     evaluate(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "elastic_normal_stress.h"
+#include "elastic_traction.h"
 
 #include <deal.II/base/quadrature.h>
 #include <deal.II/fe/fe_values.h>
@@ -7,7 +7,7 @@
 namespace abut::app
 {
   template <int dim>
-  void ElasticNormalStress<dim>::evaluate(
+  void ElasticTraction<dim>::evaluate(
       const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
       const std::vector<dealii::Point<dim>> &unit_point,
       const std::vector<dealii::Tensor<1, dim>> &normal,
@@ -26,10 +26,12 @@ namespace abut::app
         const Stress<dim> part = material.stress(
             values[displacement].gradient(k, q),
             values[displacement].value(k, q), values.quadrature_point(q));
-        derivative(q, k) = normal[q] * (part.tensor * normal[q]);
+        const dealii::Tensor<1, dim> traction = part.tensor * normal[q];
+        for (unsigned int d = 0; d < dim; ++d)
+          derivative(q * dim + d, k) = traction[d];
       }
   }
 
-  template class ElasticNormalStress<2>;
-  template class ElasticNormalStress<3>;
+  template class ElasticTraction<2>;
+  template class ElasticTraction<3>;
 } // namespace abut::app

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_APP_ELASTIC_NORMAL_STRESS_H
-#define ABUT_APP_ELASTIC_NORMAL_STRESS_H
+#ifndef ABUT_APP_ELASTIC_TRACTION_H
+#define ABUT_APP_ELASTIC_TRACTION_H
 
 #include "material.h"
 
-#include <abut/dealii/normal_stress.h>
+#include <abut/dealii/surface_traction.h>
 
 #include <deal.II/fe/mapping.h>
 
 namespace abut::app
 {
-  /** The normal stress of linear elastic bodies; both references must outlive
-   * it. */
-  template <int dim> class ElasticNormalStress : public NormalStress<dim>
+  /** The traction of linear elastic bodies; both references must outlive it. */
+  template <int dim> class ElasticTraction : public SurfaceTraction<dim>
   {
   public:
-    ElasticNormalStress(const dealii::Mapping<dim> &mapping,
-                        const Materials<dim> &materials)
+    ElasticTraction(const dealii::Mapping<dim> &mapping,
+                    const Materials<dim> &materials)
         : mapping_(mapping), materials_(materials)
     {
     }
