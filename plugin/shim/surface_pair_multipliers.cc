@@ -139,6 +139,9 @@ namespace abut::shim
 
   template <int dim> void SurfacePairRows<dim>::project(double *value) const
   {
+    const bool has_friction = std::any_of(
+        pairs_.begin(), pairs_.end(),
+        [](const Pair &pair) { return pair.data.friction != nullptr; });
     for_each_point_pair(
         [&](const Interpolation &points, const std::vector<std::size_t> &rows)
         {
@@ -148,7 +151,47 @@ namespace abut::shim
           values = points.apply(nearest(points, values));
           for (std::size_t k = 0; k < rows.size(); ++k)
             value[rows[k]] = values[k];
+          if (has_friction)
+            project_tractions(points, rows, value);
         });
+  }
+
+  template <int dim>
+  template <typename Points>
+  void
+  SurfacePairRows<dim>::project_tractions(const Points &points,
+                                          const std::vector<std::size_t> &rows,
+                                          double *value) const
+  {
+    // As vectors: tangents of neighbours need not go together.
+    const auto end = [&](const std::size_t row)
+    {
+      const std::int32_t *const first = view_.component_start;
+      const auto next = std::upper_bound(first, first + view_.n_points + 1,
+                                         static_cast<std::int32_t>(row));
+      const bool slides = view_.kind[next - first - 1] == ABUT_POINT_CONTACT;
+      return slides ? static_cast<std::size_t>(*next) : row + 1;
+    };
+    const auto along = [&](const std::size_t row, const unsigned int d)
+    { return view_.frame[row * std::size_t(dim) + d]; };
+    std::vector<Direction> projected(rows.size());
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      std::vector<double> part(rows.size(), 0.);
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        for (std::size_t t = rows[k] + 1; t < end(rows[k]); ++t)
+          part[k] += value[t] * along(t, d);
+      part = points.apply(nearest(points, part));
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        projected[k][d] = part[k];
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (std::size_t t = rows[k] + 1; t < end(rows[k]); ++t)
+      {
+        value[t] = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          value[t] += projected[k][d] * along(t, d);
+      }
   }
 
   template <int dim>

@@ -189,6 +189,10 @@ namespace abut::solve
                        ? std::sqrt(limit / diagonal)
                        : 1.;
       }
+      // What the pressure of a spring does along the surface is no stiffness,
+      // see subtract_friction().
+      for (int r = 1; r < k; ++r)
+        spring[r * k] = spring[r] = 0.;
       for (int r = 0; r < k; ++r)
         for (int c = 0; c <= r; ++c)
         {
@@ -296,6 +300,7 @@ namespace abut::solve
     LinearReport report;
     const dealii::Timer timer;
     matrix_.set(condensate);
+    find_friction();
     keeper_.note_kept();
     if (is_outdated())
     {
@@ -326,8 +331,64 @@ namespace abut::solve
     return force.l2_norm();
   }
 
+  void CondensedSolver::find_friction()
+  {
+    friction_.clear();
+    const Condensate &now = matrix_.condensate();
+    const RowBlocks &blocks = now.blocks;
+    if (!matrix_.has_blocks() || is_direct())
+      return;
+    bool any = false;
+    std::vector<double> part(rows_->n_rows(), 0.);
+    for (int b = 0; b < blocks.n_blocks(); ++b)
+    {
+      const int i = blocks.first[b], k = blocks.size(b);
+      const double *const spring = &now.spring[blocks.at[b]];
+      const double resisting = spring[0] + rows_->weight(i) * row_stiffness_[i];
+      for (int r = 1; r < k && spring[0] > 0.; ++r)
+      {
+        part[i + r] = spring[r * k] / resisting;
+        any = any || part[i + r] != 0.;
+      }
+    }
+    if (!MPI::logical_or(any, rows_->communicator()))
+      return;
+    la::Vector ones(rows_->owned(), rows_->communicator());
+    ones = 1.;
+    const std::vector<double> size = rows_->squares(ones);
+    for (int b = 0; b < blocks.n_blocks(); ++b)
+      for (int i = blocks.first[b], r = 1; r < blocks.size(b); ++r)
+        part[i + r] = size[i] > 0. ? part[i + r] / size[i] : 0.;
+    friction_ = std::move(part);
+    // Ranks without rows take part, too.
+    friction_.resize(std::max<std::size_t>(friction_.size(), 1), 0.);
+  }
+
+  void CondensedSolver::subtract_friction(la::Vector &force) const
+  {
+    const RowBlocks &blocks = matrix_.condensate().blocks;
+    std::vector<double> normal(rows_->n_rows() + 1), factor(normal.size(), 0.);
+    rows_->times(force, normal.data());
+    for (int b = 0; b < blocks.n_blocks(); ++b)
+      for (int i = blocks.first[b], r = 1; r < blocks.size(b); ++r)
+        factor[i + r] = -friction_[i + r] * normal[i];
+    rows_->add_transposed(factor.data(), force);
+  }
+
   void CondensedSolver::precondition(la::Vector &dst,
                                      const la::Vector &src) const
+  {
+    if (!friction_.empty())
+    {
+      la::Vector force(src);
+      subtract_friction(force);
+      cycle(dst, force);
+    }
+    else
+      cycle(dst, src);
+  }
+
+  void CondensedSolver::cycle(la::Vector &dst, const la::Vector &src) const
   {
     if (filter_)
       filter_->vmult(dst, src);

@@ -88,6 +88,12 @@ namespace abut::solve
     void take(const la::Matrix &stiffness, const PointOperator &rows,
               const std::vector<double> &row_stiffness);
     bool is_outdated() const;
+    void find_friction();
+    /** Take from @p force the friction that goes with what presses on stiff
+     * springs. What a symmetric preconditioner does not know is then of the
+     * size of the stiffness, not of the springs. Collective. */
+    void subtract_friction(la::Vector &force) const;
+    void cycle(la::Vector &dst, const la::Vector &src) const;
     /** Whether conjugate gradients may be used. */
     bool is_definite() const
     {
@@ -123,6 +129,9 @@ namespace abut::solve
     std::unique_ptr<la::Matrix> assembled_;
     std::unique_ptr<la::Matrix> softened_; ///< and its multigrid, if filtered
     Condensate built_;
+    /** [rows] by tangents: traction by the force along the normal; empty: no
+     * springs have friction. */
+    std::vector<double> friction_;
     PreconditionerKeeper keeper_;
     std::unique_ptr<Multigrid> multigrid_;
     std::unique_ptr<ContactFilter> filter_;
