@@ -32,6 +32,11 @@ namespace abut
     /** Error of gaps that is worth a word, by what bodies are deformed. */
     constexpr double visible_gap_error = 0.05;
 
+    /** Turn of directions, radian, and so the part of a force that is beside
+     * the normal, that is worth a word; and part of the resultant that may go
+     * to the side without one, whatever else is there. */
+    constexpr double visible_turn = 0.05, visible_side_force = 0.02;
+
     /** Bodies in obstacles where no surface meets them, likewise. */
     constexpr double visible_inside = 0.01;
 
@@ -48,6 +53,14 @@ namespace abut
       out.precision(3);
       out << value;
       return out.str();
+    }
+
+    template <int dim> std::string numbers(const dealii::Tensor<1, dim> &vector)
+    {
+      std::string text = "(" + number(vector[0]);
+      for (unsigned int d = 1; d < dim; ++d)
+        text += ", " + number(vector[d]);
+      return text + ")";
     }
 
     std::string percent(const double part)
@@ -155,6 +168,44 @@ namespace abut
                 + ": gaps are those of the undeformed places, to one side of a "
                   "corner. Give each side of a corner an obstacle and a pair "
                   "of its own.");
+    }
+
+    /** Whether turned forces have a resultant with a component that is another
+     * by more than a tenth. */
+    template <int dim> bool has_other_force(const PairResult<dim> &pair)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double change = std::abs(pair.turned_force[d]);
+        if (change > useless * std::abs(pair.secondary_force[d])
+            && change > visible_side_force * pair.secondary_force.norm())
+          return true;
+      }
+      return false;
+    }
+
+    template <int dim>
+    void judge_turn(const PairResult<dim> &pair, const bool allow,
+                    Findings &findings)
+    {
+      if (pair.turn <= visible_turn && !has_other_force(pair))
+        return;
+      const double degrees = 180. / dealii::numbers::PI;
+      findings.add(
+          ABUT_FAILURE_SLIDING, !allow && pair.turn > useless,
+          pair.name
+              + ": the forces of contact have the directions of the places "
+                "where points were paired, and normals have turned since by "
+              + number(degrees * pair.turn) + " degrees in their mean, "
+              + number(degrees * pair.largest_turn)
+              + " at most: " + percent(pair.turn)
+              + " of them is beside their present directions, and the "
+                "resultant "
+              + numbers(pair.secondary_force) + " would be about "
+              + numbers(dealii::Tensor<1, dim>(pair.secondary_force
+                                               + pair.turned_force))
+              + ". Let points move where they can (Method/Sliding = large), or "
+                "keep motions smaller.");
     }
 
     template <int dim>
@@ -388,8 +439,8 @@ namespace abut
     if (!can_touch)
       return result;
     const std::vector<shim::Unseen> unseen = i.find_unseen(displacement);
-    i.surfaces->examine(displacement, i.gap.data(), i.row_states().data(),
-                        unseen);
+    i.surfaces->examine(displacement, i.row_pressures().data(), i.gap.data(),
+                        i.row_states().data(), unseen);
     result.deformation = i.deformation(displacement);
     const std::vector<PairCheck> checks = pair_checks();
     const std::vector<PairResult<dim>> pairs = pair_results();
@@ -399,6 +450,7 @@ namespace abut
       const Scale scale{result.deformation, displacement.linfty_norm(),
                         round_off_of_places * checks[p].facet_size};
       judge_sliding(pairs[p], checks[p], is_obstacle, scale, findings);
+      judge_turn(pairs[p], allow_large_strain, findings);
       judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
                    findings);
       const auto &narrow = i.surfaces->narrow(p);

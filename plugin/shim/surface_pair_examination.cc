@@ -307,11 +307,13 @@ namespace abut::shim
 
   template <int dim>
   void SurfacePairRows<dim>::examine(const la::Vector &displacement,
+                                     const double *row_pressure,
                                      const double *row_gap,
                                      const std::uint8_t *row_state,
                                      const std::vector<Unseen> &unseen)
   {
     const std::vector<Direction> u = displacements_in_reach(displacement);
+    find_turns(u, row_pressure, row_state);
     std::vector<std::vector<dealii::Point<dim>>> points(pairs_.size());
     std::vector<std::vector<double>> gaps(pairs_.size());
     for (Pair &pair : pairs_)
@@ -465,8 +467,8 @@ namespace abut::shim
   template std::vector<Unseen> SurfacePairRows<dim>::unseen(                   \
       const la::Vector &, const std::uint8_t *);                               \
   template void SurfacePairRows<dim>::examine(                                 \
-      const la::Vector &, const double *, const std::uint8_t *,                \
-      const std::vector<Unseen> &);                                            \
+      const la::Vector &, const double *, const double *,                      \
+      const std::uint8_t *, const std::vector<Unseen> &);                      \
   template std::string SurfacePairRows<dim>::wrong_side(Pair &) const;         \
   template void SurfacePairRows<dim>::refuse_inside(Pair &,                    \
                                                     const la::Vector &) const;

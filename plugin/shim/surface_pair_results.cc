@@ -196,6 +196,10 @@ namespace abut::shim
       results[p].slip = pairs_[p].slip;
       results[p].gap_error = pairs_[p].gap_error;
       results[p].missed_depth = pairs_[p].missed_depth;
+      const Turn &turn = pairs_[p].turn;
+      results[p].turn = turn.force > 0. ? turn.sum / turn.force : 0.;
+      results[p].largest_turn = turn.largest;
+      results[p].turned_force = turn.change;
     }
     for_each_component(
         [&](const Component &row)

@@ -11,6 +11,9 @@
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/surface_traction.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace abut::shim
 {
   /** Points between surfaces of bodies, and of surfaces against rigid
@@ -103,10 +106,10 @@ namespace abut::shim
     void push_inside(const std::vector<double> &gap, std::vector<double> margin,
                      la::Vector &displacement) const override;
 
-    /** Measure for results() how far closed rows slide, what gaps are off by,
-     * and what unseen() has found. Collective. */
-    void examine(const la::Vector &displacement, const double *row_gap,
-                 const std::uint8_t *row_state,
+    /** Measure for results() how far closed rows slide and turn, what gaps are
+     * off by, and what unseen() has found. Collective. */
+    void examine(const la::Vector &displacement, const double *row_pressure,
+                 const double *row_gap, const std::uint8_t *row_state,
                  const std::vector<Unseen> &unseen);
 
     /** An obstacle beside a facet near it. */
@@ -226,6 +229,35 @@ namespace abut::shim
 
     using Direction = dealii::Tensor<1, dim>;
 
+    /** What the directions of the forces of a pair have turned by. */
+    struct Turn
+    {
+      double force = 0.;   ///< sum of the magnitudes
+      double sum = 0.;     ///< of force by angle (radian)
+      double largest = 0.; ///< angle
+      Direction change;    ///< what the secondary's resultant would change by
+
+      /** A force whose direction, of unit length, was @p before. */
+      void add(const double magnitude, const Direction &before,
+               const Direction &after)
+      {
+        const double chord = std::min(2., (after - before).norm());
+        const double angle = 2. * std::asin(0.5 * chord);
+        force += magnitude;
+        sum += magnitude * angle;
+        largest = std::max(largest, angle);
+        change += magnitude * (after - before);
+      }
+    };
+
+    /** A point that carries a force. */
+    struct Pressed
+    {
+      std::size_t point;
+      double force;                ///< its magnitude
+      dealii::Point<dim> position; ///< where the point was made
+    };
+
     /** A pair with its two sides and their coupling. */
     struct Pair
     {
@@ -249,6 +281,7 @@ namespace abut::shim
       /** Known failures that it was made with all the same. */
       std::vector<ContactFinding> refused;
       double slip = 0., gap_error = 0., missed_depth = 0.;
+      Turn turn;
       Narrow narrow;
     };
 
@@ -364,6 +397,17 @@ namespace abut::shim
                        const std::vector<std::uint8_t> &touching_facets,
                        std::vector<Unseen> &found) const;
     void find_narrow(Pair &pair, const std::vector<Direction> &u) const;
+    std::vector<Pressed> pressed_points(std::size_t pair,
+                                        const double *row_pressure,
+                                        const std::uint8_t *row_state) const;
+    Turn turn_at_obstacle(const Pair &pair, const std::vector<Pressed> &pressed,
+                          const std::vector<Direction> &u) const;
+    Turn turn_of_bodies(Pair &pair, const std::vector<Pressed> &pressed,
+                        const std::vector<Direction> &u) const;
+    /** Measure what directions have turned by since rows were made.
+     * Collective. */
+    void find_turns(const std::vector<Direction> &u, const double *row_pressure,
+                    const std::uint8_t *row_state);
     std::string wrong_side(Pair &pair) const;
     void refuse_inside(Pair &pair, const la::Vector &displacement) const;
 

@@ -250,6 +250,25 @@ summary = expect(run(blocks, slide), 0, "ABUT-F36", "slide")
 p.expect(summary["pair_1_slip"] > 0.4, f"slip {summary['pair_1_slip']}")
 expect(run(blocks, slide.replace("0.5", "0.05")), 0, without=("ABUT-F36",))
 
+# A disc deep in rubber, at points that stay and at points that move: forces that
+# have not turned are told, with what they would be.
+disc = p.source / "prm/finite-disc.prm"
+sizes = ("Refinement/Level=3", "Load steps/Steps=6")
+moving = expect(run(disc, *sizes), 0, without=("ABUT-F36",))
+p.expect(moving["pair_1_turn"] < 1e-9, "points that move have turned")
+staying = expect(run(disc, *sizes, "Method/Sliding=small"), 0, "ABUT-F36",
+                 "normals have turned", "Sliding = large")
+side = [s["pair_1_force"][0] for s in (staying, moving)]
+p.expect(side[0] > 1.15 * side[1], f"forces to the side: {side}")
+p.expect(abs(staying["pair_1_turned_force"][0] - side[1])
+         < 0.2 * (side[0] - side[1]),
+         f"force to the side with present normals: {staying}")
+# Under a disc that is held the block is moved to the side by a fifth of the
+# radius; with friction no point moves.
+expect(run(disc, *sizes, "Pair 1/Friction=0.1", "Obstacle 1/Motion=0, -0.1*t",
+           "Obstacle 1/Centre=0.5, 2",
+           "Body 1/Support=2: 0.25*t, 0"), 3, "ABUT-F36", "normals have turned")
+
 # What a limit of steps is a sign of: nothing but itself.
 for law in ("nitsche", "lagrange", "augmented lagrangian"):
     expect(run(p.source / "prm/elastic-signorini.prm",

@@ -143,6 +143,75 @@ namespace
     }
   }
 
+  /** All turned about the origin by @p angle, beside what @p u is. */
+  la::Vector turned(const hosts::TwoBlocks<2> &blocks, const la::Vector &u,
+                    const double angle)
+  {
+    la::Vector moved(u);
+    std::vector<dealii::types::global_dof_index> dofs(
+        blocks.dof_handler().get_fe().n_dofs_per_cell());
+    for (const auto &cell : blocks.dof_handler().active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        const auto [component, vertex] =
+            blocks.dof_handler().get_fe().system_to_component_index(i);
+        const dealii::Point<2> x = cell->vertex(vertex);
+        if (u.locally_owned_elements().is_element(dofs[i]))
+          moved(dofs[i]) =
+              component == 0
+                  ? (std::cos(angle) - 1.) * x[0] - std::sin(angle) * x[1]
+                  : std::sin(angle) * x[0] + (std::cos(angle) - 1.) * x[1];
+      }
+    }
+    moved.compress(dealii::VectorOperation::insert);
+    return moved;
+  }
+
+  /** Both blocks turned: directions are those of before, and turned with the
+   * bodies by the same angle, forces as well. */
+  void check_turn()
+  {
+    for (const auto discretisation :
+         {ABUT_DISCRETISATION_DUAL_MORTAR, ABUT_DISCRETISATION_NODE_TO_SEGMENT,
+          ABUT_DISCRETISATION_QUADRATURE_POINT})
+    {
+      hosts::Case run = pressed(1e3);
+      run.method.discretisation = discretisation;
+      if (discretisation == ABUT_DISCRETISATION_QUADRATURE_POINT)
+        run.method.options.law = abut_law_find("penalty");
+      hosts::TwoBlocks<2> blocks(run);
+      blocks.prepare({blocks.pair()});
+      la::Vector u = blocks.start();
+      expect(solve(blocks, 1., u).converged(), "blocks that turn");
+      for (const double angle : {0., 0.03, -0.07, 0.2})
+      {
+        const ContactExamination seen =
+            blocks.contact().examine(turned(blocks, u, angle));
+        const PairResult<2> pair = blocks.contact().pair_results()[0];
+        expect(std::abs(pair.turn - std::abs(angle)) < 1e-9
+                   && std::abs(pair.largest_turn - std::abs(angle)) < 1e-9,
+               "a turn of " + std::to_string(pair.turn) + " instead of "
+                   + std::to_string(angle));
+        const dealii::Tensor<1, 2> &force = pair.secondary_force;
+        const dealii::Tensor<1, 2> change(
+            {(std::cos(angle) - 1.) * force[0] - std::sin(angle) * force[1],
+             std::sin(angle) * force[0] + (std::cos(angle) - 1.) * force[1]});
+        expect((pair.turned_force - change).norm() < 1e-9 * force.norm(),
+               "what the force changes by in a turn of "
+                   + std::to_string(angle));
+        // A resultant that was upright has a part to the side from a fiftieth.
+        expect(has(seen, ABUT_FAILURE_SLIDING, false)
+                       == (angle == 0.03 || angle == -0.07)
+                   && has(seen, ABUT_FAILURE_SLIDING, true) == (angle > 0.1),
+               "what is said of a turn of " + std::to_string(angle));
+      }
+    }
+  }
+
   ContactPair<2> against(const std::shared_ptr<RigidObstacle<2>> &obstacle)
   {
     ContactPair<2> pair;
@@ -253,6 +322,7 @@ main(int argc, char **argv)
   check_sign();
   check_strain();
   check_slip();
+  check_turn();
   check_turned();
   check_between_nodes();
   check_free_motion();

@@ -141,6 +141,14 @@ namespace abut
      * the distance of its node where it is now, length >= 0, by the last
      * examine(): what is lost by gaps that are linear in the displacement. */
     double gap_error = 0.;
+    /** What the normals at rows with pressure have turned by since the rows
+     * were made, radian, by the last examine(): the mean, weighted with the
+     * forces, and the largest; 0 where points move. It is about the part of the
+     * forces that is beside their present directions. */
+    double turn = 0., largest_turn = 0.;
+    /** What the resultant on the secondary side would change by if the forces
+     * had their present directions. */
+    dealii::Tensor<1, dim> turned_force;
     /** Against obstacles: how deep they are in deformed facets without any
      * contact, length >= 0, by the last examine(); @ref between_rows has all
      * facets. */

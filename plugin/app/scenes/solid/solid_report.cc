@@ -186,6 +186,10 @@ namespace abut::app
       report.set(key + "_held_inside", pair.held_inside);
       report.set(key + "_slip", pair.slip);
       report.set(key + "_gap_error", pair.gap_error);
+      report.set(key + "_turn", pair.turn);
+      report.set(key + "_turned_force",
+                 vector(dealii::Tensor<1, dim>(pair.secondary_force
+                                               + pair.turned_force)));
       if (pairs.pairs().at(number - 1).friction != nullptr)
       {
         report.set(key + "_slipping", pair.n_slipping);
