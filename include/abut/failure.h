@@ -86,7 +86,9 @@ extern "C"
   X(ENERGY_GAIN, 43, "a time scheme makes energy",                             \
     "modified mass with hht, or contact stabilised; smaller time steps")       \
   X(BLOW_UP, 44, "a motion blows up",                                          \
-    "time steps below the limit of the scheme, or an implicit scheme")
+    "time steps below the limit of the scheme, or an implicit scheme")         \
+  X(ENERGY_LOSS, 45, "a time scheme loses energy",                             \
+    "shorter time steps; a scheme that damps less")
 
   /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
   typedef enum abut_failure

@@ -289,10 +289,14 @@ extern "C"
   /** What the energy balance has come to. */
   typedef enum abut_time_verdict
   {
-    ABUT_TIME_STEADY,  /**< within what the scheme may gain */
-    ABUT_TIME_GAINS,   /**< more: warn, ABUT_FAILURE_ENERGY_GAIN */
-    ABUT_TIME_BLOWS_UP /**< beyond a hundred times all energy that there was,
-                            or no number: stop, ABUT_FAILURE_BLOW_UP */
+    ABUT_TIME_STEADY,   /**< within what the scheme may gain */
+    ABUT_TIME_GAINS,    /**< more: warn, ABUT_FAILURE_ENERGY_GAIN */
+    ABUT_TIME_BLOWS_UP, /**< beyond a hundred times all energy that there
+                             was, or no number: stop, ABUT_FAILURE_BLOW_UP */
+    ABUT_TIME_LOSES     /**< a twentieth and more is gone that friction and
+                             damping have not taken: warn,
+                             ABUT_FAILURE_ENERGY_LOSS. Not of schemes with
+                             impulses, whose restitution takes energy */
   } abut_time_verdict;
 
   /** The balance B = kinetic + strain + contact + dissipated - external work
@@ -307,6 +311,9 @@ extern "C"
     double scale;       /**< energy at the start and largest amount of external
                              work: what B is compared with */
     double gain;        /**< (highest - first) / scale; 0 without a scale */
+    double loss;        /**< (first - last) / scale, at least 0 */
+    double fall;        /**< what B has fallen by in one step at the most */
+    int64_t fall_at;    /**< number of the energy at the end of that step */
   } abut_time_balance;
 
   /** Add the energies of the start (first call) or of the end of a step, and

@@ -331,6 +331,47 @@ central_difference_has_its_limit(void **unused)
   assert_int_equal(vibrate(1.02, 4000), ABUT_TIME_BLOWS_UP);
 }
 
+/* What goes beside friction and damping is lost, that of impulses on purpose.
+ */
+static void
+losses_are_told(void **unused)
+{
+  (void)unused;
+  const struct
+  {
+    double kinetic, strain, dissipated, work, loss, fall;
+    int64_t fall_at;
+    bool is_told;
+  } rows[] = {{100, 0, 0, 0, 0, 0, 0, false},
+              {60, 30, 10, 0, 0, 0, 0, false},
+              {70, 14, 12, 0, 0.04, 4, 2, false},
+              /* Loads lift the bodies again: 100 of 150 are compared. */
+              {200, 34, 12, 150, 4. / 150, 4, 2, false},
+              {195, 30, 12, 150, 13. / 150, 9, 4, true},
+              {195, 39, 12, 150, 4. / 150, 9, 4, false}};
+  for (int k = 0; k < 2; ++k)
+  {
+    abut_time_options options = abut_time_defaults();
+    options.name = k ? "velocity level" : "trapezoid";
+    abut_time_scheme scheme;
+    assert_ok(abut_time_scheme_make(&options, &scheme));
+    abut_time_balance balance = {.struct_size = sizeof(balance)};
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); ++i)
+    {
+      const abut_time_energy now = {sizeof(now),        rows[i].kinetic,
+                                    rows[i].strain,     0,
+                                    rows[i].dissipated, rows[i].work};
+      abut_time_verdict verdict;
+      assert_ok(abut_time_judge(&scheme, &now, &balance, &verdict));
+      assert_int_equal(verdict, rows[i].is_told && k == 0 ? ABUT_TIME_LOSES
+                                                          : ABUT_TIME_STEADY);
+      assert_close(balance.loss, rows[i].loss, 1e-12);
+      assert_close(balance.fall, rows[i].fall, 1e-12);
+      assert_int_equal(balance.fall_at, rows[i].fall_at);
+    }
+  }
+}
+
 /* The error of u'' = -u - v/5 at t = 1 in so many steps; damping and stiffness
  * are numbers, so that the step is a division. */
 static double
@@ -595,6 +636,7 @@ main(void)
       cmocka_unit_test(equal_bars_swap_velocities),
       cmocka_unit_test(central_difference_has_its_limit),
       cmocka_unit_test(power_iteration_finds_the_limit),
+      cmocka_unit_test(losses_are_told),
       cmocka_unit_test(schemes_are_of_second_order),
       cmocka_unit_test(mass_on_a_spring_comes_to_rest),
       cmocka_unit_test(arguments_are_checked),

@@ -2,7 +2,9 @@
 #include "time_parameters.h"
 
 #include "app/input/input_error.h"
+#include "app/input/short_number.h"
 
+#include <abut/dealii/coded.h>
 #include <abut/dealii/number_pattern.h>
 
 #include <algorithm>
@@ -12,8 +14,8 @@ namespace abut::app
 {
   namespace
   {
-    /** Most steps of a run. */
-    constexpr double most_steps = 1e9;
+    /** Most steps of a run: more than any comes to the end of. */
+    constexpr double most_steps = 1e7;
 
     /** What the file gives, before it is looked at. */
     struct Given
@@ -34,6 +36,30 @@ namespace abut::app
       return scheme;
     }
   } // namespace
+
+  std::string text_of_loss(const abut_time_scheme &scheme,
+                           const abut_time_balance &balance, const double begin,
+                           const double end)
+  {
+    const auto percent = [](const double part)
+    { return short_number(100. * part, 3) + " %"; };
+    const std::string other =
+        scheme.projects != 0 ? "; or Time/Scheme = hht with modified mass"
+        : scheme.gamma > 0.5 ? "; or Time/Scheme = trapezoid with modified "
+                               "mass, which does not damp"
+                             : "";
+    return coded(
+        ABUT_FAILURE_ENERGY_LOSS,
+        "the scheme has lost " + percent(balance.loss)
+            + " of the energy that there was, beside what friction and "
+              "damping have taken: "
+            + percent(balance.fall / balance.scale) + " in the step from time "
+            + short_number(begin, 6) + " to " + short_number(end, 6)
+            + ", the largest part of one step. Make Time/Step shorter, half "
+              "of it, until the loss stays the same; what then is left is "
+              "that of the mesh at impacts, which a finer one lessens"
+            + other + ".");
+  }
 
   void TimeParameters::declare(dealii::ParameterHandler &prm,
                                const std::string &schemes)
@@ -102,7 +128,7 @@ namespace abut::app
   void TimeParameters::check_step() const
   {
     if (end / step > most_steps)
-      throw InputError("Time/Step", "more than 1e9 steps to Time/End.");
+      throw InputError("Time/Step", "more than 1e7 steps to Time/End.");
     if (step > end * (1. + 1e-9))
       throw InputError("Time/Step", "one step is longer than the time to "
                                     "Time/End.");

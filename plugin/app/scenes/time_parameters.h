@@ -15,6 +15,12 @@ namespace abut::app
    * no answer. */
   constexpr double useless_gain = 0.1;
 
+  /** What to say of a balance that has lost energy, at the end of a motion.
+   * @param begin,end the step in which it fell most */
+  std::string text_of_loss(const abut_time_scheme &scheme,
+                           const abut_time_balance &balance, double begin,
+                           double end);
+
   /** Section `Time`: motion by a scheme of the core. */
   struct TimeParameters
   {

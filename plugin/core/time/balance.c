@@ -10,6 +10,11 @@
  * makes eight of one. */
 static const double blow_up = 100;
 
+/* Part of the energy that may get lost without a word: what modified mass and
+ * the damping of the highest frequencies take from a wave that the steps
+ * resolve is a half of that. */
+static const double visible_loss = 0.05;
+
 static double
 sum_of(const abut_time_energy *e)
 {
@@ -24,6 +29,11 @@ add(abut_time_balance *balance, const abut_time_energy *energy, double sum)
     balance->first = balance->highest = sum;
     balance->scale = energy->kinetic + energy->strain + energy->contact;
   }
+  if (balance->n > 0 && balance->last - sum > balance->fall)
+  {
+    balance->fall = balance->last - sum;
+    balance->fall_at = balance->n;
+  }
   balance->n += 1;
   balance->last = sum;
   balance->highest = fmax(balance->highest, sum);
@@ -31,6 +41,8 @@ add(abut_time_balance *balance, const abut_time_energy *energy, double sum)
   balance->gain = balance->scale > 0
                       ? (balance->highest - balance->first) / balance->scale
                       : 0;
+  balance->loss =
+      balance->scale > 0 ? fmax(0, balance->first - sum) / balance->scale : 0;
 }
 
 abut_status
@@ -56,7 +68,9 @@ abut_time_judge(const abut_time_scheme *given, const abut_time_energy *energy,
   add(&sums, &now, sum);
   *verdict = sums.gain > blow_up         ? ABUT_TIME_BLOWS_UP
              : sums.gain > scheme.growth ? ABUT_TIME_GAINS
-                                         : ABUT_TIME_STEADY;
+             : sums.loss > visible_loss && scheme.impulses == 0
+                 ? ABUT_TIME_LOSES
+                 : ABUT_TIME_STEADY;
   return abut_sized_write(balance, sizeof(sums), &sums) == NULL
              ? ABUT_SUCCESS
              : ABUT_INVALID_ARGUMENT;

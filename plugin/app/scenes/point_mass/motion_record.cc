@@ -58,6 +58,7 @@ namespace abut::app
                                      now.contact,    now.dissipated, now.work};
     abut_time_verdict verdict = ABUT_TIME_STEADY;
     abut_time_judge(&scheme, &energy, &balance, &verdict);
+    loses = verdict == ABUT_TIME_LOSES;
     std::map<std::string, double> row = {
         {"step", static_cast<double>(entries.size()) - 1.},
         {"time", time},
@@ -105,6 +106,10 @@ namespace abut::app
               + short_number(gain_time, 6)
               + ": take hht or contact stabilised with the mass that they are "
                 "made for, or a smaller Time/Step"));
+    const auto fall = static_cast<std::size_t>(balance.fall_at);
+    if (loses && fall > 0)
+      report.warn(text_of_loss(scheme, balance, entries.at(fall - 1).time,
+                               entries.at(fall).time));
     return !gains || balance.gain <= useless_gain;
   }
 
@@ -130,6 +135,7 @@ namespace abut::app
     report.set("initial_energy", balance.first);
     report.set("energy_balance", balance.last);
     report.set("energy_gain", balance.gain);
+    report.set("energy_loss", balance.loss);
     report.set("momentum", momentum);
     report.set("contact_impulse", impulse);
     report.set("largest_contact_force", largest_force);

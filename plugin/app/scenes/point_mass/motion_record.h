@@ -22,8 +22,8 @@ namespace abut::app
      * is told then. */
     bool add(Report &report, const Motion &motion, double time);
 
-    /** Warn if the scheme has made energy. Returns whether it is less than what
-     * leaves no answer. */
+    /** Warn if the scheme has made energy, or lost it. Returns whether it is
+     * less than what leaves no answer. */
     bool judge_end(Report &report) const;
 
     void fill_summary(Report &report) const;
@@ -46,7 +46,7 @@ namespace abut::app
     std::vector<Entry> entries;
     std::vector<double> momentum, impulse;
     double contact_begin = 0, contact_end = 0, largest_force = 0;
-    bool gains = false;
+    bool gains = false, loses = false;
     double gain_time = 0;
   };
 } // namespace abut::app

@@ -195,7 +195,8 @@ namespace abut::app
     work += work_of_step;
     abut_time_verdict verdict;
     judge(present.bodies.energy, verdict);
-    if (verdict == ABUT_TIME_STEADY)
+    loses = verdict == ABUT_TIME_LOSES;
+    if (verdict != ABUT_TIME_GAINS && verdict != ABUT_TIME_BLOWS_UP)
       return "";
     const std::string what = "The energy balance at time "
                              + short_number(present.bodies.time, 6) + " is "
@@ -214,6 +215,15 @@ namespace abut::app
                 "Time/Mass = modified, or a shorter Time/Step."));
     has_warned = true;
     return "";
+  }
+
+  template <int dim> void SolidMotion<dim>::warn_of_loss() const
+  {
+    const auto end = static_cast<std::size_t>(balance.fall_at);
+    if (loses && end > 0)
+      run.report.warn(text_of_loss(parameters.time.scheme, balance,
+                                   records.at(end - 1).bodies.time,
+                                   records.at(end).bodies.time));
   }
 
   template <int dim> bool SolidMotion<dim>::keeps_energy() const
@@ -269,6 +279,8 @@ namespace abut::app
     report.set("scheme", std::string(parameters.time.scheme.name));
     report.set("mass", components(motion.total_mass()));
     report.set("energy_gain", balance.gain);
+    report.set("energy_loss", balance.loss);
+    warn_of_loss();
     report.set("initial_energy", records.front().balance());
     const MotionRecord<dim> &last = records.back().bodies;
     report.set("kinetic_energy", last.energy.kinetic);

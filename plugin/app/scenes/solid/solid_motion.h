@@ -86,6 +86,7 @@ namespace abut::app
       archive &motion &records &dissipated &work;
       archive &balance.n &balance.first &balance.last &balance.highest;
       archive &balance.scale &balance.gain &has_warned;
+      archive &balance.loss &balance.fall &balance.fall_at &loses;
     }
 
     /** The state at a time. */
@@ -125,6 +126,7 @@ namespace abut::app
     /** Tell the limit of an explicit scheme, and warn above it. Collective. */
     void look_at_step();
     void judge(const abut_time_energy &energy, abut_time_verdict &verdict);
+    void warn_of_loss() const;
 
     const SolidParameters &parameters;
     const ContactRunState<dim> &run;
@@ -137,7 +139,7 @@ namespace abut::app
     la::Vector on_supports; ///< contact of that step at prescribed unknowns
     double friction_of_step = 0., work_of_step = 0.;
     abut_time_balance balance = {};
-    bool has_warned = false;
+    bool has_warned = false, loses = false;
   };
 } // namespace abut::app
 
