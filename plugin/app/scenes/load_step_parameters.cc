@@ -5,11 +5,17 @@
 
 namespace abut::app
 {
+  namespace
+  {
+    /** More than any run comes to the end of. */
+    constexpr int most_load_steps = 1000000;
+  } // namespace
+
   void LoadStepParameters::declare(dealii::ParameterHandler &prm)
   {
     namespace Patterns = dealii::Patterns;
     prm.enter_subsection("Load steps");
-    prm.declare_entry("Steps", "1", Patterns::Integer(1),
+    prm.declare_entry("Steps", "1", Patterns::Integer(1, most_load_steps),
                       "Number of equal steps from time 0 to the end. The time "
                       "is the t of all formulas; in one step all loads are "
                       "applied at once.");

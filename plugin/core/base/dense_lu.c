@@ -21,7 +21,10 @@ scale_rows(int32_t n, double *a, double *scale)
   {
     double size = 0;
     for (int32_t j = 0; j < n; ++j)
-      size = fmax(size, fabs(a[(int64_t)i * n + j]));
+    {
+      const double value = fabs(a[(int64_t)i * n + j]);
+      size = value > size ? value : size;
+    }
     if (!(size > 0))
       return false;
     scale[i] = 1 / size;

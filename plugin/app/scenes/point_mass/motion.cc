@@ -180,7 +180,8 @@ namespace abut::app
   }
 
   /** matrix y = residual + contact, with what the rows demand. Forces on the
-   * masses, [size], go to @p pressure. */
+   * masses, [size], go to @p pressure, which the iteration begins with unless
+   * it is empty. */
   std::string Motion::solve(const std::vector<double> &matrix,
                             const std::vector<double> &residual,
                             const Rows &rows, std::vector<double> &y,
@@ -212,16 +213,22 @@ namespace abut::app
         matrix.data(), residual.data(),
         points.get(),  has_friction ? &friction : nullptr};
     y.assign(residual.size(), 0.);
-    std::vector<double> forces(rows.size() * per_mass, 0.);
+    // Of each component of a row, the place of its force.
+    std::vector<std::size_t> place;
+    for (const Row &row : rows)
+    {
+      place.push_back(height(row.mass));
+      for (std::size_t t = 1; t < per_mass; ++t)
+        place.push_back(row.mass * dimension + t - 1);
+    }
+    std::vector<double> forces(place.size(), 0.);
+    for (std::size_t k = 0; k < place.size() && !pressure.empty(); ++k)
+      forces[k] = pressure[place[k]];
     const std::string failure =
         solve_model(model, contact_options(matrix, residual, rows), y, forces);
     pressure.assign(residual.size(), 0.);
-    for (std::size_t k = 0; k < rows.size(); ++k)
-    {
-      pressure[height(rows[k].mass)] = forces[k * per_mass];
-      for (std::size_t t = 1; t < per_mass; ++t)
-        pressure[rows[k].mass * dimension + t - 1] = forces[k * per_mass + t];
-    }
+    for (std::size_t k = 0; k < place.size(); ++k)
+      pressure[place[k]] = forces[k];
     return failure;
   }
 

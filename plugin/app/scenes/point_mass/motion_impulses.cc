@@ -83,7 +83,8 @@ namespace abut::app
   }
 
   /** Where a part of the step leads, with what is on the plane staying there
-   * or leaving. */
+   * or leaving. @p forces are those to begin with, and then those of the part.
+   */
   std::string Motion::glide(const double length,
                             const std::vector<double> &load,
                             std::vector<double> &end,
@@ -192,6 +193,7 @@ namespace abut::app
                                    const std::vector<double> &load)
   {
     double left = dt;
+    std::vector<double> end, forces;
     for (int k = 0; k < most_impacts; ++k)
     {
       std::string failure;
@@ -199,7 +201,6 @@ namespace abut::app
                       [&](const std::size_t mass) { return comes_in(mass); }))
         failure = impact(dt);
       double length = left;
-      std::vector<double> end, forces;
       if (failure.empty())
         failure = glide(length, load, end, forces);
       const bool touches = failure.empty() && least_gap(length, end) < 0.;
