@@ -266,9 +266,22 @@ def check_motion():
     stopped(bar, 3, signal.SIGTERM, expected, short)
 
 
+def check_large_strain():
+    """A disc on its way into rubber, whose points move: the steps that were cut
+    back, what was extrapolated and the rows' places go on, too."""
+    disc = p.write("disc.prm", (p.source / "prm/finite-disc.prm").read_text()
+                   + EVERY)
+    coarse = ["Refinement/Level=3", "Load steps/Newton steps=5",
+              "Load steps/Steps=6"]
+    expected = alone(disc, coarse)
+    killed(disc, 4, expected, coarse)
+    stopped(disc, 2, signal.SIGTERM, expected, coarse)
+
+
 if p.part == 1:
     check_one_rank(bodies, steps)
     check_motion()
+    check_large_strain()
     check_one_rank(membrane, cycles)
     check_target()
     check_files()

@@ -179,6 +179,9 @@ end
         walls="5: 0.05, 0.02, -0.02", top=5, bottom=4).replace(
             "  set Pressure = 5: 1\n", "").replace(
                 "  set Primary", "  set Friction = 0.3\n  set Primary"),
+    "rubber": (ROOT / "prm/finite-disc.prm").read_text(encoding="utf-8")
+    .replace("set Level = 4", "set Level = 3")
+    .replace("set Steps = 15", "set Steps = 4"),
     "motion": (ROOT / "prm/bar-impact.prm").read_text(encoding="utf-8")
     .replace("set End = 2", "set End = 0.6"),
     "thrown": """
@@ -440,6 +443,24 @@ def friction_sums(copy):
     key("pair_1_friction", lambda v: [1.2 * x for x in v])(copy)
 
 
+def moment_at_rest(copy):
+    """Of the contact forces at the undeformed places."""
+    with open(copy.folder / "nodal.csv", newline="", encoding="utf-8") as file:
+        moment = sum(float(row["x"]) * float(row["contact_y"])
+                     - float(row["y"]) * float(row["contact_x"])
+                     for row in csv.DictReader(file))
+    copy.summary(lambda s: s.update(
+        pair_1_moment=[*s["pair_1_moment"][:-1], moment]))
+
+
+def turned_forces(rows):
+    """Contact forces of two nodes turned the opposite way: sums are kept."""
+    a, b = [row for row in rows if row["contact_y"] < -0.01][:2]
+    turn = 0.05 * a["contact_y"]
+    a["contact_x"] += turn
+    b["contact_x"] -= turn
+
+
 def closed(row):
     return row.get("status", 0) > 0.5
 
@@ -602,6 +623,22 @@ FALSIFICATIONS = [
                       "  set Coefficient = 0.29\nend\nset Scene")),
     ("another spring in the scene", "masses",
      lambda c: c.edit("set Spring = 5", "set Spring = 5.1")),
+    ("a cell turned inside out in all files", "rubber",
+     lambda c: all_displacements(c, shift_at((0.5, 0.5), [0.2, 0.]))),
+    ("an inner node shifted a little in all files", "rubber",
+     lambda c: all_displacements(c, shift_at((0.5, 0.5), [1e-5, 0.]))),
+    ("a node pressed into the disc in all files", "rubber",
+     lambda c: all_displacements(c, shift_at((0.25, 1.), [0., 0.05]))),
+    ("moment at the undeformed places", "rubber", moment_at_rest),
+    ("contact forces along other normals, sums kept", "rubber",
+     lambda c: c.nodes(turned_forces)),
+    ("energy of large strain scaled", "rubber", energy),
+    ("another law in the scene", "rubber",
+     lambda c: c.edit("neo-hooke", "st venant-kirchhoff")),
+    ("another volume ratio in the scene", "rubber",
+     lambda c: c.edit("Poisson ratio = 0.3", "Poisson ratio = 0.301")),
+    ("the disc deeper in the scene", "rubber",
+     lambda c: c.edit("-0.3*t", "-0.35*t")),
     ("part of masses.csv missing", "masses", truncate("masses.csv", 0.7)),
     ("momentum of one step of masses", "thrown",
      lambda c: c.table("levels.csv", first(

@@ -308,8 +308,16 @@ class Mutation:
             self.set(f"{section}/Angle", f"{random.uniform(5, 89):.4g}")
 
     def material(self):
-        body = f"Body {self.random.randint(1, int(self.scene.get('Solid/Bodies', 1)))}"
-        if self.random.random() < 0.5:
+        n_bodies = int(self.scene.get("Solid/Bodies", 1))
+        body = f"Body {self.random.randint(1, n_bodies)}"
+        which = self.random.random()
+        if which < 0.2:
+            # Of large strain are all bodies, or none.
+            law = self.random.choice(["hooke", "neo-hooke",
+                                      "st venant-kirchhoff"])
+            for k in range(n_bodies):
+                self.set(f"Body {k + 1}/Material", law)
+        elif which < 0.6:
             self.set(f"{body}/Poisson ratio",
                      f"{self.random.choice([0, -0.5, 0.2, 0.45, 0.49, 0.4999, 0.5])}")
         else:

@@ -277,8 +277,9 @@ class SolidJudge:
             raise Wrong(f"a cell at {x} has no volume")
         return x, inverse, abs(determinant)
 
-    def stored_energy(self):
+    def stored_energy(self, u=None):
         """By the judge's own integration of the displacements."""
+        u = u or self.u
         total = 0.
         material = {}
         for body in range(1, self.n_bodies + 1):
@@ -291,7 +292,7 @@ class SolidJudge:
             material[body] = lame, mu
         for cell in self.fields.cells:
             points = [self.nodes.place[i] for i in cell.nodes]
-            values = [self.u[i] for i in cell.nodes]
+            values = [u[i] for i in cell.nodes]
             lame, mu = material[cell.body]
             for place, weight in gauss(self.dim, self.degree + 1):
                 x, inverse, dx = self.at(cell, points, place)
@@ -319,6 +320,26 @@ class SolidJudge:
                           * dx * weight * self.measure(x))
         return total
 
+    def virtual_work(self, limit):
+        """Of large strain: what the stored energy changes by along a motion is
+        the work of all forces on it. Motions: each component of the
+        displacement alone, in which hanging nodes stay between others."""
+        h = 1e-4
+        for d in range(self.dim):
+            way = [tuple(u[k] if k == d else 0. for k in range(self.dim))
+                   for u in self.u]
+            ends = [self.stored_energy([add(u, w, factor) for u, w in
+                                        zip(self.u, way)])
+                    for factor in (h, -h)]
+            work = math.fsum(dot(w, add(add(a, b), c)) for w, a, b, c in
+                             zip(way, self.load, self.contact, self.reaction))
+            self.findings.check(
+                f"virtual work of the displacement, {'xyz'[d]}",
+                abs((ends[0] - ends[1]) / (2 * h) - work),
+                limit.value * self.work_size
+                + 1e-12 * ends[0] / h + self.round_off() * self.largest,
+                limit.reason)
+
     def works(self, forces):
         """Work of forces on the displacements, and of the magnitudes."""
         each = [dot(f, u) for f, u in zip(forces, self.u)]
@@ -338,7 +359,8 @@ class SolidJudge:
             return
         if self.large:
             self.findings.leave("twice the energy is the work of all forces",
-                                "forces are not linear in the displacement")
+                                "forces are not linear in the displacement, "
+                                "the virtual work is looked at instead")
         else:
             self.findings.check(
                 "twice the energy is the work of all forces",
@@ -349,6 +371,8 @@ class SolidJudge:
             self.findings.leave("stored energy", "too many cells")
             return
         mine = self.stored_energy()
+        if self.large:
+            self.virtual_work(limit)
         limit = THRESHOLDS["stored energy"]
         self.findings.check("stored energy, integrated again",
                             abs(stored - mine), limit.value * mine
@@ -584,6 +608,33 @@ class SolidJudge:
                     f"resultant {'xyz'[d]} of pairs on body {body}",
                     abs(force[d] - total[d]), limit.value * size,
                     "the sum of its nodes, those that supports hold as well")
+        if self.points_move():
+            self.pair_moments(mine, limit)
+
+    def points_move(self):
+        """Of large strain, at obstacles, as the scene has it."""
+        return (self.large and self.plane != "axisymmetric"
+                and self.scene.get("Method/Sliding", "auto") != "small"
+                and all(pair.obstacle for pair in self.pairs)
+                and not self.has_friction()
+                and self.method in ("lagrange", "penalty", "quadratic penalty",
+                                    "augmented lagrangian"))
+
+    def pair_moments(self, bodies, limit):
+        """Of all pairs together, at the places where bodies are."""
+        given = (0.,) * 3
+        for pair in self.pairs:
+            given = add(given, self.summary[f"pair_{pair.number}_moment"])
+        mine, arm = (0.,) * (1 if self.dim == 2 else 3), 0.
+        for place, force, body in zip(self.lever, self.contact,
+                                      self.nodes.body):
+            if body in bodies:
+                mine = add(mine, cross(place, force))
+                arm += norm(place) * norm(force)
+        given = given[2:] if self.dim == 2 else given
+        self.findings.check("moment of the pairs", norm(sub(given, mine)),
+                            limit.value * arm, "the sum of the nodes, where "
+                            "they are at present")
 
     def complementarity(self):
         # forces of mortar multipliers reach the nodes beside them, which are open

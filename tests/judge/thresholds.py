@@ -32,7 +32,9 @@ THRESHOLDS = {
         "there is no force across a gap"),
     "energy": Threshold(
         1e-6, "of the sum of magnitudes of the works: twice the stored energy "
-        "is the work of loads and supports, minus that on the initial gaps"),
+        "is the work of loads and supports, minus that on the initial gaps; "
+        "of large strain the change of the energy along the displacement, by "
+        "differences, is the work of all forces on it"),
     "stored energy": Threshold(
         1e-3, "of the energy that the judge integrates itself: another "
         "quadrature on curved cells"),
