@@ -99,10 +99,13 @@ namespace abut::shim
     la::Vector ghosted(dof_handler.locally_owned_dofs(), relevant,
                        communicator);
     ghosted = u;
-    dealii::FEValues<dim> points(
-        mapping, fe, dealii::QGauss<dim>(fe.degree + 1),
-        dealii::update_values | dealii::update_gradients
-            | dealii::update_quadrature_points | dealii::update_JxW_values);
+    // What turns about an axis is strained by its way to it, too.
+    dealii::UpdateFlags flags =
+        dealii::update_gradients | dealii::update_JxW_values;
+    if (axisymmetric)
+      flags |= dealii::update_values | dealii::update_quadrature_points;
+    dealii::FEValues<dim> points(mapping, fe,
+                                 dealii::QGauss<dim>(fe.degree + 1), flags);
     const dealii::FEValuesExtractors::Vector field(0);
     std::vector<dealii::SymmetricTensor<2, dim>> strain(
         points.n_quadrature_points);
@@ -116,7 +119,8 @@ namespace abut::shim
       Sums &sum = sums[cell->material_id()];
       points.reinit(cell);
       points[field].get_function_symmetric_gradients(ghosted, strain);
-      points[field].get_function_values(ghosted, motion);
+      if (axisymmetric)
+        points[field].get_function_values(ghosted, motion);
       for (unsigned int q = 0; q < strain.size(); ++q)
       {
         double here = principal(strain[q]);

@@ -47,9 +47,9 @@ namespace abut::solve
         const la::LocalRows rows = la::local_rows(stiffness);
         is_coupled_.assign(rows.n_rows, 0);
         for (int i = 0; i < rows.n_rows; ++i)
-          for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
-            if (rows.column[k] != i && rows.value[k] != 0.)
-              is_coupled_[i] = 1;
+          for (int k = rows.start[i]; k < rows.start[i + 1] && !is_coupled_[i];
+               ++k)
+            is_coupled_[i] = rows.column[k] != i && rows.value[k] != 0.;
       }
 
       unsigned int n_modes() const

@@ -213,7 +213,10 @@ namespace abut::la
     for (int i = 0; i < rows.n_rows; ++i)
       for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
         if (rows.column[k] == i)
+        {
           result[i] = rows.value[k];
+          break;
+        }
     return result;
   }
 } // namespace abut::la

@@ -8,18 +8,24 @@ from program import Program
 p = Program()
 scene = p.source / "prm/point-mass.prm"
 
+
+def start(*words):
+    """The program itself; values can be tried by the one for many runs."""
+    return p.call(*words, alone=True)
+
+
 # Command line.
-p.expect_error(p.call("rum"), "'rum'", "'run'")
-p.expect_error(p.call("run"), "scene file")
-p.expect_error(p.call("run", scene, "--outptu", "x"), "'--output'")
-p.expect_error(p.call("run", scene, "--set"), "'--set' needs a value")
-p.expect_error(p.call("run", scene, "--set", "Title"), "Section/Name=value")
-p.expect_error(p.call("run", scene, scene), "one file")
-p.expect_error(p.call("help", "rnu"), "'run'")
+p.expect_error(start("rum"), "'rum'", "'run'")
+p.expect_error(start("run"), "scene file")
+p.expect_error(start("run", scene, "--outptu", "x"), "'--output'")
+p.expect_error(start("run", scene, "--set"), "'--set' needs a value")
+p.expect_error(start("run", scene, "--set", "Title"), "Section/Name=value")
+p.expect_error(start("run", scene, scene), "one file")
+p.expect_error(start("help", "rnu"), "'run'")
 
 # Files.
-p.expect_error(p.call("run", "nowhere.prm"), "nowhere.prm")
-p.expect_error(p.call("run", "."), "cannot read")
+p.expect_error(start("run", "nowhere.prm"), "nowhere.prm")
+p.expect_error(start("run", "."), "cannot read")
 
 
 def wrong(text, *words):

@@ -72,7 +72,7 @@ def method(discretisation, degree=1, multipliers=None):
     return settings
 
 
-for lower, upper in ((2, 3), (1, 4), (4, 1)):
+for lower, upper in p.some(((2, 3), (1, 4), (4, 1))):
     for word in ("dual mortar", "mortar", "node to segment"):
         stays(f"Q1, {word}, {lower} cells under {upper}", 2, lower, upper,
               method(word), 4)
@@ -80,14 +80,14 @@ for word, multipliers in (("dual mortar", None), ("mortar", None),
                           ("mortar", 1)):
     stays(f"Q2, {word}" + (", linear" if multipliers else ""), 2, 2, 3,
           method(word, 2, multipliers), 3)
-for degree in (1, 2):
+for degree in p.some((1, 2)):
     stays(f"Q{degree}, dual mortar, clamped at both ends", 2, 2, 3,
           method("dual mortar", degree), 4, support="clamped")
 stays("Q1, mortar, clamped at both ends", 2, 2, 3, method("mortar"), 4,
       support="clamped")
-for word in ("dual mortar", "mortar"):
+for word in p.some(("dual mortar", "mortar")):
     stays(f"3D, Q1, {word}", 3, 2, 3, method(word), 2)
-for word in ("dual mortar", "mortar"):
+for word in p.some(("dual mortar", "mortar"), 0):
     stays(f"3D, Q1, {word}, hanging nodes", 3, 2, 3,
           {**method(word), "Solid/Allow large strain": "true",
            "Refinement/Adaptive cycles": 3,

@@ -32,22 +32,31 @@ class Program:
         parser.add_argument("--source", required=True)
         parser.add_argument("--served", help="the program for many runs")
         parser.add_argument("--part", type=int, help="of a test in parts")
+        parser.add_argument("--short", action="store_true",
+                            help="fewer cases on the same paths")
         arguments = parser.parse_args()
         self.abut = arguments.abut
         self.part = arguments.part
+        self.short = arguments.short
         self._served = arguments.served and Served(arguments.served)
         self.source = pathlib.Path(arguments.source)
         self._folder = tempfile.TemporaryDirectory(prefix="abut-test-")
         self.folder = pathlib.Path(self._folder.name)
         self.failures = 0
 
+    def some(self, cases, number=1):
+        """All of them; the first few in a short run."""
+        cases = list(cases)
+        return cases[:number] if self.short else cases
+
     def call(self, *words, ranks=0, environment=None, timeout=600,
-             ordinary=False, before=(), at_start=None):
+             ordinary=False, before=(), at_start=None, alone=False):
         """Run `abut words`; ranks > 0: under mpirun; ordinary: obeying the
         permissions of files, as root otherwise does not; before: words before
-        all others; at_start: called by the new process."""
+        all others; at_start: called by the new process; alone: not by the
+        program that is loaded once."""
         if self._served and not (ranks or environment or ordinary or before
-                                 or at_start):
+                                 or at_start or alone):
             return self._served.run(words, self.folder, timeout)
         command = [self.abut, *map(str, words)]
         if ordinary and os.geteuid() == 0:

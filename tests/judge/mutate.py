@@ -214,6 +214,8 @@ def main():
                         metavar="PATTERN", help="names of scenes in prm/")
     parser.add_argument("--list", type=pathlib.Path,
                         help="cases in place of seeds")
+    parser.add_argument("--every", type=int, default=1,
+                        help="one case of the list out of so many")
     parser.add_argument("--results", type=pathlib.Path)
     parser.add_argument("--levels", type=pathlib.Path,
                         help="file that keeps the levels of the base scenes")
@@ -224,7 +226,8 @@ def main():
     stand_in(abut, options.served)
     trial = Trial(abut, options.sanitized and options.sanitized.resolve())
     first, _, end = options.seeds.partition(":")
-    listed = read_list(options.list) if options.list else []
+    listed = (read_list(options.list)[::options.every] if options.list
+              else [])
     seeds = ([options.repeat] if options.repeat is not None else
              [case["seed"] for case in listed] or
              range(int(first), int(end)))

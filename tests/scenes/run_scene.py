@@ -332,17 +332,34 @@ def case_label(case, index):
     return case.get("name", settings or f"case {index + 1}")
 
 
-def run_file(program, path, folder):
-    """All cases of an expectation file; returns faults."""
-    expectation = json.loads(path.read_text(encoding="utf-8"))
-    cases = expectation.pop("cases", [{}])
-    orders = expectation.pop("orders", {})
-    faults, summaries, others = [], [], {}
-    for index, own in enumerate(cases):
+def cases_of(expectation, part):
+    """All cases; or what they do on one rank; or those on several ranks."""
+    result = []
+    for own in expectation.pop("cases", [{}]):
         case = {**expectation, **own}
         for key in ("set", "summary"):
             if key in expectation and key in own:
                 case[key] = {**expectation[key], **own[key]}
+        ranks = case.get("ranks", [1])
+        if part == "one":
+            case["ranks"] = [n for n in ranks if n == 1]
+        elif part == "several" and max(ranks) == 1:
+            case["ranks"] = []
+        if part == "several":
+            case.pop("same", None)
+        if case.get("ranks", [1]):
+            result.append(case)
+    if not result:
+        raise SystemExit(f"nothing to run on {part} ranks")
+    return result
+
+
+def run_file(program, path, folder, part="all"):
+    """The cases of an expectation file; returns faults."""
+    expectation = json.loads(path.read_text(encoding="utf-8"))
+    orders = expectation.pop("orders", {}) if part != "several" else {}
+    faults, summaries, others = [], [], {}
+    for index, case in enumerate(cases_of(expectation, part)):
         found, summary = run_case(program, case, folder / str(index + 1))
         label = case_label(case, index)
         found += check_same(case.get("same"), summary or {}, others)
@@ -360,16 +377,21 @@ def main():
                         default=ROOT / "build/release/abut")
     parser.add_argument("--served", type=pathlib.Path,
                         help="the program for many runs")
+    parser.add_argument("--part", choices=("all", "one", "several"),
+                        default="all", help="what runs on so many ranks; "
+                        "cases on several also run on one")
     parser.add_argument("--keep", type=pathlib.Path,
                         help="keep the output folders in this folder")
     options = parser.parse_args()
     program = Program(options.abut.resolve(),
                       options.served and options.served.resolve())
     if options.keep:
-        faults = run_file(program, options.expectation, options.keep.resolve())
+        faults = run_file(program, options.expectation, options.keep.resolve(),
+                          options.part)
     else:
         with tempfile.TemporaryDirectory(prefix="abut-scene-") as folder:
-            faults = run_file(program, options.expectation, pathlib.Path(folder))
+            faults = run_file(program, options.expectation,
+                              pathlib.Path(folder), options.part)
     for fault in faults:
         print(f"FAILED {fault}", file=sys.stderr)
     return 1 if faults else 0

@@ -4,12 +4,11 @@
 namespace abut::app
 {
   template <int dim>
-  std::vector<NodalColumn> force_columns(const DiscreteProblem<dim> &problem,
-                                         const ContactRunState<dim> &run,
-                                         const bool has_contact,
-                                         const la::Vector *unbalanced)
+  std::vector<NodalColumn>
+  force_columns(const DiscreteProblem<dim> &problem,
+                const ContactRunState<dim> &run, const NodalForces &forces,
+                const bool has_contact, const la::Vector *unbalanced)
   {
-    const NodalForces forces = problem.nodal_forces(run.u);
     la::Vector reaction(forces.internal);
     reaction.add(-1., forces.external);
     if (unbalanced != nullptr)
@@ -47,8 +46,10 @@ namespace abut::app
 
   template std::vector<NodalColumn> force_columns(const DiscreteProblem<2> &,
                                                   const ContactRunState<2> &,
-                                                  bool, const la::Vector *);
+                                                  const NodalForces &, bool,
+                                                  const la::Vector *);
   template std::vector<NodalColumn> force_columns(const DiscreteProblem<3> &,
                                                   const ContactRunState<3> &,
-                                                  bool, const la::Vector *);
+                                                  const NodalForces &, bool,
+                                                  const la::Vector *);
 } // namespace abut::app

@@ -17,17 +17,17 @@ namespace abut::app
 {
   /** Columns `load`, `contact`, `reaction` and `held` (1 where a value is
    * prescribed): forces on the body at the
-   * present displacement of @p run, hanging nodes by their parents, so that the
-   * sums are those of the bodies. Laws that need the stress have no forces of
-   * their own at free nodes: theirs are what is left of balance there. @p
-   * has_contact: whether there are rows at all. @p unbalanced: what supports
-   * and contact hold, if it is not internal minus external forces, as in a
-   * motion; or null. Collective. */
+   * present displacement of @p run, whose nodal forces are @p forces, hanging
+   * nodes by their parents, so that the sums are those of the bodies. Laws that
+   * need the stress have no forces of their own at free nodes: theirs are what
+   * is left of balance there. @p has_contact: whether there are rows at all. @p
+   * unbalanced: what supports and contact hold, if it is not internal minus
+   * external forces, as in a motion; or null. Collective. */
   template <int dim>
   std::vector<NodalColumn>
   force_columns(const DiscreteProblem<dim> &problem,
-                const ContactRunState<dim> &run, bool has_contact,
-                const la::Vector *unbalanced = nullptr);
+                const ContactRunState<dim> &run, const NodalForces &forces,
+                bool has_contact, const la::Vector *unbalanced = nullptr);
 } // namespace abut::app
 
 #endif

@@ -32,7 +32,8 @@ namespace abut::app
     // Forces at hanging nodes are those of their parents.
     problem.hanging.set_zero(u);
     Works works;
-    works.stored = problem.nodal_forces(run.u).internal * u;
+    const NodalForces forces = problem.nodal_forces(run.u);
+    works.stored = forces.internal * u;
     for (int i = 0; i < la::n_owned(u); ++i)
     {
       const double d = la::data(u)[i];
@@ -41,7 +42,8 @@ namespace abut::app
                          u.locally_owned_elements().nth_index_in_set(
                              static_cast<dealii::types::global_dof_index>(i))));
     }
-    for (const NodalColumn &column : force_columns(problem, run, has_contact))
+    for (const NodalColumn &column :
+         force_columns(problem, run, forces, has_contact))
       if (column.name == "contact")
       {
         contact = column.values;

@@ -55,7 +55,8 @@ namespace abut::app
     columns.push_back({"pressure", membrane.ghosted_field(contact.pressure())});
     columns.push_back({"gap", model.gaps()});
     columns.push_back({"status", membrane.ghosted_field(contact.status())});
-    for (NodalColumn &column : force_columns(membrane, run, true))
+    for (NodalColumn &column :
+         force_columns(membrane, run, membrane.nodal_forces(u), true))
       columns.push_back(std::move(column));
     write_nodal_table(run.options.output_folder / "nodal.csv", membrane.mapping,
                       membrane.dof_handler, columns);

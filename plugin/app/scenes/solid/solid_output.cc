@@ -159,8 +159,9 @@ namespace abut::app
     const la::Vector unbalanced = model.unbalanced_forces();
     std::vector<NodalColumn> columns = {
         {"displacement", elasticity.ghosted(model.run.u)}};
-    for (NodalColumn &column :
-         force_columns(elasticity, model.run, has_contact, &unbalanced))
+    for (NodalColumn &column : force_columns(
+             elasticity, model.run, elasticity.nodal_forces(model.run.u),
+             has_contact, &unbalanced))
       columns.push_back(std::move(column));
     if (has_contact)
       for (const auto &[name, field] :
