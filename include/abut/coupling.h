@@ -282,6 +282,11 @@ extern "C"
      * second derivatives. Nodes and quadrature points against an obstacle only,
      * without tangents and ties. NULL (default): points are fixed. */
     const double *reference;
+    /** Points stand where the surfaces are now and are fixed there:
+     * [n_nodes * dimension] positions of the secondary's nodes that weights are
+     * measured at, those of the undeformed body. Nothing else is of them.
+     * Without reference only. NULL (default): the present ones. */
+    const double *areas;
   } abut_coupling_target;
 
   enum
@@ -303,6 +308,7 @@ extern "C"
                                          0.,
                                          false,
                                          false,
+                                         NULL,
                                          NULL};
     return target;
   }

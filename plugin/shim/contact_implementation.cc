@@ -280,6 +280,11 @@ namespace abut
       points_dimension = source->dimension();
       points = shim::create_points(context.get(), points_dimension);
     }
+    if (surfaces != nullptr && makes_points_at_commits())
+    {
+      check_committed("Points of Sliding::step are made where bodies were at");
+      surfaces->set_place(committed);
+    }
     try
     {
       return source->find(displacement, points.get());
@@ -338,17 +343,24 @@ namespace abut
   }
 
   template <int dim>
+  void ContactAssembler<dim>::Implementation::check_committed(
+      const std::string &what) const
+  {
+    AssertThrow(!committed_is_lost,
+                ExcMessage(what
+                           + " the last commit(), whose displacement is not "
+                             "known any more after reinit() or load(): tell it "
+                             "by set_committed() before detect()."));
+  }
+
+  template <int dim>
   void ContactAssembler<dim>::Implementation::find_slip_reference()
   {
     slip_reference.clear();
     has_friction = MPI::logical_or(coefficients.has_tangents(), communicator);
     if (!has_friction)
       return;
-    AssertThrow(!committed_is_lost,
-                ExcMessage("Slips with friction are measured from the last "
-                           "commit(), whose displacement is not known any more "
-                           "after reinit() or load(): tell it by "
-                           "set_committed() before detect()."));
+    check_committed("Slips with friction are measured from");
     surfaces->set_committed_poses(committed_poses);
     slip_reference = source->slip_reference(committed);
   }

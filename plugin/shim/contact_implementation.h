@@ -102,6 +102,13 @@ namespace abut
     void begin_at(const la::Vector &displacement);
     /** Whether rows are where the bodies are. */
     bool moves() const;
+    /** Whether a commit() tells where the next points are made. */
+    bool makes_points_at_commits() const
+    {
+      return method.sliding == Sliding::step;
+    }
+    /** Throws if the displacement of the last commit() is not known. */
+    void check_committed(const std::string &what) const;
     /** What rows have, by their numbers: pressures and, unless the iteration
      * has none, states. */
     struct RowValues

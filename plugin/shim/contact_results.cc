@@ -24,6 +24,29 @@ namespace abut
     return MPI::sum(force, i.communicator);
   }
 
+  template <int dim>
+  std::vector<StepMotion>
+  ContactAssembler<dim>::step_motion(const la::Vector &displacement) const
+  {
+    Implementation &i = *implementation;
+    i.check_rows("step_motion()");
+    i.check_size("step_motion()", "displacement", displacement.size());
+    if (i.surfaces == nullptr)
+      return {};
+    const std::vector<std::uint8_t> states = i.row_states();
+    return i.surfaces->step_motion(displacement, states.data());
+  }
+
+  template <int dim>
+  typename ContactAssembler<dim>::PointCount
+  ContactAssembler<dim>::point_count() const
+  {
+    const Implementation &i = *implementation;
+    return i.surfaces == nullptr
+               ? PointCount()
+               : PointCount{i.surfaces->n_finds(), i.surfaces->n_kept()};
+  }
+
   template <int dim> double ContactAssembler<dim>::complementarity() const
   {
     const Implementation &i = *implementation;
@@ -209,6 +232,10 @@ namespace abut
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
+  template std::vector<StepMotion> ContactAssembler<dim>::step_motion(         \
+      const la::Vector &) const;                                               \
+  template typename ContactAssembler<dim>::PointCount                          \
+  ContactAssembler<dim>::point_count() const;                                  \
   template double ContactAssembler<dim>::contact_force() const;                \
   template double ContactAssembler<dim>::imbalance(const la::Vector &) const;  \
   template double ContactAssembler<dim>::complementarity() const;              \

@@ -164,12 +164,13 @@ namespace abut
     i.history.commit();
     // Pairs with friction may be out of reach of each other as yet. Those that
     // get it later must be told what slips are measured from.
-    const bool wants_slips = std::any_of(i.pairs.begin(), i.pairs.end(),
-                                         [](const ContactPair<dim> &pair)
-                                         { return pair.friction != nullptr; });
-    i.committed = wants_slips ? displacement : la::Vector();
-    i.committed_is_lost = !wants_slips;
-    if (!wants_slips)
+    const bool is_wanted = i.makes_points_at_commits()
+                           || std::any_of(i.pairs.begin(), i.pairs.end(),
+                                          [](const ContactPair<dim> &pair)
+                                          { return pair.friction != nullptr; });
+    i.committed = is_wanted ? displacement : la::Vector();
+    i.committed_is_lost = !is_wanted;
+    if (!is_wanted)
       return;
     i.note_poses();
     if (i.has_rows)

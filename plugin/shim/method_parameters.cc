@@ -319,11 +319,17 @@ namespace abut
     return "";
   }
 
-  std::string sliding_refusal(const abut_law &law,
+  std::string sliding_refusal(const Sliding sliding, const abut_law &law,
                               const abut_discretisation discretisation,
                               const bool has_obstacle, const bool has_friction,
                               const bool has_geometric_gap)
   {
+    if (sliding == Sliding::step && abut_law_needs_stress(&law))
+      return "Method/Sliding = step does not go with Method/Enforcement = "
+             + std::string(law.name)
+             + ", whose stress is that of the undeformed bodies. Use small.";
+    if (sliding != Sliding::large)
+      return "";
     const std::string why = "Method/Sliding = large ";
     if (!has_obstacle)
       return why
@@ -379,14 +385,17 @@ namespace abut
     declare_barrier(prm, defaults);
     declare_stopping(prm, defaults);
     prm.declare_entry("Sliding", "auto",
-                      Patterns::Selection("auto|small|large"),
+                      Patterns::Selection("auto|small|step|large"),
                       "Where contact is looked at. `small`: on the undeformed "
-                      "bodies; gaps are linear in the displacement. `large`: "
+                      "bodies; gaps are linear in the displacement. `step`: "
+                      "on the bodies where they were at the beginning of the "
+                      "load or time step. `large`: "
                       "where the bodies are; points move, and their gaps, "
                       "directions and second derivatives are made anew at each "
                       "linearisation. For nodes and quadrature points against "
                       "rigid obstacles, without friction. `auto`: large for "
-                      "bodies of large strain where that can be, else small.");
+                      "bodies of large strain where that can be, step for "
+                      "bodies that move by inertia, else small.");
     prm.declare_entry("System", "auto",
                       Patterns::Selection("auto|condensed|saddle point"),
                       "Linear system: `condensed` eliminates the pressures "
@@ -419,6 +428,7 @@ namespace abut
       discretisation.reset();
     const std::string slides = prm.get("Sliding");
     sliding = slides == "small"   ? Sliding::small
+              : slides == "step"  ? Sliding::step
               : slides == "large" ? Sliding::large
                                   : Sliding::automatic;
     const std::string law = prm.get("Enforcement");

@@ -202,7 +202,7 @@ namespace abut::shim
     const std::vector<std::uint8_t> held = held_nodes();
     std::vector<double> motions;
     for (const Pair &pair : pairs_)
-      motions.push_back(motion(pair, u));
+      motions.push_back(motion(pair, pair.steps ? way_since(u) : u));
 
     std::vector<Penetration<dim>> missed;
     std::string message;

@@ -99,6 +99,14 @@ namespace abut::shim
      * Collective. */
     bool update_constants(ContactSurface<dim> &surface);
 
+    /** The displacement that was committed of each node of the gathered
+     * surface:
+     * @p u as it is (owned), constraints and all, whatever they prescribe by
+     * now. Collective. */
+    std::vector<dealii::Tensor<1, dim>>
+    displacements_as_given(const ContactSurface<dim> &surface,
+                           const la::Vector &u);
+
     /** Displacement of each node of the gathered surface, from the owned
      * unknowns: what constraints make of it. Collective. */
     std::vector<dealii::Tensor<1, dim>>

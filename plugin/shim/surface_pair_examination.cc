@@ -223,7 +223,8 @@ namespace abut::shim
       std::vector<Direction> normal;
       for (unsigned int a = 0; a < n_nodes; ++a)
       {
-        nodes.push_back(surface_.nodes[facet.node[a]].point);
+        nodes.push_back(pair.steps ? present_[facet.node[a]]
+                                   : surface_.nodes[facet.node[a]].point);
         normal.push_back(normal_at[facet.node[a]]);
       }
       here.peak = peak_of(obstacle, grid, nodes, normal, depth);
@@ -336,10 +337,14 @@ namespace abut::shim
           const auto add = [&](const Node node, const double c)
           {
             motion += c * u[node];
-            since += c * (u[node] - (pair.moves ? made_at(node) : Direction()));
+            since += c
+                     * (u[node]
+                        - (pair.is_displaced() ? made_at(node) : Direction()));
           };
           for_each_secondary(row.point, add);
           for_each_primary(row.point, add);
+          if (pair.steps)
+            motion = since;
           const Direction tangential =
               motion - (motion * row.direction) * row.direction;
           pair.slip = std::max(pair.slip, tangential.norm());

@@ -242,7 +242,7 @@ namespace abut::shim
   {
     std::vector<Direction> u(surface_.nodes.size());
     if (committed.size() > 0)
-      u = exchange_->displacements(surface_, committed);
+      u = exchange_->displacements_as_given(surface_, committed);
     std::vector<RigidPose<dim>> now(pairs_.size()), then;
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       if (pairs_[p].data.obstacle != nullptr)
@@ -260,8 +260,13 @@ namespace abut::shim
         {
           if (!is_tangent(row))
             return;
+          // Slips of points that stand elsewhere are 0 there.
+          const bool elsewhere = pairs_[row.place.pair].is_displaced();
           const auto add = [&](const Node node, const double c)
-          { result[row.row] -= c * (u[node] * row.direction); };
+          {
+            const Direction from = elsewhere ? made_at(node) : Direction();
+            result[row.row] -= c * ((u[node] - from) * row.direction);
+          };
           for_each_secondary(row.point, add);
           for_each_primary(row.point, add);
           const std::size_t p = row.place.pair;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Points that move with the bodies: where they are, and what their forces
-// change by because directions do.
+// Points of displaced bodies: where they are made, and what the forces of those
+// that move with the bodies change by because directions do.
 #include "surface_pair_rows.h"
 
 #include <array>
@@ -24,7 +24,7 @@ namespace abut::shim
     present_.clear();
     reference_.clear();
     present_displacement_.clear();
-    if (!moves())
+    if (!moves() && !has_steps())
       return;
     for (std::size_t n = 0; n < u.size(); ++n)
     {
@@ -43,10 +43,6 @@ namespace abut::shim
     for (std::int32_t i = 0; i < view.n_points; ++i)
       places_[first + i].hessian.assign(view.hessian + i * size,
                                         view.hessian + (i + 1) * size);
-    check(context_,
-          abut_points_set_origin(points_, view.first, view.n_points,
-                                 static_cast<std::int32_t>(present_.size()),
-                                 present_displacement_.data()));
   }
 
   template <int dim>

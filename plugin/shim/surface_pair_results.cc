@@ -238,10 +238,10 @@ namespace abut::shim
             return [&](const Node node, const double c)
             {
               force += c * total;
-              moment +=
-                  cross(row.place.hessian.empty() ? surface_.nodes[node].point
-                                                  : present_[node],
-                        Direction(c * total));
+              moment += cross(pairs_[row.place.pair].is_displaced()
+                                  ? present_[node]
+                                  : surface_.nodes[node].point,
+                              Direction(c * total));
             };
           };
           for_each_secondary(

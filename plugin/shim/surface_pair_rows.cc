@@ -131,13 +131,15 @@ namespace abut::shim
                            "Leave one pair out, or use penalty or augmented "
                            "lagrangian."));
     pair.reach = data.reach;
-    pair.moves = settings_.method.sliding == Sliding::large && !data.tied;
+    const Sliding sliding = settings_.method.sliding;
+    pair.moves = sliding == Sliding::large && !data.tied;
+    pair.steps = sliding == Sliding::step && !data.tied;
     const std::string fixed =
-        pair.moves
-            ? sliding_refusal(law, pair.discretisation,
+        data.tied
+            ? ""
+            : sliding_refusal(sliding, law, pair.discretisation,
                               data.obstacle != nullptr,
-                              data.friction != nullptr, data.geometric_gap)
-            : "";
+                              data.friction != nullptr, data.geometric_gap);
     if (!fixed.empty())
       throw ContactError("Pair '" + data.name + "': " + fixed);
     pairs_.push_back(std::move(pair));
@@ -354,11 +356,12 @@ namespace abut::shim
     target.tangents = pair.data.friction != nullptr;
     target.flush = !pair.data.geometric_gap;
     std::vector<double> reference;
-    if (pair.moves)
+    if (pair.is_displaced())
       for (const Node node : side.node)
         for (unsigned int d = 0; d < dim; ++d)
           reference.push_back(reference_[node][d]);
     target.reference = pair.moves ? reference.data() : nullptr;
+    target.areas = pair.steps ? reference.data() : nullptr;
     build(pair, pair.coupling.get(), dropped, motion, target);
 
     abut_coupling_view view;
@@ -375,6 +378,11 @@ namespace abut::shim
     }
     if (pair.moves)
       take_hessians(view);
+    if (pair.is_displaced())
+      check(context_,
+            abut_points_set_origin(points_, view.first, view.n_points,
+                                   static_cast<std::int32_t>(present_.size()),
+                                   present_displacement_.data()));
     check(context_, abut_points_get(points_, &view_));
   }
 
@@ -413,7 +421,7 @@ namespace abut::shim
     unsigned int n_dropped = 0;
     int shift = 0;
     std::optional<DisplacedSides<dim>> displaced;
-    if (pair.moves)
+    if (pair.is_displaced())
       displaced.emplace(context_, pair.secondary, pair.primary, reference_,
                         present_);
     auto groups =
@@ -505,19 +513,28 @@ namespace abut::shim
   {
     const bool has_new_constants = exchange_->update_constants(surface_);
     const std::vector<Direction> u = displacements_in_reach(displacement);
-    std::vector<Origin> wanted = origins(u);
-    if (!wanted.empty() && wanted == origins_ && points == points_)
+    ++n_finds_;
+    const std::vector<Direction> place = place_of_step();
+    const std::vector<Direction> way = difference(u, place);
+    std::vector<Origin> wanted = origins(way);
+    if (!wanted.empty() && wanted == origins_ && points == points_
+        && is_where_made(place))
+    {
+      ++n_kept_;
       return has_new_constants ? Change::constants : Change::none;
+    }
     origins_.clear();
     points_ = points;
     places_.clear();
     checks_.clear();
     check(context_, abut_points_clear(points_));
-    note_place(u);
+    note_place(moves() ? u : place);
+    made_place_ =
+        has_steps() && committed_ != nullptr ? *committed_ : la::Vector();
     std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
-      find_pair(p, motion(pairs_[p], u), taken);
+      find_pair(p, motion(pairs_[p], way), taken);
       if (pairs_[p].data.obstacle && checks_[p].n_rows == 0)
         refuse_inside(pairs_[p], displacement);
     }

@@ -167,6 +167,30 @@ namespace abut::shim
       committed_poses_ = poses;
     }
 
+    /** Where the bodies were at the last commit() (owned; empty: nothing has
+     * moved), which must outlive its use here: find() makes the points of
+     * Sliding::step there. */
+    void set_place(const la::Vector &committed)
+    {
+      committed_ = &committed;
+    }
+
+    /** Calls of find() so far, and those of them that found the points of the
+     * one before to be still good. */
+    unsigned int n_finds() const
+    {
+      return n_finds_;
+    }
+    unsigned int n_kept() const
+    {
+      return n_kept_;
+    }
+
+    /** How far closed rows have gone from the places that they were made at.
+     * Collective. */
+    std::vector<StepMotion> step_motion(const la::Vector &displacement,
+                                        const std::uint8_t *row_state);
+
     /** What find() met, by pair. */
     const std::vector<PairCheck> &checks() const
     {
@@ -263,6 +287,13 @@ namespace abut::shim
     {
       ContactPair<dim> data;
       bool moves = false; ///< its points are where the bodies are
+      bool steps = false; ///< they are where these were at the last commit()
+
+      bool is_displaced() const
+      {
+        return moves || steps;
+      }
+
       abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
       SurfaceSide<dim> secondary, primary;
       Handle<abut_coupling> coupling;
@@ -443,6 +474,21 @@ namespace abut::shim
                const abut_coupling_target &target) const;
     void note_place(const std::vector<Direction> &u);
     void take_hessians(const abut_coupling_view &view);
+    bool has_steps() const;
+    /** Displacements that the next find() makes points at, unless they move; 0
+     * but for pairs that do so step by step. Collective. */
+    std::vector<Direction> place_of_step();
+    bool is_where_made(const std::vector<Direction> &place) const;
+    /** How the nodes have moved from there; @p u where there is no such place.
+     */
+    static std::vector<Direction>
+    difference(std::vector<Direction> u, const std::vector<Direction> &from);
+    /** The way since the points were made. */
+    std::vector<Direction> way_since(const std::vector<Direction> &u) const;
+    /** How far the facets of a side with marked nodes turn on this way. */
+    double largest_turn_of(const SurfaceSide<dim> &side,
+                           const std::vector<std::uint8_t> &marked,
+                           const std::vector<Direction> &way) const;
     /** Directions of a tie that the same nodes are dropped for. */
     struct TieGroup
     {
@@ -492,8 +538,11 @@ namespace abut::shim
     abut_points_view view_ = {};
     std::vector<RigidPose<dim>> committed_poses_; ///< [pairs], or empty
     std::vector<Place> places_;                   ///< [points]
-    /** Of pairs that move: where the nodes are and were, and their
-     * displacements [nodes * dim], at the last find(). */
+    const la::Vector *committed_ = nullptr;
+    la::Vector made_place_; ///< what that was when points were made; empty: 0
+    unsigned int n_finds_ = 0, n_kept_ = 0;
+    /** Of pairs that are displaced: where the nodes are and were, and their
+     * displacements [nodes * dim], where the points were made. */
     std::vector<dealii::Point<dim>> present_, reference_;
     std::vector<double> present_displacement_;
     Direction made_at(const Node node) const

@@ -159,6 +159,12 @@ namespace abut::shim
               pairs_[p].dropped[n]);
 
     gather();
+    // Nodes have other numbers; points stay where they were made.
+    if (!present_.empty() && has_steps())
+      note_place(
+          made_place_.size() == 0
+              ? std::vector<Direction>(surface_.nodes.size())
+              : exchange_->displacements_as_given(surface_, made_place_));
 
     const auto index_of = [](const auto &list, const std::int64_t number)
     {

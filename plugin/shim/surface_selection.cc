@@ -344,6 +344,19 @@ namespace abut::shim
   }
 
   template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  SurfaceExchange<dim>::displacements_as_given(
+      const ContactSurface<dim> &surface, const la::Vector &u)
+  {
+    unknowns_.fetch(la::data(u), post_);
+    std::vector<dealii::Tensor<1, dim>> result(surface.nodes.size());
+    for (std::size_t n = 0; n < result.size(); ++n)
+      for (unsigned int d = 0; d < dim; ++d)
+        result[n][d] = unknowns_(surface.nodes[n].dof[d]);
+    return result;
+  }
+
+  template <int dim>
   bool SurfaceExchange<dim>::update_constants(ContactSurface<dim> &surface)
   {
     bool has_new = false;
@@ -413,6 +426,9 @@ namespace abut::shim
   template std::vector<dealii::Tensor<1, dim>>                                 \
   SurfaceExchange<dim>::displacements(const ContactSurface<dim> &,             \
                                       const la::Vector &);                     \
+  template std::vector<dealii::Tensor<1, dim>>                                 \
+  SurfaceExchange<dim>::displacements_as_given(const ContactSurface<dim> &,    \
+                                               const la::Vector &);            \
   template void SurfaceExchange<dim>::merge_marks(                             \
       const ContactSurface<dim> &, std::vector<std::uint8_t> &);               \
   template CommunicationReport SurfaceExchange<dim>::communication() const;    \

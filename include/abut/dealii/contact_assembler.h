@@ -244,9 +244,10 @@ namespace abut
      * HistoryError for streams of anything else. Collective. */
     virtual void load_preconditioner(std::istream &stream);
 
-    /** Tell what slips are measured from on a new mesh: the displacement of the
-     * last commit(), with prescribed values as they were then, brought to this
-     * mesh. Needed after reinit() for pairs with friction only, and after
+    /** Tell what slips are measured from, and where points of Sliding::step are
+     * made, on a new mesh: the displacement of the last commit(), with
+     * prescribed values as they were then, brought to this mesh. Needed after
+     * reinit() for pairs with friction and for Sliding::step only, and after
      * load(). Collective. */
     virtual void set_committed(const la::Vector &displacement);
 
@@ -378,6 +379,26 @@ namespace abut
      * (ties: g). Penetration of penalties, pressure across a gap of barriers;
      * 0 for exact multipliers. Valid after the first solve(). */
     virtual double complementarity_error() const;
+
+    /** With Sliding::step: how far closed rows go in the step that leads to
+     * @p displacement, by pair. A host halves steps in which surfaces slide by
+     * more than half a facet, or turn by more than 5 degrees: points are those
+     * of its beginning. To be called after the solve and before commit().
+     * Collective. */
+    virtual std::vector<StepMotion>
+    step_motion(const la::Vector &displacement) const;
+
+    /** How often points between surfaces were asked for on this mesh. */
+    struct PointCount
+    {
+      unsigned int finds = 0; /**< by detect(), or by points that move */
+      /** Of these, those that found the points of the one before to be good
+       * still: nothing they depend on had changed, or, with Sliding::step,
+       * surfaces had moved against each other by less than a hundredth of a
+       * facet. */
+      unsigned int kept = 0;
+    };
+    virtual PointCount point_count() const;
 
     /** Largest penetration max(0, -g), length. */
     virtual double penetration() const;

@@ -190,6 +190,19 @@ namespace abut
     double traction = 0.;
   };
 
+  /** How far closed rows of a pair go, at a displacement, from where their
+   * points were made at the beginning of the step (Sliding::step). Global over
+   * ranks. */
+  struct StepMotion
+  {
+    double slip = 0.;  /**< along the surface, of both sides against each other,
+                            length >= 0 */
+    double facet = 0.; /**< to compare it with: median size of the side with
+                            the smaller ones; 0: an obstacle, which has none */
+    double turn = 0.;  /**< of facets in contact, or of the obstacle's normal,
+                            radian >= 0 */
+  };
+
   /** A point of the secondary that has penetrated without a row. */
   template <int dim> struct Penetration
   {

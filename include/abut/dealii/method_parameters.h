@@ -34,6 +34,8 @@ namespace abut
     automatic, /**< what a program takes that knows its bodies; else small */
     small,     /**< gaps are linear in the displacement, as they are made of
                     the undeformed bodies */
+    step,      /**< gaps are linear from where the bodies were at the last
+                    commit(): detect() makes points at that displacement */
     large      /**< points move with the bodies: at each linearisation gaps,
                     directions and their derivatives are those of the present
                     places */
@@ -54,9 +56,9 @@ namespace abut
 
   struct MethodParameters;
 
-  /** Why points cannot move with a method, with what to take instead; empty if
-   * they can. Ties never do. */
-  std::string sliding_refusal(const abut_law &law,
+  /** Why points cannot move in this way with a method, with what to take
+   * instead; empty if they can. Ties never do. */
+  std::string sliding_refusal(Sliding sliding, const abut_law &law,
                               abut_discretisation discretisation,
                               bool has_obstacle, bool has_friction,
                               bool has_geometric_gap);

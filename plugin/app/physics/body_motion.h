@@ -134,6 +134,12 @@ namespace abut::app
       return record_;
     }
 
+    /** At the last commit, or at the start. */
+    const la::Vector &displacement() const
+    {
+      return displacement_;
+    }
+
     /** At the end of that step. */
     const la::Vector &velocity() const
     {

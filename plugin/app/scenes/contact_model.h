@@ -68,6 +68,13 @@ namespace abut::app
       return false;
     }
 
+    /** With inertia, the displacement of the last step that was accepted, or
+     * of the start. */
+    virtual la::Vector last_place() const
+    {
+      return problem().vector();
+    }
+
     /** The displacement that the run begins with, on a new mesh and at time 0.
      */
     virtual la::Vector start()

@@ -131,6 +131,12 @@ namespace abut::app
         state.contact.set_pressure(pressure);
       model.prepare_contact(state.contact);
       contact_is_ready = true;
+      if (model.has_inertia())
+      {
+        // What begins with a displacement has been there all the time.
+        model.set_contact(state.contact, state.load_steps.time());
+        state.contact.set_committed(model.last_place());
+      }
     }
     model.set_contact(state.contact, state.present.time);
     if (resumed)

@@ -205,6 +205,12 @@ bool abut_coupling_is_mortar(const abut_coupling *c);
 void abut_coupling_load(const abut_coupling *c, int32_t f,
                         abut_coupling_facet *facet);
 
+/* Area where weights are measured by that of the facet as it is, at @p local
+ * of it; for rules over parts of the present facet. */
+double abut_coupling_area_ratio(const abut_coupling *c,
+                                const abut_coupling_facet *facet,
+                                const double *local);
+
 /* Degree of the rule for the common parts of facets of two kinds, for products
  * of their shape functions or for those of the secondary alone. */
 int abut_coupling_degree(const abut_coupling *c, abut_facet_kind secondary,

@@ -157,6 +157,8 @@ fault_of_target(const abut_coupling *c, const abut_coupling_target *t)
           || t->tie_axes != 0))
     return "only nodes and quadrature points against an obstacle, without "
            "tangents and ties, can move";
+  if (t->reference != NULL && t->areas != NULL)
+    return "points move, or stand where the surfaces are: not both";
   return NULL;
 }
 
@@ -180,7 +182,8 @@ abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
   if (fault == NULL && !(motion >= 0 && motion <= ABUT_FACET_LIMIT))
     fault = "motion is negative or not finite";
   if (fault == NULL && c->options.axisymmetric
-      && !has_radii(c->secondary, place.reference))
+      && !has_radii(c->secondary,
+                    place.reference != NULL ? place.reference : place.areas))
     fault = "axisymmetric: a node of the secondary surface has a negative "
             "radius x";
   if (fault != NULL)

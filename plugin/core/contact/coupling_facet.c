@@ -72,15 +72,43 @@ set_node_normals(const abut_coupling *c, abut_coupling_facet *facet)
 }
 
 /* Positions that the facet's weights are measured at: of the undeformed body,
- * where points move. */
+ * where the surface is not that any more. */
+static const double *
+weighing_positions(const abut_coupling *c)
+{
+  const abut_coupling_target *t = c->target;
+  return t->reference != NULL ? t->reference
+         : t->areas != NULL   ? t->areas
+                              : c->secondary->view.position;
+}
+
+double
+abut_coupling_area_ratio(const abut_coupling *c,
+                         const abut_coupling_facet *facet, const double *local)
+{
+  if (c->target->areas == NULL)
+    return 1.;
+  const bool in_plane = c->secondary->view.dimension == 2;
+  const double *nodes[2] = {facet->reference, facet->x};
+  double shape[ABUT_FACET_MAX_NODES], area[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    double t[2][3], n[3];
+    abut_coupling_shape(facet->kind, nodes[k], local, shape, t);
+    if (!in_plane)
+      cross3(t[0], t[1], n);
+    area[k] = norm3(in_plane ? t[0] : n);
+  }
+  return area[1] > 0. ? area[0] / area[1] : 1.;
+}
+
 static void
 load_reference(const abut_coupling *c, abut_coupling_facet *facet)
 {
   const abut_surface_view *v = &c->secondary->view;
   const int32_t *node = v->connectivity + v->facet_start[facet->index];
   const int32_t dim = v->dimension;
-  const double *from =
-      abut_coupling_moves(c) ? c->target->reference : v->position;
+  const double *from = weighing_positions(c);
   for (int32_t a = 0; a < facet->n; ++a)
     memcpy(facet->reference + dim * a, from + (int64_t)dim * node[a],
            sizeof(double) * (size_t)dim);

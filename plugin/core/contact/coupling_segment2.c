@@ -206,8 +206,9 @@ add_points(abut_coupling *c, const abut_coupling_facet *facet, const base *b,
     p->primary = g->primary;
     p->local[0] = whole_parameter(b->part, b->n_parts, s);
     abut_coupling_shape(facet->kind, facet->x, p->local, p->shape, tangent);
-    p->weight =
-        rule.weight[q] * 0.5 * (to - from) / b->n_parts * norm3(tangent[0]);
+    p->weight = rule.weight[q] * 0.5 * (to - from) / b->n_parts
+                * norm3(tangent[0])
+                * abut_coupling_area_ratio(c, facet, p->local);
     abut_coupling_shape(kind, NULL, local, p->opposite, NULL);
     abut_coupling_finish_point(c, facet, p);
   }

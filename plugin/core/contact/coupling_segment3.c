@@ -245,7 +245,8 @@ add_point(work *w, const segment *g, const double *uv, double area)
   abut_coupling_shape(kind, NULL, opposite, p->opposite, NULL);
   cross3(t[0], t[1], n);
   ratio *= norm3(n);
-  p->weight = area * (ratio <= largest_area_ratio ? ratio : 1.);
+  p->weight = area * (ratio <= largest_area_ratio ? ratio : 1.)
+              * abut_coupling_area_ratio(w->c, w->facet, local);
   abut_coupling_finish_point(w->c, w->facet, p);
   return ABUT_SUCCESS;
 }

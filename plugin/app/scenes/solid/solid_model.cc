@@ -369,6 +369,9 @@ namespace abut::app
 
   template <int dim> std::string SolidModel<dim>::refuse() const
   {
+    // A step that cannot be shortened is told of at the end.
+    if (motion && parameters.load_steps.cut_back)
+      return motion->leaves_points();
     for (unsigned int k = 0; k < parts.size() && !motion; ++k)
       if (freedom[k].n_modes > 0
           && !is_held(parts[k], run.contact.pair_results()))

@@ -36,6 +36,10 @@ namespace abut::app
     {
       return motion != nullptr;
     }
+    la::Vector last_place() const override
+    {
+      return motion ? motion->bodies().displacement() : elasticity.vector();
+    }
     la::Vector start() override;
 
     void set_time(double time) override;

@@ -20,6 +20,10 @@ namespace abut::app
       return std::string("angular_momentum_") + axes[dim == 2 ? 2 : r];
     }
 
+    /** How far surfaces in contact may go in a step, whose points are those of
+     * its beginning: parts of a facet, and radian. */
+    constexpr double largest_slip = 0.5, largest_turn = 5. * M_PI / 180.;
+
     template <int dim>
     std::vector<double> components(const dealii::Tensor<1, dim> &vector)
     {
@@ -151,6 +155,32 @@ namespace abut::app
     const bool goes_on = motion.next_problem(u);
     is_new = is_new || goes_on;
     return goes_on;
+  }
+
+  template <int dim> std::string SolidMotion<dim>::leaves_points() const
+  {
+    const std::vector<StepMotion> motions = run.contact.step_motion(run.u);
+    for (std::size_t p = 0; p < motions.size(); ++p)
+    {
+      const StepMotion &pair = motions[p];
+      const bool slides =
+          pair.facet > 0. && pair.slip > largest_slip * pair.facet;
+      if (!slides && pair.turn <= largest_turn)
+        continue;
+      return coded(
+          ABUT_FAILURE_SLIDING,
+          parameters.pairs[p].section
+              + (slides
+                     ? ": in this time step the surfaces in contact slide on "
+                       "each other by "
+                           + short_number(pair.slip / pair.facet, 3) + " facets"
+                     : ": in this time step the normals in contact turn by "
+                           + short_number(pair.turn * 180. / M_PI, 3)
+                           + " degrees")
+              + ", but contact is that of its beginning. Make Time/Step "
+                "shorter.");
+    }
+    return "";
   }
 
   template <int dim> double SolidMotion<dim>::work_of_obstacles() const

@@ -57,6 +57,11 @@ namespace abut::app
     /** A solve has led to @p u: see ContactModel::next_solve(). Collective. */
     bool next_problem(const la::Vector &u, const SolidPairs<dim> &pairs);
 
+    /** Why the solve of this step, which has led to the displacement of the
+     * run, leaves the places that its points were made at; empty: it does not.
+     * Collective. */
+    std::string leaves_points() const;
+
     /** The last one has led to the displacement of the run. Collective. */
     void end_step();
 

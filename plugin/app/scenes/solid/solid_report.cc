@@ -369,7 +369,10 @@ namespace abut::app
     report.model("search", searches,
                  searches ? "facets of bodies for each other: "
                                 + std::to_string(run.n_searches)
-                                + " times, and a check after each solve"
+                                + " times, of which "
+                                + std::to_string(run.contact.point_count().kept)
+                                + " had moved too little for other points, and "
+                                  "a check after each solve"
                           : "gaps to obstacles are formulas: no facet is "
                             "looked for");
     if (method.law_is_automatic && !pairs.empty())

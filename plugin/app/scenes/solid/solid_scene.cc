@@ -14,9 +14,9 @@ namespace abut::app
 {
   namespace
   {
-    /** Whether points can move with the bodies in all pairs that may slide. */
+    /** Whether points can move in this way in all pairs that may slide. */
     template <int dim>
-    bool can_move(const MethodParameters &method,
+    bool can_move(const Sliding sliding, const MethodParameters &method,
                   const std::vector<PairParameters> &pairs)
     {
       const abut_discretisation discretisation =
@@ -26,8 +26,8 @@ namespace abut::app
           [&](const PairParameters &pair)
           {
             return pair.tied
-                   || sliding_refusal(*method.options.law, discretisation,
-                                      pair.obstacle > 0,
+                   || sliding_refusal(sliding, *method.options.law,
+                                      discretisation, pair.obstacle > 0,
                                       is_frictional<dim>(pair), pair.mesh_gap)
                           .empty();
           });
@@ -62,10 +62,12 @@ namespace abut::app
                            "nitsche takes the stress for linear in the "
                            "displacement, and Body 1/Material is for large "
                            "strain: use lagrange or augmented lagrangian.");
-        if (parameters.has_large_strain()
-            && this->method.sliding == Sliding::automatic
-            && can_move<dim>(this->method, parameters.pairs))
-          this->method.sliding = Sliding::large;
+        const Sliding wanted = parameters.has_large_strain() ? Sliding::large
+                               : parameters.time.is_on       ? Sliding::step
+                                                             : Sliding::small;
+        if (this->method.sliding == Sliding::automatic
+            && can_move<dim>(wanted, this->method, parameters.pairs))
+          this->method.sliding = wanted;
         this->method.run_refused = parameters.run_refused;
       }
 

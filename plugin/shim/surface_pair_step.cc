@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Points that are made where the bodies were at the last commit(), and how far
+// they go from there until the next one.
+#include "agree.h"
+#include "surface_pair_rows.h"
+
+#include <abut/dealii/rigid_obstacle.h>
+#include <abut/strategy.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Surfaces that have moved against each other by no more than this part of
+     * their smallest facet keep their points: of flat surfaces gaps are right
+     * all the same, of curved ones they are off by the square of it. */
+    constexpr double skin = 1e-2;
+
+    /** The angle between two directions of any length, radian. */
+    template <int dim>
+    double angle(const dealii::Tensor<1, dim> &a,
+                 const dealii::Tensor<1, dim> &b)
+    {
+      const double size = a.norm() * b.norm();
+      return size > 0. ? std::acos(std::clamp(a * b / size, -1., 1.)) : 0.;
+    }
+
+    /** Normal of a facet by its first corners, of any length and either sign.
+     */
+    dealii::Tensor<1, 2> normal_by(const std::vector<dealii::Point<2>> &node)
+    {
+      return dealii::cross_product_2d(node[1] - node[0]);
+    }
+
+    dealii::Tensor<1, 3> normal_by(const std::vector<dealii::Point<3>> &node)
+    {
+      return dealii::cross_product_3d(node[1] - node[0], node[2] - node[0]);
+    }
+  } // namespace
+
+  template <int dim> bool SurfacePairRows<dim>::has_steps() const
+  {
+    return std::any_of(pairs_.begin(), pairs_.end(),
+                       [](const Pair &pair) { return pair.steps; });
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>> SurfacePairRows<dim>::place_of_step()
+  {
+    if (!has_steps() || committed_ == nullptr || committed_->size() == 0)
+      return std::vector<Direction>(surface_.nodes.size());
+    return exchange_->displacements_as_given(surface_, *committed_);
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  SurfacePairRows<dim>::difference(std::vector<Direction> u,
+                                   const std::vector<Direction> &from)
+  {
+    for (std::size_t n = 0; n < u.size(); ++n)
+      u[n] -= from[n];
+    return u;
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  SurfacePairRows<dim>::way_since(const std::vector<Direction> &u) const
+  {
+    std::vector<Direction> result(u);
+    for (std::size_t n = 0; n < u.size() && !present_.empty(); ++n)
+      result[n] -= made_at(static_cast<Node>(n));
+    return result;
+  }
+
+  template <int dim>
+  bool
+  SurfacePairRows<dim>::is_where_made(const std::vector<Direction> &place) const
+  {
+    if (!has_steps())
+      return true;
+    const std::vector<Direction> way = way_since(place);
+    return std::all_of(
+        pairs_.begin(), pairs_.end(),
+        [&](const Pair &pair)
+        {
+          const double facet = std::min(pair.secondary.everywhere.smallest,
+                                        pair.primary.everywhere.smallest);
+          return !pair.steps || motion(pair, way) <= skin * facet;
+        });
+  }
+
+  template <int dim>
+  double
+  SurfacePairRows<dim>::largest_turn_of(const SurfaceSide<dim> &side,
+                                        const std::vector<std::uint8_t> &marked,
+                                        const std::vector<Direction> &way) const
+  {
+    const unsigned int n_nodes = surface_.nodes_per_facet();
+    double turn = 0.;
+    for (const std::int32_t f : side.facet)
+    {
+      const auto &facet = surface_.facets[f];
+      std::vector<dealii::Point<dim>> then, now;
+      bool touches = false;
+      for (unsigned int a = 0; a < n_nodes; ++a)
+      {
+        const Node node = facet.node[a];
+        touches = touches || marked[node] != 0;
+        then.push_back(present_[node]);
+        now.push_back(present_[node] + way[node]);
+      }
+      if (touches)
+        turn = std::max(turn, angle<dim>(normal_by(then), normal_by(now)));
+    }
+    return turn;
+  }
+
+  template <int dim>
+  std::vector<StepMotion>
+  SurfacePairRows<dim>::step_motion(const la::Vector &displacement,
+                                    const std::uint8_t *row_state)
+  {
+    std::vector<StepMotion> result(pairs_.size());
+    if (!has_steps() || row_state == nullptr)
+      return result;
+    const std::vector<Direction> way =
+        way_since(displacements_in_reach(displacement));
+    std::vector<std::vector<std::uint8_t>> marked(
+        pairs_.size(), std::vector<std::uint8_t>(surface_.nodes.size(), 0));
+    std::vector<std::vector<dealii::Point<dim>>> places(pairs_.size());
+    for_each_component(
+        [&](const Component &row)
+        {
+          const std::size_t p = row.place.pair;
+          if (!pairs_[p].steps || row_state[row.row] == ABUT_STATE_OPEN)
+            return;
+          Direction motion;
+          const auto add = [&](const Node node, const double c)
+          {
+            motion += c * way[node];
+            marked[p][node] = 1;
+          };
+          for_each_secondary(row.point, add);
+          for_each_primary(row.point, add);
+          const Direction n = row.direction / row.direction.norm();
+          result[p].slip =
+              std::max(result[p].slip, (motion - (motion * n) * n).norm());
+          places[p].push_back(row.place.position);
+          places[p].push_back(row.place.position + motion);
+        });
+    run_everywhere<ContactError>(
+        communicator_,
+        [&]
+        {
+          for (std::size_t p = 0; p < pairs_.size(); ++p)
+          {
+            const Pair &pair = pairs_[p];
+            StepMotion &motion = result[p];
+            if (!pair.data.obstacle)
+            {
+              motion.facet = std::min(pair.secondary.everywhere.median,
+                                      pair.primary.everywhere.median);
+              for (const auto *side : {&pair.secondary, &pair.primary})
+                motion.turn = std::max(motion.turn,
+                                       largest_turn_of(*side, marked[p], way));
+              continue;
+            }
+            if (places[p].empty())
+              continue;
+            std::vector<double> distance;
+            std::vector<Direction> normal;
+            pair.data.obstacle->distance(places[p], distance, &normal);
+            for (std::size_t i = 0; i < normal.size(); i += 2)
+              motion.turn =
+                  std::max(motion.turn, angle<dim>(normal[i], normal[i + 1]));
+          }
+        });
+    for (StepMotion &motion : result)
+      for (double *value : {&motion.slip, &motion.turn})
+        *value = MPI::max(*value, communicator_);
+    return result;
+  }
+
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template bool SurfacePairRows<dim>::has_steps() const;                       \
+  template std::vector<dealii::Tensor<1, dim>>                                 \
+  SurfacePairRows<dim>::place_of_step();                                       \
+  template std::vector<dealii::Tensor<1, dim>>                                 \
+  SurfacePairRows<dim>::difference(std::vector<Direction>,                     \
+                                   const std::vector<Direction> &);            \
+  template std::vector<dealii::Tensor<1, dim>>                                 \
+  SurfacePairRows<dim>::way_since(const std::vector<Direction> &) const;       \
+  template bool SurfacePairRows<dim>::is_where_made(                           \
+      const std::vector<Direction> &) const;                                   \
+  template double SurfacePairRows<dim>::largest_turn_of(                       \
+      const SurfaceSide<dim> &, const std::vector<std::uint8_t> &,             \
+      const std::vector<Direction> &) const;                                   \
+  template std::vector<StepMotion> SurfacePairRows<dim>::step_motion(          \
+      const la::Vector &, const std::uint8_t *);
+
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+} // namespace abut::shim
