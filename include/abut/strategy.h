@@ -262,9 +262,9 @@ extern "C"
   } abut_strategy_friction;
 
   /** Friction for all starts that follow, copied; NULL: none. Where it is given
-   * it must be given on all ranks, be it for no point. Laws with
-   * ABUT_LAW_STRESS take no reference_traction: the body's stress remembers.
-   * UNSUPPORTED for interior laws. */
+   * it must be given on all ranks, be it for no point. Laws that
+   * are given the stress of the body take no reference_traction: it remembers
+   * by itself. UNSUPPORTED for interior laws. */
   ABUT_API abut_status abut_strategy_set_friction(
       abut_strategy *strategy, const abut_strategy_friction *friction);
 

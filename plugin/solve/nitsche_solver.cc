@@ -82,7 +82,16 @@ namespace abut::solve
 
   void NitscheSolver::set_near_null_space(const NearNullSpace &space)
   {
+    space_ = space;
     model_.set_near_null_space(space);
+  }
+
+  void NitscheSolver::find_floating_bodies()
+  {
+    // Rigid motions have no stress: what resists them is what does elsewhere.
+    if (dealii::Utilities::MPI::logical_or(rows_->has_tangents(),
+                                           rows_->communicator()))
+      floating_.reinit(*stiffness_, *rows_, space_);
   }
 
   void NitscheSolver::reinit(const la::Matrix &stiffness,
@@ -92,6 +101,7 @@ namespace abut::solve
     stiffness_ = &stiffness;
     rows_ = &rows;
     model_.reinit(stiffness, rows, row_stiffness);
+    find_floating_bodies();
   }
 
   void NitscheSolver::renew(const la::Matrix &stiffness,
@@ -101,6 +111,7 @@ namespace abut::solve
     stiffness_ = &stiffness;
     rows_ = &rows;
     model_.renew(stiffness, rows, row_stiffness);
+    find_floating_bodies();
   }
 
   la::Vector NitscheSolver::right_hand_side(const la::Vector &residual) const
@@ -206,6 +217,8 @@ namespace abut::solve
     const dealii::Timer timer;
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
+    if (!local_.blocks().empty())
+      floating_.check(*rows_, local_, request, model_.row_stiffness());
     const la::Vector rhs = right_hand_side(residual);
     const la::Matrix matrix = assemble();
     const double norm = rhs.l2_norm();
