@@ -131,8 +131,9 @@ namespace abut::app
                         "Force on the first mass alone, in t." + by_direction);
       prm.leave_subsection();
       prm.enter_subsection("Contact");
-      prm.declare_entry("Friction", "0", NumberPattern::from(0),
-                        "Coulomb's coefficient, for `velocity level`.");
+      prm.declare_entry("Friction", "0", NumberPattern::between(0, 1e6),
+                        "Coulomb's coefficient, for `velocity level`. What is "
+                        "larger is no other motion, and beyond round-off.");
       prm.declare_entry("Penalty", "1", NumberPattern::positive(),
                         "Of `central difference`: stiffness of the springs "
                         "that stand for the plane, as a multiple of `Masses/"
