@@ -398,6 +398,7 @@ namespace abut
        * facet. */
       unsigned int kept = 0;
     };
+    /** Of the mesh of the last reinit(). O(1). */
     virtual PointCount point_count() const;
 
     /** Largest penetration max(0, -g), length. */

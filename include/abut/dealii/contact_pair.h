@@ -143,9 +143,11 @@ namespace abut
     double gap_error = 0.;
     /** What the normals at rows with pressure have turned by since the rows
      * were made, radian, by the last examine(): the mean, weighted with the
-     * forces, and the largest; 0 where points move. It is about the part of the
-     * forces that is beside their present directions. */
-    double turn = 0., largest_turn = 0.;
+     * forces; 0 where points move. It is about the part of the forces that is
+     * beside their present directions. */
+    double turn = 0.;
+    /** The largest of these turns, radian. */
+    double largest_turn = 0.;
     /** What the resultant on the secondary side would change by if the forces
      * had their present directions. */
     dealii::Tensor<1, dim> turned_force;
