@@ -276,11 +276,14 @@ extern "C"
     bool tangents;
     /** Points move: [n_nodes * dimension] positions of the secondary's nodes
      * that weights are measured at, those of the undeformed body, while all
-     * else is that of the present ones. Gaps are then those of
-     * abut_obstacle_gap(), the first direction of a point is minus their
-     * gradient, not of unit length where that is not, and the view has their
-     * second derivatives. Nodes and quadrature points against an obstacle only,
-     * without tangents and ties. NULL (default): points are fixed. */
+     * else is that of the present ones. Gaps against an obstacle are then those
+     * of abut_obstacle_gap(), against a surface the signed distance of the
+     * nearest point (abut_facet_distance_derivatives(); a little beyond its
+     * border, up to abut_detection_options.extension, that of the facet there
+     * continued). The first direction of a point is minus their gradient, not
+     * of unit length where that is not, and the view has their second
+     * derivatives. Nodes and quadrature points only, the latter always on whole
+     * facets, and no ties. NULL (default): points are fixed. */
     const double *reference;
     /** Points stand where the surfaces are now and are fixed there:
      * [n_nodes * dimension] positions of the secondary's nodes that weights are
@@ -356,10 +359,18 @@ extern "C"
     const double *full_weight;
     const double *position; /**< [n_points * dimension] where the point sits:
                                  the node, or the quadrature point */
-    /** [n_points * dimension^2] second derivatives of the gaps with respect to
-     * the place of the point, which is the sum of the secondary's part of the
-     * stencil; NULL: the points are fixed. */
+    /** Second derivatives of the gaps: those of point i are the square matrix
+     * from hessian_start[i] on, with respect to the place of the point, which
+     * is the sum of the secondary's part of the stencil, then the nodes of its
+     * primary facet, in their order there, if it has one. With tangents it is
+     * followed by as many more matrices: row k of each has the derivatives of
+     * the derivative of the slip along that tangent with respect to unknown k,
+     * by present tangents and shares. NULL: the points are fixed. */
     const double *hessian;
+    const int64_t *hessian_start; /**< [n_points + 1]; NULL likewise */
+    /** [n_points] primary facet that has the nearest point of one that moves;
+     * else -1. */
+    const int32_t *primary;
   } abut_coupling_view;
 
   /** View of the last build. O(1). */

@@ -387,6 +387,8 @@ namespace abut
     add_contact_forces(forces);
     std::vector<double> gap(i.coefficients.n_rows());
     i.coefficients.gap(displacement, gap.data());
+    for (std::size_t row = 0; row < i.slip_reference.size(); ++row)
+      gap[row] -= i.slip_reference[row];
     double sum = 0.;
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {

@@ -46,6 +46,7 @@ namespace abut
     is_restarted = is_restarted || is_started;
     find_points(displacement);
     take_points();
+    find_slip_reference();
     start_pressure.assign(coefficients.n_rows(), 0.);
     start_state.assign(before.has_states ? coefficients.n_rows() : 0,
                        ABUT_STATE_OPEN);
@@ -121,6 +122,8 @@ namespace abut
     try
     {
       surfaces->find(displacement, result.points.get());
+      if (has_friction)
+        result.slip_reference = surfaces->slip_reference(committed);
     }
     catch (...)
     {
@@ -151,8 +154,10 @@ namespace abut
       points = std::move(old_points);
       surfaces->put_back(std::move(kept));
       take_points();
+      find_slip_reference();
       return;
     }
+    find_slip_reference();
     compute_gap(displacement);
   }
 
@@ -170,13 +175,15 @@ namespace abut
         solve::row_stiffness(law_compliance, rows);
     std::vector<double> gap_there(n), force(n, 0.);
     rows.gap(displacement, gap_there.data());
+    for (std::size_t row = 0; row < there.slip_reference.size(); ++row)
+      gap_there[row] -= there.slip_reference[row];
     double sum = 0.;
     for (int row = 0; row < n; ++row)
     {
       if (rows.begin(row) == rows.end(row)) // between nodes that cannot move
         continue;
       const auto it = row_of.find(rows.ids()[row]);
-      double defect = std::min(0., gap_there[row]);
+      double defect = rows.is_tangent(row) ? 0. : std::min(0., gap_there[row]);
       if (it != row_of.end())
       {
         force[row] = rows.weight(row) * request.pressure[it->second];
@@ -185,12 +192,14 @@ namespace abut
       }
       sum += rows.weight(row) * stiffness_there[row] * defect * defect;
     }
-    // Rows that are gone there.
-    for (const auto &[id, row] : row_of)
-      sum += coefficients.weight(row) * request.pressure[row]
-             * request.pressure[row] / stiffness[row];
     forces = 0.;
     rows.add_transposed(force.data(), forces);
+    // Rows that are gone there, as where a surface ends, press as before until
+    // the next linearisation: no part of a step could balance without them.
+    std::vector<double> gone(coefficients.n_rows(), 0.);
+    for (const auto &[id, row] : row_of)
+      gone[row] = coefficients.weight(row) * request.pressure[row];
+    coefficients.add_transposed(gone.data(), forces);
     return std::sqrt(MPI::sum(sum, communicator));
   }
 

@@ -492,7 +492,11 @@ namespace abut
   {
     row_stiffness = solve::row_stiffness(matrix, coefficients);
     if (law_compliance.size() == 0)
+    {
       law_compliance = solve::compliance(stiffness_matrix(matrix));
+      if (moves()) // directions turn, and the law must not
+        surfaces->make_isotropic(law_compliance);
+    }
   }
 
   template <int dim>

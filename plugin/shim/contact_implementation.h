@@ -128,6 +128,7 @@ namespace abut
     {
       shim::Handle<abut_points> points;
       solve::PointOperator rows;
+      std::vector<double> slip_reference; ///< [rows] empty: 0
     };
     /** The rows at this displacement, while the present ones stay. Collective.
      */

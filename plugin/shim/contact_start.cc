@@ -162,6 +162,8 @@ namespace abut
     i.check_size("commit()", "displacement", displacement.size());
     i.record_present();
     i.history.commit();
+    if (i.surfaces != nullptr)
+      i.surfaces->note_commit(displacement);
     // Pairs with friction may be out of reach of each other as yet. Those that
     // get it later must be told what slips are measured from.
     const bool is_wanted = i.makes_points_at_commits()

@@ -312,7 +312,8 @@ namespace abut
              + " has friction with Method/Nitsche theta = 0 only: the other "
                "variants act on the stress of the body, too, so that tractions "
                "are no balance of forces along the surface.";
-    if (info.row_per_point && method.segments && !has_obstacle)
+    if (info.row_per_point && method.segments && !has_obstacle
+        && method.sliding != Sliding::large)
       return "friction needs points that last: on the common parts of facets "
              "they change with the pairs. Use Method/Segments = false, or dual "
              "mortar.";
@@ -321,7 +322,8 @@ namespace abut
 
   std::string sliding_refusal(const Sliding sliding, const abut_law &law,
                               const abut_discretisation discretisation,
-                              const bool has_obstacle, const bool has_friction,
+                              const bool touches_itself,
+                              const bool has_friction_in_space,
                               const bool has_geometric_gap)
   {
     if (sliding == Sliding::step && abut_law_needs_stress(&law))
@@ -331,10 +333,10 @@ namespace abut
     if (sliding != Sliding::large)
       return "";
     const std::string why = "Method/Sliding = large ";
-    if (!has_obstacle)
+    if (touches_itself)
       return why
-             + "follows points against rigid obstacles only, not between two "
-               "bodies. Use small.";
+             + "does not follow a surface that touches itself. Give its two "
+               "sides boundary ids of their own, or use small.";
     if (discretisation_info(discretisation).is_weighted)
       return why
              + "follows nodes and quadrature points, not Method/"
@@ -346,10 +348,10 @@ namespace abut
              + "does not go with Method/Enforcement = " + std::string(law.name)
              + ". Use lagrange, penalty, quadratic penalty or augmented "
                "lagrangian.";
-    if (has_friction)
+    if (has_friction_in_space)
       return why
-             + "has no friction yet: leave out the friction of the pair, or "
-               "use small.";
+             + "has friction in two dimensions only: leave out the friction of "
+               "the pair, or use small.";
     if (!has_geometric_gap)
       return why
              + "measures gaps where the surfaces are: they must count (leave "
@@ -392,9 +394,11 @@ namespace abut
                       "load or time step. `large`: "
                       "where the bodies are; points move, and their gaps, "
                       "directions and second derivatives are made anew at each "
-                      "linearisation. For nodes and quadrature points against "
-                      "rigid obstacles, without friction. `auto`: large for "
-                      "bodies of large strain where that can be, step for "
+                      "linearisation. For nodes and quadrature points, with "
+                      "friction in two dimensions; with `Discretisation = "
+                      "auto` between bodies, too, at nodes. `auto`: large for "
+                      "bodies of large strain where that can be and "
+                      "`Discretisation` is none of the mortars, step for "
                       "bodies that move by inertia, else small.");
     prm.declare_entry("System", "auto",
                       Patterns::Selection("auto|condensed|saddle point"),

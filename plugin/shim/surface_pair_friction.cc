@@ -129,17 +129,20 @@ namespace abut::shim
         continue;
       const Friction<dim> &friction = *pair.data.friction;
       std::string wrong;
+      dealii::Point<dim> place = places_[i].position;
+      if (pair.moves) // back on the undeformed body
+        for_each_secondary(i, [&](const Node node, const double c)
+                           { place -= c * made_at(node); });
       result.first.push_back(first);
       result.n_tangents.push_back(static_cast<std::uint8_t>(n - 1));
-      const double coefficient =
-          value_of<dim>(friction.coefficient, places_[i].position,
-                        "coefficient of friction", wrong);
+      const double coefficient = value_of<dim>(
+          friction.coefficient, place, "coefficient of friction", wrong);
       // Stick and contact would be two conditions for one way that is left.
       result.coefficient.push_back(is_guided(i) ? 0. : coefficient);
       result.cap.push_back(
-          friction.cap ? value_of<dim>(friction.cap, places_[i].position,
-                                       "largest traction", wrong)
-                       : std::numeric_limits<double>::infinity());
+          friction.cap
+              ? value_of<dim>(friction.cap, place, "largest traction", wrong)
+              : std::numeric_limits<double>::infinity());
       if (!wrong.empty())
         message = "Pair '" + pair.data.name + "': " + wrong;
     }

@@ -3,7 +3,7 @@
 // that move with the bodies change by because directions do.
 #include "surface_pair_rows.h"
 
-#include <array>
+#include <cmath>
 #include <utility>
 
 namespace abut::shim
@@ -36,58 +36,134 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::take_hessians(const abut_coupling_view &view)
+  std::vector<double>
+  SurfacePairRows<dim>::motions(const std::vector<Direction> &u)
   {
-    constexpr std::size_t size = dim * dim;
+    std::vector<Direction> since(u);
+    if (moves() && searched_from_.size() > 0)
+    {
+      const auto then = exchange_->displacements(surface_, searched_from_);
+      for (std::size_t n = 0; n < u.size(); ++n)
+        since[n] -= then[n];
+    }
+    std::vector<double> result;
+    for (const Pair &pair : pairs_)
+      result.push_back(
+          motion(pair, pair.moves && !pair.data.obstacle ? since : u));
+    return result;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::take_hessians(const Pair &pair,
+                                           const abut_coupling_view &view)
+  {
     const std::size_t first = places_.size() - view.n_points;
     for (std::int32_t i = 0; i < view.n_points; ++i)
-      places_[first + i].hessian.assign(view.hessian + i * size,
-                                        view.hessian + (i + 1) * size);
+    {
+      Place &place = places_[first + i];
+      place.hessian.assign(view.hessian + view.hessian_start[i],
+                           view.hessian + view.hessian_start[i + 1]);
+      if (view.primary[i] < 0)
+        continue;
+      const auto &facet = surface_.facets[pair.primary.facet[view.primary[i]]];
+      place.opposite.assign(facet.node.begin(),
+                            facet.node.begin() + surface_.nodes_per_facet());
+    }
+  }
+
+  template <int dim>
+  typename SurfacePairRows<dim>::Terms
+  SurfacePairRows<dim>::places_by_unknowns(const std::size_t point) const
+  {
+    const std::vector<Node> &opposite = places_[point].opposite;
+    Terms terms(dim * (1 + opposite.size()));
+    const auto add = [&](const std::size_t block)
+    {
+      return [&terms, this, block](const Node node, const double c)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          surface_.map.for_each_term(
+              node, d,
+              [&](const global_dof_index unknown, const double factor)
+              { terms[block * dim + d].emplace_back(unknown, c * factor); });
+      };
+    };
+    for_each_secondary(point, add(0));
+    for (std::size_t a = 0; a < opposite.size(); ++a)
+      add(1 + a)(opposite[a], 1.);
+    return terms;
+  }
+
+  template <int dim>
+  std::vector<double>
+  SurfacePairRows<dim>::turning(const std::size_t point,
+                                const double *row_pressure) const
+  {
+    const Place &place = places_[point];
+    if (place.hessian.empty())
+      return {};
+    // One matrix for each component.
+    const std::size_t n = dim * (1 + place.opposite.size()), size = n * n;
+    std::vector<double> sum(size, 0.);
+    double force = 0.;
+    for (std::int32_t row = view_.component_start[point], k = 0;
+         row < view_.component_start[point + 1]; ++row, ++k)
+    {
+      const double each = row_pressure == nullptr
+                              ? 1.
+                              : view_.weight[point] * row_pressure[row];
+      for (std::size_t e = 0; e < size; ++e)
+        sum[e] += each * place.hessian[k * size + e];
+      force += std::abs(each);
+    }
+    return force > 0. ? sum : std::vector<double>();
   }
 
   template <int dim>
   std::vector<MatrixLine>
   SurfacePairRows<dim>::geometric_lines(const double *row_pressure) const
   {
-    using Term = std::pair<global_dof_index, double>;
     std::vector<MatrixLine> lines;
     for (std::size_t i = 0; i < places_.size(); ++i)
     {
-      const std::vector<double> &hessian = places_[i].hessian;
-      const double force =
-          row_pressure == nullptr
-              ? 1.
-              : view_.weight[i] * row_pressure[view_.component_start[i]];
-      if (hessian.empty() || force == 0.)
+      const std::vector<double> hessian = turning(i, row_pressure);
+      if (hessian.empty())
         continue;
-      // The place of the point as a function of the unknowns.
-      std::array<std::vector<Term>, dim> terms;
-      for_each_secondary(
-          i,
-          [&](const Node node, const double c)
-          {
-            for (unsigned int d = 0; d < dim; ++d)
-              surface_.map.for_each_term(
-                  node, d,
-                  [&](const global_dof_index unknown, const double factor)
-                  { terms[d].emplace_back(unknown, c * factor); });
-          });
-      for (unsigned int a = 0; a < dim; ++a)
-        for (const Term &row : terms[a])
+      const Terms terms = places_by_unknowns(i);
+      const std::size_t n = terms.size();
+      for (std::size_t a = 0; a < n; ++a)
+        for (const auto &row : terms[a])
         {
           MatrixLine line;
           line.row = row.first;
-          for (unsigned int b = 0; b < dim; ++b)
-            for (const Term &column : terms[b])
+          for (std::size_t b = 0; b < n; ++b)
+            for (const auto &column : terms[b])
             {
               line.column.push_back(column.first);
-              line.value.push_back(-force * hessian[a * dim + b] * row.second
+              line.value.push_back(-hessian[a * n + b] * row.second
                                    * column.second);
             }
           lines.push_back(std::move(line));
         }
     }
     return lines;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::make_isotropic(la::Vector &value) const
+  {
+    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    double *const mine = la::data(value);
+    for (std::size_t n = 0; n < surface_.nodes.size(); ++n)
+    {
+      if (!is_owned(static_cast<Node>(n)))
+        continue;
+      double sum = 0.;
+      for (const auto dof : surface_.nodes[n].dof)
+        sum += mine[owned.index_within_set(dof)];
+      for (const auto dof : surface_.nodes[n].dof)
+        mine[owned.index_within_set(dof)] = sum / dim;
+    }
   }
 
   template <int dim>
@@ -119,12 +195,19 @@ namespace abut::shim
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template bool SurfacePairRows<dim>::moves() const;                           \
+  template std::vector<double> SurfacePairRows<dim>::motions(                  \
+      const std::vector<Direction> &);                                         \
   template void SurfacePairRows<dim>::note_place(                              \
       const std::vector<Direction> &);                                         \
   template void SurfacePairRows<dim>::take_hessians(                           \
-      const abut_coupling_view &);                                             \
+      const Pair &, const abut_coupling_view &);                               \
+  template typename SurfacePairRows<dim>::Terms                                \
+      SurfacePairRows<dim>::places_by_unknowns(std::size_t) const;             \
+  template std::vector<double> SurfacePairRows<dim>::turning(                  \
+      std::size_t, const double *) const;                                      \
   template std::vector<MatrixLine> SurfacePairRows<dim>::geometric_lines(      \
       const double *) const;                                                   \
+  template void SurfacePairRows<dim>::make_isotropic(la::Vector &) const;      \
   template SurfacePairRows<dim>::Kept SurfacePairRows<dim>::keep();            \
   template void SurfacePairRows<dim>::put_back(Kept);
 

@@ -136,8 +136,10 @@ namespace abut::shim
               + " times as coarse as the primary, whose nodes can pass between "
                 "those of the secondary: exchange the two sides, or refine the "
                 "secondary."));
-    // Obstacles are moved into bodies on purpose.
-    if (!pair.data.obstacle && result.overlap > large_overlap * sizes.median)
+    // Obstacles are moved into bodies on purpose, and points that move are
+    // those of a step on its way.
+    if (!pair.data.obstacle && !pair.moves
+        && result.overlap > large_overlap * sizes.median)
       result.warnings.push_back(
           coded(ABUT_FAILURE_OVERLAP,
                 "The surfaces overlap by " + text(result.overlap)
@@ -153,7 +155,8 @@ namespace abut::shim
               + " degrees at a node in the contact zone: normals and gaps "
                 "there are those of a polygon, and so are the pressures. "
                 "Refine the surface, or leave the corner out of the pair."));
-    if (result.n_rows == 0 && pair.data.may_be_apart)
+    const bool may_come_near = pair.moves && !pair.data.obstacle;
+    if (result.n_rows == 0 && (pair.data.may_be_apart || may_come_near))
     {
       checks_.push_back(result);
       return;

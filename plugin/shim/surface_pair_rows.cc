@@ -27,10 +27,10 @@ namespace abut::shim
 
     /** What suits a pair, if the parameters leave it to choose. */
     abut_discretisation automatic_discretisation(const abut_law &law,
-                                                 const bool is_obstacle)
+                                                 const bool at_nodes)
     {
       return abut_law_needs_stress(&law) ? ABUT_DISCRETISATION_QUADRATURE_POINT
-             : is_obstacle               ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
+             : at_nodes                  ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
                                          : ABUT_DISCRETISATION_DUAL_MORTAR;
     }
 
@@ -98,8 +98,11 @@ namespace abut::shim
     Pair pair;
     pair.data = data;
     const abut_law &law = *settings_.method.options.law;
+    const Sliding sliding = settings_.method.sliding;
+    pair.moves = sliding == Sliding::large && !data.tied;
+    pair.steps = sliding == Sliding::step && !data.tied;
     pair.discretisation = settings_.method.discretisation.value_or(
-        automatic_discretisation(law, data.obstacle != nullptr));
+        automatic_discretisation(law, data.obstacle != nullptr || pair.moves));
     const std::string reason =
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
@@ -131,15 +134,12 @@ namespace abut::shim
                            "Leave one pair out, or use penalty or augmented "
                            "lagrangian."));
     pair.reach = data.reach;
-    const Sliding sliding = settings_.method.sliding;
-    pair.moves = sliding == Sliding::large && !data.tied;
-    pair.steps = sliding == Sliding::step && !data.tied;
     const std::string fixed =
-        data.tied
-            ? ""
-            : sliding_refusal(sliding, law, pair.discretisation,
-                              data.obstacle != nullptr,
-                              data.friction != nullptr, data.geometric_gap);
+        data.tied ? ""
+                  : sliding_refusal(sliding, law, pair.discretisation,
+                                    SelfContact<dim>::is_split(data),
+                                    dim == 3 && data.friction != nullptr,
+                                    data.geometric_gap);
     if (!fixed.empty())
       throw ContactError("Pair '" + data.name + "': " + fixed);
     pairs_.push_back(std::move(pair));
@@ -377,7 +377,7 @@ namespace abut::shim
       places_.push_back(place);
     }
     if (pair.moves)
-      take_hessians(view);
+      take_hessians(pair, view);
     if (pair.is_displaced())
       check(context_,
             abut_points_set_origin(points_, view.first, view.n_points,
@@ -455,9 +455,9 @@ namespace abut::shim
   template <int dim>
   bool SurfacePairRows<dim>::has_lasting_numbers(const Pair &pair) const
   {
-    // Against obstacles, and if they are told so, points are those of a rule
-    // over the whole facet.
-    return !discretisation_info(pair.discretisation).row_per_point
+    // Against obstacles, where they move, and if they are told so, points are
+    // those of a rule over the whole facet.
+    return !discretisation_info(pair.discretisation).row_per_point || pair.moves
            || pair.data.obstacle != nullptr || !settings_.method.segments;
   }
 
@@ -532,9 +532,10 @@ namespace abut::shim
     made_place_ =
         has_steps() && committed_ != nullptr ? *committed_ : la::Vector();
     std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
+    const std::vector<double> moved = motions(way);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
-      find_pair(p, motion(pairs_[p], way), taken);
+      find_pair(p, moved[p], taken);
       if (pairs_[p].data.obstacle && checks_[p].n_rows == 0)
         refuse_inside(pairs_[p], displacement);
     }

@@ -65,6 +65,16 @@ namespace abut::shim
     std::vector<MatrixLine>
     geometric_lines(const double *row_pressure) const override;
 
+    /** Tell the displacement of a commit(): bodies whose points move look for
+     * each other as far as they have come since. */
+    void note_commit(const la::Vector &displacement)
+    {
+      searched_from_ = moves() ? displacement : la::Vector();
+    }
+
+    /** Give all components of a node of the surfaces their mean. */
+    void make_isotropic(la::Vector &value) const;
+
     struct Kept;
     /** Take the points of find() out, and put them back after another one. */
     Kept keep();
@@ -239,7 +249,7 @@ namespace abut::shim
     /** By pair: the part of a uniform pressure's force that the rows hand to
      * wrong nodes of the primary surface, in [0, 1]; 0 against obstacles. It is
      * found by building a mortar coupling beside the pair's own. Collective. */
-    std::vector<double> transfer_errors(const la::Vector &displacement) const;
+    std::vector<double> transfer_errors(const la::Vector &displacement);
 
     /** Points of the secondary that have penetrated by more than @p tolerance
      * (length) at @p displacement without a row: its own nodes, and nodes of
@@ -335,8 +345,11 @@ namespace abut::shim
       Node node;                   ///< -1: quadrature point
       std::int32_t facet;          ///< of a quadrature point
       dealii::Point<dim> position; ///< where the point sits
-      /** [dim * dim] second derivatives of the gap with respect to that;
+      /** Of a point that moves: nodes of the primary facet that has the nearest
+       * point, and the square matrix of second derivatives of the gap with
+       * respect to the position, then these nodes, and those of its tangents;
        * empty: the point is fixed. */
+      std::vector<Node> opposite;
       std::vector<double> hessian;
     };
 
@@ -463,6 +476,8 @@ namespace abut::shim
     std::string explain_no_rows(std::size_t pair);
     bool is_owned(Node node) const;
     double motion(const Pair &pair, const std::vector<Direction> &u) const;
+    /** [pairs] how far they have come since the last search. */
+    std::vector<double> motions(const std::vector<Direction> &u);
     double freedom(Node node, const Direction &direction) const;
     bool is_free(Node node, unsigned int component) const;
     double own_freedom(Node node, const Direction &direction) const;
@@ -473,7 +488,6 @@ namespace abut::shim
                const std::vector<std::uint8_t> &dropped, double motion,
                const abut_coupling_target &target) const;
     void note_place(const std::vector<Direction> &u);
-    void take_hessians(const abut_coupling_view &view);
     bool has_steps() const;
     /** Displacements that the next find() makes points at, unless they move; 0
      * but for pairs that do so step by step. Collective. */
@@ -489,6 +503,16 @@ namespace abut::shim
     double largest_turn_of(const SurfaceSide<dim> &side,
                            const std::vector<std::uint8_t> &marked,
                            const std::vector<Direction> &way) const;
+    void take_hessians(const Pair &pair, const abut_coupling_view &view);
+    /** What the Hessian of a point is with respect to, by unknowns:
+     * [components][terms]. */
+    using Terms = std::vector<
+        std::vector<std::pair<dealii::types::global_dof_index, double>>>;
+    Terms places_by_unknowns(std::size_t point) const;
+    /** The derivative of a point's force, of pressures and tractions as in
+     * geometric_lines(), by these; empty: 0. */
+    std::vector<double> turning(std::size_t point,
+                                const double *row_pressure) const;
     /** Directions of a tie that the same nodes are dropped for. */
     struct TieGroup
     {
@@ -537,7 +561,8 @@ namespace abut::shim
     abut_points *points_ = nullptr; ///< of the last find()
     abut_points_view view_ = {};
     std::vector<RigidPose<dim>> committed_poses_; ///< [pairs], or empty
-    std::vector<Place> places_;                   ///< [points]
+    la::Vector searched_from_;  ///< where points move: of the last commit()
+    std::vector<Place> places_; ///< [points]
     const la::Vector *committed_ = nullptr;
     la::Vector made_place_; ///< what that was when points were made; empty: 0
     unsigned int n_finds_ = 0, n_kept_ = 0;

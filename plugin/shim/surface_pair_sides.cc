@@ -181,6 +181,8 @@ namespace abut::shim
     {
       places_[i].node = places_[i].node < 0 ? -1 : now[places_[i].node];
       places_[i].facet = index_of(surface_.facets, facets[i]);
+      for (Node &node : places_[i].opposite)
+        node = now[node];
     }
     if (points_ != nullptr)
       check(context_,

@@ -4,21 +4,26 @@
 #include "surface_pair_rows.h"
 
 #include <cmath>
+#include <optional>
 
 namespace abut::shim
 {
   template <int dim>
   std::vector<double>
-  SurfacePairRows<dim>::transfer_errors(const la::Vector &displacement) const
+  SurfacePairRows<dim>::transfer_errors(const la::Vector &displacement)
   {
     const std::vector<Direction> u =
         exchange_->displacements(surface_, displacement);
     std::vector<double> errors(pairs_.size(), 0.);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
-      const Pair &pair = pairs_[p];
+      Pair &pair = pairs_[p];
       if (pair.data.obstacle)
         continue;
+      std::optional<DisplacedSides<dim>> displaced;
+      if (pair.moves)
+        displaced.emplace(context_, pair.secondary, pair.primary, reference_,
+                          present_);
       // The first unknown of a node stands for it.
       const auto unknown = [&](const Node node)
       { return surface_.nodes[node].dof[0]; };
@@ -59,7 +64,7 @@ namespace abut::shim
   }
 
   template std::vector<double>
-  SurfacePairRows<2>::transfer_errors(const la::Vector &) const;
+  SurfacePairRows<2>::transfer_errors(const la::Vector &);
   template std::vector<double>
-  SurfacePairRows<3>::transfer_errors(const la::Vector &) const;
+  SurfacePairRows<3>::transfer_errors(const la::Vector &);
 } // namespace abut::shim

@@ -60,7 +60,7 @@ namespace abut
    * instead; empty if they can. Ties never do. */
   std::string sliding_refusal(Sliding sliding, const abut_law &law,
                               abut_discretisation discretisation,
-                              bool has_obstacle, bool has_friction,
+                              bool touches_itself, bool has_friction_in_space,
                               bool has_geometric_gap);
 
   /** Why there is no friction with a method, with what to take instead; empty

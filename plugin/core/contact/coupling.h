@@ -8,6 +8,7 @@
  *   coupling_facet.c       points of integration on its covered part, with the
  *                          opposite points (coupling_segment2.c and _segment3.c
  *                          by clipping, coupling_ray.c point by point,
+ *                          coupling_near.c for those that move,
  *                          coupling_obstacle.c)
  *   coupling_functions.c   its free nodes, those that keep a multiplier, and
  *                          the weighting functions psi
@@ -36,10 +37,12 @@ typedef struct abut_coupling_point
   double weight;                      /* area, times 2 pi r if axisymmetric */
   double position[3];                 /* x_s */
   double gap[3];                      /* x_m - x_s; obstacle: zero */
-  double distance;                    /* obstacle: phi; else zero */
+  double distance;                    /* obstacle: phi; points that move: the
+                                         gap; else zero */
   double normal[3];                   /* of the secondary facet; obstacle:
-                                         - grad phi */
-  int64_t answer;                     /* obstacle: number of it */
+                                         - grad phi; points that move: minus the
+                                         derivative of the gap */
+  int64_t hessian;                    /* points that move: its place */
   int32_t primary;                    /* facet; obstacle: -1 */
   int32_t number;                     /* within the facet */
   double shape[ABUT_FACET_MAX_NODES]; /* of the secondary */
@@ -84,8 +87,9 @@ typedef struct abut_coupling_functions
  * point); its entries follow those of the share before. */
 typedef struct abut_coupling_share
 {
-  int32_t node;  /* -1: quadrature point */
-  int32_t facet; /* secondary */
+  int32_t node;    /* -1: quadrature point */
+  int32_t facet;   /* secondary; node to segment: primary */
+  int32_t primary; /* facet of points that move; -1: none */
   int32_t point;
   int32_t n_secondary, n_primary;
   int64_t first; /* entry: secondary ones, then primary ones */
@@ -94,7 +98,7 @@ typedef struct abut_coupling_share
   double distance;
   double normal[3];   /* integral of psi n */
   double position[3]; /* quadrature point: where it is */
-  int64_t answer;     /* of the obstacle */
+  int64_t hessian;    /* of points that move: place in that array */
 } abut_coupling_share;
 
 typedef struct abut_coupling_entry
@@ -164,10 +168,12 @@ struct abut_coupling
   /* Obstacles: points asked for, in the order in which the answers are taken.
    */
   abut_array asked, distance, gradient; /* double */
-  abut_array hessian;       /* double, [n_asked * dimension^2] if they move */
+  abut_array hessian;       /* double, of points that move, one after the
+                               other; obstacles: [n_asked * dimension^2] */
   abut_array asked_normal;  /* double, [3 n_asked] of the surface there */
   abut_array walkers, walk; /* of coupling_far_side.c */
   int64_t n_asked, n_answered;
+  int64_t n_hessian; /* numbers in the Hessians against surfaces */
 
   abut_array shares;  /* abut_coupling_share */
   abut_array entries; /* abut_coupling_entry */
@@ -184,6 +190,8 @@ struct abut_coupling
   const abut_coupling_target *target;
   abut_array point_node, point_facet, point_number; /* int32_t */
   abut_array point_full, point_position;            /* double */
+  abut_array point_primary;                         /* int32_t */
+  abut_array point_hessian_start;                   /* int64_t */
   abut_array point_hessian;                         /* double */
   abut_array stencil_node;                          /* int32_t, of one point */
   abut_array stencil_coefficient;                   /* double */
@@ -228,7 +236,7 @@ abut_status abut_coupling_make_points(abut_coupling *c,
                                       const abut_coupling_facet *facet,
                                       bool final);
 
-/* The ways of abut_coupling_make_points(); the first three find the opposite
+/* The ways of abut_coupling_make_points(); all but the last find the opposite
  * points on the candidates. */
 abut_status abut_coupling_segments2(abut_coupling *c,
                                     const abut_coupling_facet *facet,
@@ -241,6 +249,36 @@ abut_status abut_coupling_rays(abut_coupling *c,
 abut_status abut_coupling_face_obstacle(abut_coupling *c,
                                         const abut_coupling_facet *facet,
                                         bool final);
+
+/* Points of a rule over the whole facet against the nearest points of the
+ * candidates: those that move. */
+abut_status abut_coupling_near(abut_coupling *c,
+                               const abut_coupling_facet *facet, bool final);
+
+/* What a point that moves has opposite it on a primary facet. */
+typedef struct abut_coupling_opposite
+{
+  double shape[ABUT_FACET_MAX_NODES]; /* at the nearest point */
+  double gap;
+  double normal[3]; /* minus the derivative of the gap by the point */
+  int64_t hessian;  /* its place; [(dimension (1 + n_nodes))^2] */
+} abut_coupling_opposite;
+
+/* Find it; *found: there is one. */
+abut_status abut_coupling_follow(abut_coupling *c, int32_t primary,
+                                 const double *x, bool *found,
+                                 abut_coupling_opposite *opposite);
+
+/* The tangents of a unit normal; see abut_coupling_target. */
+void abut_coupling_tangents(int32_t dim, const double *normal,
+                            double *tangents);
+
+/* Derivatives of the rows of the tangents of a point that moves: n unknowns,
+ * shape functions of its n / dim - 1 primary nodes, Hessian [n^2] of the gap;
+ * turning [(dim - 1) n^2]. */
+void abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
+                        const double *shape, const double *hessian,
+                        double *turning);
 
 /* Number the points of the segments of a facet, and take their opposite points
  * along the facet's normal. */

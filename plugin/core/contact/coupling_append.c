@@ -179,6 +179,41 @@ normal_of(abut_coupling *c, const abut_coupling_share *total, double *n)
     ++c->statistics.n_split;
 }
 
+/* The second derivatives of a point that moves, and what its tangents do. */
+static abut_status
+note_hessian(abut_coupling *c, const abut_coupling_share *total)
+{
+  const int64_t i = c->view.n_points;
+  const int32_t dim = c->secondary->view.dimension,
+                n_nodes = total->primary < 0 ? 0 : total->n_primary,
+                n = dim * (1 + n_nodes);
+  abut_status status = abut_array_reserve(c->context, &c->point_hessian_start,
+                                          i > 0 ? i + 1 : 0, i + 2);
+  if (status != ABUT_SUCCESS)
+    return status;
+  int64_t *start = c->point_hessian_start.data;
+  start[0] = 0;
+  start[i + 1] = start[i] + (int64_t)n * n * (c->target->tangents ? dim : 1);
+  status =
+      abut_array_reserve(c->context, &c->point_hessian, start[i], start[i + 1]);
+  if (status != ABUT_SUCCESS)
+    return status;
+  double *hessian = (double *)c->point_hessian.data + start[i];
+  memcpy(hessian, (const double *)c->hessian.data + total->hessian,
+         sizeof(double) * (size_t)(n * n));
+  if (!c->target->tangents)
+    return ABUT_SUCCESS;
+  const abut_coupling_entry *e = (const abut_coupling_entry *)c->entries.data
+                                 + total->first + total->n_secondary;
+  double shape[ABUT_FACET_MAX_NODES], normal[3];
+  for (int32_t a = 0; a < n_nodes; ++a)
+    shape[a] = e[a].value / total->weight;
+  for (int d = 0; d < 3; ++d)
+    normal[d] = total->normal[d] / total->weight;
+  abut_coupling_turn(dim, n, normal, shape, hessian, hessian + n * n);
+  return ABUT_SUCCESS;
+}
+
 /* Remember what the set does not hold. */
 static abut_status
 note_point(abut_coupling *c, const abut_coupling_share *total, double full)
@@ -188,13 +223,9 @@ note_point(abut_coupling *c, const abut_coupling_share *total, double full)
   {
     abut_array *array;
     int64_t each;
-  } const list[] = {
-      {&c->point_node, 1},
-      {&c->point_facet, 1},
-      {&c->point_number, 1},
-      {&c->point_full, 1},
-      {&c->point_position, dim},
-      {&c->point_hessian, abut_coupling_moves(c) ? dim * dim : 0}};
+  } const list[] = {{&c->point_node, 1},    {&c->point_facet, 1},
+                    {&c->point_number, 1},  {&c->point_full, 1},
+                    {&c->point_primary, 1}, {&c->point_position, dim}};
   for (size_t k = 0; k < sizeof(list) / sizeof(list[0]); ++k)
   {
     const abut_status status = abut_array_reserve(
@@ -209,14 +240,11 @@ note_point(abut_coupling *c, const abut_coupling_share *total, double full)
   ((int32_t *)c->point_facet.data)[i] =
       abut_coupling_is_mortar(c) ? -1 : total->facet;
   ((int32_t *)c->point_number.data)[i] = total->point;
+  ((int32_t *)c->point_primary.data)[i] = total->primary;
   ((double *)c->point_full.data)[i] = full;
   memcpy((double *)c->point_position.data + i * dim, position,
          sizeof(double) * (size_t)dim);
-  if (abut_coupling_moves(c))
-    memcpy((double *)c->point_hessian.data + i * dim * dim,
-           (const double *)c->hessian.data + total->answer * dim * dim,
-           sizeof(double) * (size_t)(dim * dim));
-  return ABUT_SUCCESS;
+  return abut_coupling_moves(c) ? note_hessian(c, total) : ABUT_SUCCESS;
 }
 
 static int64_t
@@ -233,26 +261,6 @@ id_of(const abut_coupling *c, const abut_coupling_share *total)
   return first + (int64_t)each * total->point;
 }
 
-/* Two vectors that make a frame with the normal; see abut_coupling_target. */
-static void
-fill_tangents(int32_t dim, const double *n, double *t)
-{
-  if (dim == 2)
-  {
-    t[0] = -n[1];
-    t[1] = n[0];
-    return;
-  }
-  int axis = 0;
-  for (int d = 1; d < 3; ++d)
-    if (fabs(n[d]) < fabs(n[axis]))
-      axis = d;
-  for (int d = 0; d < 3; ++d)
-    t[d] = (d == axis) - n[axis] * n[d];
-  unit3(t, 0.);
-  cross3(n, t, t + 3);
-}
-
 /* Frame and gaps of a point: the normal, or the axes of a tie. */
 static int32_t
 fill_components(abut_coupling *c, const abut_coupling_share *total,
@@ -264,14 +272,17 @@ fill_components(abut_coupling *c, const abut_coupling_share *total,
   normal_of(c, total, normal);
   if (t->tie_axes == 0)
   {
-    const double distance =
-        c->obstacle != NULL ? total->distance : dot3(normal, total->gap);
+    const double distance = c->obstacle != NULL || abut_coupling_moves(c)
+                                ? total->distance
+                                : dot3(normal, total->gap);
     memcpy(frame, normal, sizeof(double) * (size_t)dim);
     gap[0] = t->gap + (t->flush ? 0. : distance / total->weight);
     gap[1] = gap[2] = 0.;
     if (!t->tangents)
       return 1;
-    fill_tangents(dim, frame, frame + dim);
+    if (abut_coupling_moves(c)) /* the tangents are unit vectors all the same */
+      unit3(normal, 0.);
+    abut_coupling_tangents(dim, normal, frame + dim);
     return dim;
   }
   int32_t n = 0;
@@ -421,5 +432,8 @@ abut_coupling_append(abut_coupling *c)
   v->full_weight = c->point_full.data;
   v->position = c->point_position.data;
   v->hessian = abut_coupling_moves(c) ? c->point_hessian.data : NULL;
+  v->hessian_start =
+      abut_coupling_moves(c) ? c->point_hessian_start.data : NULL;
+  v->primary = c->point_primary.data;
   return ABUT_SUCCESS;
 }

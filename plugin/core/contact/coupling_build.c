@@ -152,11 +152,8 @@ fault_of_target(const abut_coupling *c, const abut_coupling_target *t)
     return "an axis of a tie does not exist";
   if (!(fabs(t->gap) <= ABUT_FACET_LIMIT))
     return "the gap to be added is not finite";
-  if (t->reference != NULL
-      && (c->obstacle == NULL || abut_coupling_is_mortar(c) || t->tangents
-          || t->tie_axes != 0))
-    return "only nodes and quadrature points against an obstacle, without "
-           "tangents and ties, can move";
+  if (t->reference != NULL && (abut_coupling_is_mortar(c) || t->tie_axes != 0))
+    return "only nodes and quadrature points that are no ties can move";
   if (t->reference != NULL && t->areas != NULL)
     return "points move, or stand where the surfaces are: not both";
   return NULL;
@@ -194,7 +191,7 @@ abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
   c->statistics = none;
   c->view.first = abut_points_n(place.points);
   c->view.n_points = 0;
-  c->n_shares = c->n_entries = 0;
+  c->n_shares = c->n_entries = c->n_hessian = 0;
   status = build(c, motion);
   c->nodes = NULL;
   c->target = NULL;

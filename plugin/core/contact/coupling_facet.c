@@ -258,6 +258,8 @@ abut_coupling_make_points(abut_coupling *c, const abut_coupling_facet *facet,
 {
   if (c->obstacle != NULL)
     return abut_coupling_face_obstacle(c, facet, final);
+  if (abut_coupling_moves(c))
+    return abut_coupling_near(c, facet, final);
   if (!c->options.segments)
     return abut_coupling_rays(c, facet, final);
   const abut_status status = c->secondary->view.dimension == 2

@@ -1,44 +1,84 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Node to segment: the node against its contact element, or the obstacle. The
  * share of the node has its full weight; the entries are itself and the shape
- * functions of the facet at the nearest point. */
+ * functions of the facet at the nearest point. Nodes that move follow that
+ * point (coupling_near.c). */
 #include "contact/coupling.h"
 #include "contact/detect.h"
 
 #include <string.h>
 
+/* The share of a node with this facet; without its gap. */
+static abut_coupling_share *
+new_share(abut_coupling *c, int32_t node, int32_t f)
+{
+  abut_coupling_share *s = abut_coupling_new_share(c);
+  if (s == NULL)
+    return NULL;
+  s->node = node;
+  s->facet = f;
+  s->weight = ((const double *)c->full.data)[node];
+  return s;
+}
+
+static abut_status
+add_entries(abut_coupling *c, int32_t node, abut_coupling_share *s,
+            const double *shape)
+{
+  const abut_surface_view *v = &c->primary->view;
+  const int32_t *nodes = v->connectivity + v->facet_start[s->facet];
+  const int32_t n = v->facet_start[s->facet + 1] - v->facet_start[s->facet];
+  abut_status status =
+      abut_coupling_new_entry(c, &s->n_secondary, node, s->weight);
+  for (int32_t a = 0; a < n && status == ABUT_SUCCESS; ++a)
+    status = abut_coupling_new_entry(c, &s->n_primary, nodes[a],
+                                     s->weight * shape[a]);
+  return status;
+}
+
 static abut_status
 add_node(abut_coupling *c, int32_t node, const abut_contact *contact)
 {
   const int32_t dim = c->secondary->view.dimension, f = contact->facet;
-  const abut_surface_view *v = &c->primary->view;
-  const abut_facet_kind kind = (abut_facet_kind)v->kinds[f];
-  const double weight = ((const double *)c->full.data)[node];
   double nodes[3 * ABUT_FACET_MAX_NODES], shape[ABUT_FACET_MAX_NODES];
   const int32_t n = abut_surface_gather(c->primary, f, nodes);
-  abut_coupling_shape(kind, nodes, contact->local, shape, NULL);
-  abut_coupling_share *s = abut_coupling_new_share(c);
+  abut_coupling_shape((abut_facet_kind)c->primary->view.kinds[f], nodes,
+                      contact->local, shape, NULL);
+  abut_coupling_share *s = new_share(c, node, f);
   if (s == NULL)
     return ABUT_OUT_OF_MEMORY;
-  s->node = node;
-  s->facet = f;
-  s->weight = weight;
   for (int32_t d = 0; d < dim; ++d)
   {
     double y = 0.;
     for (int32_t a = 0; a < n; ++a)
       y += shape[a] * nodes[a * dim + d];
     s->gap[d] =
-        weight * (y - c->secondary->view.position[(int64_t)dim * node + d]);
-    s->normal[d] = -weight * contact->normal[d];
+        s->weight * (y - c->secondary->view.position[(int64_t)dim * node + d]);
+    s->normal[d] = -s->weight * contact->normal[d];
   }
-  abut_status status =
-      abut_coupling_new_entry(c, &s->n_secondary, node, weight);
-  for (int32_t a = 0; a < n && status == ABUT_SUCCESS; ++a)
-    status = abut_coupling_new_entry(c, &s->n_primary,
-                                     v->connectivity[v->facet_start[f] + a],
-                                     weight * shape[a]);
-  return status;
+  return add_entries(c, node, s, shape);
+}
+
+static abut_status
+add_moving(abut_coupling *c, int32_t node, int32_t f)
+{
+  const int32_t dim = c->secondary->view.dimension;
+  abut_coupling_opposite opposite;
+  bool found = false;
+  const abut_status status = abut_coupling_follow(
+      c, f, c->secondary->view.position + (int64_t)dim * node, &found,
+      &opposite);
+  if (status != ABUT_SUCCESS || !found)
+    return status;
+  abut_coupling_share *s = new_share(c, node, f);
+  if (s == NULL)
+    return ABUT_OUT_OF_MEMORY;
+  s->primary = f;
+  s->hessian = opposite.hessian;
+  s->distance = s->weight * opposite.gap;
+  for (int32_t d = 0; d < dim; ++d)
+    s->normal[d] = s->weight * opposite.normal[d];
+  return add_entries(c, node, s, opposite.shape);
 }
 
 abut_status
@@ -61,7 +101,9 @@ abut_coupling_add_nodal(abut_coupling *c)
     if (c->obstacle != NULL)
       status = abut_coupling_add_node_obstacle(c, node);
     else if (view.contact[node].facet >= 0)
-      status = add_node(c, node, view.contact + node);
+      status = abut_coupling_moves(c)
+                   ? add_moving(c, node, view.contact[node].facet)
+                   : add_node(c, node, view.contact + node);
   }
   return status;
 }

@@ -146,7 +146,7 @@ abut_coupling_face_obstacle(abut_coupling *c, const abut_coupling_facet *facet,
   for (int64_t q = 0; q < n_points; ++q)
   {
     answer(c, first + q, &p[q].distance, p[q].normal);
-    p[q].answer = first + q;
+    p[q].hessian = (first + q) * c->view.dimension * c->view.dimension;
     if (is_kept(c, facet, p + q))
       p[n++] = p[q];
   }
@@ -169,7 +169,7 @@ abut_coupling_add_node_obstacle(abut_coupling *c, int32_t node)
   s->facet = -1;
   s->weight = weight;
   s->distance = weight * distance;
-  s->answer = node;
+  s->hessian = (int64_t)node * c->view.dimension * c->view.dimension;
   for (int d = 0; d < 3; ++d)
     s->normal[d] = weight * normal[d];
   return abut_coupling_new_entry(c, &s->n_secondary, node, weight);

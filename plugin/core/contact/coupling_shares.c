@@ -20,6 +20,7 @@ abut_coupling_new_share(abut_coupling *c)
   abut_coupling_share *s =
       (abut_coupling_share *)c->shares.data + c->n_shares++;
   memset(s, 0, sizeof(*s));
+  s->primary = -1;
   s->first = c->n_entries;
   return s;
 }
@@ -191,7 +192,8 @@ abut_coupling_add_points(abut_coupling *c, const abut_coupling_facet *facet,
     s->node = -1;
     s->facet = facet->index;
     s->point = p->number;
-    s->answer = p->answer;
+    s->hessian = p->hessian;
+    s->primary = p->primary;
     s->weight = p->weight;
     s->distance = p->weight * p->distance;
     for (int d = 0; d < 3; ++d)

@@ -17,6 +17,7 @@
 #include "contact/detect.h"
 
 #include "geometry/kernels.h"
+#include "geometry/pseudonormal.h"
 
 #include <math.h>
 
@@ -107,22 +108,6 @@ screen(const abut_detection *d, const abut_ranking *k, const abut_record *r)
   return ABUT_REJECTION_N;
 }
 
-/* Whether the nearest point lies on side `side` of the facet. */
-static bool
-on_side(abut_facet_kind kind, int side, const double *local)
-{
-  const int32_t n = abut_facet_n_corners(kind);
-  const double a = local[0], b = local[1], e = 1e-9;
-  if (n == 2)
-    return side == 0 ? a <= -1 + e : a >= 1 - e;
-  if (n == 3)
-    return side == 0 ? b <= e : side == 1 ? a + b >= 1 - e : a <= e;
-  return side == 0   ? b <= -1 + e
-         : side == 1 ? a >= 1 - e
-         : side == 2 ? b >= 1 - e
-                     : a <= -1 + e;
-}
-
 /* Whether the node lies beyond the border of the primary surface by more than
  * the extension. */
 static bool
@@ -133,15 +118,7 @@ beyond_border(const abut_detection *d, const abut_record *r,
     return false;
   const double square = p->distance * p->distance - p->gap * p->gap;
   const double limit = d->options.extension * r->size;
-  if (square <= limit * limit)
-    return false;
-  const abut_surface_view *v = &d->primary->view;
-  const abut_facet_kind kind = (abut_facet_kind)v->kinds[r->facet];
-  for (int side = 0; side < 4; ++side)
-    if (v->neighbour[4 * (int64_t)r->facet + side] == ABUT_NEIGHBOUR_BORDER
-        && on_side(kind, side, p->local))
-      return true;
-  return false;
+  return square > limit * limit && abut_beyond_border(d->primary, r->facet, p);
 }
 
 static double

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* Angle-weighted pseudonormals. Which side or corner the nearest point lies on
- * is read from its local coordinates; the normal of the facet across a side is
- * taken at the point of it that is nearest, which serves straight and curved
- * facets alike. O(facets at the corner). */
+/* Angle-weighted pseudonormals, and borders. Which side or corner the nearest
+ * point lies on is read from its local coordinates; the normal of the facet
+ * across a side is taken at the point of it that is nearest, which serves
+ * straight and curved facets alike. O(facets at the corner). */
 #include "geometry/pseudonormal.h"
 
 #include "geometry/kernels.h"
@@ -48,6 +48,20 @@ corner_at(int32_t n_corners, unsigned sides)
       return k;
   }
   return -1;
+}
+
+bool
+abut_beyond_border(const abut_surface *s, int32_t f, const abut_projection *p)
+{
+  if (p->inside)
+    return false;
+  const unsigned sides = sides_at(
+      abut_facet_n_corners((abut_facet_kind)s->view.kinds[f]), p->local);
+  for (int k = 0; k < 4; ++k)
+    if ((sides >> k & 1u) != 0
+        && s->view.neighbour[4 * (int64_t)f + k] == ABUT_NEIGHBOUR_BORDER)
+      return true;
+  return false;
 }
 
 /* Add the normal of the facet across side k of facet f at the point y. */

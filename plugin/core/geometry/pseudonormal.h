@@ -13,4 +13,9 @@
 void abut_pseudonormal(const abut_surface *surface, int32_t f,
                        const abut_projection *p, double *normal);
 
+/* Whether the nearest point of facet f is on a side where the surface ends, and
+ * the point beyond it. */
+bool abut_beyond_border(const abut_surface *surface, int32_t f,
+                        const abut_projection *p);
+
 #endif

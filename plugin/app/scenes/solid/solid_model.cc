@@ -26,6 +26,13 @@ namespace abut::app
     {
       return dim == 2 && parameters.plane == PlaneModel::axisymmetric;
     }
+
+    /** Column of levels.csv with a component of the force on a pair's
+     * secondary side. */
+    std::string force_column(const std::size_t pair, const unsigned int d)
+    {
+      return "pair_" + std::to_string(pair + 1) + "_force_" + "xyz"[d];
+    }
   } // namespace
 
   template <int dim>
@@ -499,7 +506,12 @@ namespace abut::app
                                         "krylov_seconds",
                                         "seconds"};
     if (has_large_strain())
+    {
       columns.push_back("linearisations");
+      for (std::size_t p = 0; p < parameters.pairs.size(); ++p)
+        for (unsigned int d = 0; d < dim; ++d)
+          columns.push_back(force_column(p, d));
+    }
     if (motion)
       for (const std::string &column : motion->columns())
         columns.push_back(column);
@@ -524,7 +536,13 @@ namespace abut::app
       row["dissipation"] = result.dissipation;
     }
     if (has_large_strain())
+    {
       row["linearisations"] = result.linearisations;
+      const auto results = run.contact.pair_results();
+      for (std::size_t p = 0; p < results.size(); ++p)
+        for (unsigned int d = 0; d < dim; ++d)
+          row[force_column(p, d)] = results[p].secondary_force[d];
+    }
     if (motion)
       motion->add_to_row(row);
     row["load_step"] = result.load_step;

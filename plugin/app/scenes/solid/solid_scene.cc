@@ -19,16 +19,23 @@ namespace abut::app
     bool can_move(const Sliding sliding, const MethodParameters &method,
                   const std::vector<PairParameters> &pairs)
     {
-      const abut_discretisation discretisation =
-          method.discretisation.value_or(ABUT_DISCRETISATION_NODE_TO_SEGMENT);
       return std::all_of(
           pairs.begin(), pairs.end(),
           [&](const PairParameters &pair)
           {
+            // Between bodies a uniform pressure is worth more, unless asked
+            // for.
+            const abut_discretisation discretisation =
+                method.discretisation.value_or(
+                    pair.obstacle > 0 ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
+                                      : ABUT_DISCRETISATION_DUAL_MORTAR);
+            const bool touches_itself =
+                pair.obstacle == 0 && pair.secondary == pair.primary;
             return pair.tied
                    || sliding_refusal(sliding, *method.options.law,
-                                      discretisation, pair.obstacle > 0,
-                                      is_frictional<dim>(pair), pair.mesh_gap)
+                                      discretisation, touches_itself,
+                                      dim == 3 && is_frictional<dim>(pair),
+                                      pair.mesh_gap)
                           .empty();
           });
     }
