@@ -69,8 +69,11 @@ namespace abut::shim
       Direction since;
       for_each_secondary(
           point.point,
-          [&](const Node node, const double c) {
-            since += c * (u[node] - (pair.moves ? made_at(node) : Direction()));
+          [&](const Node node, const double c)
+          {
+            since += c
+                     * (u[node]
+                        - (pair.is_displaced() ? made_at(node) : Direction()));
           });
       made.push_back(point.position);
       now.push_back(point.position + since);
@@ -103,11 +106,12 @@ namespace abut::shim
                                        const std::vector<Pressed> &pressed,
                                        const std::vector<Direction> &u) const
   {
-    std::vector<dealii::Point<dim>> made(surface_.nodes.size()), now(made);
-    for (std::size_t n = 0; n < made.size(); ++n)
+    std::vector<dealii::Point<dim>> undeformed(surface_.nodes.size());
+    std::vector<dealii::Point<dim>> now(undeformed);
+    for (std::size_t n = 0; n < now.size(); ++n)
     {
-      made[n] = surface_.nodes[n].point;
-      now[n] = made[n] + u[n];
+      undeformed[n] = surface_.nodes[n].point;
+      now[n] = undeformed[n] + u[n];
     }
     // Nearest points have the direction of the primary's facets, all others
     // that of the secondary, see abut/coupling.h.
@@ -115,13 +119,15 @@ namespace abut::shim
         discretisation_info(pair.discretisation);
     const bool of_primary = !kind.is_weighted && !kind.row_per_point;
     const SurfaceSide<dim> &side = of_primary ? pair.primary : pair.secondary;
-    const std::vector<Direction> before = normals_of(context_, side);
-    std::vector<Direction> after;
+    const auto normals_at = [&](const std::vector<dealii::Point<dim>> &place)
     {
       const DisplacedSides<dim> displaced(context_, pair.secondary,
-                                          pair.primary, made, now);
-      after = normals_of(context_, side);
-    }
+                                          pair.primary, undeformed, place);
+      return normals_of(context_, side);
+    };
+    const std::vector<Direction> before =
+        pair.is_displaced() ? normals_at(present_) : normals_of(context_, side);
+    const std::vector<Direction> after = normals_at(now);
     Turn turn;
     for (const Pressed &point : pressed)
     {
