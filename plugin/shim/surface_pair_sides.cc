@@ -159,8 +159,9 @@ namespace abut::shim
               pairs_[p].dropped[n]);
 
     gather();
-    // Nodes have other numbers; points stay where they were made.
-    if (!present_.empty() && has_steps())
+    // Nodes have other numbers; points stay where they were made. Ranks without
+    // nodes take part.
+    if (points_ != nullptr && has_steps())
       note_place(
           made_place_.size() == 0
               ? std::vector<Direction>(surface_.nodes.size())

@@ -126,7 +126,7 @@ namespace abut::shim
                                     const std::uint8_t *row_state)
   {
     std::vector<StepMotion> result(pairs_.size());
-    if (!has_steps() || row_state == nullptr)
+    if (!has_steps())
       return result;
     const std::vector<Direction> way =
         way_since(displacements_in_reach(displacement));
