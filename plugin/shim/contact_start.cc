@@ -202,8 +202,11 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.history.save(stream);
-    // Who loads has no preconditioner: then neither should this run.
+    // Who loads has no preconditioner, nor points that were made earlier: then
+    // neither should this run.
     i.solver.reset();
+    if (i.surfaces != nullptr)
+      i.surfaces->renew_points();
   }
 
   template <int dim> void ContactAssembler<dim>::load(std::istream &stream)

@@ -185,6 +185,12 @@ namespace abut::shim
       committed_ = &committed;
     }
 
+    /** The next find() makes all points anew. */
+    void renew_points()
+    {
+      origins_.clear();
+    }
+
     /** Calls of find() so far, and those of them that found the points of the
      * one before to be still good. */
     unsigned int n_finds() const
