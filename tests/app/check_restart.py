@@ -267,18 +267,6 @@ def check_motion():
     stopped(bar, 3, signal.SIGINT, expected, short)
 
 
-def check_bars():
-    """Two bars that meet: points between bodies are those of the last step
-    that made them."""
-    bars = p.write("bars.prm", (p.source / "prm/two-bars.prm").read_text()
-                   + EVERY)
-    meet = ["Time/End=0.12", "Output/Every=4",
-            "Body 1/Mesh/Arguments=10, 1 : -1, 0 : 0, 1 : true",
-            "Body 2/Mesh/Arguments=10, 1 : 1, 0 : 2, 1 : true",
-            "Output/Points="]
-    killed(bars, 12, alone(bars, meet), meet)
-
-
 def check_large_strain():
     """A disc on its way into rubber, whose points move: the steps that were cut
     back, what was extrapolated and the rows' places go on, too."""
@@ -306,7 +294,6 @@ if p.short:
 elif p.part == 1:
     check_one_rank(bodies, steps)
     check_motion()
-    check_bars()
     check_large_strain()
     check_one_rank(membrane, cycles)
     check_target()
