@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Elastic bodies: Hooke's law, error norms, estimator, contact traction.
+// Elastic bodies: Hooke's law, error norms, estimator, contact traction; forces
+// at supports, those of membranes too.
 
 #include "app/adapt/elastic_estimator.h"
 #include "app/physics/contact_traction.h"
 #include "app/physics/elasticity.h"
 #include "app/physics/error_norms.h"
 #include "app/physics/hooke.h"
+#include "app/physics/membrane.h"
 
 #include "expect.h"
 #include "problem.h"
@@ -136,21 +138,23 @@ namespace
     Elasticity<2> elasticity;
   };
 
+  /** Hooke's law, but the program is not told that it is linear. */
+  class Hidden : public Hooke<2>
+  {
+  public:
+    explicit Hidden(const PlaneModel plane) : Hooke<2>(material<2>(plane))
+    {
+    }
+
+    bool is_linear() const override
+    {
+      return false;
+    }
+  };
+
   /** Forces by the stress, of which the matrix knows nothing. */
   void forces_of_stress()
   {
-    class Hidden : public Hooke<2>
-    {
-    public:
-      explicit Hidden(const PlaneModel plane) : Hooke<2>(material<2>(plane))
-      {
-      }
-
-      bool is_linear() const override
-      {
-        return false;
-      }
-    };
     for (const PlaneModel plane : plane_models)
     {
       FreeSquare known(std::make_shared<Hooke<2>>(material<2>(plane)));
@@ -169,6 +173,88 @@ namespace
       Expect::near(by_stress.linfty_norm(), 0, 1e-12 * size,
                    "forces by points and by the matrix");
     }
+  }
+
+  /** The unit square, with hanging nodes at its side x = 0. */
+  void refine_at_the_side(dealii::parallel::distributed::Triangulation<2> &mesh)
+  {
+    dealii::GridGenerator::hyper_cube(mesh, 0., 1., true);
+    mesh.refine_global(2);
+    for (int step = 0; step < 2; ++step)
+    {
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (cell->is_locally_owned()
+            && cell->center().distance(Point<2>(0., 0.4)) < 0.3)
+          cell->set_refine_flag();
+      mesh.execute_coarsening_and_refinement();
+    }
+  }
+
+  /** Forces by the matrix and by the cells at a support, against those by the
+   * stress in all cells, whatever the support prescribes. */
+  void forces_at_supports(const PlaneModel plane, const unsigned int degree)
+  {
+    const Expression<2> prescribed("0.2 + y; -y^2", "Support", 2);
+    const auto forces =
+        [&](const std::shared_ptr<const Material<2>> &law, const auto &take)
+    {
+      dealii::parallel::distributed::Triangulation<2> mesh(MPI_COMM_WORLD);
+      refine_at_the_side(mesh);
+      ElasticData<2> data;
+      data.materials = {{0, law}};
+      data.supports = {{0, {&prescribed, dealii::ComponentMask(2, true)}}};
+      Elasticity<2> elasticity(mesh, degree);
+      elasticity.setup(data);
+      elasticity.assemble_stiffness();
+      elasticity.assemble_load(data);
+      la::Vector u = elasticity.vector();
+      dealii::VectorTools::interpolate(
+          elasticity.mapping, elasticity.dof_handler,
+          Expression<2>("sin(5*y) + x^2*y; x - y^2 + 0.1", "u", 2), u);
+      return take(elasticity, u);
+    };
+    const la::Vector by_stress = forces(
+        std::make_shared<Hidden>(plane), [](const auto &problem, const auto &u)
+        { return problem.nodal_forces(u).internal; });
+    la::Vector by_matrix =
+        forces(std::make_shared<Hooke<2>>(material<2>(plane)),
+               [](const auto &problem, const auto &u)
+               { return problem.stiffness_times(u); });
+    by_matrix -= by_stress;
+    Expect::near(by_matrix.linfty_norm(), 0, 1e-13 * by_stress.linfty_norm(),
+                 "forces at supports, degree " + std::to_string(degree));
+  }
+
+  /** Virtual works of u = xy + y^2 on v = x^2 + y + 1, neither of which is 0
+   * where u is prescribed. */
+  void works_at_supports()
+  {
+    dealii::parallel::distributed::Triangulation<2> mesh(MPI_COMM_WORLD);
+    refine_at_the_side(mesh);
+    const Expression<2> conductivity("3", "k"), load("1.5", "f"),
+        prescribed("y^2", "u"), flux("2", "flux");
+    MembraneData<2> data;
+    data.conductivity = &conductivity;
+    data.load = &load;
+    data.constant_conductivity = data.constant_load = true;
+    data.dirichlet = {{0, &prescribed}};
+    data.neumann = {{1, &flux}};
+    Membrane<2> membrane(mesh, 2);
+    membrane.setup(data);
+    membrane.assemble(data);
+    const auto interpolate = [&](const std::string &text)
+    {
+      la::Vector result = membrane.vector();
+      dealii::VectorTools::interpolate(membrane.mapping, membrane.dof_handler,
+                                       Expression<2>(text, "u"), result);
+      membrane.hanging.set_zero(result);
+      return result;
+    };
+    const NodalForces forces = membrane.nodal_forces(interpolate("x*y + y^2"));
+    const la::Vector v = interpolate("x^2 + y + 1");
+    Expect::near(forces.internal * v, 3 * 2., 1e-12, "work of internal forces");
+    Expect::near(forces.external * v, 1.5 * 11. / 6. + 2 * 2.5, 1e-12,
+                 "work of loads");
   }
 
   /** A nonlinear material: uniform strain has the stress of the formula, the
@@ -594,6 +680,10 @@ main(int argc, char **argv)
                     {
                       hooke();
                       forces_of_stress();
+                      for (const PlaneModel plane : plane_models)
+                        for (const unsigned int degree : {1U, 2U})
+                          forces_at_supports(plane, degree);
+                      works_at_supports();
                       nonlinear_material();
                       norms();
                       for (const PlaneModel plane : plane_models)

@@ -31,15 +31,11 @@ namespace abut::app
   template <int dim>
   void DiscreteProblem<dim>::set_constraints(const Prescribe &prescribe)
   {
-    hanging.clear();
-    hanging.reinit(relevant);
-    dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging);
     constraints.clear();
     constraints.reinit(relevant);
     constraints.merge(hanging);
     prescribe(constraints);
     constraints.close();
-    hanging.close();
   }
 
   template <int dim>
@@ -49,7 +45,12 @@ namespace abut::app
     if (renumber)
       dealii::DoFRenumbering::Cuthill_McKee(dof_handler);
     dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    hanging.clear();
+    hanging.reinit(relevant);
+    dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging);
+    hanging.close();
     set_constraints(prescribe);
+    known_support_cells.reset();
 
     stiffness.clear();
     const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
@@ -93,6 +94,86 @@ namespace abut::app
     stiffness.vmult(result, u);
     result.add(-1., load);
     constraints.set_zero(result);
+  }
+
+  template <int dim>
+  la::Vector DiscreteProblem<dim>::at_supports(const la::Vector &values) const
+  {
+    la::Vector free(values), result(values);
+    constraints.set_zero(free);
+    result.add(-1., free);
+    hanging.set_zero(result);
+    return result;
+  }
+
+  template <int dim>
+  std::vector<typename DiscreteProblem<dim>::Cell>
+  DiscreteProblem<dim>::find_support_cells() const
+  {
+    // Marks that differ: what hangs on several of them must not get 0.
+    constexpr double golden_ratio = 0.6180339887498949;
+    la::Vector all = vector();
+    for (int i = 0; i < la::n_owned(all); ++i)
+      la::data(all)[i] = 1. + std::fmod(golden_ratio * i, 1.);
+    const la::Vector mark = ghosted_field(at_supports(all));
+    std::vector<Cell> result;
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        cell->get_dof_indices(dofs);
+        if (std::any_of(dofs.begin(), dofs.end(),
+                        [&](const auto dof) { return mark(dof) != 0.; }))
+          result.push_back(cell);
+      }
+    return result;
+  }
+
+  template <int dim>
+  const std::vector<typename DiscreteProblem<dim>::Cell> &
+  DiscreteProblem<dim>::support_cells() const
+  {
+    if (!known_support_cells)
+      known_support_cells = find_support_cells();
+    return *known_support_cells;
+  }
+
+  template <int dim>
+  la::Vector DiscreteProblem<dim>::support_forces(
+      const la::Vector &u, const CellStiffness &cell_stiffness) const
+  {
+    la::Vector free(u);
+    constraints.set_zero(free);
+    const la::Vector of[] = {ghosted_field(at_supports(u)),
+                             ghosted_field(free)};
+    la::Vector by[] = {open_load(), open_load()};
+    const unsigned int n = fe.n_dofs_per_cell();
+    dealii::Vector<double> values(n), force(n);
+    std::vector<dealii::types::global_dof_index> dofs(n);
+    for (const Cell &cell : support_cells())
+    {
+      cell->get_dof_indices(dofs);
+      const dealii::FullMatrix<double> &matrix = cell_stiffness(cell);
+      for (int part = 0; part < 2; ++part)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          values(i) = of[part](dofs[i]);
+        matrix.vmult(force, values);
+        hanging.distribute_local_to_global(force, dofs, by[part]);
+      }
+    }
+    la::Vector result = close_load(by[0]);
+    result += at_supports(close_load(by[1]));
+    return result;
+  }
+
+  template <int dim>
+  la::Vector DiscreteProblem<dim>::free_forces(const la::Vector &u) const
+  {
+    la::Vector free(u), result = vector();
+    constraints.set_zero(free);
+    stiffness.vmult(result, free);
+    return result;
   }
 
   template <int dim>

@@ -9,10 +9,13 @@
 #include <deal.II/fe/fe.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/full_matrix.h>
 
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <vector>
 
 namespace abut::app
 {
@@ -94,6 +97,11 @@ namespace abut::app
     bool renumber = false;
 
   protected:
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+    /** Stiffness of a cell, valid until the next call. */
+    using CellStiffness =
+        std::function<const dealii::FullMatrix<double> &(const Cell &)>;
+
     /** Number unknowns, build constraints and the matrix's pattern for the
      * present mesh. Collective. */
     void distribute(const Prescribe &prescribe);
@@ -105,6 +113,23 @@ namespace abut::app
     /** The residual where it is linear: that of `stiffness` and `load`. */
     void linear_residual(const la::Vector &u, la::Vector &result) const;
 
+    /** Cells of this rank with unknowns that are prescribed, or hang on such:
+     * only there the matrix does not say what forces are. Found once for each
+     * mesh; collective then. */
+    const std::vector<Cell> &support_cells() const;
+
+    /** The entries of a vector at prescribed unknowns, 0 at all others. */
+    la::Vector at_supports(const la::Vector &values) const;
+
+    /** What the cells at supports add to the product of the matrix with the
+     * free part of @p u: forces of prescribed values at free unknowns, and all
+     * forces at prescribed ones. Collective. */
+    la::Vector support_forces(const la::Vector &u,
+                              const CellStiffness &cell_stiffness) const;
+
+    /** The product of the matrix with the free part of @p u (owned). */
+    la::Vector free_forces(const la::Vector &u) const;
+
     /** A load vector that takes contributions to unknowns of other ranks. */
     la::Vector open_load() const;
 
@@ -112,6 +137,11 @@ namespace abut::app
     la::Vector close_load(la::Vector &open) const;
 
     const MPI_Comm communicator;
+
+  private:
+    std::vector<Cell> find_support_cells() const;
+
+    mutable std::optional<std::vector<Cell>> known_support_cells;
   };
 
   /** K u = f: forces of small strain, gradients of a membrane. */

@@ -316,14 +316,13 @@ namespace abut::app
   {
     const dealii::Vector<double> nothing(this->fe.n_dofs_per_cell());
     std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
-    for (const auto &cell : this->dof_handler.active_cell_iterators())
+    for (const auto &cell : this->support_cells())
     {
-      if (!cell->is_locally_owned())
-        continue;
       cell->get_dof_indices(dofs);
-      bool any = false;
-      for (const global_dof_index dof : dofs)
-        any = any || this->constraints.is_inhomogeneously_constrained(dof);
+      const bool any = std::any_of(
+          dofs.begin(), dofs.end(),
+          [this](const auto dof)
+          { return this->constraints.is_inhomogeneously_constrained(dof); });
       if (any)
         this->constraints.distribute_local_to_global(nothing, dofs, load,
                                                      cache->matrix(cell));
@@ -341,9 +340,11 @@ namespace abut::app
                  add_volume_forces(data, open, all);
                  if (!data.tractions.empty() || !data.pressures.empty())
                    add_boundary_forces(data, open, all);
-                 if (this->constraints.has_inhomogeneities() && is_linear())
-                   add_support_forces(open);
                });
+    const bool has_values = this->constraints.has_inhomogeneities();
+    if (is_linear()
+        && dealii::Utilities::MPI::logical_or(has_values, this->communicator))
+      add_support_forces(open);
     la::Vector closed = this->close_load(open);
     this->load.swap(closed);
     la::Vector closed_all = this->close_load(all);
@@ -354,8 +355,6 @@ namespace abut::app
   la::Vector Elasticity<dim>::internal_forces(
       const la::Vector &u, const dealii::AffineConstraints<double> &rules) const
   {
-    if (is_linear())
-      return linear_forces(this->ghosted(u), rules);
     const la::Vector ghosted = this->ghosted_field(u);
     la::Vector open = this->open_load();
     dealii::Vector<double> force(this->fe.n_dofs_per_cell());
@@ -371,42 +370,36 @@ namespace abut::app
   }
 
   template <int dim>
-  la::Vector Elasticity<dim>::linear_forces(
-      const la::Vector &ghosted,
-      const dealii::AffineConstraints<double> &rules) const
+  la::Vector Elasticity<dim>::stiffness_times(const la::Vector &u) const
   {
-    la::Vector open = this->open_load();
-    const unsigned int n = this->fe.n_dofs_per_cell();
-    dealii::Vector<double> values(n), force(n);
-    std::vector<global_dof_index> dofs(n);
-    for (const auto &cell : this->dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-      {
-        cell->get_dof_indices(dofs);
-        for (unsigned int i = 0; i < n; ++i)
-          values(i) = ghosted(dofs[i]);
-        cache->matrix(cell).vmult(force, values);
-        rules.distribute_local_to_global(force, dofs, open);
-      }
-    return this->close_load(open);
+    la::Vector result = this->free_forces(u);
+    result += this->support_forces(
+        u,
+        [this](const auto &cell) -> const dealii::FullMatrix<double> &
+        { return cache->matrix(cell); });
+    return result;
   }
 
   template <int dim>
-  la::Vector Elasticity<dim>::stiffness_times(const la::Vector &u) const
+  la::Vector Elasticity<dim>::all_internal_forces(const la::Vector &u) const
   {
-    return linear_forces(this->ghosted_field(u), this->hanging);
+    if (!is_linear())
+      return internal_forces(u, this->hanging);
+    la::Vector all(u);
+    this->constraints.distribute(all);
+    return stiffness_times(all);
   }
 
   template <int dim>
   NodalForces Elasticity<dim>::nodal_forces(const la::Vector &u) const
   {
-    return {internal_forces(u, this->hanging), external};
+    return {all_internal_forces(u), external};
   }
 
   template <int dim>
   la::Vector Elasticity<dim>::unbalanced_forces(const la::Vector &u) const
   {
-    la::Vector result = internal_forces(u, this->hanging);
+    la::Vector result = all_internal_forces(u);
     result.add(-1., external);
     return result;
   }
@@ -442,7 +435,7 @@ namespace abut::app
       this->hanging.set_zero(all);
       return stored - external * all;
     }
-    la::Vector forces = internal_forces(all, this->hanging);
+    la::Vector forces = stiffness_times(all);
     forces.sadd(0.5, -1., external);
     this->hanging.set_zero(all);
     return forces * all;

@@ -109,14 +109,13 @@ namespace abut::app
     void add_boundary_forces(const ElasticData<dim> &data, la::Vector &load,
                              la::Vector &all) const;
     void add_support_forces(la::Vector &load) const;
-    /** Internal forces by rules of hanging nodes alone, or of supports, too. */
+    /** Internal forces by rules of hanging nodes alone, or of supports, too,
+     * cell by cell. */
     la::Vector
     internal_forces(const la::Vector &u,
                     const dealii::AffineConstraints<double> &rules) const;
-    /** The same of linear materials, for values with ghosts. */
-    la::Vector
-    linear_forces(const la::Vector &ghosted,
-                  const dealii::AffineConstraints<double> &rules) const;
+    /** Those of the first kind, with the present prescribed values. */
+    la::Vector all_internal_forces(const la::Vector &u) const;
     double stored_energy(const la::Vector &u) const;
     void assemble_tangent(const la::Vector &u);
 

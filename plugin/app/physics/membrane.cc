@@ -13,6 +13,143 @@
 
 namespace abut::app
 {
+  namespace
+  {
+    /** Stiffness and load of one cell after the other. */
+    template <int dim> class CellSystem
+    {
+    public:
+      CellSystem(const DiscreteProblem<dim> &problem,
+                 const MembraneData<dim> &data)
+          : matrix(problem.fe.n_dofs_per_cell(), problem.fe.n_dofs_per_cell()),
+            load(problem.fe.n_dofs_per_cell()),
+            data(data),
+            quadrature(problem.fe.degree + 1),
+            values(problem.mapping, problem.fe, quadrature, flags(data)),
+            k(quadrature.size(),
+              data.conductivity->value(dealii::Point<dim>())),
+            f(quadrature.size(), data.load->value(dealii::Point<dim>()))
+      {
+      }
+
+      /** Throws InputError for values of k and f that are not legal. */
+      template <typename Cell> void compute(const Cell &cell)
+      {
+        values.reinit(cell);
+        if (is_like_the_last())
+          return;
+        evaluate();
+        matrix = 0.;
+        load = 0.;
+        const unsigned int n = load.size();
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          const double weight = values.JxW(q);
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            const auto gradient = (k[q] * weight) * values.shape_grad(i, q);
+            for (unsigned int j = 0; j <= i; ++j)
+              matrix(i, j) += gradient * values.shape_grad(j, q);
+            load(i) += f[q] * weight * values.shape_value(i, q);
+          }
+        }
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = i + 1; j < n; ++j)
+            matrix(i, j) = matrix(j, i);
+      }
+
+      dealii::FullMatrix<double> matrix;
+      dealii::Vector<double> load;
+
+    private:
+      /** Cells that are shifted only have the same matrix. */
+      bool is_like_the_last() const
+      {
+        return data.constant_load && data.constant_conductivity
+               && values.get_cell_similarity()
+                      == dealii::CellSimilarity::translation;
+      }
+
+      static dealii::UpdateFlags flags(const MembraneData<dim> &data)
+      {
+        const auto always = dealii::update_values | dealii::update_gradients
+                            | dealii::update_JxW_values;
+        return data.constant_load && data.constant_conductivity
+                   ? always
+                   : always | dealii::update_quadrature_points;
+      }
+
+      void evaluate()
+      {
+        if (!data.constant_conductivity)
+          checked_values(*data.conductivity, values.get_quadrature_points(),
+                         "Membrane/Conductivity", k);
+        if (!data.constant_load)
+          checked_values(*data.load, values.get_quadrature_points(),
+                         "Membrane/Load", f);
+        for (const double here : k)
+          if (!(here > 0.))
+            throw InputError("Membrane/Conductivity",
+                             "The conductivity must be positive; it is "
+                                 + std::to_string(here) + " somewhere.");
+      }
+
+      const MembraneData<dim> &data;
+      const dealii::QGauss<dim> quadrature;
+      dealii::FEValues<dim> values;
+      std::vector<double> k, f;
+    };
+
+    /** The load by fluxes through the faces of one cell after the other. */
+    template <int dim> class CellFlux
+    {
+    public:
+      CellFlux(const DiscreteProblem<dim> &problem,
+               const MembraneData<dim> &data)
+          : load(problem.fe.n_dofs_per_cell()),
+            data(data),
+            quadrature(problem.fe.degree + 1),
+            values(problem.mapping, problem.fe, quadrature,
+                   dealii::update_values | dealii::update_JxW_values
+                       | dealii::update_quadrature_points),
+            flux(quadrature.size())
+      {
+      }
+
+      /** Whether there is any. */
+      template <typename Cell> bool compute(const Cell &cell)
+      {
+        bool any = false;
+        if (data.neumann.empty() || !cell->at_boundary())
+          return any;
+        load = 0.;
+        for (const auto &face : cell->face_iterators())
+        {
+          if (!face->at_boundary()
+              || data.neumann.count(face->boundary_id()) == 0)
+            continue;
+          any = true;
+          values.reinit(cell, face);
+          checked_values(*data.neumann.at(face->boundary_id()),
+                         values.get_quadrature_points(), "Membrane/Neumann",
+                         flux);
+          for (unsigned int q = 0; q < quadrature.size(); ++q)
+            for (unsigned int i = 0; i < load.size(); ++i)
+              load(i) += flux[q] * values.JxW(q) * values.shape_value(i, q);
+        }
+        return any;
+      }
+
+      dealii::Vector<double> load;
+
+    private:
+      const MembraneData<dim> &data;
+      const dealii::QGauss<dim - 1> quadrature;
+      dealii::FEFaceValues<dim> values;
+      std::vector<double> flux;
+    };
+  } // namespace
+
   template <int dim>
   Membrane<dim>::Membrane(
       dealii::parallel::distributed::Triangulation<dim> &triangulation,
@@ -37,151 +174,80 @@ namespace abut::app
         });
   }
 
-  template <int dim>
-  void Membrane<dim>::for_each_cell(const MembraneData<dim> &data,
-                                    const TakeCell &take) const
-  {
-    const dealii::QGauss<dim> quadrature(this->fe.degree + 1);
-    dealii::UpdateFlags flags = dealii::update_values | dealii::update_gradients
-                                | dealii::update_JxW_values;
-    if (!data.constant_load || !data.constant_conductivity)
-      flags |= dealii::update_quadrature_points;
-    dealii::FEValues<dim> values(this->mapping, this->fe, quadrature, flags);
-
-    const unsigned int n = this->fe.n_dofs_per_cell();
-    dealii::FullMatrix<double> cell_matrix(n, n);
-    dealii::Vector<double> cell_load(n);
-    std::vector<dealii::types::global_dof_index> dofs(n);
-    std::vector<double> k(quadrature.size(),
-                          data.conductivity->value(dealii::Point<dim>()));
-    std::vector<double> f(quadrature.size(),
-                          data.load->value(dealii::Point<dim>()));
-
-    for (const auto &cell : this->dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-      {
-        values.reinit(cell);
-        if (!data.constant_conductivity)
-          checked_values(*data.conductivity, values.get_quadrature_points(),
-                         "Membrane/Conductivity", k);
-        if (!data.constant_load)
-          checked_values(*data.load, values.get_quadrature_points(),
-                         "Membrane/Load", f);
-        cell_matrix = 0.;
-        cell_load = 0.;
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
-        {
-          if (!(k[q] > 0.))
-            throw InputError("Membrane/Conductivity",
-                             "The conductivity must be positive; it is "
-                                 + std::to_string(k[q]) + " somewhere.");
-          const double weight = values.JxW(q);
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            const auto gradient = (k[q] * weight) * values.shape_grad(i, q);
-            for (unsigned int j = 0; j <= i; ++j)
-              cell_matrix(i, j) += gradient * values.shape_grad(j, q);
-            cell_load(i) += f[q] * weight * values.shape_value(i, q);
-          }
-        }
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = i + 1; j < n; ++j)
-            cell_matrix(i, j) = cell_matrix(j, i);
-        cell->get_dof_indices(dofs);
-        take(cell_matrix, cell_load, dofs);
-      }
-  }
-
-  template <int dim>
-  void Membrane<dim>::for_each_flux(const MembraneData<dim> &data,
-                                    const TakeFace &take) const
-  {
-    if (data.neumann.empty())
-      return;
-    const dealii::QGauss<dim - 1> quadrature(this->fe.degree + 1);
-    dealii::FEFaceValues<dim> values(this->mapping, this->fe, quadrature,
-                                     dealii::update_values
-                                         | dealii::update_JxW_values
-                                         | dealii::update_quadrature_points);
-    dealii::Vector<double> cell_load(this->fe.n_dofs_per_cell());
-    std::vector<dealii::types::global_dof_index> dofs(
-        this->fe.n_dofs_per_cell());
-    std::vector<double> flux(quadrature.size());
-    for (const auto &cell : this->dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const auto &face : cell->face_iterators())
-        {
-          if (!face->at_boundary()
-              || data.neumann.count(face->boundary_id()) == 0)
-            continue;
-          values.reinit(cell, face);
-          checked_values(*data.neumann.at(face->boundary_id()),
-                         values.get_quadrature_points(), "Membrane/Neumann",
-                         flux);
-          cell_load = 0.;
-          for (unsigned int q = 0; q < quadrature.size(); ++q)
-            for (unsigned int i = 0; i < cell_load.size(); ++i)
-              cell_load(i) +=
-                  flux[q] * values.JxW(q) * values.shape_value(i, q);
-          cell->get_dof_indices(dofs);
-          take(cell_load, dofs);
-        }
-  }
-
   template <int dim> void Membrane<dim>::assemble(const MembraneData<dim> &data)
   {
     this->stiffness = 0.;
     la::Vector open = this->open_load();
-    collective(this->communicator,
-               [&]
-               {
-                 for_each_cell(data,
-                               [&](const auto &matrix, const auto &force,
-                                   const Dofs &dofs)
-                               {
-                                 this->constraints.distribute_local_to_global(
-                                     matrix, force, dofs, this->stiffness,
-                                     open);
-                               });
-                 for_each_flux(data,
-                               [&](const auto &force, const Dofs &dofs) {
-                                 this->constraints.distribute_local_to_global(
-                                     force, dofs, open);
-                               });
-               });
+    std::vector<dealii::types::global_dof_index> dofs(
+        this->fe.n_dofs_per_cell());
+    const auto add = [&]
+    {
+      CellSystem<dim> system(*this, data);
+      CellFlux<dim> flux(*this, data);
+      for (const auto &cell : this->dof_handler.active_cell_iterators())
+      {
+        if (!cell->is_locally_owned())
+          continue;
+        cell->get_dof_indices(dofs);
+        system.compute(cell);
+        this->constraints.distribute_local_to_global(
+            system.matrix, system.load, dofs, this->stiffness, open);
+        if (flux.compute(cell))
+          this->constraints.distribute_local_to_global(flux.load, dofs, open);
+      }
+    };
+    collective(this->communicator, add);
     this->stiffness.compress(dealii::VectorOperation::add);
     la::Vector closed = this->close_load(open);
     this->load.swap(closed);
     assembled = data;
   }
 
+  template <int dim> la::Vector Membrane<dim>::loads_at_supports() const
+  {
+    la::Vector open = this->open_load();
+    CellSystem<dim> system(*this, assembled);
+    CellFlux<dim> flux(*this, assembled);
+    std::vector<dealii::types::global_dof_index> dofs(
+        this->fe.n_dofs_per_cell());
+    for (const auto &cell : this->support_cells())
+    {
+      cell->get_dof_indices(dofs);
+      system.compute(cell);
+      this->hanging.distribute_local_to_global(system.load, dofs, open);
+      if (flux.compute(cell))
+        this->hanging.distribute_local_to_global(flux.load, dofs, open);
+    }
+    return this->at_supports(this->close_load(open));
+  }
+
   template <int dim>
   NodalForces Membrane<dim>::nodal_forces(const la::Vector &u) const
   {
-    const la::Vector ghosted = this->ghosted(u);
-    la::Vector internal = this->open_load();
-    la::Vector external = this->open_load();
-    dealii::Vector<double> values(this->fe.n_dofs_per_cell());
-    dealii::Vector<double> product(values);
-    for_each_cell(
-        assembled,
-        [&](const auto &matrix, const auto &force, const Dofs &dofs)
+    la::Vector all(u);
+    this->constraints.distribute(all);
+    CellSystem<dim> system(*this, assembled);
+    const la::Vector of_supports = this->support_forces(
+        all,
+        [&](const auto &cell) -> const dealii::FullMatrix<double> &
         {
-          for (unsigned int i = 0; i < dofs.size(); ++i)
-            values(i) = ghosted(dofs[i]);
-          matrix.vmult(product, values);
-          this->hanging.distribute_local_to_global(product, dofs, internal);
-          this->hanging.distribute_local_to_global(force, dofs, external);
+          system.compute(cell);
+          return system.matrix;
         });
-    for_each_flux(
-        assembled, [&](const auto &force, const Dofs &dofs)
-        { this->hanging.distribute_local_to_global(force, dofs, external); });
-    return {this->close_load(internal), this->close_load(external)};
+    NodalForces result{this->free_forces(all), this->load};
+    result.internal += of_supports;
+    // The load has what prescribed values add already.
+    la::Vector at_free(of_supports);
+    this->constraints.set_zero(at_free);
+    result.external += at_free;
+    result.external += loads_at_supports();
+    return result;
   }
 
   template <int dim> double Membrane<dim>::energy(const la::Vector &u) const
   {
-    if (this->constraints.has_inhomogeneities())
+    if (dealii::Utilities::MPI::logical_or(
+            this->constraints.has_inhomogeneities(), this->communicator))
       return membrane_energy(this->mapping, this->dof_handler, this->ghosted(u),
                              *assembled.load, assembled.conductivity,
                              assembled.neumann);

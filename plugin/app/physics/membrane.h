@@ -39,19 +39,8 @@ namespace abut::app
     NodalForces nodal_forces(const la::Vector &u) const override;
 
   private:
-    using Dofs = std::vector<dealii::types::global_dof_index>;
-    /** Takes stiffness and load of a cell. */
-    using TakeCell =
-        std::function<void(const dealii::FullMatrix<double> &,
-                           const dealii::Vector<double> &, const Dofs &)>;
-    /** Takes the load of a face. */
-    using TakeFace =
-        std::function<void(const dealii::Vector<double> &, const Dofs &)>;
-
-    void for_each_cell(const MembraneData<dim> &data,
-                       const TakeCell &take) const;
-    void for_each_flux(const MembraneData<dim> &data,
-                       const TakeFace &take) const;
+    /** Loads at prescribed unknowns, 0 at others. */
+    la::Vector loads_at_supports() const;
 
     MembraneData<dim> assembled;
   };
