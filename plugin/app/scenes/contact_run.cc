@@ -59,6 +59,7 @@ namespace abut::app
     linear_solver.reset();
     state.contact.set_parameters(state.method, state.settings.solver);
     contact_is_ready = false;
+    largest_cell.reset();
     model.setup_mesh();
     if (model.has_contact() || !model.problem().is_linear())
       return;
@@ -127,8 +128,8 @@ namespace abut::app
       const DiscreteProblem<dim> &problem = model.problem();
       state.contact.reinit(problem.mapping, problem.dof_handler,
                            problem.constraints);
-      if (pressure.size() > 0)
-        state.contact.set_pressure(pressure);
+      if (pressure != nullptr)
+        state.contact.set_pressure(*pressure);
       model.prepare_contact(state.contact);
       contact_is_ready = true;
       if (model.has_inertia())
@@ -150,7 +151,7 @@ namespace abut::app
     const unsigned int sweeps = state.settings.refinement.relaxation_sweeps;
     if (abut_law_needs_open_start(state.method.options.law))
       parameters.relaxation_sweeps = std::max(1u, sweeps);
-    else if (model.relaxes() && pressure.size() > 0)
+    else if (model.relaxes() && pressure != nullptr)
       parameters.relaxation_sweeps = sweeps;
     return parameters;
   }
@@ -350,7 +351,7 @@ namespace abut::app
       if (step == ErrorTarget::Step::refine)
         break;
       if (model.has_contact())
-        pressure = state.contact.pressure();
+        pressure = std::make_shared<const la::Vector>(state.contact.pressure());
       contact_is_ready = false;
       if (!solve())
         return false;
@@ -440,7 +441,7 @@ namespace abut::app
         [this] { setup_mesh(); }, report.times);
     state.u = fields[0];
     if (model.has_contact())
-      pressure = fields[1];
+      pressure = std::make_shared<const la::Vector>(std::move(fields[1]));
     ++state.mesh_number;
     la::Vector start(state.u);
     problem.constraints.distribute(start);
@@ -504,7 +505,7 @@ namespace abut::app
       // Nothing was committed: begin again, on the mesh that there is now.
       state.u = model.start();
       contact_is_ready = false;
-      pressure.clear();
+      pressure.reset();
       return goes_on;
     }
     state.u = before;

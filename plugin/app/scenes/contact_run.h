@@ -118,6 +118,8 @@ namespace abut::app
     bool examine();
     /** The same for works and energy, in linear statics without friction. */
     std::optional<ContactFinding> examine_works();
+    /** The largest diameter on the present mesh. Collective. */
+    double size_of_cells();
     void judge();
     void finish_result();
 
@@ -129,17 +131,20 @@ namespace abut::app
     /** Section of the times that the solver is in. */
     std::optional<SectionTimes::Scope> section;
     bool contact_is_ready = false; ///< for the present mesh
-    la::Vector pressure;           ///< owned; start of the next solve, or empty
-    std::string failure;           ///< why the last solve has no answer
-    std::string told;              ///< of these, the last one
-    std::string missed_target;     ///< why, or empty
+    std::optional<double> largest_cell;
+    /** Owned; start of the next solve, or null. */
+    std::shared_ptr<const la::Vector> pressure;
+    std::string failure;            ///< why the last solve has no answer
+    std::string told;               ///< of these, the last one
+    std::string missed_target;      ///< why, or empty
     ContactExamination examination; ///< of the last load step
     StepTable steps;
     double counted_before = 0.;
 
     MeshHistory<dim> mesh_history;
     Checkpoint marked; ///< without the mesh
-    la::Vector marked_u, marked_pressure;
+    la::Vector marked_u;
+    std::shared_ptr<const la::Vector> marked_pressure;
     /** What the first solve after a restart begins with. */
     std::optional<Checkpoint> resumed;
   };

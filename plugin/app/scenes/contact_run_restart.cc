@@ -81,9 +81,9 @@ namespace abut::app
   {
     SectionTimes::Scope scope(report.times, "checkpoint");
     std::vector<la::Vector> fields = {marked_u};
-    marked.has_pressure = marked_pressure.size() > 0;
+    marked.has_pressure = marked_pressure != nullptr;
     if (marked.has_pressure)
-      fields.push_back(marked_pressure);
+      fields.push_back(*marked_pressure);
     marked.has_start = state.control.start().size() > 0;
     if (marked.has_start)
       fields.push_back(state.control.start());
@@ -140,7 +140,7 @@ namespace abut::app
     if (saved.has_start)
       state.control.restore_start(fields.back());
     if (saved.has_pressure)
-      pressure = fields[1];
+      pressure = std::make_shared<const la::Vector>(fields[1]);
     from_bytes(saved.report, report);
     if (saved.has_contact)
       resumed = std::move(saved);

@@ -88,13 +88,21 @@ namespace abut::app
         return {};
       works.open_gaps = *open;
     }
-    double length = 0.;
-    for (const auto &cell : model.triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        length = std::max(length, cell->diameter());
-    length = dealii::Utilities::MPI::max(length, state.communicator);
-    return diagnose_works(report, works, length,
+    return diagnose_works(report, works, size_of_cells(),
                           state.contact.progress().penalty);
+  }
+
+  template <int dim> double ContactRun<dim>::size_of_cells()
+  {
+    if (!largest_cell)
+    {
+      double size = 0.;
+      for (const auto &cell : model.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          size = std::max(size, cell->diameter());
+      largest_cell = dealii::Utilities::MPI::max(size, state.communicator);
+    }
+    return *largest_cell;
   }
 
   template <int dim> bool ContactRun<dim>::examine()
@@ -176,12 +184,14 @@ namespace abut::app
   template void ContactRun<2>::judge();
   template void ContactRun<2>::add_missed_contact();
   template std::optional<ContactFinding> ContactRun<2>::examine_works();
+  template double ContactRun<2>::size_of_cells();
   template bool ContactRun<2>::examine();
   template void ContactRun<2>::finish_result();
   template double ContactRun<3>::counted_seconds() const;
   template void ContactRun<3>::judge();
   template void ContactRun<3>::add_missed_contact();
   template std::optional<ContactFinding> ContactRun<3>::examine_works();
+  template double ContactRun<3>::size_of_cells();
   template bool ContactRun<3>::examine();
   template void ContactRun<3>::finish_result();
 } // namespace abut::app

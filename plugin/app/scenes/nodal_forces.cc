@@ -4,10 +4,10 @@
 namespace abut::app
 {
   template <int dim>
-  std::vector<NodalColumn>
-  force_columns(const DiscreteProblem<dim> &problem,
-                const ContactRunState<dim> &run, const NodalForces &forces,
-                const bool has_contact, const la::Vector *unbalanced)
+  AppliedForces
+  applied_forces(const DiscreteProblem<dim> &problem,
+                 const ContactRunState<dim> &run, const NodalForces &forces,
+                 const bool has_contact, const la::Vector *unbalanced)
   {
     la::Vector reaction(forces.internal);
     reaction.add(-1., forces.external);
@@ -30,7 +30,17 @@ namespace abut::app
       contact += on_supports;
       reaction -= on_supports;
     }
+    return {contact, reaction};
+  }
 
+  template <int dim>
+  std::vector<NodalColumn>
+  force_columns(const DiscreteProblem<dim> &problem,
+                const ContactRunState<dim> &run, const NodalForces &forces,
+                const bool has_contact, const la::Vector *unbalanced)
+  {
+    const AppliedForces applied =
+        applied_forces(problem, run, forces, has_contact, unbalanced);
     la::Vector held = problem.vector();
     for (const auto dof : problem.dof_handler.locally_owned_dofs())
       held(dof) = problem.constraints.is_constrained(dof)
@@ -39,17 +49,19 @@ namespace abut::app
                       : 0.;
     held.compress(dealii::VectorOperation::insert);
     return {{"load", forces.external},
-            {"contact", contact},
-            {"reaction", reaction},
+            {"contact", applied.contact},
+            {"reaction", applied.reaction},
             {"held", held}};
   }
 
-  template std::vector<NodalColumn> force_columns(const DiscreteProblem<2> &,
-                                                  const ContactRunState<2> &,
-                                                  const NodalForces &, bool,
-                                                  const la::Vector *);
-  template std::vector<NodalColumn> force_columns(const DiscreteProblem<3> &,
-                                                  const ContactRunState<3> &,
-                                                  const NodalForces &, bool,
-                                                  const la::Vector *);
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template AppliedForces applied_forces(                                       \
+      const DiscreteProblem<dim> &, const ContactRunState<dim> &,              \
+      const NodalForces &, bool, const la::Vector *);                          \
+  template std::vector<NodalColumn> force_columns(                             \
+      const DiscreteProblem<dim> &, const ContactRunState<dim> &,              \
+      const NodalForces &, bool, const la::Vector *);
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 } // namespace abut::app

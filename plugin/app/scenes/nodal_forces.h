@@ -15,6 +15,20 @@
 
 namespace abut::app
 {
+  /** Forces on the body beside loads, at all unknowns but hanging ones. */
+  struct AppliedForces
+  {
+    la::Vector contact, reaction;
+  };
+
+  /** Those at the present displacement of @p run, see force_columns().
+   * Collective. */
+  template <int dim>
+  AppliedForces applied_forces(const DiscreteProblem<dim> &problem,
+                               const ContactRunState<dim> &run,
+                               const NodalForces &forces, bool has_contact,
+                               const la::Vector *unbalanced = nullptr);
+
   /** Columns `load`, `contact`, `reaction` and `held` (1 where a value is
    * prescribed): forces on the body at the
    * present displacement of @p run, whose nodal forces are @p forces, hanging

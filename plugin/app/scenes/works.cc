@@ -34,24 +34,22 @@ namespace abut::app
     Works works;
     const NodalForces forces = problem.nodal_forces(run.u);
     works.stored = forces.internal * u;
+    const std::vector<double> diagonal =
+        la::diagonal(la::local_rows(problem.stiffness));
     for (int i = 0; i < la::n_owned(u); ++i)
     {
       const double d = la::data(u)[i];
-      works.apart += d * d
-                     * std::abs(problem.stiffness.diag_element(
-                         u.locally_owned_elements().nth_index_in_set(
-                             static_cast<dealii::types::global_dof_index>(i))));
+      works.apart += d * d * std::abs(diagonal[i]);
     }
-    for (const NodalColumn &column :
-         force_columns(problem, run, forces, has_contact))
-      if (column.name == "contact")
-      {
-        contact = column.values;
-        works.force = contact.l1_norm();
-        works.contact = work(contact, u, works.size);
-      }
-      else if (column.name != "held")
-        works.given += work(column.values, u, works.size);
+    AppliedForces applied = applied_forces(problem, run, forces, has_contact);
+    works.given = work(forces.external, u, works.size)
+                  + work(applied.reaction, u, works.size);
+    if (has_contact)
+    {
+      works.force = applied.contact.l1_norm();
+      works.contact = work(applied.contact, u, works.size);
+      contact.swap(applied.contact);
+    }
     works.size = dealii::Utilities::MPI::sum(works.size, run.communicator);
     works.apart = dealii::Utilities::MPI::sum(works.apart, run.communicator);
     return works;
