@@ -88,6 +88,39 @@ namespace abut::shim
           state.data(),  place.data()};
       check(context, abut_history_set(history, &given));
     }
+
+    /** Where a solve ended in a pressure that is no number, the next begins
+     * with none. */
+    double finite_pressure(const double pressure)
+    {
+      return std::isfinite(pressure) ? pressure : 0.;
+    }
+
+    /** Points by ascending numbers. Those that are open and have no pressure
+     * are left out: of points that it does not know the history says the same.
+     */
+    void set_loaded(const abut_context *context, abut_history *history,
+                    const std::vector<std::int64_t> &id,
+                    const std::vector<double> &pressure,
+                    const std::vector<std::uint8_t> &state)
+    {
+      std::vector<std::int64_t> ids;
+      std::vector<double> pressures;
+      std::vector<std::uint8_t> states;
+      for (std::size_t i = 0; i < id.size(); ++i)
+        if (const double p = finite_pressure(pressure[i]);
+            p != 0. || state[i] != ABUT_STATE_OPEN)
+        {
+          ids.push_back(id[i]);
+          pressures.push_back(p);
+          states.push_back(state[i]);
+        }
+      const abut_history_entries entries = {
+          sizeof(entries), static_cast<std::int64_t>(ids.size()),
+          ids.data(),      pressures.data(),
+          states.data(),   nullptr};
+      check(context, abut_history_set(history, &entries));
+    }
   } // namespace
 
   ContactHistory::ContactHistory(abut_context *context,
@@ -114,29 +147,14 @@ namespace abut::shim
                               const std::vector<std::uint8_t> &state,
                               const Penalty &penalty)
   {
-    // Where a solve ended in a pressure that is no number, the next begins with
-    // none.
-    std::vector<double> finite(pressure);
-    for (double &p : finite)
-      p = std::isfinite(p) ? p : 0.;
     check(context_, abut_history_begin_step(history_.get()));
-    if (std::is_sorted(id.begin(), id.end()))
-    {
-      std::vector<double> place(placed.empty() ? 0 : 3 * id.size(), 0.);
-      for (const PlacedRow &row : placed)
-        std::copy(row.place.begin(), row.place.end(),
-                  place.begin() + 3 * row.row);
-      const abut_history_entries entries = {
-          sizeof(entries), static_cast<std::int64_t>(id.size()),
-          id.data(),       finite.data(),
-          state.data(),    place.empty() ? nullptr : place.data()};
-      check(context_, abut_history_set(history_.get(), &entries));
-    }
+    if (placed.empty() && std::is_sorted(id.begin(), id.end()))
+      set_loaded(context_, history_.get(), id, pressure, state);
     else
     {
       std::vector<Entry> entries(id.size());
       for (std::size_t i = 0; i < id.size(); ++i)
-        entries[i] = {id[i], finite[i], state[i], {}};
+        entries[i] = {id[i], finite_pressure(pressure[i]), state[i], {}};
       for (const PlacedRow &row : placed)
         entries[row.row].place = row.place;
       set(context_, history_.get(), std::move(entries));

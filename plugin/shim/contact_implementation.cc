@@ -457,11 +457,7 @@ namespace abut
     // small because the start is good.
     la::Vector internal(residual);
     stiffness_matrix(matrix).vmult(internal, start_displacement);
-    double *force = la::data(internal);
-    const dealii::IndexSet &owned = dof_handler->locally_owned_dofs();
-    for (int i = 0; i < la::n_owned(internal); ++i)
-      if (constraints->is_constrained(owned.nth_index_in_set(i)))
-        force[i] = 0.;
+    constraints->set_zero(internal);
     smallest_residual = method.options.final_linear_tolerance
                         * std::max(residual.l2_norm(), internal.l2_norm());
 
@@ -490,10 +486,13 @@ namespace abut
   void
   ContactAssembler<dim>::Implementation::take_matrix(const la::Matrix &matrix)
   {
-    row_stiffness = solve::row_stiffness(matrix, coefficients);
+    la::Vector compliance = solve::compliance(matrix);
+    row_stiffness = solve::row_stiffness(compliance, coefficients);
     if (law_compliance.size() == 0)
     {
-      law_compliance = solve::compliance(stiffness_matrix(matrix));
+      if (reference_matrix != nullptr)
+        compliance = solve::compliance(*reference_matrix);
+      law_compliance.swap(compliance);
       if (moves()) // directions turn, and the law must not
         surfaces->make_isotropic(law_compliance);
     }
@@ -601,6 +600,7 @@ namespace abut
     for (int block = 0; !blocks.empty() && block < blocks.n_blocks(); ++block)
       for (int r = 0, k = blocks.size(block); r < k; ++r)
         diagonal.push_back(blocks.at[block] + std::int64_t(r) * (k + 1));
+    given_field = la::Vector(); // is in the history now
     is_started = true;
   }
 

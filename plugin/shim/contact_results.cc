@@ -116,9 +116,10 @@ namespace abut
     la::Vector all(forces);
     all = 0.;
     i.surfaces->find_forces(i.row_pressures(), all);
-    for (const auto dof : all.locally_owned_elements())
-      if (i.constraints->is_constrained(dof))
-        forces(dof) += all(dof);
+    const dealii::IndexSet &owned = i.dof_handler->locally_owned_dofs();
+    for (const auto &line : i.constraints->get_lines())
+      if (owned.is_element(line.index))
+        forces(line.index) += all(line.index);
     forces.compress(dealii::VectorOperation::add);
   }
 

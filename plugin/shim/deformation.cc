@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace abut::shim
@@ -31,6 +32,71 @@ namespace abut::shim
     struct Sums
     {
       double volume = 0., strain = 0.;
+    };
+
+    /** The displacement in one cell after the other: the first components of
+     * an element, which have the same shape functions. */
+    template <int dim> class CellMotion
+    {
+    public:
+      CellMotion(const dealii::Mapping<dim> &mapping,
+                 const dealii::FiniteElement<dim> &fe, const bool values)
+          : points(mapping, fe.get_sub_fe(0, 1),
+                   dealii::QGauss<dim>(fe.degree + 1), flags(values)),
+            node_(fe.get_sub_fe(0, 1).n_dofs_per_cell()),
+            dofs_(fe.n_dofs_per_cell()),
+            place_(dofs_.size(), {dim, 0})
+      {
+        for (unsigned int i = 0; i < dofs_.size(); ++i)
+          if (fe.is_primitive(i))
+            place_[i] = fe.system_to_component_index(i);
+      }
+
+      /** Values in @p u must have the ghosts of the cell. */
+      template <typename Cell>
+      void reinit(const Cell &cell, const la::Vector &u)
+      {
+        points.reinit(
+            static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+                cell));
+        cell->get_dof_indices(dofs_);
+        for (unsigned int i = 0; i < dofs_.size(); ++i)
+          if (place_[i].first < dim)
+            node_[place_[i].second][place_[i].first] = u(dofs_[i]);
+      }
+
+      dealii::Tensor<2, dim> gradient(const unsigned int q) const
+      {
+        dealii::Tensor<2, dim> result;
+        for (unsigned int k = 0; k < node_.size(); ++k)
+          result += outer_product(node_[k], points.shape_grad(k, q));
+        return result;
+      }
+
+      dealii::Tensor<1, dim> value(const unsigned int q) const
+      {
+        dealii::Tensor<1, dim> result;
+        for (unsigned int k = 0; k < node_.size(); ++k)
+          result += points.shape_value(k, q) * node_[k];
+        return result;
+      }
+
+      dealii::FEValues<dim> points;
+
+    private:
+      static dealii::UpdateFlags flags(const bool values)
+      {
+        const auto always =
+            dealii::update_gradients | dealii::update_JxW_values;
+        return values ? always | dealii::update_values
+                            | dealii::update_quadrature_points
+                      : always;
+      }
+
+      std::vector<dealii::Tensor<1, dim>> node_;
+      std::vector<dealii::types::global_dof_index> dofs_;
+      /** Of an unknown: component, and shape function. */
+      std::vector<std::pair<unsigned int, unsigned int>> place_;
     };
 
     double largest_mean(const std::map<unsigned int, Sums> &mine,
@@ -99,17 +165,7 @@ namespace abut::shim
     la::Vector ghosted(dof_handler.locally_owned_dofs(), relevant,
                        communicator);
     ghosted = u;
-    // What turns about an axis is strained by its way to it, too.
-    dealii::UpdateFlags flags =
-        dealii::update_gradients | dealii::update_JxW_values;
-    if (axisymmetric)
-      flags |= dealii::update_values | dealii::update_quadrature_points;
-    dealii::FEValues<dim> points(mapping, fe,
-                                 dealii::QGauss<dim>(fe.degree + 1), flags);
-    const dealii::FEValuesExtractors::Vector field(0);
-    std::vector<dealii::SymmetricTensor<2, dim>> strain(
-        points.n_quadrature_points);
-    std::vector<dealii::Tensor<1, dim>> motion(points.n_quadrature_points);
+    CellMotion<dim> motion(mapping, fe, axisymmetric);
     Strains result;
     std::map<unsigned int, Sums> sums;
     for (const auto &cell : dof_handler.active_cell_iterators())
@@ -117,19 +173,18 @@ namespace abut::shim
       if (!cell->is_locally_owned())
         continue;
       Sums &sum = sums[cell->material_id()];
-      points.reinit(cell);
-      points[field].get_function_symmetric_gradients(ghosted, strain);
-      if (axisymmetric)
-        points[field].get_function_values(ghosted, motion);
-      for (unsigned int q = 0; q < strain.size(); ++q)
+      motion.reinit(cell, ghosted);
+      for (const unsigned int q : motion.points.quadrature_point_indices())
       {
-        double here = principal(strain[q]);
+        double here = principal(symmetrize(motion.gradient(q)));
+        // What turns about an axis is strained by its way to it, too.
         if (axisymmetric)
-          here = std::max(
-              here, std::abs(motion[q][0] / points.quadrature_point(q)[0]));
+          here =
+              std::max(here, std::abs(motion.value(q)[0]
+                                      / motion.points.quadrature_point(q)[0]));
         result.largest = std::max(result.largest, here);
-        sum.volume += points.JxW(q);
-        sum.strain += here * points.JxW(q);
+        sum.volume += motion.points.JxW(q);
+        sum.strain += here * motion.points.JxW(q);
       }
     }
     result.largest = dealii::Utilities::MPI::max(result.largest, communicator);

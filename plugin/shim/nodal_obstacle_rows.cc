@@ -5,6 +5,7 @@
 #include "fnv_hash.h"
 #include "solve/projected_gauss_seidel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -153,7 +154,10 @@ namespace abut::shim
                                        ABUT_POINT_CONTACT, 1, &number, &slope);
     };
 
-    abut_status status = ABUT_SUCCESS;
+    const auto n = static_cast<std::int32_t>(
+        lower.size() - std::count(lower.begin(), lower.end(), -INFINITY)
+        + upper.size() - std::count(upper.begin(), upper.end(), INFINITY));
+    abut_status status = abut_points_reserve(points, n, n, n);
     for (std::size_t i = 0; i < lower.size() && status == ABUT_SUCCESS; ++i)
     {
       if (lower[i] != -INFINITY)

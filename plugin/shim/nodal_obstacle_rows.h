@@ -74,10 +74,11 @@ namespace abut::shim
     void append_points(const std::vector<double> &lower,
                        const std::vector<double> &upper, abut_points *points);
     la::Vector nodal_vector() const;
-    /** How deep obstacles are in the membrane at @p points with these values.
-     * Not collective. */
+    /** How deep obstacles are in the membrane at @p points with these values;
+     * @p height is overwritten by those of the obstacles. Not collective. */
     void find_depth(const std::vector<dealii::Point<dim>> &points,
-                    const std::vector<double> &values, Unseen &found) const;
+                    const std::vector<double> &values,
+                    std::vector<double> &height, Unseen &found) const;
     /** And how far it is higher there than at these @p nodes. */
     void find_peak(const std::vector<dealii::Point<dim>> &points,
                    const std::vector<double> &values,

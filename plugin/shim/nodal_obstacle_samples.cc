@@ -42,14 +42,15 @@ namespace abut::shim
   template <int dim>
   void NodalObstacleRows<dim>::find_depth(
       const std::vector<dealii::Point<dim>> &points,
-      const std::vector<double> &values, Unseen &found) const
+      const std::vector<double> &values, std::vector<double> &height,
+      Unseen &found) const
   {
-    std::vector<double> height(points.size());
     const auto compare =
         [&](const dealii::Function<dim> *obstacle, const double sign)
     {
       if (obstacle == nullptr)
         return;
+      height.resize(points.size());
       obstacle->value_list(points, height);
       for (std::size_t q = 0; q < points.size(); ++q)
         if (const double depth = sign * (height[q] - values[q]);
@@ -129,7 +130,7 @@ namespace abut::shim
         mapping_, fe, dealii::Quadrature<dim>(fe.get_unit_support_points()),
         dealii::update_quadrature_points);
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    std::vector<double> values;
+    std::vector<double> of_nodes(dofs.size()), values, height;
     std::vector<dealii::Point<dim>> nodes;
     std::vector<Unseen> result;
     const auto look = [&](const auto &cell,
@@ -138,12 +139,16 @@ namespace abut::shim
     {
       Unseen found;
       found.cell = cell->active_cell_index();
-      values.resize(points.n_quadrature_points);
-      points.get_function_values(u, values);
-      find_depth(points.get_quadrature_points(), values, found);
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        of_nodes[i] = u(dofs[i]);
+      values.assign(points.n_quadrature_points, 0.);
+      for (unsigned int q = 0; q < values.size(); ++q)
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          values[q] += points.shape_value(i, q) * of_nodes[i];
+      find_depth(points.get_quadrature_points(), values, height, found);
       if (found.depth <= 0.)
         return;
-      cell->get_dof_indices(dofs);
       at_nodes.reinit(cell);
       nodes.clear();
       for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -188,7 +193,7 @@ namespace abut::shim
 #define ABUT_INSTANTIATE(dim)                                                  \
   template void NodalObstacleRows<dim>::find_depth(                            \
       const std::vector<dealii::Point<dim>> &, const std::vector<double> &,    \
-      Unseen &) const;                                                         \
+      std::vector<double> &, Unseen &) const;                                  \
   template void NodalObstacleRows<dim>::find_peak(                             \
       const std::vector<dealii::Point<dim>> &, const std::vector<double> &,    \
       const std::vector<dealii::Point<dim>> &, Unseen &) const;                \

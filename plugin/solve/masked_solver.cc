@@ -180,15 +180,17 @@ namespace abut::solve
   ScaledPreconditioner
   MaskedSolver::preconditioner(const Mask &mask, const la::Vector &model) const
   {
-    std::vector<double> scaling(mask.held.size(), 1.);
     if (is_geometric())
-      return ScaledPreconditioner(*geometric_, std::move(scaling), model);
+      return ScaledPreconditioner(*geometric_, mask, {}, model);
+    if (mask.diagonal.empty() && built_mask_.diagonal.empty())
+      return ScaledPreconditioner(*amg_, mask, {}, model);
+    std::vector<double> scaling(mask.held.size());
     for (std::size_t i = 0; i < scaling.size(); ++i)
       scaling[i] = mask.held[i]
                        ? 0.
                        : std::sqrt((diagonal_[i] + added(built_mask_, i))
                                    / (diagonal_[i] + added(mask, i)));
-    return ScaledPreconditioner(*amg_, std::move(scaling), model);
+    return ScaledPreconditioner(*amg_, mask, std::move(scaling), model);
   }
 
   unsigned int MaskedSolver::solve_iteratively(const Mask &mask,

@@ -53,41 +53,45 @@ namespace abut::solve
     const Mask &mask_;
   };
 
-  /** S M S with the scaling of MaskedSolver. */
+  /** S M S with the scaling of MaskedSolver, 0 at held unknowns. */
   class ScaledPreconditioner
   {
   public:
-    /** @p scaling [owned]; vectors that come in must be 0 where it is 0. */
-    ScaledPreconditioner(const Multigrid &inner, std::vector<double> scaling,
-                         const la::Vector &model)
-        : inner_(inner), scaling_(std::move(scaling)), scaled_(model)
+    /** @p scaling [owned], or empty: 1 where @p mask, which must live as long,
+     * holds nothing. Vectors that come in must be 0 where it is 0. */
+    ScaledPreconditioner(const Multigrid &inner, const Mask &mask,
+                         std::vector<double> scaling, const la::Vector &model)
+        : inner_(inner), mask_(mask), scaling_(std::move(scaling))
     {
-      for (const double s : scaling_)
-        only_masks_ = only_masks_ && (s == 0. || s == 1.);
+      if (!scaling_.empty())
+        scaled_.reinit(model, true);
     }
 
     void vmult(la::Vector &dst, const la::Vector &src) const
     {
-      if (only_masks_)
-        inner_.vmult(dst, src);
-      else
+      if (scaling_.empty())
       {
-        const double *in = la::data(src);
-        double *middle = la::data(scaled_);
-        for (std::size_t i = 0; i < scaling_.size(); ++i)
-          middle[i] = scaling_[i] * in[i];
-        inner_.vmult(dst, scaled_);
+        inner_.vmult(dst, src);
+        double *const out = la::data(dst);
+        for (std::size_t i = 0; i < mask_.held.size(); ++i)
+          out[i] = mask_.held[i] ? 0. : out[i];
+        return;
       }
-      double *out = la::data(dst);
+      const double *const in = la::data(src);
+      double *const middle = la::data(scaled_);
+      for (std::size_t i = 0; i < scaling_.size(); ++i)
+        middle[i] = scaling_[i] * in[i];
+      inner_.vmult(dst, scaled_);
+      double *const out = la::data(dst);
       for (std::size_t i = 0; i < scaling_.size(); ++i)
         out[i] *= scaling_[i];
     }
 
   private:
     const Multigrid &inner_;
+    const Mask &mask_;
     std::vector<double> scaling_;
     mutable la::Vector scaled_;
-    bool only_masks_ = true;
   };
 
   /** Solves (K + D) x = b with some unknowns held, without changing K:

@@ -32,6 +32,12 @@ namespace abut::solve
                  std::vector<double> &coefficient)
       {
         constexpr double round_off = 1e-14;
+        if (terms_.size() == 1)
+        {
+          write_sum(terms_.front().first, terms_.front().second, column,
+                    coefficient);
+          return;
+        }
         double largest = 0.;
         for (const auto &[unknown, value] : terms_)
           largest = std::max(largest, std::abs(value));
@@ -45,14 +51,23 @@ namespace abut::solve
                end < terms_.size() && terms_[end].first == terms_[first].first;
                ++end)
             sum += terms_[end].second;
-          if (std::abs(sum) <= round_off * largest)
-            continue;
-          column.push_back(terms_[first].first);
-          coefficient.push_back(sum);
+          // What is no number is kept, to be seen.
+          if (!(std::abs(sum) <= round_off * largest))
+            write_sum(terms_[first].first, sum, column, coefficient);
         }
       }
 
     private:
+      static void write_sum(const global_dof_index unknown, const double sum,
+                            std::vector<global_dof_index> &column,
+                            std::vector<double> &coefficient)
+      {
+        if (sum == 0.)
+          return;
+        column.push_back(unknown);
+        coefficient.push_back(sum);
+      }
+
       std::vector<std::pair<global_dof_index, double>> terms_;
     };
   } // namespace
@@ -116,8 +131,29 @@ namespace abut::solve
     return gap;
   }
 
+  void PointOperator::share_with_points()
+  {
+    const auto n = static_cast<std::size_t>(n_rows());
+    is_shared_ =
+        points_.n_points == points_.n_components && n > 0
+        && std::equal(start_.begin(), start_.end(), points_.start,
+                      points_.start + n + 1)
+        && std::equal(column_.begin(), column_.end(), points_.node)
+        && std::equal(coefficient_.begin(), coefficient_.end(),
+                      points_.coefficient)
+        && std::equal(initial_gap_.begin(), initial_gap_.end(), points_.gap);
+    if (!is_shared_)
+      return;
+    start_ = {};
+    column_ = {};
+    coefficient_ = {};
+    initial_gap_ = {};
+  }
+
   void PointOperator::renew_constants(const NodeMap &nodes)
   {
+    if (is_shared_)
+      initial_gap_.assign(points_.gap, points_.gap + n_rows());
     for (int i = 0; i < points_.n_points; ++i)
       for (int row = points_.component_start[i];
            row < points_.component_start[i + 1]; ++row)
@@ -147,7 +183,9 @@ namespace abut::solve
       column_.push_back(
           static_cast<int>(partitioner_->global_to_local(column)));
     mark_tangents();
-    values_.resize(n_columns());
+    share_with_points();
+    if (!is_alone())
+      values_.resize(n_columns());
     buffer_.resize(partitioner_->n_import_indices());
   }
 
@@ -161,7 +199,7 @@ namespace abut::solve
   {
     columns.clear();
     for (auto e = begin(row); e < end(row); ++e)
-      columns.push_back(global_column(column_[e]));
+      columns.push_back(global_column(column(e)));
   }
 
   std::vector<std::uint8_t> PointOperator::rows_with_columns() const
@@ -174,6 +212,8 @@ namespace abut::solve
 
   const double *PointOperator::import(const la::Vector &vector) const
   {
+    if (is_alone())
+      return la::data(vector);
     std::copy_n(la::data(vector), n_owned_, values_.data());
     const std::size_t n_ghosts = values_.size() - n_owned_;
     const dealii::ArrayView<double> ghosts(values_.data() + n_owned_, n_ghosts);
@@ -187,12 +227,13 @@ namespace abut::solve
 
   void PointOperator::times(const la::Vector &u, double *const result) const
   {
-    const double *const values = import(u);
+    const double *const values = import(u), *const b = coefficients();
+    const int *const j = columns();
     for (int i = 0; i < n_rows(); ++i)
     {
       double sum = 0.;
       for (std::int64_t e = begin(i); e < end(i); ++e)
-        sum += coefficient_[e] * values[column_[e]];
+        sum += b[e] * values[j[e]];
       result[i] = sum;
     }
   }
@@ -201,7 +242,7 @@ namespace abut::solve
   {
     times(u, result);
     for (int i = 0; i < n_rows(); ++i)
-      result[i] += initial_gap_[i];
+      result[i] += initial_gap()[i];
   }
 
   void PointOperator::mark_tangents()
@@ -217,9 +258,17 @@ namespace abut::solve
       }
   }
 
+  void PointOperator::clear_ghosts() const
+  {
+    if (!is_alone())
+      std::fill(values_.begin() + n_owned_, values_.end(), 0.);
+  }
+
   /** Add the ghosts of values_ to the owned entries of a vector. */
   void PointOperator::export_values(la::Vector &vector) const
   {
+    if (is_alone())
+      return;
     const std::size_t n_ghosts = values_.size() - n_owned_;
     const dealii::ArrayView<double> ghosts(values_.data() + n_owned_, n_ghosts);
     std::vector<MPI_Request> requests;
@@ -239,15 +288,16 @@ namespace abut::solve
                                   la::Vector &vector) const
   {
     double *const out = la::data(vector);
-    std::fill(values_.begin() + n_owned_, values_.end(), 0.);
+    clear_ghosts();
+    const double *const b = coefficients();
     for (int i = 0; i < n_rows(); ++i)
     {
       if (factor[i] == 0.)
         continue;
       for (std::int64_t e = begin(i); e < end(i); ++e)
       {
-        const double value = factor[i] * function(coefficient_[e]);
-        const int j = column_[e];
+        const double value = factor[i] * function(b[e]);
+        const int j = column(e);
         (j < n_owned_ ? out[j] : values_[j]) += value;
       }
     }
@@ -281,15 +331,15 @@ namespace abut::solve
                                        la::Vector &d) const
   {
     double *const out = la::data(d);
-    std::fill(values_.begin() + n_owned_, values_.end(), 0.);
+    clear_ghosts();
     std::vector<int> columns;
     for (std::size_t group = 0; group + 1 < first.size(); ++group)
     {
       columns.clear();
       for (int i = first[group]; i < first[group + 1]; ++i)
         if (wanted[i])
-          columns.insert(columns.end(), column_.begin() + begin(i),
-                         column_.begin() + end(i));
+          columns.insert(columns.end(), this->columns() + begin(i),
+                         this->columns() + end(i));
       std::sort(columns.begin(), columns.end());
       columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
       for (const int j : columns)
@@ -300,11 +350,11 @@ namespace abut::solve
 
   std::vector<double> PointOperator::squares(const la::Vector &d) const
   {
-    const double *const values = import(d);
+    const double *const values = import(d), *const b = coefficients();
     std::vector<double> result(n_rows(), 0.);
     for (int i = 0; i < n_rows(); ++i)
       for (std::int64_t e = begin(i); e < end(i); ++e)
-        result[i] += coefficient_[e] * coefficient_[e] * values[column_[e]];
+        result[i] += b[e] * b[e] * values[column(e)];
     return result;
   }
 } // namespace abut::solve

@@ -59,25 +59,25 @@ namespace abut::solve
     /** First entry of @p row; end(row) is past its last one. */
     std::int64_t begin(const int row) const
     {
-      return start_[row];
+      return starts()[row];
     }
 
     /** See begin(). */
     std::int64_t end(const int row) const
     {
-      return start_[row + 1];
+      return starts()[row + 1];
     }
 
     /** Local column of an entry. */
     int column(const std::int64_t entry) const
     {
-      return column_[entry];
+      return columns()[entry];
     }
 
     /** Value of an entry. */
     double coefficient(const std::int64_t entry) const
     {
-      return coefficient_[entry];
+      return coefficients()[entry];
     }
 
     /** Replace @p columns by the unknowns of a row, ascending. */
@@ -125,9 +125,9 @@ namespace abut::solve
     }
 
     /** [rows] gap at displacement 0, prescribed values put in. */
-    const std::vector<double> &initial_gap() const
+    const double *initial_gap() const
     {
-      return initial_gap_;
+      return initial_gap_.empty() ? points_.gap : initial_gap_.data();
     }
 
     /** Global number of a local column. */
@@ -152,8 +152,8 @@ namespace abut::solve
     }
 
     /** Values of the owned unknowns and ghosts, [n_columns]. The array is
-     * overwritten by the next call of any function that communicates.
-     * Collective. */
+     * overwritten by the next call of any function that communicates; on one
+     * rank it is the vector's own. Collective. */
     const double *import(const la::Vector &vector) const;
 
     /** result = B u, [n_rows]. Collective. */
@@ -187,21 +187,48 @@ namespace abut::solve
     void add_entries(const double *factor, const Function &function,
                      la::Vector &vector) const;
 
+    const std::int64_t *starts() const
+    {
+      return is_shared_ ? points_.start : start_.data();
+    }
+
+    const int *columns() const
+    {
+      return is_shared_ ? points_.node : column_.data();
+    }
+
+    const double *coefficients() const
+    {
+      return is_shared_ ? points_.coefficient : coefficient_.data();
+    }
+
+    /** Whether there are no other ranks. */
+    bool is_alone() const
+    {
+      return partitioner_->n_mpi_processes() == 1;
+    }
+
     std::vector<dealii::types::global_dof_index> expand(const NodeMap &nodes);
+    /** Rows that are the points as they are, of nodes with one unknown, need no
+     * arrays of their own. */
+    void share_with_points();
     double initial_gap(int point, int row, const NodeMap &nodes) const;
     void mark_tangents();
+    void clear_ghosts() const;
     void export_values(la::Vector &vector) const;
 
     abut_points_view points_ = {};
     int n_owned_ = 0;
+    /** Whether the first three arrays are the points'. */
+    bool is_shared_ = false;
     std::vector<std::int64_t> start_ = {0}; ///< [rows + 1]
     std::vector<int> column_;
     std::vector<double> coefficient_;
-    std::vector<double> initial_gap_;
+    std::vector<double> initial_gap_;      ///< [rows]; empty: the points' own
     std::vector<std::uint8_t> is_tangent_; ///< [rows]; empty: none
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner_ =
         std::make_shared<dealii::Utilities::MPI::Partitioner>();
-    mutable std::vector<double> values_; ///< [n_columns]
+    mutable std::vector<double> values_; ///< [n_columns] with other ranks
     mutable std::vector<double> buffer_; ///< values on their way
   };
 } // namespace abut::solve
