@@ -390,5 +390,6 @@ main(int argc, char **argv)
   check_all<2>();
   check_all<3>();
   check_slips_after_load<2>(wedge("lagrange", ABUT_DISCRETISATION_DUAL_MORTAR));
+  check_slips_after_load<3>(wedge("lagrange", ABUT_DISCRETISATION_DUAL_MORTAR));
   return good ? 0 : 1;
 }
