@@ -284,6 +284,7 @@ namespace abut
     {
       check_committed("Points of Sliding::step are made where bodies were at");
       surfaces->set_place(committed);
+      surfaces->set_committed_poses(committed_poses);
     }
     try
     {

@@ -314,6 +314,7 @@ namespace abut::shim
                                      const std::vector<Unseen> &unseen)
   {
     const std::vector<Direction> u = displacements_in_reach(displacement);
+    const std::vector<RigidPose<dim>> now = poses();
     find_turns(u, row_pressure, row_state);
     std::vector<std::vector<dealii::Point<dim>>> points(pairs_.size());
     std::vector<std::vector<double>> gaps(pairs_.size());
@@ -345,6 +346,9 @@ namespace abut::shim
           for_each_primary(row.point, add);
           if (pair.steps)
             motion = since;
+          if (pair.data.obstacle)
+            motion -= way_of(row.place.position, slip_poses_[row.place.pair],
+                             now[row.place.pair]);
           const Direction tangential =
               motion - (motion * row.direction) * row.direction;
           pair.slip = std::max(pair.slip, tangential.norm());

@@ -60,19 +60,42 @@ namespace abut::shim
 
     /** Normals that differ by less, 1 - cosine, are the same. */
     constexpr double same_direction = 1e-12;
-
-    /** How far the point of a rigid body that is at @p place now has come. */
-    template <int dim>
-    dealii::Tensor<1, dim> way_of(const dealii::Point<dim> &place,
-                                  const RigidPose<dim> &then,
-                                  const RigidPose<dim> &now)
-    {
-      const dealii::Tensor<1, dim> x = place;
-      const dealii::Tensor<1, dim> own =
-          transpose(now.rotation) * (x - now.translation);
-      return x - (then.rotation * own + then.translation);
-    }
   } // namespace
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  SurfacePairRows<dim>::way_of(const dealii::Point<dim> &place,
+                               const RigidPose<dim> &then,
+                               const RigidPose<dim> &now)
+  {
+    const dealii::Tensor<1, dim> x = place;
+    const dealii::Tensor<1, dim> own =
+        transpose(now.rotation) * (x - now.translation);
+    return x - (then.rotation * own + then.translation);
+  }
+
+  template <int dim>
+  std::vector<RigidPose<dim>> SurfacePairRows<dim>::poses() const
+  {
+    std::vector<RigidPose<dim>> result(pairs_.size());
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (pairs_[p].data.obstacle != nullptr)
+        result[p] = pairs_[p].data.obstacle->pose();
+    return result;
+  }
+
+  template <int dim>
+  std::vector<RigidPose<dim>>
+  SurfacePairRows<dim>::poses_before(std::vector<RigidPose<dim>> now,
+                                     const bool of_step) const
+  {
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if ((of_step || pairs_[p].steps) && p < committed_poses_.size())
+        now[p] = committed_poses_[p];
+      else if (pairs_[p].data.first_pose)
+        now[p] = *pairs_[p].data.first_pose;
+    return now;
+  }
 
   template <int dim>
   bool SurfacePairRows<dim>::is_guided(const std::size_t point) const
@@ -246,16 +269,8 @@ namespace abut::shim
     std::vector<Direction> u(surface_.nodes.size());
     if (committed.size() > 0)
       u = exchange_->displacements_as_given(surface_, committed);
-    std::vector<RigidPose<dim>> now(pairs_.size()), then;
-    for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if (pairs_[p].data.obstacle != nullptr)
-        now[p] = pairs_[p].data.obstacle->pose();
-    then = now;
-    for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if (!committed_poses_.empty())
-        then[p] = committed_poses_[p];
-      else if (pairs_[p].data.first_pose)
-        then[p] = *pairs_[p].data.first_pose;
+    const std::vector<RigidPose<dim>> now = poses(),
+                                      then = poses_before(now, true);
     refuse_turns(then, now);
     std::vector<double> result(view_.n_components, 0.);
     for_each_row(
@@ -343,6 +358,12 @@ namespace abut::shim
   template RowSource::FrictionalPoints SurfacePairRows<dim>::friction() const; \
   template std::vector<double> SurfacePairRows<dim>::slip_reference(           \
       const la::Vector &);                                                     \
+  template dealii::Tensor<1, dim> SurfacePairRows<dim>::way_of(                \
+      const dealii::Point<dim> &, const RigidPose<dim> &,                      \
+      const RigidPose<dim> &);                                                 \
+  template std::vector<RigidPose<dim>> SurfacePairRows<dim>::poses() const;    \
+  template std::vector<RigidPose<dim>> SurfacePairRows<dim>::poses_before(     \
+      std::vector<RigidPose<dim>>, bool) const;                                \
   template bool SurfacePairRows<dim>::is_guided(std::size_t) const;            \
   template void SurfacePairRows<dim>::drop_covered(                            \
       std::vector<std::uint8_t> &) const;                                      \

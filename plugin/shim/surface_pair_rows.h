@@ -418,6 +418,17 @@ namespace abut::shim
      * this node of its secondary, or none can. Collective. */
     std::vector<std::uint8_t> held_nodes();
     std::string turning_facets(const Pair &pair) const;
+    /** [pairs] where the obstacles are. */
+    std::vector<RigidPose<dim>> poses() const;
+    /** [pairs] where they were at the last commit(), of pairs whose points are
+     * made at each step or if @p of_step is true; else before the first step.
+     */
+    std::vector<RigidPose<dim>> poses_before(std::vector<RigidPose<dim>> now,
+                                             bool of_step) const;
+    /** How far the point of a rigid body that is at @p place now has come. */
+    static Direction way_of(const dealii::Point<dim> &place,
+                            const RigidPose<dim> &then,
+                            const RigidPose<dim> &now);
     /** Throws for obstacles with friction that turn too far for the chord to be
      * their way. */
     void refuse_turns(const std::vector<RigidPose<dim>> &then,
@@ -567,6 +578,8 @@ namespace abut::shim
     abut_points *points_ = nullptr; ///< of the last find()
     abut_points_view view_ = {};
     std::vector<RigidPose<dim>> committed_poses_; ///< [pairs], or empty
+    /** [pairs] that PairResult::slip is measured from. */
+    std::vector<RigidPose<dim>> slip_poses_;
     la::Vector searched_from_;  ///< where points move: of the last commit()
     std::vector<Place> places_; ///< [points]
     const la::Vector *committed_ = nullptr;
