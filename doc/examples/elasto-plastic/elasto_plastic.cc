@@ -85,7 +85,6 @@ private:
   la::Vector u, pressure;
   const PlasticMaterial material = PlasticMaterial();
   abut::Registry<3> registry;
-  std::shared_ptr<abut::RigidObstacle<3>> ball;
   std::unique_ptr<abut::ContactAssembler<3>> contact;
   abut::NewtonResult result;
   TimerOutput timer;
@@ -121,13 +120,16 @@ Indentation::set_contact()
   abut::ContactPair<3> pair;
   pair.name = "cube under ball";
   pair.secondary = {5};
-  pair.obstacle = ball = registry.make_obstacle(height);
+  pair.obstacle = registry.make_obstacle(height);
   if (settings.friction > 0.)
   {
     const auto friction = std::make_shared<abut::Friction<3>>();
     friction->coefficient = [mu = settings.friction](const Point<3> &)
     { return mu; };
     pair.friction = friction;
+    // The ball comes from aside.
+    pair.first_pose = pair.obstacle->pose();
+    pair.first_pose->translation[0] -= 0.05;
   }
   contact->set_pairs({pair});
 }
@@ -251,16 +253,6 @@ Indentation::solve()
   const TimerOutput::Scope scope(timer, "solve");
   contact->reinit(mapping, dof_handler, constraints);
   contact->set_pressure(pressure);
-  if (settings.friction > 0.)
-  {
-    // Slips are measured from the undeformed cube and where the ball was.
-    abut::RigidPose<3> pose = ball->pose();
-    pose.translation[0] -= 0.05;
-    ball->set_pose(pose);
-    contact->set_committed(la::Vector(owned, MPI_COMM_WORLD));
-    pose.translation[0] += 0.05;
-    ball->set_pose(pose);
-  }
   abut::HostProblem problem;
   problem.residual = [&](const la::Vector &at, la::Vector &residual)
   { assemble(at, nullptr, &residual); };
