@@ -279,6 +279,23 @@ def check_large_strain():
     stopped(disc, 2, signal.SIGTERM, expected, coarse)
 
 
+def check_friction(ranks):
+    """A block that a plate drags to and fro: the places that slips are measured
+    from, and the tractions that springs go on from."""
+    block = p.write("block.prm",
+                    (p.source / "prm/dragged-block.prm").read_text() + EVERY)
+    for law in p.some(("penalty", "lagrange")):
+        drag = ["Obstacle 1/Motion=(t > 1 ? 0.004*sin(3*(t - 1)) : 0), "
+                "(t < 1 ? -0.01*t : -0.01)", "Load steps/Steps=20",
+                "Load steps/End time=5", "Refinement/Level=4",
+                f"Method/Enforcement={law}"]
+        expected = alone(block, drag)
+        if ranks > 1:
+            check_other_ranks(block, expected, drag)
+        else:
+            killed(block, 9, expected, drag)
+
+
 def check_short():
     expected = alone(bodies, steps)
     killed(bodies, 3, expected, steps)
@@ -287,6 +304,7 @@ def check_short():
     check_refusals(membrane, cycles)
     check_other_ranks(membrane, expected, cycles)
     check_motion()
+    check_friction(1)
 
 
 if p.short:
@@ -295,6 +313,7 @@ elif p.part == 1:
     check_one_rank(bodies, steps)
     check_motion()
     check_large_strain()
+    check_friction(1)
     check_one_rank(membrane, cycles)
     check_target()
     check_files()
@@ -304,4 +323,5 @@ else:
     check_two_ranks(bodies, steps)
     check_two_ranks(membrane, cycles)
     check_disc()
+    check_friction(2)
 p.finish()
