@@ -6,6 +6,7 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace abut
 {
@@ -24,16 +25,14 @@ namespace abut
       if (!cell->face(f)->at_boundary()
           || secondary.count(cell->face(f)->boundary_id()) == 0)
         return false;
-      bool touches = false;
-      bool is_open = false;
+      bool has[3] = {false, false, false}; // open, stick, slip
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (fe.has_support_on_face(i, f)
             && fe.system_to_component_index(i).first == 0)
-        {
-          touches = touches || status(dofs[i]) > 0.5;
-          is_open = is_open || std::abs(status(dofs[i])) < 0.5;
-        }
-      return touches && is_open;
+          if (const int s = static_cast<int>(std::lround(status(dofs[i])));
+              s >= 0 && s <= 2)
+            has[s] = true;
+      return has[0] + has[1] + has[2] > 1;
     };
     unsigned int count = 0;
     for (const auto &cell : dof_handler.active_cell_iterators())

@@ -72,8 +72,11 @@ namespace abut
     for (int row = 0; row < i.coefficients.n_rows() && i.is_started; ++row)
     {
       const double s = i.stiffness[row];
+      // What sticks must not slip, and the forces of what slips are exact.
+      const bool sticks = i.coefficients.is_tangent(row)
+                          && i.request.state[row] == ABUT_STATE_CLOSED;
       const double residual =
-          i.coefficients.bilateral()[row] != 0 ? i.gap[row]
+          i.coefficients.bilateral()[row] != 0 || sticks ? i.gap[row]
           : i.coefficients.is_tangent(row)
               ? i.law_defect(row, i.gap[row])
               : std::min(i.gap[row], i.row_pressure(row) / s);
@@ -148,6 +151,19 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_unchanged("gap()");
     return i.present_source().gap(i.gap.data());
+  }
+
+  template <int dim> la::Vector ContactAssembler<dim>::slip() const
+  {
+    const Implementation &i = *implementation;
+    i.check_unchanged("slip()");
+    // The field has p n - tau, by the numbers of the rows.
+    std::vector<double> values(i.coefficients.n_rows(), 0.);
+    const std::vector<std::uint8_t> states = i.row_states();
+    for (int row = 0; row < i.coefficients.n_rows(); ++row)
+      if (i.coefficients.is_tangent(row) && states[row] != ABUT_STATE_OPEN)
+        values[row] = -i.gap[row];
+    return i.present_source().pressure(values.data());
   }
 
   template <int dim> la::Vector ContactAssembler<dim>::status() const
@@ -249,6 +265,7 @@ namespace abut
       const;                                                                   \
   template la::Vector ContactAssembler<dim>::pressure() const;                 \
   template la::Vector ContactAssembler<dim>::gap() const;                      \
+  template la::Vector ContactAssembler<dim>::slip() const;                     \
   template la::Vector ContactAssembler<dim>::status() const;                   \
   template std::vector<PairCheck> ContactAssembler<dim>::pair_checks() const;  \
   template std::vector<PairResult<dim>> ContactAssembler<dim>::pair_results()  \

@@ -112,6 +112,95 @@ def cylinder():
     p.close(moments[0], moments[1], 1e-4, "the moment has settled")
 
 
+def turned_without_friction():
+    """A plane that turns by 60 degrees under the cylinder: places at the rim of
+    the two are apart by the chord of that, 1, and nothing has moved."""
+    summary, _ = p.solve_with("torsion.prm", {
+        **QUIET, "Pair 1/Friction": 0, "Load steps/Steps": 1,
+        "Load steps/End time": 61, "Refinement/Level": 1})
+    p.close(summary["pair_1_slip"], 1., 1e-10, "slip of a plane that turns")
+
+
+def slip_of_step():
+    """The plate goes on by 0.05 over a block that slides all along: each node has
+    that as its slip, against the plate, and mu N takes up its work."""
+    summary, _ = p.solve_with("dragged-block.prm", {
+        "Load steps/Steps": 5, "Load steps/End time": 5,
+        "Output/Pictures": "false", "Output/Nodal values": "true"})
+    p.close(summary["pair_1_dissipation"],
+            0.25 * summary["contact_force"] * 0.05, 1e-8, "work of the last step")
+    line = p.table("pair_1.csv")
+    nodes = [n for n in p.table("nodal.csv") if n["status"] == 2]
+    p.expect(len(line) == len(nodes) == 17, f"{len(line)} and {len(nodes)} nodes")
+    for node in line:
+        p.close(node["slip"], -0.05, 1e-8, f"slip at {node['x']} in pair_1.csv")
+    for node in nodes:
+        p.close(node["slip_x"], -0.05, 1e-8, f"slip at {node['x']} in nodal.csv")
+        p.expect(abs(node["slip_y"]) < 1e-12, f"slip away from the plate: {node}")
+
+
+def left_out():
+    """What is pressed by itself, without growing wider, needs no friction."""
+    for end, needless in ((1, True), (2, False)):
+        run = p.call("run", p.source / "prm/dragged-block.prm", "--explain",
+                     "--output", "out", *set_words({
+                         **QUIET, "Body 1/Poisson ratio": 0,
+                         "Load steps/Steps": end, "Load steps/End time": end}))
+        p.expect(("friction, unless it holds" in run.stdout) == needless,
+                 f"friction in what could be left out at {end}: {run.stdout}")
+
+
+def error_of_springs():
+    """A block under uniform pressure and shear, of which nothing slips: the
+    springs of the penalty give way by c p and c tau, c = 1/(kappa s). In the
+    norm of the strain energy that is sqrt((p^2 + tau^2) c/kappa) per area, and
+    the body has (p^2 + 2 tau^2)/E per volume."""
+    pressure, shear, kappa, young = 2., 1., 100., 1000.
+    p.write("sheared.prm", f"""
+set Scene = solid
+set Dimension = 2
+subsection Solid
+  set Obstacles = 1
+  set Pairs = 1
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = hyper_cube
+    set Arguments = 0 : 1 : true
+  end
+  set Young modulus = {young}
+  set Poisson ratio = 0
+  set Traction = 0: 0, {-shear}; 1: 0, {shear}; 3: {shear}, {-pressure}
+end
+subsection Obstacle 1
+  set Kind = plane
+  set Point = 0, 0
+  set Normal = 0, 1
+end
+subsection Pair 1
+  set Secondary = 1: 2
+  set Obstacle = 1
+  set Friction = 1
+end
+subsection Method
+  set Enforcement = penalty
+  set Penalty = {kappa}
+end
+subsection Refinement
+  set Target error = 0.5
+end
+""")
+    summary, _ = p.solve_with(p.folder / "sheared.prm", QUIET)
+    p.expect(summary["pair_1_slipping"] == 0 < summary["pair_1_active"],
+             "the sheared block slips")
+    soft = summary["max_penetration"] / pressure
+    p.close(summary["pair_1_slip"], soft * shear, 1e-8, "way of the springs")
+    p.close(summary["estimated_contact_error"],
+            math.sqrt((pressure**2 + shear**2) * soft / kappa
+                      / ((pressure**2 + 2 * shear**2) / young)), 1e-8,
+            "error of the springs")
+
+
 def ball():
     """Hertz: 3 pi/16 mu P a."""
     summary, _ = p.solve_with("torsion-hertz.prm", QUIET)
@@ -143,6 +232,18 @@ def own_law():
     for node in p.table("pair_1.csv"):
         p.close(node["friction"], limited(node["pressure"], 0.25, 3.), 1e-6,
                 f"traction at x = {node['x']}")
+    # A normal law of one's own below Coulomb's.
+    law = p.folder / "soft_law.so"
+    subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-I",
+                    p.source / "include", example / "soft_law.c", "-o", law,
+                    "-lm"], check=True)
+    soft, _ = p.solve_with("dragged-block.prm", {
+        **QUIET, "Method/Enforcement": "user", "Method/Law file": law,
+        "Method/Law parameters": "touch pressure: 5, clearance: 0.002"})
+    p.expect(soft["pair_1_slipping"] == soft["active"] == 17,
+             "the block does not slide below a soft layer")
+    p.close(soft["pair_1_friction_ratio"], 0.25, 1e-9,
+            "ratio of the forces below a soft layer")
     own["Method/Friction parameters"] = "shear strength: 0.4"
     summary, _ = p.solve_with("friction-block.prm", own)
     p.close(abs(summary["friction_force"][0]),
@@ -167,5 +268,9 @@ without_coefficient()
 own_law()
 frames_and_ranks()
 cylinder()
+turned_without_friction()
+slip_of_step()
+left_out()
+error_of_springs()
 ball()
 p.finish()

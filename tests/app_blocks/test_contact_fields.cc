@@ -229,6 +229,14 @@ namespace
     Expect::that(flags(problem).n == 1, "coarsening gives way");
     flag_contact_border(problem.dof_handler, status, {1});
     Expect::that(flags(problem).n == 1, "other sides do not count");
+    for (const auto &cell : problem.mesh.active_cell_iterators())
+      cell->clear_refine_flag();
+    flag_contact_border(
+        problem.dof_handler,
+        problem.interpolate("if(x > 0.8, -1, if(x < 0.3, 2, 1)); 7"), {2});
+    found = flags(problem);
+    Expect::that(found.n == 1, "one cell between stick and slip");
+    Expect::near(found.from, 0.3125, 1e-12, "the centre of that cell");
   }
 
   /** Two bodies of 1 and of @p n cells along their common line y = 0. */
@@ -366,7 +374,8 @@ namespace
     std::istringstream table(content(folder / "line.csv"));
     std::string row;
     std::getline(table, row);
-    Expect::that(row == "line,arc,x,y,pressure,gap,status,friction", "columns");
+    Expect::that(row == "line,arc,x,y,pressure,gap,status,friction,slip",
+                 "columns");
     unsigned int rows = 0;
     while (std::getline(table, row))
       ++rows;

@@ -4,6 +4,7 @@ nodes of the secondary surface."""
 import math
 
 from formula import Formula
+from motion import in_motion
 from obstacles import Obstacle
 from thresholds import THRESHOLDS
 from tolerances import of_balance
@@ -117,8 +118,16 @@ class PairFriction:
         """Whether the displacement along the obstacle is the slip."""
         return bool(self.pair.obstacle) and self.solid.slips_at_once()
 
+    def tells_directions(self):
+        """Whether tractions are exactly against the slips of the last step."""
+        solid = self.solid
+        return (solid.summary["method"] == "lagrange"
+                and not solid.large and not in_motion(solid.scene)
+                and solid.scene.get("Method/Sliding", "auto") != "large")
+
     def at_nodes(self, normal):
         solid = self.solid
+        told = solid.nodes.vector("slip")
         force = max(max(norm(solid.contact[i]) for i in self.nodes), 1e-300)
         length = max(solid.largest, 1e-300)
         states = solid.nodes.columns["status"]
@@ -145,8 +154,18 @@ class PairFriction:
             if states[i] == SLIP:
                 note("what slips has all of mu p",
                      (mu * pressing - size) / force)
+                if self.tells_directions():
+                    note("traction against the slip of the step",
+                         (dot(tau, told[i]) + mu * pressing * norm(told[i]))
+                         / (force * length))
+            note("slip along the surface", abs(dot(told[i], normal)) / length)
+            if states[i] not in (STICK, SLIP):
+                note("no slip of what is open", norm(told[i]) / length)
             if not self.knows_slips():
                 continue
+            if states[i] in (STICK, SLIP):
+                note("slip as the way along the obstacle",
+                     norm(sub(told[i], slip)) / length)
             dissipated -= power
             if states[i] == STICK:
                 note("no slip where it sticks", norm(slip) / length)

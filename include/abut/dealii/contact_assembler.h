@@ -376,8 +376,9 @@ namespace abut
     /** Estimate, in the norm of the strain energy, of what the law leaves open:
      * (sum w s r^2)^(1/2) with the local stiffness s of a row (pressure per
      * length) and the natural residual r = min(g, p / s) of 0 <= p _|_ g >= 0
-     * (ties: g). Penetration of penalties, pressure across a gap of barriers;
-     * 0 for exact multipliers. Valid after the first solve(). */
+     * (ties: g, stick: the slip). Penetration of penalties, pressure across
+     * gaps of barriers; 0 for exact multipliers. Valid after the first solve().
+     */
     virtual double complementarity_error() const;
 
     /** With Sliding::step: how far closed rows go in the step that leads to
@@ -417,6 +418,11 @@ namespace abut
     /** Nodal gap to the nearer obstacle, 0 where there is no row. Of pairs: in
      * each of the first dim components. */
     virtual la::Vector gap() const;
+
+    /** Of pairs with friction: how far what is in contact has come along the
+     * other side since the last commit(), as a vector at the nodes of the
+     * secondary surface, 0 elsewhere; hanging nodes as in pressure(). */
+    virtual la::Vector slip() const;
 
     /** 1 on the lower, 2 on the upper obstacle, 0 open, -1 without a row. Of
      * pairs: 1 in contact, in each of the first dim components. */

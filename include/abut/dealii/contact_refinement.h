@@ -25,8 +25,8 @@ namespace abut
                                  std::set<dealii::types::boundary_id>>;
 
   /** Flag the cells at whose secondary faces contact begins or ends: with one
-   * node in contact (status > 0) and one open (0); nodes without a row
-   * (status < 0) do not count. Flags to coarsen them are taken back.
+   * node in contact (status > 0) and one open (0), or one of stick (1) and one
+   * of slip (2); nodes without a row do not count. They are not coarsened.
    * @param status ghosted; for vectors the first component counts
    * Not collective. Returns the number of this rank's cells flagged anew. */
   template <int dim>

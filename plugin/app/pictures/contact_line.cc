@@ -28,8 +28,9 @@ namespace abut::app
   namespace
   {
     using Key = dealii::types::global_dof_index;
-    /** x, y, pressure, gap, status, traction in x and y */
-    using Values = std::array<double, 7>;
+    using Vector = dealii::Tensor<1, 2>;
+    /** x, y, pressure, gap, status, traction and slip in x and y */
+    using Values = std::array<double, 9>;
     using Node = std::pair<Key, Values>;
     using Edge = std::pair<Node, Node>;
 
@@ -98,8 +99,12 @@ namespace abut::app
                 : 0.;
         const double status =
             fields.status != nullptr ? (*fields.status)(node[0]) : 0.;
+        Vector slip;
+        for (unsigned int d = 0; d < 2 && fields.slip != nullptr; ++d)
+          slip[d] = (*fields.slip)(node[d]);
         return {{x[0], x[1], -length(fields.traction, node, outward), gap,
-                 status, fields.traction(node[0]), fields.traction(node[1])}};
+                 status, fields.traction(node[0]), fields.traction(node[1]),
+                 slip[0], slip[1]}};
       }
 
       const dealii::Mapping<2> &mapping;
@@ -110,17 +115,17 @@ namespace abut::app
 
     /** Tell pressure and friction apart, by tangents from neighbour to
      * neighbour. */
-    void split(ContactLine &line,
-               const std::vector<dealii::Tensor<1, 2>> &traction)
+    void split(ContactLine &line, const std::vector<Vector> &traction,
+               const std::vector<Vector> &slip)
     {
       for (std::size_t i = 0; i < line.size(); ++i)
       {
-        dealii::Tensor<1, 2> along =
-            line[std::min(i + 1, line.size() - 1)].place
-            - line[i > 0 ? i - 1 : 0].place;
+        Vector along = line[std::min(i + 1, line.size() - 1)].place
+                       - line[i > 0 ? i - 1 : 0].place;
         if (along.norm() > 0.)
           along /= along.norm();
         line[i].friction = traction[i] * along;
+        line[i].slip = slip[i] * along;
         line[i].pressure = std::copysign(
             (traction[i] - line[i].friction * along).norm(), line[i].pressure);
       }
@@ -147,7 +152,7 @@ namespace abut::app
       ContactLine walk(const Key start, const bool has_friction)
       {
         ContactLine line;
-        std::vector<dealii::Tensor<1, 2>> traction;
+        std::vector<Vector> traction, slip;
         for (Key at = start;;)
         {
           const Values &v = node.at(at);
@@ -157,12 +162,13 @@ namespace abut::app
                   ? 0.
                   : line.back().arc + line.back().place.distance(place);
           line.push_back({arc, place, v[2], v[3], v[4]});
-          traction.push_back(dealii::Tensor<1, 2>({v[5], v[6]}));
+          traction.push_back(Vector({v[5], v[6]}));
+          slip.push_back(Vector({v[7], v[8]}));
           std::vector<Key> &next = neighbors.at(at);
           if (next.empty())
           {
             if (has_friction)
-              split(line, traction);
+              split(line, traction, slip);
             return line;
           }
           const Key to = next.back();
@@ -213,7 +219,7 @@ namespace abut::app
     Graph graph(edges);
     std::vector<ContactLine> lines;
     while (const Key *start = graph.next_start())
-      lines.push_back(graph.walk(*start, fields.has_friction));
+      lines.push_back(graph.walk(*start, fields.slip != nullptr));
     std::stable_sort(lines.begin(), lines.end(),
                      [](const ContactLine &a, const ContactLine &b)
                      { return a.back().arc > b.back().arc; });
@@ -224,13 +230,13 @@ namespace abut::app
                            const std::vector<ContactLine> &lines)
   {
     std::ostringstream out;
-    out << "line,arc,x,y,pressure,gap,status,friction\n"
+    out << "line,arc,x,y,pressure,gap,status,friction,slip\n"
         << std::setprecision(17);
     for (std::size_t i = 0; i < lines.size(); ++i)
       for (const ContactLineNode &node : lines[i])
         out << i + 1 << ',' << node.arc << ',' << node.place[0] << ','
             << node.place[1] << ',' << node.pressure << ',' << node.gap << ','
-            << node.status << ',' << node.friction << '\n';
+            << node.status << ',' << node.friction << ',' << node.slip << '\n';
     write_file(file, out.str());
   }
 } // namespace abut::app

@@ -31,6 +31,7 @@ namespace abut::app
     /** Traction on the body along the line, towards its end; 0 unless it is
      * asked for. */
     double friction = 0.;
+    double slip = 0.; /**< of the step, likewise */
   };
 
   /** A connected piece of boundary; a closed one ends where it begins. */
@@ -44,9 +45,10 @@ namespace abut::app
     /** As mark_rows() and ContactAssembler::status(); null: 0. */
     const la::Vector *gap;
     const la::Vector *status;
-    /** Whether the traction has a part along the line. If not, its length is
-     * the pressure, whatever the normals of facets. */
-    bool has_friction = false;
+    /** ContactAssembler::slip() where the traction has a part along the line.
+     * Null: it has none, and its length is the pressure, whatever the normals
+     * of facets. */
+    const la::Vector *slip = nullptr;
   };
 
   /** The pieces of the boundary with ids @p ids, in walking order, longest
@@ -59,8 +61,8 @@ namespace abut::app
                 const ContactLineFields &fields);
 
   /** Write pieces one after the other as the table @p file with the columns
-   * line, arc, x, y, pressure, gap, status, friction. Throws where the file
-   * cannot be written. Not collective: for the rank that has them. */
+   * line, arc, x, y, pressure, gap, status, friction, slip. Throws where the
+   * file cannot be written. Not collective: for the rank that has them. */
   void write_contact_lines(const std::filesystem::path &file,
                            const std::vector<ContactLine> &lines);
 } // namespace abut::app

@@ -405,7 +405,8 @@ namespace abut::app
             elasticity.ghosted_field(run.contact.gap()),
             elasticity.ghosted_field(
                 mark_rows(elasticity.dof_handler, run.contact.gap(), status)),
-            elasticity.ghosted_field(status)};
+            elasticity.ghosted_field(status),
+            elasticity.ghosted_field(run.contact.slip())};
   }
 
   template <int dim>

@@ -87,6 +87,7 @@ namespace abut::app
     using Traction = TractionPart<dim>;
     const Traction normal("pressure", Traction::Part::pressure);
     const Traction tangential("friction", Traction::Part::friction);
+    const Traction slips("slip", Traction::Part::friction);
     const GapOfRows<dim> gaps("gap");
     const FirstComponent<dim> states("status");
     const NumberOfBoundary<dim> numbers_of_bodies(
@@ -110,7 +111,10 @@ namespace abut::app
         {&displacement, &numbers_of_bodies},
         {&displacement, &ids}};
     if (has_friction)
+    {
       fields.derived.emplace_back(&contact_values.traction, &tangential);
+      fields.derived.emplace_back(&contact_values.slip, &slips);
+    }
     fields.faces = model.pairs->surfaces();
     contact_series.write(time(), fields);
     if constexpr (dim == 2)
@@ -145,7 +149,7 @@ namespace abut::app
              contact_lines(model.elasticity.mapping,
                            model.elasticity.dof_handler, pair.secondary,
                            {fields.traction, &fields.row_gap, &fields.status,
-                            pair.friction != nullptr}),
+                            pair.friction != nullptr ? &fields.slip : nullptr}),
              pair.friction != nullptr});
     }
     return curves;
@@ -168,6 +172,9 @@ namespace abut::app
            {std::make_pair("gap", model.run.contact.gap()),
             std::make_pair("status", model.run.contact.status())})
         columns.push_back({name, elasticity.ghosted_field(field), true});
+    if (has_contact && model.pairs->has_friction())
+      columns.push_back(
+          {"slip", elasticity.ghosted_field(model.run.contact.slip())});
     write_nodal_table(model.run.options.output_folder / "nodal.csv",
                       elasticity.mapping, elasticity.dof_handler, columns);
   }

@@ -21,6 +21,7 @@ namespace abut::app
     la::Vector gap;      ///< in all components; 0 without a row
     la::Vector row_gap;  ///< of mark_rows()
     la::Vector status;   ///< in all components
+    la::Vector slip;     ///< of the step, on the secondary side
   };
 
   /** Fields, contact boundaries and pictures of the scene `solid`. */

@@ -19,6 +19,9 @@ namespace abut::app
 
   namespace
   {
+    /** Part of the normal force that friction carries where it counts. */
+    constexpr double visible_friction = 1e-3;
+
     /** Part of a pressure that goes astray. */
     constexpr double visible_transfer_error = 1e-3;
 
@@ -201,6 +204,7 @@ namespace abut::app
                        ? pair.secondary_friction.norm() / pair.normal_force
                        : 0.);
         report.set(key + "_traction", pair.traction);
+        report.set(key + "_dissipation", pair.dissipation);
       }
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
@@ -424,6 +428,23 @@ namespace abut::app
         report.leave_out(pair.name + ": none of its "
                          + std::to_string(pair.n_rows)
                          + " constraints is in contact.");
+    if (pairs.has_friction())
+      explain_friction();
+  }
+
+  template <int dim> void SolidReport<dim>::explain_friction() const
+  {
+    double part = 0.;
+    for (const ContactResult &state : run.results)
+      if (state.force > 0.)
+        part = std::max(part, state.friction_force / state.force);
+    if (part < visible_friction)
+      report.leave_out(
+          "friction, unless it holds a body: it never carried more "
+          "than "
+          + short_number(100. * part, 2)
+          + " % of the normal force, and it makes linear systems "
+            "unsymmetric.");
   }
 
   template class SolidReport<2>;

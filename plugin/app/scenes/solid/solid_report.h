@@ -39,6 +39,7 @@ namespace abut::app
     /** What single ranks have and had to say. */
     void report_shares() const;
     void explain_pairs() const;
+    void explain_friction() const;
 
     const SolidModel<dim> &model;
     const ContactRunState<dim> &run;
