@@ -267,6 +267,20 @@ def check_motion():
     stopped(bar, 3, signal.SIGINT, expected, short)
 
 
+def check_string():
+    """A string that is lifted off a floor that falls: what the floor has worked
+    goes on, too."""
+    string = p.write("string.prm",
+                     (p.source / "prm/lifted-string.prm").read_text() + EVERY)
+    short = ["Membrane/Dirichlet=0: 0", "Membrane/Load=-4",
+             "Contact/Obstacle=-t^2/2", "Time/Step=0.05", "Output/Every=4",
+             "Output/Pictures=false", "Exact solution/Displacement=",
+             "Exact solution/Gradient="]
+    expected = alone(string, short)
+    killed(string, 9, expected, short)
+    stopped(string, 3, signal.SIGTERM, expected, short)
+
+
 def check_large_strain():
     """A disc on its way into rubber, whose points move: the steps that were cut
     back, what was extrapolated and the rows' places go on, too."""
@@ -312,6 +326,7 @@ if p.short:
 elif p.part == 1:
     check_one_rank(bodies, steps)
     check_motion()
+    check_string()
     check_large_strain()
     check_friction(1)
     check_one_rank(membrane, cycles)

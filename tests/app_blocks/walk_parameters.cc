@@ -173,8 +173,8 @@ namespace
     for (const char *name :
          {"Load steps/Steps", "Refinement/Adaptive cycles",
           "Refinement/Relaxation sweeps", "Solver/Smoother sweeps",
-          "Output/Linear solves for comparison", "Sweep/Repeats",
-          "Refinement/Most meshes", "Refinement/Target error"})
+          "Output/Linear solves for comparison", "Sweep/Repeats", "Time/Step",
+          "Time/End", "Refinement/Most meshes", "Refinement/Target error"})
       if (path == name)
         return true;
     return false;

@@ -4,6 +4,7 @@ import math
 
 from elements import corners, gauss, interpolate, shapes
 from formula import Formula, numbers
+from motion import MembraneMotionJudge, in_motion
 from run_files import Fields, last_row, read_nodes
 from thresholds import ADHESIVE, THRESHOLDS
 from tolerances import of_balance, of_energy, of_gaps
@@ -86,9 +87,15 @@ class MembraneJudge:
         if scene.get("Contact/Height map"):
             self.lower = HeightMap(scene)
         elif scene.get("Contact/Obstacle"):
-            self.lower = Formula(scene.get("Contact/Obstacle"))
+            self.lower = self.at_end(scene.get("Contact/Obstacle"))
         if scene.get("Contact/Upper obstacle"):
-            self.upper = Formula(scene.get("Contact/Upper obstacle"))
+            self.upper = self.at_end(scene.get("Contact/Upper obstacle"))
+        self.pairs = [side for side in (self.lower, self.upper) if side]
+
+    def at_end(self, text):
+        """A formula at the time that the run has come to."""
+        formula, time = Formula(text), self.summary.get("time") or 0.
+        return lambda x: formula(x, time)
 
     def judge(self):
         self.fields = Fields(self.folder, "fields", self.nodes)
@@ -96,12 +103,17 @@ class MembraneJudge:
                        if self.scene.get("Contact/Boundary ids") else
                        self.fields.cells)
         self.files_agree()
-        self.balance()
+        self.force()
         self.gaps()
         self.penetration()
         self.tension()
         self.pressure()
-        self.energies()
+        if in_motion(self.scene):
+            self.strain_energy(self.summary["strain_energy"], 0.)
+            MembraneMotionJudge(self).judge()
+        else:
+            self.balance()
+            self.energies()
 
     def files_agree(self):
         s = self.summary
@@ -204,6 +216,8 @@ class MembraneJudge:
             self.findings.check("balance of forces", abs(math.fsum(forces)),
                                 limit.value * math.fsum(map(abs, forces))
                                 + self.round_off(), limit.reason)
+
+    def force(self):
         given = self.summary["contact_force"]
         limit = THRESHOLDS["sides"]
         self.findings.check("contact force",
@@ -369,6 +383,9 @@ class MembraneJudge:
                 abs(math.fsum(products[1]) - given),
                 limit.value * max(size, abs(given)) + law * (1 + 1e-6),
                 limit.reason)
+        self.strain_energy(stored, size)
+
+    def strain_energy(self, stored, size):
         mine = self.stored_energy()
         limit = THRESHOLDS["stored energy"]
         self.findings.check("stored energy, integrated again",

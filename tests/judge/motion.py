@@ -28,7 +28,6 @@ class MotionJudge:
 
     def __init__(self, solid):
         self.solid, self.scene = solid, solid.scene
-        self.axes = "xyz"[:solid.dim]
         with open(solid.folder / "levels.csv", newline="",
                   encoding="utf-8") as file:
             self.rows = [{k: float(v) for k, v in row.items() if v}
@@ -89,30 +88,58 @@ class MotionJudge:
             return "gravity changes"
         return ""
 
+    def forces(self):
+        """By component: column of the momentum, and outer force in a row."""
+        gravity = [Formula(part)((0., 0., 0.), 0.) for part in split(
+            self.scene.get("Solid/Gravity"), ",")] or [0.] * self.solid.dim
+        walls = [p.number for p in self.solid.pairs if p.obstacle]
+        result = []
+        for k, axis in enumerate("xyz"[:self.solid.dim]):
+            weight = self.solid.summary["mass"][k] * gravity[k]
+            result.append((f"momentum_{axis}",
+                           lambda row, weight=weight, axis=axis: weight + sum(
+                               row[f"pair_{n}_force_{axis}"] for n in walls)))
+        return result
+
     def momentum(self):
         """What obstacles and weight give in each step: between bodies forces
         cancel."""
         number = lambda name, default: self.scene.number(f"Time/{name}",
                                                          default)
         gamma = GAMMAS[self.scene.get("Time/Scheme")](number)
-        gravity = [Formula(part)((0., 0., 0.), 0.) for part in split(
-            self.scene.get("Solid/Gravity"), ",")] or [0.] * self.solid.dim
-        walls = [p.number for p in self.solid.pairs if p.obstacle]
         worst = size = 0.
-        for k, axis in enumerate(self.axes):
-            def force(row):
-                return (self.solid.summary["mass"][k] * gravity[k]
-                        + sum(row[f"pair_{n}_force_{axis}"] for n in walls))
+        for mass, (column, force) in zip(self.solid.summary["mass"],
+                                         self.forces()):
             for before, now in zip(self.rows, self.rows[1:]):
                 given = (now["time"] - before["time"]) * (
                     (1 - gamma) * force(before) + gamma * force(now))
-                change = (now[f"momentum_{axis}"]
-                          - before[f"momentum_{axis}"])
-                worst = max(worst, abs(change - given))
+                worst = max(worst, abs(now[column] - before[column] - given))
                 # what swings within the bodies has momentum, too
                 size = max(size, abs(given), math.sqrt(
-                    2 * self.solid.summary["mass"][k]
-                    * max(0., now["kinetic_energy"])))
+                    2 * mass * max(0., now["kinetic_energy"])))
         limit = THRESHOLDS["momentum"]
         self.solid.findings.check("momentum of each step", worst,
                                   limit.value * size, limit.reason)
+
+
+class MembraneMotionJudge(MotionJudge):
+    """The same of the scene `obstacle`."""
+
+    def unknown_forces(self):
+        if self.scene.get("Time/Scheme") not in GAMMAS:
+            return "the scheme weights accelerations"
+        if (self.scene.get("Membrane/Dirichlet", "*: 0")
+                or self.scene.get("Membrane/Neumann")):
+            return "what holds and pulls the edge is not in the table"
+        if self.scene.number("Time/Mass damping", 0.):
+            return "damping is not in the table"
+        if "t" in self.scene.get("Membrane/Load", "0"):
+            return "the load may change"
+        return ""
+
+    def forces(self):
+        load = math.fsum(self.solid.load)
+        names = [name for name in ("obstacle_force", "upper_obstacle_force")
+                 if name in self.rows[0]]
+        return [("momentum",
+                 lambda row: load + sum(row[name] for name in names))]

@@ -86,18 +86,24 @@ namespace abut::app
     };
   } // namespace
 
+  double part_of_end(const abut_time_scheme &scheme)
+  {
+    // Midpoint rules have the forces of the step alone.
+    return scheme.projects != 0 ? 1. : scheme.gamma;
+  }
+
   template <int dim>
-  BodyMotion<dim>::BodyMotion(Elasticity<dim> &elasticity,
+  BodyMotion<dim>::BodyMotion(DiscreteProblem<dim> &problem,
                               const Settings &settings)
-      : elasticity_(elasticity), settings_(settings)
+      : problem_(problem), settings_(settings)
   {
   }
 
-  template <int dim> void BodyMotion<dim>::setup(const MassData &data)
+  template <int dim> void BodyMotion<dim>::setup(const MassData<dim> &data)
   {
-    mass_ = std::make_unique<la::Matrix>(
-        mass_matrix(elasticity_, elasticity_.all_materials(), data));
-    free_mass_ = std::make_unique<la::Matrix>(free_part(elasticity_, *mass_));
+    mass_ = std::make_unique<la::Matrix>(mass_matrix(problem_, data));
+    free_mass_ = std::make_unique<la::Matrix>(free_part(problem_, *mass_));
+    touches_with_mass_ = data.kind != ABUT_TIME_MASS_MODIFIED;
     tangent_.clear();
     projection_.clear();
     dt_ = 0.;
@@ -107,16 +113,18 @@ namespace abut::app
 
   template <int dim> void BodyMotion<dim>::find_rigid_motions()
   {
-    const auto &fe = elasticity_.fe;
-    const auto &owned = elasticity_.dof_handler.locally_owned_dofs();
+    const auto &fe = problem_.fe;
+    const auto &owned = problem_.dof_handler.locally_owned_dofs();
     dealii::FEValues<dim> places(
-        elasticity_.mapping, fe.base_element(0),
+        problem_.mapping, fe.base_element(0),
         dealii::Quadrature<dim>(fe.base_element(0).get_unit_support_points()),
         dealii::update_quadrature_points);
-    std::vector<la::Vector> along(dim, elasticity_.vector()),
-        about(n_rotations<dim>, elasticity_.vector());
+    // A membrane moves across its plane, and does not turn in it.
+    const bool turns = fe.n_components() == dim;
+    std::vector<la::Vector> along(fe.n_components(), problem_.vector()),
+        about(turns ? (dim == 2 ? 1 : 3) : 0, problem_.vector());
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    for (const auto &cell : elasticity_.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem_.dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned())
         continue;
@@ -139,7 +147,7 @@ namespace abut::app
     const auto times_mass = [&](const std::vector<la::Vector> &motions,
                                 std::vector<la::Vector> &result)
     {
-      result.assign(motions.size(), elasticity_.vector());
+      result.assign(motions.size(), problem_.vector());
       for (std::size_t m = 0; m < motions.size(); ++m)
         mass_->vmult(result[m], motions[m]);
     };
@@ -173,33 +181,39 @@ namespace abut::app
 
   template <int dim> void BodyMotion<dim>::set_forces_before()
   {
-    load_ = elasticity_.external;
+    load_ = problem_.external;
   }
 
-  template <int dim> void BodyMotion<dim>::find_acceleration()
+  template <int dim> la::Vector BodyMotion<dim>::resistance() const
   {
     la::Vector moved = velocity_;
     moved *= settings_.stiffness_damping;
     moved += displacement_;
-    la::Vector force = elasticity_.stiffness_times(moved);
-    la::Vector product = elasticity_.vector();
+    la::Vector force = problem_.stiffness_times(moved);
+    la::Vector product = problem_.vector();
     mass_->vmult(product, velocity_);
     force.add(settings_.mass_damping, product);
     force -= load_;
-    reaction_ = force;
-    la::Vector right(force);
-    right *= -1.;
-    elasticity_.constraints.set_zero(right);
+    return force;
+  }
+
+  template <int dim>
+  void BodyMotion<dim>::find_acceleration(const la::Vector &contact)
+  {
+    held_ = resistance();
+    la::Vector right(contact);
+    right -= held_;
+    problem_.constraints.set_zero(right);
     std::vector<std::uint8_t> without = massless_;
-    const auto &owned = elasticity_.dof_handler.locally_owned_dofs();
+    const auto &owned = problem_.dof_handler.locally_owned_dofs();
     for (std::size_t i = 0; i < without.size(); ++i)
     {
-      if (elasticity_.constraints.is_constrained(owned.nth_index_in_set(i)))
+      if (problem_.constraints.is_constrained(owned.nth_index_in_set(i)))
         without[i] = 1;
       if (without[i])
         la::data(right)[i] = 0.;
     }
-    acceleration_ = elasticity_.vector();
+    acceleration_ = problem_.vector();
     const double size = right.l2_norm();
     if (size == 0.)
       return;
@@ -210,8 +224,34 @@ namespace abut::app
     dealii::SolverCG<la::Vector> solver(control);
     solver.solve(MassOperator{*free_mass_, without}, acceleration_, right,
                  jacobi);
-    mass_->vmult(product, acceleration_);
-    reaction_ += product;
+    la::Vector inertia = problem_.vector();
+    mass_->vmult(inertia, acceleration_);
+    held_ += inertia;
+  }
+
+  template <int dim>
+  bool BodyMotion<dim>::begin_start(const double dt, la::Vector &u)
+  {
+    const abut_time_scheme &scheme = settings_.scheme;
+    if (scheme.projects != 0 || scheme.contact_in_step == 0
+        || abut_time_needs_acceleration(&scheme) == 0 || !touches_with_mass_)
+      return false;
+    scale_mass(1. / (dt * dt), projection_);
+    stage_ = ABUT_TIME_PROJECTION;
+    u = displacement_;
+    base_ = u;
+    base_residual_ = without_prescribed(resistance());
+    return true;
+  }
+
+  template <int dim>
+  void BodyMotion<dim>::end_start(const la::Vector &contact,
+                                  const la::Vector &on_supports)
+  {
+    find_acceleration(contact);
+    held_ -= on_supports;
+    stage_ = ABUT_TIME_STEP;
+    projection_.clear();
   }
 
   template <int dim>
@@ -221,7 +261,7 @@ namespace abut::app
     displacement_ = displacement;
     velocity_ = velocity;
     set_forces_before();
-    find_acceleration();
+    find_acceleration(problem_.vector());
     next_velocity_ = velocity_;
     dissipated_ = work_ = 0.;
     record_ = measure(displacement_, velocity_);
@@ -234,9 +274,19 @@ namespace abut::app
     displacement_ = displacement;
     velocity_ = fields[0];
     acceleration_ = fields[1];
-    reaction_ = fields[2];
+    held_ = fields[2];
     next_velocity_ = velocity_;
     set_forces_before();
+  }
+
+  template <int dim>
+  void BodyMotion<dim>::scale_mass(const double factor,
+                                   la::Matrix &matrix) const
+  {
+    matrix.reinit(*free_mass_);
+    matrix.copy_from(*free_mass_);
+    matrix *= factor;
+    hold_constrained(problem_, matrix);
   }
 
   template <int dim>
@@ -251,16 +301,13 @@ namespace abut::app
     // Without stiffness its couplings would only fill the solver's factors.
     if (stiffness == 0.)
     {
-      matrix.reinit(*free_mass_);
-      matrix.copy_from(*free_mass_);
-      matrix *= mass;
-      hold_constrained(elasticity_, matrix);
+      scale_mass(mass, matrix);
       return;
     }
     if (matrix.m() == 0)
-      matrix.reinit(elasticity_.stiffness);
+      matrix.reinit(problem_.stiffness);
     matrix = 0.;
-    matrix.add(stiffness, elasticity_.stiffness);
+    matrix.add(stiffness, problem_.stiffness);
     matrix.add(mass, *free_mass_);
   }
 
@@ -284,13 +331,13 @@ namespace abut::app
     const bool projects = settings_.scheme.projects != 0;
     stage_ = projects ? ABUT_TIME_PROJECTION : ABUT_TIME_STEP;
     step_velocity_ = velocity_;
-    projection_force_ = elasticity_.vector();
+    projection_force_ = problem_.vector();
     predicted_ = displacement_;
     const abut_time_state from =
         state(displacement_, step_velocity_, acceleration_);
     check(abut_time_begin(&from, la::data(predicted_)));
     u = predicted_;
-    elasticity_.constraints.distribute(u);
+    problem_.constraints.distribute(u);
     begin_problem(u);
     return is_new || (projects && !is_explicit());
   }
@@ -299,7 +346,7 @@ namespace abut::app
   {
     base_ = u;
     base_residual_ = full_residual(u);
-    elasticity_.constraints.set_zero(base_residual_);
+    problem_.constraints.set_zero(base_residual_);
   }
 
   template <int dim> bool BodyMotion<dim>::next_problem(const la::Vector &u)
@@ -309,7 +356,9 @@ namespace abut::app
     projection_force_ = full_residual(u);
     const abut_time_state from =
         state(displacement_, step_velocity_, acceleration_);
-    check(abut_time_project(&from, la::data(predicted_), la::data(u)));
+    la::Vector projected(predicted_);
+    projected += way_of_projection(u);
+    check(abut_time_project(&from, la::data(predicted_), la::data(projected)));
     if (is_explicit())
       return false;
     stage_ = ABUT_TIME_STEP;
@@ -323,18 +372,37 @@ namespace abut::app
     abut_time_weights weights;
     check(abut_time_weigh(&settings_.scheme, dt_, ABUT_TIME_PROJECTION,
                           &weights));
-    la::Vector way(u), result = elasticity_.vector();
-    way -= predicted_;
-    mass_->vmult(result, way);
+    la::Vector result = problem_.vector();
+    mass_->vmult(result, way_of_projection(u));
     result *= weights.mass;
     return result;
   }
 
   template <int dim>
+  la::Vector BodyMotion<dim>::way_of_projection(const la::Vector &u) const
+  {
+    la::Vector way(u);
+    way -= predicted_;
+    if (is_explicit())
+      return way;
+    // What is prescribed moves in the step that follows: here it would push its
+    // neighbours by its mass.
+    const auto &owned = problem_.dof_handler.locally_owned_dofs();
+    for (int i = 0; i < la::n_owned(way); ++i)
+    {
+      const auto unknown = owned.nth_index_in_set(i);
+      if (problem_.constraints.is_constrained(unknown)
+          && !problem_.hanging.is_constrained(unknown))
+        la::data(way)[i] = 0.;
+    }
+    return way;
+  }
+
+  template <int dim>
   la::Vector BodyMotion<dim>::step_residual(const la::Vector &unknown) const
   {
-    la::Vector inertia = elasticity_.vector(), damping = elasticity_.vector(),
-               elastic = elasticity_.vector(), product = elasticity_.vector();
+    la::Vector inertia = problem_.vector(), damping = problem_.vector(),
+               elastic = problem_.vector(), product = problem_.vector();
     abut_time_arguments arguments = {sizeof(abut_time_arguments),
                                      la::data(inertia), la::data(damping),
                                      la::data(elastic)};
@@ -344,13 +412,12 @@ namespace abut::app
     check(abut_time_evaluate(&from, la::data(unknown), &arguments));
     elastic.add(settings_.stiffness_damping, damping);
     inertia.add(settings_.mass_damping, damping);
-    la::Vector result = elasticity_.stiffness_times(elastic);
+    la::Vector result = problem_.stiffness_times(elastic);
     mass_->vmult(product, inertia);
     result += product;
     abut_time_weights weights;
     check(abut_time_weigh(&settings_.scheme, dt_, ABUT_TIME_STEP, &weights));
-    result.add(-weights.load, elasticity_.external, -weights.load_before,
-               load_);
+    result.add(-weights.load, problem_.external, -weights.load_before, load_);
     return result;
   }
 
@@ -362,8 +429,8 @@ namespace abut::app
 
   template <int dim> la::Vector BodyMotion<dim>::explicit_acceleration() const
   {
-    la::Vector result = step_residual(elasticity_.vector());
-    elasticity_.constraints.set_zero(result);
+    la::Vector result = step_residual(problem_.vector());
+    problem_.constraints.set_zero(result);
     const std::vector<double> mass = la::diagonal(la::local_rows(*free_mass_));
     for (std::size_t i = 0; i < mass.size(); ++i)
       la::data(result)[i] = mass[i] > 0. ? -la::data(result)[i] / mass[i] : 0.;
@@ -376,21 +443,21 @@ namespace abut::app
       return std::numeric_limits<double>::infinity();
     const std::vector<double> mass = la::diagonal(la::local_rows(*free_mass_));
     const auto n = static_cast<std::int64_t>(mass.size());
-    const auto &owned = elasticity_.dof_handler.locally_owned_dofs();
+    const auto &owned = problem_.dof_handler.locally_owned_dofs();
     const auto first =
         n > 0 ? static_cast<std::int64_t>(owned.nth_index_in_set(0)) : 0;
-    la::Vector x = elasticity_.vector(), y = elasticity_.vector();
+    la::Vector x = problem_.vector(), y = problem_.vector();
     abut_time_limit limit;
     check(abut_time_limit_begin(&limit, first, n, la::data(x)));
-    elasticity_.constraints.set_zero(x);
+    problem_.constraints.set_zero(x);
     while (limit.goes_on != 0)
     {
       double sums[2];
-      elasticity_.stiffness.vmult(y, x);
+      problem_.stiffness.vmult(y, x);
       check(
           abut_time_limit_sums(n, mass.data(), la::data(x), la::data(y), sums));
-      dealii::Utilities::MPI::sum(
-          sums, elasticity_.dof_handler.get_communicator(), sums);
+      dealii::Utilities::MPI::sum(sums, problem_.dof_handler.get_communicator(),
+                                  sums);
       check(abut_time_limit_next(&limit, sums, n, mass.data(), la::data(y),
                                  la::data(x)));
     }
@@ -404,14 +471,14 @@ namespace abut::app
     way -= base_;
     tangent().vmult(result, way);
     result += base_residual_;
-    elasticity_.constraints.set_zero(result);
+    problem_.constraints.set_zero(result);
   }
 
   template <int dim>
   la::Vector BodyMotion<dim>::without_prescribed(const la::Vector &values) const
   {
     la::Vector result(values);
-    elasticity_.constraints.set_zero(result);
+    problem_.constraints.set_zero(result);
     return result;
   }
 
@@ -419,7 +486,7 @@ namespace abut::app
   double BodyMotion<dim>::damping_energy(const la::Vector &way) const
   {
     double result = 0.;
-    la::Vector product = elasticity_.vector();
+    la::Vector product = problem_.vector();
     if (settings_.mass_damping > 0.)
     {
       mass_->vmult(product, way);
@@ -428,9 +495,9 @@ namespace abut::app
     if (settings_.stiffness_damping > 0.)
     {
       la::Vector free(way);
-      elasticity_.hanging.set_zero(free);
-      result += settings_.stiffness_damping
-                * (elasticity_.stiffness_times(way) * free);
+      problem_.hanging.set_zero(free);
+      result +=
+          settings_.stiffness_damping * (problem_.stiffness_times(way) * free);
     }
     return result / dt_;
   }
@@ -442,10 +509,9 @@ namespace abut::app
     const la::Vector unknown = is_explicit() ? explicit_acceleration() : u;
     unbalanced_ = step_residual(unknown);
     unbalanced_ += projection_force_;
-    next_reaction_ = unbalanced_;
-    next_reaction_ -= without_prescribed(unbalanced_);
-    next_reaction_ -= on_supports;
-    elasticity_.hanging.set_zero(next_reaction_);
+    next_held_ = unbalanced_;
+    next_held_ -= on_supports;
+    problem_.hanging.set_zero(next_held_);
     next_displacement_ = displacement_;
     next_velocity_ = step_velocity_;
     next_acceleration_ = acceleration_;
@@ -453,58 +519,65 @@ namespace abut::app
         state(next_displacement_, next_velocity_, next_acceleration_);
     check(abut_time_end(&to, la::data(unknown)));
     record_ = measure(next_displacement_, next_velocity_);
+    measure_works();
+  }
 
+  template <int dim> void BodyMotion<dim>::measure_works()
+  {
     la::Vector way(next_displacement_);
     way -= displacement_;
-    elasticity_.hanging.set_zero(way);
+    problem_.hanging.set_zero(way);
     la::Vector force(load_);
-    force += elasticity_.external;
+    force += problem_.external;
+    force *= 0.5;
     // Prescribed unknowns are moved by what holds them and by their loads.
-    force += next_reaction_;
-    la::Vector held_before(reaction_);
-    held_before -= without_prescribed(reaction_);
-    force += held_before;
+    const double now = part_of_end(settings_.scheme);
+    la::Vector held(next_held_);
+    held *= now;
+    held.add(1. - now, held_);
+    held -= without_prescribed(held);
+    force += held;
     record_.energy.dissipated = dissipated_ + damping_energy(way);
-    record_.energy.external_work = work_ + 0.5 * (force * way);
+    record_.energy.external_work = work_ + force * way;
   }
 
   template <int dim>
-  MotionRecord<dim> BodyMotion<dim>::measure(const la::Vector &u,
-                                             const la::Vector &v) const
+  MotionRecord BodyMotion<dim>::measure(const la::Vector &u,
+                                        const la::Vector &v) const
   {
-    MotionRecord<dim> result;
-    la::Vector product = elasticity_.vector(), free(u);
+    MotionRecord result;
+    la::Vector product = problem_.vector(), free(u);
     mass_->vmult(product, v);
     result.energy.kinetic = 0.5 * (product * v);
-    elasticity_.hanging.set_zero(free);
-    result.energy.strain = 0.5 * (elasticity_.stiffness_times(u) * free);
-    for (unsigned int d = 0; d < dim; ++d)
-      result.momentum[d] = mass_of_component_[d] * v;
-    for (unsigned int r = 0; r < n_rotations<dim>; ++r)
-      result.angular_momentum[r] = mass_of_rotation_[r] * v;
+    problem_.hanging.set_zero(free);
+    result.energy.strain = 0.5 * (problem_.stiffness_times(u) * free);
+    for (const la::Vector &mass : mass_of_component_)
+      result.momentum.push_back(mass * v);
+    for (const la::Vector &mass : mass_of_rotation_)
+      result.angular_momentum.push_back(mass * v);
     return result;
   }
 
-  template <int dim> dealii::Tensor<1, dim> BodyMotion<dim>::total_mass() const
+  template <int dim> std::vector<double> BodyMotion<dim>::total_mass() const
   {
-    dealii::Tensor<1, dim> result;
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] = mass_of_component_[d].mean_value()
-                  * double(mass_of_component_[d].size());
+    std::vector<double> result;
+    for (const la::Vector &mass : mass_of_component_)
+      result.push_back(mass.mean_value() * double(mass.size()));
     return result;
   }
 
   template <int dim> double BodyMotion<dim>::cancelling_forces() const
   {
-    la::Vector product = elasticity_.vector();
+    la::Vector product = problem_.vector();
     mass_->vmult(product, velocity_);
     la::Vector held(displacement_);
     const std::vector<double> diagonal =
-        la::diagonal(la::local_rows(elasticity_.stiffness));
+        la::diagonal(la::local_rows(problem_.stiffness));
     for (std::size_t i = 0; i < diagonal.size(); ++i)
       la::data(held)[i] *= diagonal[i];
-    elasticity_.constraints.set_zero(held);
-    return product.l2_norm() / dt_ + held.l2_norm();
+    problem_.constraints.set_zero(held);
+    const double stopping = dt_ > 0. ? product.l2_norm() / dt_ : 0.;
+    return stopping + held.l2_norm();
   }
 
   template <int dim> void BodyMotion<dim>::commit()
@@ -512,8 +585,8 @@ namespace abut::app
     displacement_ = next_displacement_;
     velocity_ = next_velocity_;
     acceleration_ = next_acceleration_;
-    reaction_ = next_reaction_;
-    load_ = elasticity_.external;
+    held_ = next_held_;
+    load_ = problem_.external;
     dissipated_ = record_.energy.dissipated;
     work_ = record_.energy.external_work;
   }

@@ -3,52 +3,47 @@
 #define ABUT_APP_BODY_MOTION_H
 
 /** @file
- * M a + C v + K u = f + contact of elastic bodies, step by step.
+ * M a + C v + K u = f + contact of elastic bodies and membranes, step by step.
  */
 
-#include "elasticity.h"
 #include "mass.h"
-
-#include <deal.II/base/tensor.h>
 
 #include <abut/time.h>
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace abut::app
 {
-  /** Axes that bodies can turn about. */
-  template <int dim> constexpr unsigned int n_rotations = dim == 2 ? 1 : 3;
-
   /** What stands in the balance of a motion at a time. */
-  template <int dim> struct MotionRecord
+  struct MotionRecord
   {
     double time = 0.;
     abut_time_energy energy = {};
-    double contact_force = 0.; ///< sum over all pairs
-    dealii::Tensor<1, dim> momentum;
+    double contact_force = 0.;    ///< sum over all pairs
+    std::vector<double> momentum; ///< by component
     /** About the origin, of the undeformed places, at which small strain has
-     * its forces act; in 2D one component. */
-    std::array<double, n_rotations<dim>> angular_momentum = {};
+     * its forces act; in 2D one component, of membranes none. */
+    std::vector<double> angular_momentum;
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
       archive &time &contact_force;
       archive &energy.kinetic &energy.strain &energy.contact;
       archive &energy.dissipated &energy.external_work;
-      for (unsigned int d = 0; d < dim; ++d)
-        archive &momentum[d];
-      for (double &each : angular_momentum)
-        archive &each;
+      archive &momentum &angular_momentum;
     }
   };
 
-  /** The motion of bodies of linear materials by a scheme of the core. Time is
-   * where the last committed step has led to; a step in work leaves that alone,
-   * so that it may be given up.
+  /** Part of what moving supports, obstacles and friction do in a step that is
+   * by the forces at its end; the rest is by those before. */
+  double part_of_end(const abut_time_scheme &scheme);
+
+  /** The motion of a linear problem by a scheme of the core: bodies, of whose
+   * displacement it has all components, or a membrane. Time is where the last
+   * committed step has led to; a step in work leaves that alone, so that it may
+   * be given up.
    *
    * A step is one contact problem, or first another one: the projection of
    * where the bodies would go. Explicit schemes have no more than that one.
@@ -64,17 +59,28 @@ namespace abut::app
       double mass_damping = 0., stiffness_damping = 0.; ///< of Rayleigh
     };
 
-    /** @p elasticity must outlive it. */
-    BodyMotion(Elasticity<dim> &elasticity, const Settings &settings);
+    /** @p problem must outlive it. */
+    BodyMotion(DiscreteProblem<dim> &problem, const Settings &settings);
 
     /** Mass and unknowns of the present mesh. Collective. */
-    void setup(const MassData &data);
+    void setup(const MassData<dim> &data);
 
     /** Begin at rest or with this velocity, with supports and loads of that
-     * time put into the elasticity. The acceleration is that of M a = f - C v -
-     * K u at unknowns with mass; contact that presses then begins to act in
-     * the first step. Collective. */
+     * time put into the problem. The acceleration is that of M a = f - C v -
+     * K u at unknowns with mass, without contact. Collective. */
     void start(const la::Vector &displacement, const la::Vector &velocity);
+
+    /** Begin the problem of contact at the start, whose answer is u + dt^2 a
+     * with the displacement @p u and the acceleration there: what touches and
+     * is pressed has none into the other side. Returns whether there is one:
+     * where the scheme never looks at an acceleration, or has none of contact,
+     * or nothing that touches has mass, it is not needed. Collective. */
+    bool begin_start(double dt, la::Vector &u);
+
+    /** These are the forces of contact, at prescribed unknowns @p on_supports:
+     * the acceleration becomes that of M a = f - C v - K u + contact.
+     * Collective. */
+    void end_start(const la::Vector &contact, const la::Vector &on_supports);
 
     /** Go on from fields() and from this displacement; as start().
      * Collective. */
@@ -83,12 +89,12 @@ namespace abut::app
     /** What a checkpoint keeps beside the displacement. */
     std::vector<la::Vector> fields() const
     {
-      return {velocity_, acceleration_, reaction_};
+      return {velocity_, acceleration_, held_};
     }
     static constexpr unsigned int n_fields = 3;
 
     /** Begin a step of length @p dt; supports and loads of its end have been
-     * put into the elasticity. @p u becomes a start of the iteration, where the
+     * put into the problem. @p u becomes a start of the iteration, where the
      * velocity leads to. Returns whether the tangent is another one than
      * before. Collective. */
     bool begin_step(double dt, la::Vector &u);
@@ -129,7 +135,7 @@ namespace abut::app
 
     /** Of the step that has ended or of the start, without contact and time.
      */
-    const MotionRecord<dim> &record() const
+    const MotionRecord &record() const
     {
       return record_;
     }
@@ -146,13 +152,24 @@ namespace abut::app
       return next_velocity_;
     }
 
+    /** What contact does at unknowns that are free in that step, and supports
+     * do at the others, 0 at hanging ones; and in the one before. */
+    const la::Vector &holding_forces() const
+    {
+      return next_held_;
+    }
+    const la::Vector &holding_forces_before() const
+    {
+      return held_;
+    }
+
     /** Forces that cancel in a step, as a norm over all unknowns: what would
      * stop the motion of the last commit in it, and stiffness times way of
      * each node by itself, of which a body in flight feels nothing. */
     double cancelling_forces() const;
 
     /** By component. */
-    dealii::Tensor<1, dim> total_mass() const;
+    std::vector<double> total_mass() const;
 
     /** What a checkpoint keeps beside fields. */
     template <class Archive> void serialize(Archive &archive, unsigned int)
@@ -165,6 +182,9 @@ namespace abut::app
     /** Residuals at all unknowns but hanging ones: of the projection, of the
      * step (@p unknown: see abut_time_evaluate()), of the problem in work. */
     la::Vector projection_residual(const la::Vector &u) const;
+    /** From where the step would go to @p u; 0 where values are prescribed, if
+     * the scheme has another problem that brings them about. */
+    la::Vector way_of_projection(const la::Vector &u) const;
     la::Vector step_residual(const la::Vector &unknown) const;
     la::Vector full_residual(const la::Vector &u) const;
     la::Vector without_prescribed(const la::Vector &values) const;
@@ -181,13 +201,18 @@ namespace abut::app
     /** Acceleration that forces at the end of an explicit step make. */
     la::Vector explicit_acceleration() const;
     void set_forces_before();
-    void find_acceleration();
+    /** What resists at the start, without inertia and contact. */
+    la::Vector resistance() const;
+    void find_acceleration(const la::Vector &contact);
+    /** A multiple of M as a tangent. */
+    void scale_mass(double factor, la::Matrix &matrix) const;
     void mark_massless();
     void find_rigid_motions();
-    MotionRecord<dim> measure(const la::Vector &u, const la::Vector &v) const;
+    void measure_works();
+    MotionRecord measure(const la::Vector &u, const la::Vector &v) const;
     double damping_energy(const la::Vector &way) const;
 
-    Elasticity<dim> &elasticity_;
+    DiscreteProblem<dim> &problem_;
     const Settings settings_;
     std::unique_ptr<const la::Matrix> mass_, free_mass_;
     la::Matrix tangent_, projection_;
@@ -195,10 +220,11 @@ namespace abut::app
     /** M times a unit motion along, and about, each axis. */
     std::vector<la::Vector> mass_of_component_, mass_of_rotation_;
     std::vector<std::uint8_t> massless_;
+    bool touches_with_mass_ = false;
     double dt_ = 0.; ///< of the tangent; 0: none
 
     // At the last commit.
-    la::Vector displacement_, velocity_, acceleration_, reaction_, load_;
+    la::Vector displacement_, velocity_, acceleration_, held_, load_;
     double dissipated_ = 0., work_ = 0.;
 
     // Of the step in work; its velocity is that of the commit until there is a
@@ -207,8 +233,8 @@ namespace abut::app
     la::Vector predicted_, step_velocity_, projection_force_;
     // At its end.
     la::Vector next_displacement_, next_velocity_, next_acceleration_;
-    la::Vector next_reaction_, unbalanced_;
-    MotionRecord<dim> record_;
+    la::Vector next_held_, unbalanced_;
+    MotionRecord record_;
   };
 } // namespace abut::app
 

@@ -63,6 +63,11 @@ namespace abut::app
      * more than a product with it. */
     virtual bool is_linear() const = 0;
 
+    /** K u over all unknowns but hanging ones, whatever is prescribed now: of
+     * displacements at any time, velocities, motions. Linear problems only.
+     * Collective. */
+    virtual la::Vector stiffness_times(const la::Vector &u) const = 0;
+
     /** (d K d)^(1/2) with the present tangent of a difference (owned) of two
      * solutions, which have the same values where these are prescribed. */
     double energy_norm(const la::Vector &difference) const;
@@ -91,6 +96,9 @@ namespace abut::app
     dealii::IndexSet relevant;
     la::Matrix stiffness; ///< the present tangent
     la::Vector load;      ///< external forces, constraints put in
+    /** Those at all unknowns but hanging ones, of what moves or may be
+     * nonlinear. */
+    la::Vector external;
 
     /** Number the unknowns of each rank by Cuthill and McKee's method. Takes
      * effect with the next mesh. */

@@ -348,7 +348,7 @@ namespace abut::app
     la::Vector closed = this->close_load(open);
     this->load.swap(closed);
     la::Vector closed_all = this->close_load(all);
-    external.swap(closed_all);
+    this->external.swap(closed_all);
   }
 
   template <int dim>
@@ -393,14 +393,14 @@ namespace abut::app
   template <int dim>
   NodalForces Elasticity<dim>::nodal_forces(const la::Vector &u) const
   {
-    return {all_internal_forces(u), external};
+    return {all_internal_forces(u), this->external};
   }
 
   template <int dim>
   la::Vector Elasticity<dim>::unbalanced_forces(const la::Vector &u) const
   {
     la::Vector result = all_internal_forces(u);
-    result.add(-1., external);
+    result.add(-1., this->external);
     return result;
   }
 
@@ -433,10 +433,10 @@ namespace abut::app
     {
       const double stored = stored_energy(all);
       this->hanging.set_zero(all);
-      return stored - external * all;
+      return stored - this->external * all;
     }
     la::Vector forces = stiffness_times(all);
-    forces.sadd(0.5, -1., external);
+    forces.sadd(0.5, -1., this->external);
     this->hanging.set_zero(all);
     return forces * all;
   }

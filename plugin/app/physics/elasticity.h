@@ -86,17 +86,11 @@ namespace abut::app
      * contact have to hold. Needs assemble_load(). Collective. */
     la::Vector unbalanced_forces(const la::Vector &u) const;
 
-    /** K u over all unknowns but hanging ones, whatever supports prescribe
-     * now: of displacements at any time, velocities, motions. Linear materials
-     * only. Collective. */
-    la::Vector stiffness_times(const la::Vector &u) const;
+    la::Vector stiffness_times(const la::Vector &u) const override;
 
     /** Stored energy minus the work of external forces, supports included.
      * Collective. */
     double energy(const la::Vector &u) const override;
-
-    /** External forces at all unknowns but hanging ones. */
-    la::Vector external;
 
   private:
     using Values = std::map<dealii::types::global_dof_index, double>;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "mass.h"
 
-#include "app/input/collective.h"
 #include "app/input/input_error.h"
+#include "whole_matrix.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -20,30 +20,19 @@ namespace abut::app
     /** Integrals of density and shape functions of one component. */
     template <int dim>
     dealii::FullMatrix<double> scalar_mass(const dealii::FEValues<dim> &values,
-                                           const Material<dim> &material,
-                                           const double density)
+                                           const std::vector<double> &density)
     {
       const unsigned int n = values.get_fe().n_dofs_per_cell();
       dealii::FullMatrix<double> result(n);
       for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
       {
-        const double dm = density * values.JxW(q)
-                          * material.measure(values.quadrature_point(q));
+        const double dm = density[q] * values.JxW(q);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
             result(i, j) +=
                 dm * values.shape_value(i, q) * values.shape_value(j, q);
       }
       return result;
-    }
-
-    /** Zeros on the diagonal: all loops over rows rely on entries there, also
-     * where there is no mass. */
-    template <typename Add>
-    void add_diagonal(const dealii::IndexSet &owned, const Add &add)
-    {
-      for (const global_dof_index row : owned)
-        add(row, {row}, {0.});
     }
 
     void lump(dealii::FullMatrix<double> &mass)
@@ -89,94 +78,42 @@ namespace abut::app
 
   template <int dim>
   la::Matrix mass_matrix(const DiscreteProblem<dim> &problem,
-                         const Materials<dim> &materials, const MassData &data)
+                         const MassData<dim> &data)
   {
-    const dealii::FiniteElement<dim> &element = problem.fe.base_element(0);
+    const dealii::FiniteElement<dim> &fe = problem.fe;
     dealii::FEValues<dim> values(
-        problem.mapping, element, dealii::QGauss<dim>(problem.fe.degree + 1),
+        problem.mapping, fe.base_element(0), dealii::QGauss<dim>(fe.degree + 1),
         dealii::update_values | dealii::update_JxW_values
             | dealii::update_quadrature_points);
     dealii::IndexSet touching(problem.dof_handler.n_dofs());
     if (!data.candidates.empty())
       touching = dealii::DoFTools::extract_boundary_dofs(
           problem.dof_handler, dealii::ComponentMask(), data.candidates);
-    const unsigned int n = element.n_dofs_per_cell();
+    const unsigned int n = fe.base_element(0).n_dofs_per_cell();
     std::vector<std::uint8_t> candidate(n);
-    std::vector<global_dof_index> dofs(problem.fe.n_dofs_per_cell());
-    dealii::FullMatrix<double> of_cell(problem.fe.n_dofs_per_cell());
-    const auto compute = [&](const auto &cell)
+    const auto compute = [&](const auto &cell,
+                             const std::vector<global_dof_index> &dofs,
+                             dealii::FullMatrix<double> &of_cell)
     {
       values.reinit(
           static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
               cell));
-      const auto body = cell->material_id();
       dealii::FullMatrix<double> scalar =
-          scalar_mass(values, *materials.at(body), data.density.at(body));
-      cell->get_dof_indices(dofs);
+          scalar_mass(values, data.density(cell->material_id(),
+                                           values.get_quadrature_points()));
       for (unsigned int i = 0; i < n; ++i)
-        candidate[i] = touching.is_element(
-            dofs[problem.fe.component_to_system_index(0, i)]);
+        candidate[i] =
+            touching.is_element(dofs[fe.component_to_system_index(0, i)]);
       change_kind<dim>(cell, data.kind, candidate, scalar);
+      of_cell = 0.;
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int c = 0; c < dim; ++c)
-            of_cell(problem.fe.component_to_system_index(c, i),
-                    problem.fe.component_to_system_index(c, j)) = scalar(i, j);
+          for (unsigned int c = 0; c < fe.n_components(); ++c)
+            of_cell(fe.component_to_system_index(c, i),
+                    fe.component_to_system_index(c, j)) = scalar(i, j);
     };
-    // Lines of unknowns that are not hanging; those take part by their parents.
-    const auto add_cell = [&](const auto &add)
-    {
-      const unsigned int m = static_cast<unsigned int>(dofs.size());
-      using Parents = std::vector<std::pair<global_dof_index, double>>;
-      std::vector<Parents> parents(m);
-      for (unsigned int i = 0; i < m; ++i)
-        if (const Parents *hanging =
-                problem.hanging.get_constraint_entries(dofs[i]))
-          parents[i] = *hanging;
-        else
-          parents[i] = {{dofs[i], 1.}};
-      std::vector<global_dof_index> columns;
-      std::vector<double> entries;
-      for (unsigned int i = 0; i < m; ++i)
-        for (const auto &row : parents[i])
-        {
-          // Parents of a lumped mass have their parts of it, and no couplings.
-          if (data.kind == ABUT_TIME_MASS_LUMPED)
-          {
-            add(row.first, {row.first}, {row.second * of_cell(i, i)});
-            continue;
-          }
-          columns.clear();
-          entries.clear();
-          for (unsigned int j = 0; j < m; ++j)
-            if (of_cell(i, j) != 0.)
-              for (const auto &column : parents[j])
-              {
-                columns.push_back(column.first);
-                entries.push_back(row.second * column.second * of_cell(i, j));
-              }
-          if (!columns.empty())
-            add(row.first, columns, entries);
-        }
-    };
-    return la::assemble(
-        problem.dof_handler.locally_owned_dofs(), problem.relevant,
-        problem.dof_handler.get_communicator(),
-        [&](const auto &add)
-        {
-          add_diagonal(problem.dof_handler.locally_owned_dofs(), add);
-          collective(problem.dof_handler.get_communicator(),
-                     [&]
-                     {
-                       for (const auto &cell :
-                            problem.dof_handler.active_cell_iterators())
-                         if (cell->is_locally_owned())
-                         {
-                           compute(cell);
-                           add_cell(add);
-                         }
-                     });
-        });
+    return whole_matrix<dim>(problem, compute,
+                             data.kind == ABUT_TIME_MASS_LUMPED);
   }
 
   template <int dim>
@@ -191,7 +128,8 @@ namespace abut::app
         owned, problem.relevant, problem.dof_handler.get_communicator(),
         [&](const auto &add)
         {
-          add_diagonal(owned, add);
+          for (const global_dof_index row : owned)
+            add(row, {row}, {0.});
           for (int i = 0; i < rows.n_rows; ++i)
           {
             const global_dof_index row = owned.nth_index_in_set(i);
@@ -213,9 +151,9 @@ namespace abut::app
   }
 
   template la::Matrix mass_matrix(const DiscreteProblem<2> &,
-                                  const Materials<2> &, const MassData &);
+                                  const MassData<2> &);
   template la::Matrix mass_matrix(const DiscreteProblem<3> &,
-                                  const Materials<3> &, const MassData &);
+                                  const MassData<3> &);
   template la::Matrix free_part(const DiscreteProblem<2> &, const la::Matrix &);
   template la::Matrix free_part(const DiscreteProblem<3> &, const la::Matrix &);
 } // namespace abut::app

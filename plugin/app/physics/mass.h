@@ -7,31 +7,33 @@
  */
 
 #include "discrete_problem.h"
-#include "material.h"
 
 #include <abut/time.h>
 
-#include <map>
 #include <set>
 
 namespace abut::app
 {
   /** What a mass matrix is made of. */
-  struct MassData
+  template <int dim> struct MassData
   {
-    /** By material id of the cells. */
-    std::map<dealii::types::material_id, double> density;
+    using Density = std::function<std::vector<double>(
+        dealii::types::material_id, const std::vector<dealii::Point<dim>> &)>;
+
+    /** Mass by volume of the mesh at points of a cell with this material id;
+     * may throw InputError. */
+    Density density;
     abut_time_mass kind = ABUT_TIME_MASS_MODIFIED;
     /** The secondary surfaces: their nodes have no mass if it is modified. */
     std::set<dealii::types::boundary_id> candidates;
   };
 
-  /** The mass matrix over all unknowns, prescribed ones included; hanging nodes
-   * by their parents, with empty rows of their own. Throws InputError where a
-   * cell has no node that could take the mass of the others. Collective. */
+  /** The mass matrix over all unknowns, see whole_matrix(): the same for each
+   * component. Throws InputError where a cell has no node that could take the
+   * mass of the others. Collective. */
   template <int dim>
   la::Matrix mass_matrix(const DiscreteProblem<dim> &problem,
-                         const Materials<dim> &materials, const MassData &data);
+                         const MassData<dim> &data);
 
   /** The part of @p mass between unknowns that nothing prescribes.
    * Collective. */

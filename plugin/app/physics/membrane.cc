@@ -38,24 +38,16 @@ namespace abut::app
         values.reinit(cell);
         if (is_like_the_last())
           return;
-        evaluate();
-        matrix = 0.;
-        load = 0.;
-        const unsigned int n = load.size();
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
-        {
-          const double weight = values.JxW(q);
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            const auto gradient = (k[q] * weight) * values.shape_grad(i, q);
-            for (unsigned int j = 0; j <= i; ++j)
-              matrix(i, j) += gradient * values.shape_grad(j, q);
-            load(i) += f[q] * weight * values.shape_value(i, q);
-          }
-        }
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = i + 1; j < n; ++j)
-            matrix(i, j) = matrix(j, i);
+        fill_matrix();
+        fill_load();
+      }
+
+      /** The load alone, on all cells that this object goes to. */
+      template <typename Cell> void compute_load(const Cell &cell)
+      {
+        values.reinit(cell);
+        if (!is_like_the_last())
+          fill_load();
       }
 
       dealii::FullMatrix<double> matrix;
@@ -79,19 +71,40 @@ namespace abut::app
                    : always | dealii::update_quadrature_points;
       }
 
-      void evaluate()
+      void fill_matrix()
       {
         if (!data.constant_conductivity)
           checked_values(*data.conductivity, values.get_quadrature_points(),
                          "Membrane/Conductivity", k);
-        if (!data.constant_load)
-          checked_values(*data.load, values.get_quadrature_points(),
-                         "Membrane/Load", f);
         for (const double here : k)
           if (!(here > 0.))
             throw InputError("Membrane/Conductivity",
                              "The conductivity must be positive; it is "
                                  + std::to_string(here) + " somewhere.");
+        matrix = 0.;
+        const unsigned int n = matrix.m();
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            const auto gradient =
+                (k[q] * values.JxW(q)) * values.shape_grad(i, q);
+            for (unsigned int j = 0; j <= i; ++j)
+              matrix(i, j) += gradient * values.shape_grad(j, q);
+          }
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = i + 1; j < n; ++j)
+            matrix(i, j) = matrix(j, i);
+      }
+
+      void fill_load()
+      {
+        if (!data.constant_load)
+          checked_values(*data.load, values.get_quadrature_points(),
+                         "Membrane/Load", f);
+        load = 0.;
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          for (unsigned int i = 0; i < load.size(); ++i)
+            load(i) += f[q] * values.JxW(q) * values.shape_value(i, q);
       }
 
       const MembraneData<dim> &data;
@@ -159,19 +172,31 @@ namespace abut::app
   {
   }
 
+  template <int dim>
+  typename Membrane<dim>::Prescribe
+  Membrane<dim>::dirichlet_values(const MembraneData<dim> &data) const
+  {
+    return [&](dealii::AffineConstraints<double> &values)
+    {
+      collective(this->communicator,
+                 [&]
+                 {
+                   dealii::VectorTools::interpolate_boundary_values(
+                       this->mapping, this->dof_handler, data.dirichlet,
+                       values);
+                 });
+    };
+  }
+
   template <int dim> void Membrane<dim>::setup(const MembraneData<dim> &data)
   {
-    this->distribute(
-        [&](dealii::AffineConstraints<double> &values)
-        {
-          collective(this->communicator,
-                     [&]
-                     {
-                       dealii::VectorTools::interpolate_boundary_values(
-                           this->mapping, this->dof_handler, data.dirichlet,
-                           values);
-                     });
-        });
+    this->distribute(dirichlet_values(data));
+  }
+
+  template <int dim>
+  void Membrane<dim>::prescribe(const MembraneData<dim> &data)
+  {
+    this->set_constraints(dirichlet_values(data));
   }
 
   template <int dim> void Membrane<dim>::assemble(const MembraneData<dim> &data)
@@ -222,18 +247,90 @@ namespace abut::app
   }
 
   template <int dim>
-  NodalForces Membrane<dim>::nodal_forces(const la::Vector &u) const
+  void Membrane<dim>::assemble_stiffness(const MembraneData<dim> &data)
   {
-    la::Vector all(u);
-    this->constraints.distribute(all);
+    this->stiffness = 0.;
+    std::vector<dealii::types::global_dof_index> dofs(
+        this->fe.n_dofs_per_cell());
+    const auto add = [&]
+    {
+      CellSystem<dim> system(*this, data);
+      for (const auto &cell : this->dof_handler.active_cell_iterators())
+      {
+        if (!cell->is_locally_owned())
+          continue;
+        cell->get_dof_indices(dofs);
+        system.compute(cell);
+        this->constraints.distribute_local_to_global(system.matrix, dofs,
+                                                     this->stiffness);
+      }
+    };
+    collective(this->communicator, add);
+    this->stiffness.compress(dealii::VectorOperation::add);
+    assembled = data;
+  }
+
+  template <int dim>
+  void Membrane<dim>::assemble_load(const MembraneData<dim> &data)
+  {
+    la::Vector open = this->open_load();
+    std::vector<dealii::types::global_dof_index> dofs(
+        this->fe.n_dofs_per_cell());
+    const auto add = [&]
+    {
+      CellSystem<dim> system(*this, data);
+      CellFlux<dim> flux(*this, data);
+      for (const auto &cell : this->dof_handler.active_cell_iterators())
+      {
+        if (!cell->is_locally_owned())
+          continue;
+        cell->get_dof_indices(dofs);
+        system.compute_load(cell);
+        this->hanging.distribute_local_to_global(system.load, dofs, open);
+        if (flux.compute(cell))
+          this->hanging.distribute_local_to_global(flux.load, dofs, open);
+      }
+    };
+    collective(this->communicator, add);
+    la::Vector closed = this->close_load(open);
+    this->external.swap(closed);
+    assembled = data;
+    // What is prescribed pulls at its neighbours.
+    la::Vector prescribed = this->vector();
+    this->constraints.distribute(prescribed);
+    la::Vector load(this->external);
+    load -= stiffness_times(prescribed);
+    this->constraints.set_zero(load);
+    this->load.swap(load);
+  }
+
+  template <int dim>
+  la::Vector Membrane<dim>::stiffness_times(const la::Vector &u) const
+  {
+    la::Vector result = this->free_forces(u);
+    result += forces_of_supports(u);
+    return result;
+  }
+
+  template <int dim>
+  la::Vector Membrane<dim>::forces_of_supports(const la::Vector &u) const
+  {
     CellSystem<dim> system(*this, assembled);
-    const la::Vector of_supports = this->support_forces(
-        all,
+    return this->support_forces(
+        u,
         [&](const auto &cell) -> const dealii::FullMatrix<double> &
         {
           system.compute(cell);
           return system.matrix;
         });
+  }
+
+  template <int dim>
+  NodalForces Membrane<dim>::nodal_forces(const la::Vector &u) const
+  {
+    la::Vector all(u);
+    this->constraints.distribute(all);
+    const la::Vector of_supports = forces_of_supports(all);
     NodalForces result{this->free_forces(all), this->load};
     result.internal += of_supports;
     // The load has what prescribed values add already.

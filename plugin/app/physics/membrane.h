@@ -33,14 +33,39 @@ namespace abut::app
      * that are not legal. Collective. */
     void assemble(const MembraneData<dim> &data);
 
+    /** @name What moves
+     * Stiffness and load by themselves, in place of assemble(), and over all
+     * unknowns as well. @{ */
+    /** Constraints with the values that are prescribed at the present time.
+     * Collective. */
+    void prescribe(const MembraneData<dim> &data);
+
+    /** Compute the stiffness on the present mesh; throws as assemble().
+     * Collective. */
+    void assemble_stiffness(const MembraneData<dim> &data);
+
+    /** Compute the load of the present time; throws as assemble(). Needs the
+     * stiffness. Collective. */
+    void assemble_load(const MembraneData<dim> &data);
+
+    la::Vector stiffness_times(const la::Vector &u) const override;
+    /** @} */
+
     /** Energy with the data of the last assemble(). Collective. */
     double energy(const la::Vector &u) const override;
 
     NodalForces nodal_forces(const la::Vector &u) const override;
 
   private:
+    using Prescribe = typename DiscreteProblem<dim>::Prescribe;
+
+    Prescribe dirichlet_values(const MembraneData<dim> &data) const;
     /** Loads at prescribed unknowns, 0 at others. */
     la::Vector loads_at_supports() const;
+
+    /** What cells at supports add to the product of the matrix with the free
+     * part of @p u. Collective. */
+    la::Vector forces_of_supports(const la::Vector &u) const;
 
     MembraneData<dim> assembled;
   };

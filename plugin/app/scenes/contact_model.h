@@ -81,6 +81,19 @@ namespace abut::app
     {
       return problem().vector();
     }
+
+    /** Begin the problem that a start with contact needs, from @p u. Returns
+     * whether there is one: it is solved as those of a step are, with
+     * residual() and tangent(). */
+    virtual bool begin_start(la::Vector &)
+    {
+      return false;
+    }
+
+    /** It has an answer; @p u becomes what start() returned. */
+    virtual void end_start(la::Vector &)
+    {
+    }
     /** @} */
 
     /** @name A load step on a mesh @{ */

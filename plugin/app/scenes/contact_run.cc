@@ -109,6 +109,23 @@ namespace abut::app
     return "";
   }
 
+  template <int dim> void ContactRun<dim>::solve_start()
+  {
+    if (!model.has_contact() || !model.begin_start(state.u))
+      return;
+    state.present = ContactResult();
+    state.present.level = state.mesh_number;
+    is_starting = true;
+    // Without an answer the first step has to find out what touches.
+    if (solve_problem(true))
+      model.end_start(state.u);
+    else
+      state.u = model.start();
+    is_starting = false;
+    // Nothing of it was committed.
+    contact_is_ready = false;
+  }
+
   template <int dim> void ContactRun<dim>::set_parameters()
   {
     const bool loose = !state.is_last_mesh() && !model.has_exact_solution()
@@ -202,6 +219,8 @@ namespace abut::app
   void ContactRun<dim>::note_step(const LinearReport &cost,
                                   const la::Vector &increment)
   {
+    if (is_starting)
+      return;
     ContactResult &present = state.present;
     present.linear += cost;
     present.steps += cost.n_systems;
@@ -506,6 +525,7 @@ namespace abut::app
       state.u = model.start();
       contact_is_ready = false;
       pressure.reset();
+      solve_start();
       return goes_on;
     }
     state.u = before;
@@ -526,6 +546,7 @@ namespace abut::app
     else
     {
       prepare();
+      solve_start();
       if (model.has_contact())
         diagnose_penalty(report, state.settings.method);
     }

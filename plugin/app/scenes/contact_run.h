@@ -56,6 +56,8 @@ namespace abut::app
     bool solve_without_contact();
     /** One of the problems of a step. */
     bool solve_problem(bool has_new_tangent);
+    /** What contact does at the start of a motion, if it needs that. */
+    void solve_start();
     bool solve();
     /** Whether the last solve took so many linearisations that a shorter load
      * step is due. */
@@ -131,6 +133,7 @@ namespace abut::app
     /** Section of the times that the solver is in. */
     std::optional<SectionTimes::Scope> section;
     bool contact_is_ready = false; ///< for the present mesh
+    bool is_starting = false;      ///< the problem of a start is in work
     std::optional<double> largest_cell;
     /** Owned; start of the next solve, or null. */
     std::shared_ptr<const la::Vector> pressure;

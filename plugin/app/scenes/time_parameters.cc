@@ -39,7 +39,7 @@ namespace abut::app
 
   std::string text_of_loss(const abut_time_scheme &scheme,
                            const abut_time_balance &balance, const double begin,
-                           const double end)
+                           const double end, const bool stops)
   {
     const auto percent = [](const double part)
     { return short_number(100. * part, 3) + " %"; };
@@ -57,12 +57,16 @@ namespace abut::app
             + short_number(begin, 6) + " to " + short_number(end, 6)
             + ", the largest part of one step. Make Time/Step shorter, half "
               "of it, until the loss stays the same; what then is left is "
-              "that of the mesh at impacts, which a finer one lessens"
-            + other + ".");
+            + (stops ? "that of impacts: what touches over an area loses its "
+                       "velocity there, without restitution, on any mesh."
+                     : "that of the mesh at impacts, which a finer one "
+                       "lessens"
+                           + other + "."));
   }
 
   void TimeParameters::declare(dealii::ParameterHandler &prm,
-                               const std::string &schemes)
+                               const std::string &schemes,
+                               const std::string &about_steps)
   {
     namespace Patterns = dealii::Patterns;
     prm.enter_subsection("Time");
@@ -74,13 +78,9 @@ namespace abut::app
         schemes.find("velocity level") != std::string::npos;
     prm.declare_entry(
         "Step", "0", NumberPattern::from(0.),
-        std::string("Length of a time step; a little less where `End` is no "
-                    "multiple of it. ")
-            + (has_impulses
-                   ? "0, of a bar: the time that a wave needs for an element, "
-                     "or .9 of the limit of an explicit scheme."
-                   : "A step that fails is halved, see `Load steps/Cut "
-                     "back`."));
+        "Length of a time step; a little less where `End` is no multiple of "
+        "it. "
+            + about_steps);
     prm.declare_entry("End", "1", NumberPattern::positive(),
                       "Time of the end; the motion begins at 0.");
     prm.declare_entry("Alpha", "-0.1", NumberPattern::between(-1. / 3., 0.),

@@ -16,10 +16,11 @@ namespace abut::app
   constexpr double useless_gain = 0.1;
 
   /** What to say of a balance that has lost energy, at the end of a motion.
-   * @param begin,end the step in which it fell most */
+   * @param begin,end the step in which it fell most
+   * @param stops what touches has mass on any mesh, and loses its velocity */
   std::string text_of_loss(const abut_time_scheme &scheme,
                            const abut_time_balance &balance, double begin,
-                           double end);
+                           double end, bool stops = false);
 
   /** Section `Time`: motion by a scheme of the core. */
   struct TimeParameters
@@ -30,9 +31,11 @@ namespace abut::app
     double restitution = 0.; ///< of schemes with impulses
 
     /** @param schemes the words that the kind of scene knows, separated by |;
-     * the first is the default, `none` means no motion */
+     * the first is the default, `none` means no motion
+     * @param about_steps a sentence about their length */
     static void declare(dealii::ParameterHandler &prm,
-                        const std::string &schemes);
+                        const std::string &schemes,
+                        const std::string &about_steps);
 
     /** Throws InputError for values that contradict each other.
      * @param finds_step the scene makes a step of its own where the file has

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "membrane_effects.h"
 
+#include "app/scenes/motion_effects.h"
+
 namespace abut::app
 {
   namespace
@@ -15,12 +17,24 @@ namespace abut::app
 
     EffectRules of_time()
     {
-      const std::string why = "a membrane has no load steps: t is always 0.";
-      EffectRules rules;
+      EffectRules rules = {
+          without_time("Membrane/Conductivity",
+                       "the tension of a membrane stays what it is."),
+          without_time("Membrane/Density", "mass stays what it is."),
+          without_time("Membrane/Initial*", "it is about time 0.")};
       for (const char *parameters :
            {"Membrane/*", "Contact/Obstacle", "Contact/Upper obstacle",
             "Exact solution/*"})
-        rules.push_back(without_time(parameters, why));
+      {
+        EffectRule rule = without_time(
+            parameters, "nothing moves, and t is always 0: Time/Scheme is "
+                        "none.");
+        rule.without_effect =
+            [at_rest = rule.without_effect](const SceneValues &values,
+                                            const std::string &path)
+        { return has_motion(values) ? std::string() : at_rest(values, path); };
+        rules.push_back(rule);
+      }
       return rules;
     }
 
@@ -46,6 +60,8 @@ namespace abut::app
                    no_discretisation("the obstacle of a membrane acts at "
                                      "nodes."),
                    solver_effects(), refinement_effects(), of_search(),
+                   motion_effects({"Membrane/Density", "Membrane/Initial*"},
+                                  "contact stabilised"),
                    result_effects()});
   }
 } // namespace abut::app

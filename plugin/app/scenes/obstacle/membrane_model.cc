@@ -3,8 +3,10 @@
 
 #include "app/adapt/estimator.h"
 #include "app/input/input_error.h"
+#include "app/input/short_number.h"
 #include "app/mesh/boundary_parts.h"
 #include "app/mesh/memory_check.h"
+#include "app/physics/nodal_interpolation.h"
 #include "app/restart/archive.h"
 #include "app/scenes/automatic_law.h"
 #include "membrane_report.h"
@@ -20,12 +22,14 @@ namespace abut::app
   template <int dim>
   MembraneModel<dim>::MembraneModel(const ObstacleParameters &parameters,
                                     ContactRunState<dim> &run)
-      : ContactModel<dim>(run.communicator),
+      : MovingModel<dim>(run),
         parameters(parameters),
-        run(run),
         membrane(this->triangulation, parameters.degree),
         series(run.options.output_folder, "fields", run.communicator)
   {
+    if (parameters.time.is_on)
+      motion = std::make_unique<ModelMotion<dim>>(
+          parameters.time, motion_words(), run, membrane);
   }
 
   template <int dim> void MembraneModel<dim>::create_mesh()
@@ -50,6 +54,8 @@ namespace abut::app
       exact = std::make_unique<ExactSolution<dim>>(
           parameters.exact_displacement, "Exact solution/Displacement",
           parameters.exact_gradient, "Exact solution/Gradient");
+    if (motion)
+      create_functions_of_motion();
   }
 
   template <int dim> void MembraneModel<dim>::set_data()
@@ -67,10 +73,10 @@ namespace abut::app
           parameters.height_map,
           run.options.input_file(parameters.height_map.file));
     else if (!parameters.obstacle.empty())
-      obstacle.lower = std::make_shared<Expression<dim>>(parameters.obstacle,
-                                                         "Contact/Obstacle");
+      obstacle.lower = lower = std::make_shared<Expression<dim>>(
+          parameters.obstacle, "Contact/Obstacle");
     if (!parameters.upper_obstacle.empty())
-      obstacle.upper = std::make_shared<Expression<dim>>(
+      obstacle.upper = upper = std::make_shared<Expression<dim>>(
           parameters.upper_obstacle, "Contact/Upper obstacle");
 
     data.conductivity = conductivity.get();
@@ -100,14 +106,25 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::setup_mesh()
   {
-    SectionTimes::Scope scope(run.report.times, "unknowns and pattern");
-    membrane.renumber = parameters.refinement.renumber;
-    membrane.setup(data);
+    {
+      SectionTimes::Scope scope(run.report.times, "unknowns and pattern");
+      membrane.renumber = parameters.refinement.renumber;
+      membrane.setup(data);
+    }
+    if (!motion)
+      return;
+    SectionTimes::Scope scope(run.report.times, "assembly");
+    membrane.assemble_stiffness(data);
+    motion->setup(checked_density(), contact_ids);
+    is_loaded = false;
   }
 
   template <int dim>
   void MembraneModel<dim>::choose_law(MethodParameters &method)
   {
+    // Each step begins close to its end.
+    if (motion)
+      return;
     const double nodes = double(membrane.dof_handler.n_dofs());
     choose_law_of_membrane(method, !parameters.refinement.nested,
                            contact_ids.empty() ? std::pow(nodes, 1. / dim)
@@ -119,13 +136,22 @@ namespace abut::app
   template <int dim> void MembraneModel<dim>::assemble()
   {
     SectionTimes::Scope scope(run.report.times, "assembly");
-    membrane.assemble(data);
+    if (!motion)
+      membrane.assemble(data);
+    else if (!is_loaded || load->depends_on_time() || neumann->depends_on_time()
+             || dirichlet->depends_on_time())
+      membrane.assemble_load(data);
+    is_loaded = true;
   }
 
   template <int dim>
   void MembraneModel<dim>::set_contact(ContactAssembler<dim> &contact, double)
   {
-    contact.set_obstacle(obstacle);
+    // Obstacles that move are asked where they are.
+    if (!motion || !is_told)
+      contact.set_obstacle(obstacle);
+    is_told = true;
+    this->renew_tangent(contact);
   }
 
   template <int dim> la::Vector MembraneModel<dim>::held_nodes() const
@@ -199,6 +225,10 @@ namespace abut::app
   template <int dim>
   std::string MembraneModel<dim>::line_of(const ContactResult &result) const
   {
+    if (motion)
+      return "time " + short_number(result.time, 6) + ": "
+             + std::to_string(result.active) + " in contact, energy "
+             + short_number(result.energy, 8);
     return "level " + std::to_string(result.level) + ": "
            + std::to_string(result.dofs) + " unknowns, "
            + std::to_string(result.active) + " in contact, "
@@ -209,11 +239,29 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::declare_tables()
   {
-    run.report.declare_columns(
+    std::vector<std::string> columns(
         {"level", "cells", "dofs", "constraints", "active", "steps",
          "linear_iterations", "matvecs", "setups", "energy", "contact_force",
          "penetration", "l2_error", "h1_error", "estimate", "estimated_error",
          "setup_seconds", "krylov_seconds", "seconds"});
+    if (motion)
+    {
+      columns.insert(columns.begin(), {"load_step", "time"});
+      for (const std::string &column : motion->columns())
+        columns.push_back(column);
+    }
+    run.report.declare_columns(columns);
+  }
+
+  template <int dim>
+  void MembraneModel<dim>::add_to_row(ContactResult &result,
+                                      std::map<std::string, double> &row) const
+  {
+    if (!motion)
+      return;
+    motion->add_to_row(row);
+    row["load_step"] = result.load_step;
+    row["time"] = result.time;
   }
 
   template <int dim> la::Vector MembraneModel<dim>::gaps() const
@@ -242,7 +290,7 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::write_fields()
   {
-    if (!parameters.fields)
+    if (!parameters.fields || !this->is_written(parameters.every))
       return;
     SectionTimes::Scope scope(run.report.times, "output");
     const la::Vector displacement = membrane.ghosted(run.u);
@@ -258,24 +306,27 @@ namespace abut::app
                        {}};
     if (run.present.estimate)
       fields.cells = {{"squared_error_estimate", &run.squared_estimate}};
-    series.write(run.present.level, fields);
+    series.write(motion ? run.present.time : run.present.level, fields);
   }
 
   template <int dim> std::string MembraneModel<dim>::save_state() const
   {
-    return to_bytes(series);
+    return to_bytes(std::make_pair(to_bytes(series), this->motion_state()));
   }
 
   template <int dim>
   void MembraneModel<dim>::load_state(const std::string &bytes)
   {
-    from_bytes(bytes, series);
+    std::pair<std::string, std::string> parts;
+    from_bytes(bytes, parts);
+    from_bytes(parts.first, series);
+    this->load_motion(parts.second);
   }
 
   template <int dim> void MembraneModel<dim>::finish()
   {
     MembraneReport<dim> report(*this);
-    if (parameters.nodal_values)
+    if (parameters.nodal_values && !run.results.empty())
       report.write_nodal_values();
     if (parameters.linear_solves > 0)
       report.compare_with_linear_solves(membrane);
@@ -304,6 +355,207 @@ namespace abut::app
   template <int dim> void MembraneModel<dim>::report_model()
   {
     MembraneReport<dim>(*this).model_lines();
+  }
+
+  // What it has of its own when it moves: formulas that know the time, and
+  // obstacles that work.
+
+  template <int dim> MotionWords MembraneModel<dim>::motion_words() const
+  {
+    MotionWords words;
+    words.components = {""};
+    if (!parameters.obstacle.empty() || !parameters.height_map.file.empty())
+      words.sides.push_back("obstacle");
+    if (!parameters.upper_obstacle.empty())
+      words.sides.push_back("upper_obstacle");
+    words.stops = parameters.boundary_ids.empty();
+    return words;
+  }
+
+  template <int dim> void MembraneModel<dim>::create_functions_of_motion()
+  {
+    const auto read = [](const std::string &text, const std::string &name)
+    {
+      return text.empty()
+                 ? nullptr
+                 : std::make_unique<Expression<dim>>(text, "Membrane/" + name);
+    };
+    density =
+        read(parameters.density.empty() ? "0" : parameters.density, "Density");
+    displacement =
+        read(parameters.initial_displacement, "Initial displacement");
+    velocity = read(parameters.initial_velocity, "Initial velocity");
+  }
+
+  template <int dim>
+  typename MassData<dim>::Density MembraneModel<dim>::checked_density() const
+  {
+    return [this](const dealii::types::material_id,
+                  const std::vector<dealii::Point<dim>> &points)
+    {
+      std::vector<double> values = density->evaluate(points);
+      for (const double value : values)
+        if (!(value > 0.))
+          throw InputError("Membrane/Density",
+                           "what moves has mass everywhere; the density is "
+                               + short_number(value)
+                               + " somewhere. Set a positive one, or "
+                                 "Time/Scheme = none.");
+      return values;
+    };
+  }
+
+  template <int dim> bool MembraneModel<dim>::obstacles_move() const
+  {
+    return (lower && lower->depends_on_time())
+           || (upper && upper->depends_on_time());
+  }
+
+  template <int dim> void MembraneModel<dim>::set_time(const double time)
+  {
+    if (!motion)
+      return;
+    load->set_time(time);
+    for (const auto &side : {lower, upper})
+      if (side)
+        side->set_time(time);
+    dirichlet->set_time(time);
+    neumann->set_time(time);
+    if (exact)
+      exact->set_time(time);
+    // The first mesh gets its values with its unknowns.
+    if (dirichlet->depends_on_time() && membrane.dof_handler.has_active_dofs())
+      membrane.prescribe(data);
+  }
+
+  template <int dim>
+  std::pair<la::Vector, la::Vector> MembraneModel<dim>::initial_motion() const
+  {
+    const auto at_nodes = [&](const std::unique_ptr<Expression<dim>> &formula)
+    {
+      return values_at_nodes<dim>(membrane,
+                                  [&](const dealii::types::material_id)
+                                  { return formula.get(); });
+    };
+    std::pair<la::Vector, la::Vector> result{at_nodes(displacement),
+                                             at_nodes(velocity)};
+    require_outside(result.first);
+    return result;
+  }
+
+  template <int dim>
+  typename MembraneModel<dim>::Heights MembraneModel<dim>::heights() const
+  {
+    const dealii::IndexSet &owned = membrane.dof_handler.locally_owned_dofs();
+    std::map<dealii::types::global_dof_index, dealii::Point<dim>> places;
+    dealii::DoFTools::map_dofs_to_support_points(membrane.mapping,
+                                                 membrane.dof_handler, places);
+    dealii::IndexSet touching = owned;
+    if (!contact_ids.empty())
+      touching = dealii::DoFTools::extract_boundary_dofs(
+          membrane.dof_handler, dealii::ComponentMask(), contact_ids);
+    Heights result;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    for (const auto dof : owned)
+    {
+      const bool touches = touching.is_element(dof);
+      const auto at = [&](const auto &side)
+      { return touches && side ? side->value(places.at(dof)) : none; };
+      result.lower.push_back(at(obstacle.lower));
+      result.upper.push_back(at(obstacle.upper));
+    }
+    return result;
+  }
+
+  template <int dim>
+  void MembraneModel<dim>::require_outside(const la::Vector &start) const
+  {
+    const Heights limits = heights();
+    const dealii::IndexSet &owned = membrane.dof_handler.locally_owned_dofs();
+    const double *u = la::data(start);
+    double depth = 0.;
+    for (int i = 0; i < la::n_owned(start); ++i)
+    {
+      if (membrane.constraints.is_constrained(owned.nth_index_in_set(i)))
+        continue;
+      // Where there is no obstacle there is no depth.
+      depth = std::fmax(depth, limits.lower[i] - u[i]);
+      depth = std::fmax(depth, u[i] - limits.upper[i]);
+    }
+    depth = dealii::Utilities::MPI::max(depth, run.communicator);
+    if (depth > 1e-10 * start.linfty_norm())
+      throw InputError("Membrane/Initial displacement",
+                       "the membrane begins beyond an obstacle, by up to "
+                           + short_number(depth)
+                           + ": it would be thrown out of there. Let it begin "
+                             "between the obstacles.");
+  }
+
+  template <int dim> la::Vector MembraneModel<dim>::start()
+  {
+    la::Vector result = MovingModel<dim>::start();
+    if (obstacles_move())
+      before = heights();
+    return result;
+  }
+
+  template <int dim>
+  void MembraneModel<dim>::resume(std::vector<la::Vector> fields)
+  {
+    MovingModel<dim>::resume(std::move(fields));
+    if (motion && obstacles_move())
+      before = heights();
+  }
+
+  template <int dim>
+  std::vector<ContactAction> MembraneModel<dim>::contact_actions() const
+  {
+    la::Vector forces = membrane.vector();
+    run.contact.add_contact_forces(forces);
+    double sums[2] = {0., 0.};
+    for (int i = 0; i < la::n_owned(forces); ++i)
+      sums[la::data(forces)[i] < 0. ? 1 : 0] += la::data(forces)[i];
+    dealii::Utilities::MPI::sum(sums, run.communicator, sums);
+    std::vector<ContactAction> actions;
+    if (obstacle.lower)
+      actions.push_back({{sums[0]}, {}});
+    if (obstacle.upper)
+      actions.push_back({{sums[1]}, {}});
+    return actions;
+  }
+
+  template <int dim> void MembraneModel<dim>::end_solve()
+  {
+    MovingModel<dim>::end_solve();
+    if (!motion || !obstacles_move())
+      return;
+    present_heights = heights();
+    motion->add_work(work_of_obstacles());
+  }
+
+  template <int dim> double MembraneModel<dim>::work_of_obstacles() const
+  {
+    const BodyMotion<dim> &bodies = motion->bodies();
+    const double now = part_of_end(parameters.time.scheme);
+    la::Vector force(bodies.holding_forces());
+    force *= now;
+    force.add(1. - now, bodies.holding_forces_before());
+    membrane.constraints.set_zero(force);
+    double work = 0.;
+    for (int i = 0; i < la::n_owned(force); ++i)
+    {
+      const double f = la::data(force)[i];
+      const double way = f > 0. ? present_heights.lower[i] - before.lower[i]
+                                : present_heights.upper[i] - before.upper[i];
+      work += std::isfinite(way) ? f * way : 0.;
+    }
+    return dealii::Utilities::MPI::sum(work, run.communicator);
+  }
+
+  template <int dim> std::string MembraneModel<dim>::commit()
+  {
+    before = present_heights;
+    return MovingModel<dim>::commit();
   }
 
   template class MembraneModel<2>;

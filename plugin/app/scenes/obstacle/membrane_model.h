@@ -5,7 +5,7 @@
 #include "app/input/boundary_expressions.h"
 #include "app/physics/membrane.h"
 #include "app/pictures/field_output.h"
-#include "app/scenes/contact_model.h"
+#include "app/scenes/moving_model.h"
 #include "obstacle_parameters.h"
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace abut::app
 {
   /** A membrane over an obstacle, as a ContactRun sees it. What has been made
    * of it is public for MembraneReport. */
-  template <int dim> class MembraneModel : public ContactModel<dim>
+  template <int dim> class MembraneModel : public MovingModel<dim>
   {
   public:
     /** Both must outlive it. */
@@ -29,7 +29,11 @@ namespace abut::app
     void choose_law(MethodParameters &method) override;
     void declare_tables() override;
 
+    la::Vector start() override;
+    void set_time(double time) override;
     void assemble() override;
+    void end_solve() override;
+    std::string commit() override;
     DiscreteProblem<dim> &problem() override
     {
       return membrane;
@@ -58,7 +62,7 @@ namespace abut::app
     }
     bool reports_failures() const override
     {
-      return true;
+      return !motion; // steps that fail are halved
     }
 
     double estimate(dealii::Vector<float> &squared) const override;
@@ -76,8 +80,11 @@ namespace abut::app
     {
       return exact != nullptr;
     }
+    void add_to_row(ContactResult &result,
+                    std::map<std::string, double> &row) const override;
     std::string line_of(const ContactResult &result) const override;
 
+    void resume(std::vector<la::Vector> fields) override;
     void write_fields() override;
     std::string save_state() const override;
     void load_state(const std::string &bytes) override;
@@ -91,20 +98,53 @@ namespace abut::app
      * nodes without a row, as at supports, the same from the formulas. */
     la::Vector gaps() const;
 
+    using MovingModel<dim>::run;
+    using MovingModel<dim>::motion;
+
     const ObstacleParameters &parameters;
-    const ContactRunState<dim> &run;
     Membrane<dim> membrane;
     std::unique_ptr<Expression<dim>> conductivity, load;
+    /** Of what moves; or null. */
+    std::unique_ptr<Expression<dim>> density, displacement, velocity;
     std::unique_ptr<BoundaryExpressions<dim>> dirichlet, neumann;
     std::unique_ptr<ExactSolution<dim>> exact;
     std::set<dealii::types::boundary_id> contact_ids;
     MembraneData<dim> data;
 
+  protected:
+    std::pair<la::Vector, la::Vector> initial_motion() const override;
+    std::vector<ContactAction> contact_actions() const override;
+    const la::Matrix &reference_stiffness() const override
+    {
+      return membrane.stiffness;
+    }
+
   private:
+    /** Of the two obstacles at the owned unknowns, which may touch them; no
+     * value where there is none. */
+    struct Heights
+    {
+      std::vector<double> lower, upper;
+    };
+
     /** 1 at nodes in contact and at hanging nodes between two of them. */
     la::Vector held_nodes() const;
+    MotionWords motion_words() const;
+    void create_functions_of_motion();
+    typename MassData<dim>::Density checked_density() const;
+    bool obstacles_move() const;
+    /** At the present time. Collective. */
+    Heights heights() const;
+    /** Throw InputError for a displacement beyond an obstacle. Collective. */
+    void require_outside(const la::Vector &start) const;
+    /** Of obstacles that move, in the step that has ended. Collective. */
+    double work_of_obstacles() const;
 
     Obstacle<dim> obstacle;
+    std::shared_ptr<Expression<dim>> lower, upper; ///< formulas of it, or null
+    bool is_told = false;   ///< the obstacle, to the assembler
+    bool is_loaded = false; ///< the present mesh
+    Heights before, present_heights;
     FieldSeries series;
   };
 } // namespace abut::app

@@ -55,8 +55,10 @@ namespace abut::app
     columns.push_back({"pressure", membrane.ghosted_field(contact.pressure())});
     columns.push_back({"gap", model.gaps()});
     columns.push_back({"status", membrane.ghosted_field(contact.status())});
-    for (NodalColumn &column :
-         force_columns(membrane, run, membrane.nodal_forces(u), true))
+    for (NodalColumn &column : force_columns(
+             membrane, run, membrane.nodal_forces(u), true,
+             model.motion ? &model.motion->bodies().unbalanced_forces()
+                          : nullptr))
       columns.push_back(std::move(column));
     write_nodal_table(run.options.output_folder / "nodal.csv", membrane.mapping,
                       membrane.dof_handler, columns);
@@ -120,6 +122,11 @@ namespace abut::app
                   "Displacement");
     draw_status(report, run.options.output_folder, "active-set", raster, 1,
                 status_words, "Contact");
+    if (model.motion)
+    {
+      model.motion->draw();
+      return;
+    }
 
     std::vector<Curve> errors;
     Curve l2{"L2 error", {}}, h1{"H1 error", {}}, energy{"energy error", {}},
@@ -189,11 +196,22 @@ namespace abut::app
     report.set("largest_share_of_matrix", entries.max / entries.sum);
   }
 
+  template <int dim> void MembraneReport<dim>::report_motion() const
+  {
+    report.set("load_steps", run.load_steps.n_accepted());
+    report.set("load_steps_cut_back", run.load_steps.n_rejected());
+    report.set("time", levels.back().time);
+    model.motion->report();
+  }
+
   template <int dim>
   void MembraneReport<dim>::result(const bool converged) const
   {
-    const ContactResult &last = levels.back();
+    report.set("converged", converged);
     report.set("method", run.method.options.law->name);
+    if (levels.empty())
+      return;
+    const ContactResult &last = levels.back();
     report.set("discretisation", "nodal");
     report.set("dofs", last.dofs);
     report.set("constraints", last.rows);
@@ -210,18 +228,19 @@ namespace abut::app
     report.set("steps_on_last_level", last.steps);
     report.set("linear_iterations_on_last_level", last.linear.n_iterations);
     report_shares();
+    if (model.motion)
+      report_motion();
     std::vector<double> energies;
     double condition = 0.;
     for (const ContactResult &level : levels)
     {
       condition = std::max(condition, level.linear.condition);
-      if (level.level <= parameters.refinement.level)
+      if (level.level <= parameters.refinement.level && !model.motion)
         energies.push_back(level.energy);
     }
     if (converged && !parameters.refinement.has_target())
       diagnose_order(report, energies);
     diagnose_condition(report, condition, last.progress.penalty);
-    report.set("converged", converged);
     if (run.control.is_on())
       run.control.report(report, relative_error());
   }
@@ -234,8 +253,9 @@ namespace abut::app
                      : "one for each free node of the contact "
                        "boundary",
                  {"contact rows and start"});
+    const std::size_t n_meshes = model.motion ? 1 : levels.size();
     report.model("meshes", true,
-                 std::to_string(levels.size())
+                 std::to_string(n_meshes)
                      + ", with unknowns and pattern of each",
                  {"mesh", "unknowns and pattern", "transfer"});
     report.model("stiffness", true, "assembled once on each mesh",
@@ -243,13 +263,18 @@ namespace abut::app
     report.model("search", false,
                  "the obstacle is a function: its gap needs no search");
     report.model("friction", false, "a scalar field has no tangent to slide");
+    report.model("inertia", model.has_inertia(),
+                 model.has_inertia()
+                     ? std::string("scheme ") + parameters.time.scheme.name
+                     : "the membrane is in equilibrium");
     const RefinementParameters &refinement = parameters.refinement;
     model_meshes(report, refinement);
-    const LinearReport &linear = levels.back().linear;
+    const ContactResult last = levels.empty() ? ContactResult() : levels.back();
+    const LinearReport &linear = last.linear;
     report.model("preconditioner set-ups on the last level",
                  linear.n_setups > 0,
                  std::to_string(linear.n_setups) + " for "
-                     + std::to_string(levels.back().steps) + " steps");
+                     + std::to_string(last.steps) + " steps");
     unsigned int n_steps = 0;
     for (const ContactResult &level : levels)
       n_steps += level.steps;

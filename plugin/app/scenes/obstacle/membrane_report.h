@@ -33,6 +33,8 @@ namespace abut::app
     std::optional<double> relative_error() const;
     /** Exact values, and how far from them. */
     void report_errors(const ContactResult &last) const;
+    /** How the membrane has moved. */
+    void report_motion() const;
     /** Largest part of the mesh on one rank. */
     void report_shares() const;
 

@@ -20,7 +20,16 @@ namespace abut::app
                         "k in -div(k grad u) = f + p: a formula in x, y, z, "
                         "positive. A tension, for a membrane.");
       prm.declare_entry("Load", "0", Patterns::Anything(),
-                        "f, force per area (2D): a formula in x, y, z.");
+                        "f, force per area (2D): a formula in x, y, z and, of "
+                        "what moves (section `Time`), t, which loads, "
+                        "prescribed values and obstacles may depend on.");
+      prm.declare_entry("Density", "0", Patterns::Anything(),
+                        "Of what moves: mass per area (2D), a formula in x, y, "
+                        "z, positive.");
+      prm.declare_entry("Initial displacement", "", Patterns::Anything(),
+                        "Of what moves: a formula. Empty: 0.");
+      prm.declare_entry("Initial velocity", "", Patterns::Anything(),
+                        "Of what moves: a formula. Empty: at rest.");
       prm.declare_entry("Dirichlet", "*: 0", Patterns::Anything(),
                         "Prescribed displacements by boundary id, `0: 0; 1, "
                         "2: x^2; *: sin(pi*y)`; * means all other ids. Ids "
@@ -64,6 +73,9 @@ namespace abut::app
       prm.declare_entry("Fields", "true", Patterns::Bool(),
                         "Write displacement, pressure, gap and status as VTU "
                         "and PVD files for ParaView.");
+      prm.declare_entry("Every", "1", Patterns::Integer(1),
+                        "Write fields after every so many steps of a motion, "
+                        "and at its end.");
       prm.declare_entry("All levels", "false", Patterns::Bool(),
                         "Write fields on every level, not only on the last.");
       prm.declare_entry("Nodal values", "false", Patterns::Bool(),
@@ -86,8 +98,28 @@ namespace abut::app
     prm.leave_subsection();
     declare_membrane(prm);
     declare_contact(prm);
+    InertiaParameters::declare(
+        prm,
+        "none|contact stabilised|hht|trapezoid|midpoint|newmark|generalised "
+        "alpha|central difference with projection",
+        "A step that fails is halved, down to a thousandth.");
     RefinementParameters::declare(prm, "5", "3");
     declare_results(prm);
+  }
+
+  void ObstacleParameters::begin_motion()
+  {
+    if (time.mass == ABUT_TIME_MASS_MODIFIED && boundary_ids.empty())
+      throw InputError(
+          "Time/Mass",
+          std::string(time.scheme.name)
+              + " with modified mass takes it from all nodes that may touch "
+                "and hands it to neighbours that may not, of which a membrane "
+                "over an obstacle has none. Set Time/Scheme = contact "
+                "stabilised, which needs none, or Time/Mass = consistent, with "
+                "which impacts ring.");
+    time.fit(refinement);
+    load_steps = time.steps(load_steps);
   }
 
   void ObstacleParameters::parse(ParameterHandler &prm)
@@ -102,6 +134,9 @@ namespace abut::app
     load = prm.get("Load");
     dirichlet = prm.get("Dirichlet");
     neumann = prm.get("Neumann");
+    density = prm.get("Density");
+    initial_displacement = prm.get("Initial displacement");
+    initial_velocity = prm.get("Initial velocity");
     prm.leave_subsection();
 
     prm.enter_subsection("Contact");
@@ -119,6 +154,10 @@ namespace abut::app
                        "an upper obstacle.");
 
     refinement.parse(prm);
+    time.parse(prm);
+    load_steps.cut_back = time.is_on;
+    if (time.is_on)
+      begin_motion();
 
     prm.enter_subsection("Exact solution");
     exact_displacement = prm.get("Displacement");
@@ -131,6 +170,7 @@ namespace abut::app
 
     prm.enter_subsection("Output");
     fields = prm.get_bool("Fields");
+    every = prm.get_integer("Every");
     all_levels = prm.get_bool("All levels");
     nodal_values = prm.get_bool("Nodal values");
     linear_solves = prm.get_integer("Linear solves for comparison");

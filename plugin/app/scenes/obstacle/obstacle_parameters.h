@@ -5,6 +5,7 @@
 #include "app/adapt/refinement_parameters.h"
 #include "app/input/height_map.h"
 #include "app/mesh/mesh.h"
+#include "app/scenes/inertia_parameters.h"
 
 #include <abut/dealii/contact_assembler.h>
 
@@ -18,11 +19,14 @@ namespace abut::app
     // Membrane
     unsigned int degree = 1;
     std::string conductivity, load, dirichlet, neumann;
+    std::string density, initial_displacement, initial_velocity;
 
     // Contact
     std::string obstacle, upper_obstacle, boundary_ids;
     HeightMapParameters height_map;
 
+    InertiaParameters time;
+    LoadStepOptions load_steps; ///< those of the motion, or one
     RefinementParameters refinement;
 
     // Exact solution
@@ -31,12 +35,17 @@ namespace abut::app
 
     // Output
     bool fields = true;
+    unsigned int every = 1; ///< step, fields
     bool all_levels = false;
     bool nodal_values = false;
     unsigned int linear_solves = 0;
 
     static void declare(dealii::ParameterHandler &prm);
     void parse(dealii::ParameterHandler &prm);
+
+  private:
+    /** Make all else fit a motion; throws InputError for what does not. */
+    void begin_motion();
   };
 } // namespace abut::app
 

@@ -30,10 +30,8 @@ namespace abut::app
 
       ContactRunSettings settings() const override
       {
-        LoadStepOptions one_step;
-        one_step.cut_back = false;
-        return {parameters.refinement, this->method, this->solver, one_step,
-                parameters.all_levels};
+        return {parameters.refinement, this->method, this->solver,
+                parameters.load_steps, parameters.all_levels};
       }
 
       std::unique_ptr<ContactModel<dim>>

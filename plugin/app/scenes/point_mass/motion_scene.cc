@@ -156,7 +156,10 @@ namespace abut::app
     {
       declare_masses(prm);
       declare_loads(prm);
-      TimeParameters::declare(prm, scheme_words());
+      TimeParameters::declare(
+          prm, scheme_words(),
+          "0, of a bar: the time that a wave needs for an element, or .9 of "
+          "the limit of an explicit scheme.");
       prm.enter_subsection("Time");
       prm.declare_entry(
           "Mass", "auto",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_effects.h"
 
+#include "app/scenes/motion_effects.h"
+
 namespace abut::app
 {
   namespace
@@ -33,11 +35,6 @@ namespace abut::app
     bool has_gravity(const SceneValues &values)
     {
       return !values("Solid/Gravity").empty();
-    }
-
-    bool has_motion(const SceneValues &values)
-    {
-      return values("Time/Scheme") != "none";
     }
 
     bool has_pairs(const SceneValues &values)
@@ -224,48 +221,25 @@ namespace abut::app
                   "Body 1/Material is for strains of any size.")};
     }
 
-    /** A number of a time scheme. */
-    EffectRule of_scheme(const std::string &name, const std::string &scheme)
-    {
-      return data(
-          "Time/" + name,
-          [scheme](const SceneValues &values)
-          { return values("Time/Scheme") == scheme; },
-          "it belongs to Time/Scheme = " + scheme + ".");
-    }
-
     EffectRules of_motion()
     {
-      const std::string at_rest =
-          "nothing moves: Time/Scheme is none. hht is the one to begin with.";
-      EffectRules rules = {of_scheme("Alpha", "hht"),
-                           of_scheme("Rho infinity", "generalised alpha"),
-                           of_scheme("Beta", "newmark"),
-                           of_scheme("Gamma", "newmark")};
-      for (const char *name : {"Time/Step", "Time/End", "Time/Mass*",
-                               "Time/Stiffness damping", "Body */Initial*"})
-        rules.push_back(data(name, has_motion, at_rest));
-      rules.push_back(setting("Output/Every", has_motion, at_rest));
       const auto in_steps = [](const SceneValues &values)
       { return !has_motion(values); };
+      EffectRules rules;
       for (const char *name : {"Load steps/Steps", "Load steps/End time"})
         rules.push_back(
             data(name, in_steps,
                  "a motion has the steps of Time/Step to Time/End."));
-      for (const char *name :
-           {"Refinement/Nested iteration", "Refinement/Coarsest level",
-            "Refinement/Coarse level tolerance"})
-        rules.push_back(setting(
-            name, in_steps, "a motion begins on the mesh that it ends on."));
       return rules;
     }
   } // namespace
 
   EffectRules solid_effects()
   {
-    return joined({of_loads(), of_contact(), of_obstacles(), of_search(),
-                   mesh_effects("Body */Mesh"), mesh_effects("Obstacle *"),
-                   law_effects(), solver_effects(), refinement_effects(),
-                   of_load_steps(), of_motion(), result_effects()});
+    return joined(
+        {of_loads(), of_contact(), of_obstacles(), of_search(),
+         mesh_effects("Body */Mesh"), mesh_effects("Obstacle *"), law_effects(),
+         solver_effects(), refinement_effects(), of_load_steps(), of_motion(),
+         motion_effects({"Body */Initial*"}, "hht"), result_effects()});
   }
 } // namespace abut::app

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_functions.h"
 
-#include "app/input/collective.h"
 #include "app/input/input_error.h"
 #include "app/physics/finite_strain.h"
 #include "app/physics/hooke.h"
+#include "app/physics/nodal_interpolation.h"
 
 #include <algorithm>
 
@@ -143,59 +143,32 @@ namespace abut::app
   }
 
   template <int dim>
-  std::map<dealii::types::material_id, double>
-  SolidFunctions<dim>::densities() const
+  typename MassData<dim>::Density
+  SolidFunctions<dim>::density(const Materials<dim> &materials) const
   {
-    std::map<dealii::types::material_id, double> result;
-    for (unsigned int body = 0; body < parameters.bodies.size(); ++body)
-      result[body] = parameters.bodies[body].density;
-    return result;
+    return [this, &materials](const dealii::types::material_id body,
+                              const std::vector<dealii::Point<dim>> &points)
+    {
+      const double density = parameters.bodies[body].density;
+      std::vector<double> result;
+      for (const dealii::Point<dim> &point : points)
+        result.push_back(density * materials.at(body)->measure(point));
+      return result;
+    };
   }
 
   template <int dim>
   std::pair<la::Vector, la::Vector>
   SolidFunctions<dim>::initial_motion(const DiscreteProblem<dim> &problem) const
   {
-    std::pair<la::Vector, la::Vector> result{problem.vector(),
-                                             problem.vector()};
-    const dealii::FiniteElement<dim> &fe = problem.fe;
-    const dealii::FiniteElement<dim> &element = fe.base_element(0);
-    const auto &owned = problem.dof_handler.locally_owned_dofs();
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    const auto put = [&](const auto &cell, const Expression<dim> *formula,
-                         la::Vector &values)
+    const auto at_nodes =
+        [&](const std::unique_ptr<Expression<dim>> OfBody::*formula)
     {
-      if (formula == nullptr)
-        return;
-      cell->get_dof_indices(dofs);
-      std::vector<dealii::Point<dim>> places;
-      for (const auto &point : element.get_unit_support_points())
-        places.push_back(
-            problem.mapping.transform_unit_to_real_cell(cell, point));
-      for (unsigned int c = 0; c < dim; ++c)
-      {
-        const std::vector<double> value = formula->evaluate(places, c);
-        for (unsigned int i = 0; i < value.size(); ++i)
-        {
-          const auto dof = dofs[fe.component_to_system_index(c, i)];
-          if (owned.is_element(dof))
-            la::data(values)[owned.index_within_set(dof)] = value[i];
-        }
-      }
+      return values_at_nodes<dim>(problem,
+                                  [&](const dealii::types::material_id body)
+                                  { return (of_body[body].*formula).get(); });
     };
-    collective(problem.dof_handler.get_communicator(),
-               [&]
-               {
-                 for (const auto &cell :
-                      problem.dof_handler.active_cell_iterators())
-                   if (cell->is_locally_owned())
-                   {
-                     const OfBody &own = of_body[cell->material_id()];
-                     put(cell, own.displacement.get(), result.first);
-                     put(cell, own.velocity.get(), result.second);
-                   }
-               });
-    return result;
+    return {at_nodes(&OfBody::displacement), at_nodes(&OfBody::velocity)};
   }
 
   template <int dim> void SolidFunctions<dim>::set_time(const double time)

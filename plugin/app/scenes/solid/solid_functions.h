@@ -4,6 +4,7 @@
 
 #include "app/mesh/bodies.h"
 #include "app/physics/elasticity.h"
+#include "app/physics/mass.h"
 #include "solid_parameters.h"
 
 #include <map>
@@ -29,8 +30,10 @@ namespace abut::app
     data(const Bodies<dim> &bodies,
          const std::set<dealii::types::boundary_id> &surfaces) const;
 
-    /** The densities of the bodies, by material id. */
-    std::map<dealii::types::material_id, double> densities() const;
+    /** The density of the bodies, of bodies of revolution that of the whole
+     * turn. @p materials must outlive it. */
+    typename MassData<dim>::Density
+    density(const Materials<dim> &materials) const;
 
     /** Displacement and velocity that a motion begins with, at the nodes of the
      * bodies (owned); hanging nodes as the formulas say. Throws InputError for

@@ -39,9 +39,8 @@ namespace abut::app
   SolidModel<dim>::SolidModel(const SolidParameters &parameters,
                               ContactRunState<dim> &run,
                               const SearchParameters &search)
-      : ContactModel<dim>(run.communicator),
+      : MovingModel<dim>(run),
         parameters(parameters),
-        run(run),
         bodies(parameters.bodies, is_of_revolution<dim>(parameters)),
         elasticity(this->triangulation, parameters.degree),
         search(search),
@@ -50,7 +49,8 @@ namespace abut::app
   {
     run.contact.set_axisymmetric(is_of_revolution<dim>(parameters));
     if (parameters.time.is_on)
-      motion = std::make_unique<SolidMotion<dim>>(parameters, run, elasticity);
+      motion = std::make_unique<ModelMotion<dim>>(
+          parameters.time, motion_words(), run, elasticity);
   }
 
   template <int dim> void SolidModel<dim>::create_functions()
@@ -179,72 +179,13 @@ namespace abut::app
     SectionTimes::Scope scope(run.report.times, "assembly");
     elasticity.assemble_stiffness();
     if (motion)
-      motion->setup(functions->densities(), pairs->touching());
-  }
-
-  template <int dim> la::Vector SolidModel<dim>::start()
-  {
-    if (!motion)
-      return elasticity.vector();
-    set_time(0.);
-    assemble();
-    return motion->start(functions->initial_motion(elasticity));
+      motion->setup(functions->density(data.materials), pairs->touching());
   }
 
   template <int dim> void SolidModel<dim>::assemble()
   {
     SectionTimes::Scope scope(run.report.times, "assembly");
     elasticity.assemble_load(data);
-  }
-
-  template <int dim> bool SolidModel<dim>::begin_solve(la::Vector &u)
-  {
-    return motion && motion->begin_step(u);
-  }
-
-  template <int dim>
-  void SolidModel<dim>::residual(const la::Vector &u, la::Vector &result) const
-  {
-    if (motion)
-      motion->bodies().residual(u, result);
-    else
-      elasticity.residual(u, result);
-  }
-
-  template <int dim> double SolidModel<dim>::small_force() const
-  {
-    const double of_loads = ContactModel<dim>::small_force();
-    // Contact forces that are round-off of others say nothing of the balance.
-    return motion
-               ? std::max(of_loads, 1e-8 * motion->bodies().cancelling_forces())
-               : of_loads;
-  }
-
-  template <int dim>
-  const la::Matrix &SolidModel<dim>::tangent(const la::Vector &u)
-  {
-    return motion ? motion->bodies().tangent() : elasticity.tangent(u);
-  }
-
-  template <int dim> bool SolidModel<dim>::next_solve(const la::Vector &u)
-  {
-    return motion && motion->next_problem(u, *pairs);
-  }
-
-  template <int dim> void SolidModel<dim>::end_solve()
-  {
-    if (motion)
-      motion->end_step();
-  }
-
-  template <int dim> std::string SolidModel<dim>::commit()
-  {
-    return motion ? motion->commit() : "";
-  }
-
-  template <int dim> double SolidModel<dim>::energy(const la::Vector &u) const
-  {
-    return motion ? motion->energy() : elasticity.energy(u);
   }
 
   template <int dim> la::Vector SolidModel<dim>::unbalanced_forces() const
@@ -255,31 +196,8 @@ namespace abut::app
 
   template <int dim> void SolidModel<dim>::write_fields()
   {
-    const unsigned int step = run.load_steps.n_accepted() + 1;
-    const bool is_last =
-        run.load_steps.target() >= parameters.load_steps.end_time;
-    if (!motion || is_last || step % parameters.every == 0)
+    if (this->is_written(parameters.every))
       output.write_fields();
-  }
-
-  template <int dim> std::vector<la::Vector> SolidModel<dim>::history() const
-  {
-    return motion ? motion->bodies().fields() : std::vector<la::Vector>();
-  }
-
-  template <int dim> unsigned int SolidModel<dim>::n_history() const
-  {
-    return motion ? BodyMotion<dim>::n_fields : 0;
-  }
-
-  template <int dim>
-  void SolidModel<dim>::resume(std::vector<la::Vector> fields)
-  {
-    if (!motion)
-      return;
-    set_time(run.load_steps.time());
-    assemble();
-    motion->resume(std::move(fields));
   }
 
   template <int dim> void SolidModel<dim>::set_time(const double time)
@@ -300,25 +218,22 @@ namespace abut::app
     contact.set_pairs(pairs->pairs());
     contact.set_surface_traction(std::make_shared<ElasticTraction<dim>>(
         elasticity.mapping, data.materials));
-    if (motion && motion->has_new_tangent())
-      prepare_contact(contact);
+    this->renew_tangent(contact);
   }
 
   template <int dim>
   void SolidModel<dim>::prepare_contact(ContactAssembler<dim> &contact)
   {
-    // Penalties and loads are measured by the stiffness, without inertia, and
-    // of the undeformed bodies: they must not change on the way.
-    if (motion || has_large_strain())
+    MovingModel<dim>::prepare_contact(contact);
+    // Nor by that of deformed bodies: they must not change on the way.
+    if (has_large_strain())
       contact.set_reference_stiffness(elasticity.undeformed_stiffness());
   }
 
   template <int dim> std::string SolidModel<dim>::save_state() const
   {
     return to_bytes(std::make_pair(
-        std::make_pair(to_bytes(output),
-                       motion ? to_bytes(*motion) : std::string()),
-        has_warned));
+        std::make_pair(to_bytes(output), this->motion_state()), has_warned));
   }
 
   template <int dim> void SolidModel<dim>::load_state(const std::string &bytes)
@@ -326,8 +241,7 @@ namespace abut::app
     std::pair<std::pair<std::string, std::string>, bool> parts;
     from_bytes(bytes, parts);
     from_bytes(parts.first.first, output);
-    if (motion)
-      from_bytes(parts.first.second, *motion);
+    this->load_motion(parts.first.second);
     has_warned = parts.second;
   }
 
@@ -369,16 +283,11 @@ namespace abut::app
     return held;
   }
 
-  template <int dim> bool SolidModel<dim>::is_usable() const
-  {
-    return !motion || motion->keeps_energy();
-  }
-
   template <int dim> std::string SolidModel<dim>::refuse() const
   {
     // A step that cannot be shortened is told of at the end.
     if (motion && parameters.load_steps.cut_back)
-      return motion->leaves_points();
+      return leaves_points();
     for (unsigned int k = 0; k < parts.size() && !motion; ++k)
       if (freedom[k].n_modes > 0
           && !is_held(parts[k], run.contact.pair_results()))

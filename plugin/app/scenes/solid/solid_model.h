@@ -3,10 +3,9 @@
 #define ABUT_APP_SOLID_MODEL_H
 
 #include "app/physics/rigid_modes.h"
-#include "app/scenes/contact_model.h"
+#include "app/scenes/moving_model.h"
 #include "body_parts.h"
 #include "solid_functions.h"
-#include "solid_motion.h"
 #include "solid_output.h"
 #include "solid_pairs.h"
 #include "solid_points.h"
@@ -18,7 +17,7 @@ namespace abut::app
 {
   /** Elastic bodies with their contact pairs, as a ContactRun sees them. What
    * has been made of them is public for SolidOutput and SolidReport. */
-  template <int dim> class SolidModel : public ContactModel<dim>
+  template <int dim> class SolidModel : public MovingModel<dim>
   {
   public:
     /** Both must outlive it. */
@@ -32,27 +31,9 @@ namespace abut::app
     void check_setup() override;
     void declare_tables() override;
 
-    bool has_inertia() const override
-    {
-      return motion != nullptr;
-    }
-    la::Vector last_place() const override
-    {
-      return motion ? motion->bodies().displacement() : elasticity.vector();
-    }
-    la::Vector start() override;
-
     void set_time(double time) override;
     void assemble() override;
-    bool begin_solve(la::Vector &u) override;
-    void residual(const la::Vector &u, la::Vector &result) const override;
-    double small_force() const override;
-    const la::Matrix &tangent(const la::Vector &u) override;
-    bool next_solve(const la::Vector &u) override;
     NewtonParameters newton_parameters() const override;
-    void end_solve() override;
-    std::string commit() override;
-    bool is_usable() const override;
     DiscreteProblem<dim> &problem() override
     {
       return elasticity;
@@ -100,7 +81,6 @@ namespace abut::app
       return parameters.has_large_strain();
     }
     std::vector<ContactFinding> examine_materials() const override;
-    double energy(const la::Vector &u) const override;
     double solution_norm() const override;
     /** With the initial gaps as the rows have them. */
     std::optional<double> work_on_gaps(const la::Vector &forces,
@@ -118,9 +98,6 @@ namespace abut::app
     void write_fields() override;
     std::string save_state() const override;
     void load_state(const std::string &bytes) override;
-    std::vector<la::Vector> history() const override;
-    unsigned int n_history() const override;
-    void resume(std::vector<la::Vector> fields) override;
     void finish() override
     {
       if (parameters.nodal_values && !run.results.empty())
@@ -141,21 +118,37 @@ namespace abut::app
      * in the present solution, inertia included. */
     la::Vector unbalanced_forces() const;
 
+    using MovingModel<dim>::run;
+    using MovingModel<dim>::motion;
+
     const SolidParameters &parameters;
-    const ContactRunState<dim> &run;
     Bodies<dim> bodies;
     Elasticity<dim> elasticity;
     std::unique_ptr<SolidFunctions<dim>> functions;
     std::unique_ptr<SolidPairs<dim>> pairs;
-    std::unique_ptr<SolidMotion<dim>> motion; ///< or null
     std::unique_ptr<ExactSolution<dim>> exact;
     ElasticData<dim> data;
     std::vector<OutputPoint<dim>> points; ///< of `Output/Points`
+
+  protected:
+    std::pair<la::Vector, la::Vector> initial_motion() const override
+    {
+      return functions->initial_motion(elasticity);
+    }
+    std::vector<ContactAction> contact_actions() const override;
+    const la::Matrix &reference_stiffness() const override
+    {
+      return elasticity.undeformed_stiffness();
+    }
 
   private:
     /** Search parameters with the numbers of the triangulation in place of the
      * user's boundary ids. Throws InputError for ids that no body has. */
     SearchParameters numbered_search() const;
+    MotionWords motion_words() const;
+    /** Why the solve of this time step leaves the places that its points were
+     * made at; empty: it does not. Collective. */
+    std::string leaves_points() const;
     /** Whether refinement keeps the chords of a round side in contact. */
     void look_for_chords() const;
     bool is_held(const BodyPart<dim> &part,

@@ -142,71 +142,6 @@ namespace abut::app
     return counts;
   }
 
-  void InertiaParameters::declare(ParameterHandler &prm)
-  {
-    TimeParameters::declare(
-        prm, "none|hht|trapezoid|midpoint|newmark|generalised alpha|contact "
-             "stabilised|central difference with projection");
-    prm.enter_subsection("Time");
-    prm.declare_entry("Mass", "auto",
-                      Patterns::Selection("auto|modified|consistent|lumped"),
-                      "Where the mass of bodies sits: modified takes it from "
-                      "the nodes of secondary surfaces and hands it to their "
-                      "neighbours inside, so that impacts neither gain energy "
-                      "nor ring; consistent is that of the elements, lumped "
-                      "its row sums at the nodes. auto: what the scheme is "
-                      "made for, which is modified, but consistent for contact "
-                      "stabilised and lumped for explicit schemes.");
-    prm.declare_entry("Mass damping", "0", NumberPattern::from(0.),
-                      "Rayleigh damping: forces of this number (per time) "
-                      "times mass times velocity.");
-    prm.declare_entry("Stiffness damping", "0", NumberPattern::from(0.),
-                      "Rayleigh damping: forces of this time times stiffness "
-                      "times velocity.");
-    prm.leave_subsection();
-  }
-
-  void InertiaParameters::parse(ParameterHandler &prm)
-  {
-    TimeParameters::parse(prm);
-    prm.enter_subsection("Time");
-    const std::string word = prm.get("Mass");
-    mass_damping = prm.get_double("Mass damping");
-    stiffness_damping = prm.get_double("Stiffness damping");
-    prm.leave_subsection();
-    mass = word == "modified"     ? ABUT_TIME_MASS_MODIFIED
-           : word == "consistent" ? ABUT_TIME_MASS_CONSISTENT
-           : word == "lumped"     ? ABUT_TIME_MASS_LUMPED
-                                  : static_cast<abut_time_mass>(scheme.mass);
-    if (is_on)
-      check();
-  }
-
-  void InertiaParameters::check() const
-  {
-    const std::string name = scheme.name;
-    const bool is_explicit = scheme.beta == 0.;
-    if (is_explicit && mass != ABUT_TIME_MASS_LUMPED)
-      throw InputError("Time/Mass", name
-                                        + " is explicit and needs a lumped "
-                                          "mass.");
-    if (scheme.projects != 0 && mass == ABUT_TIME_MASS_MODIFIED)
-      throw InputError("Time/Mass", name
-                                        + " moves what would penetrate by its "
-                                          "mass, and needs mass where bodies "
-                                          "meet: consistent or lumped.");
-    if (stiffness_damping > 0. && mass == ABUT_TIME_MASS_MODIFIED)
-      throw InputError("Time/Stiffness damping",
-                       "nodes without mass have no velocity of their own that "
-                       "could be damped: set Time/Mass = consistent or "
-                       "lumped.");
-    if (stiffness_damping > 0. && is_explicit)
-      throw InputError("Time/Stiffness damping",
-                       name
-                           + " would need shorter steps for it: use Time/Mass "
-                             "damping, or hht.");
-  }
-
   void SolidParameters::check_materials() const
   {
     for (const BodyParameters &body : bodies)
@@ -245,16 +180,7 @@ namespace abut::app
         throw InputError(body.parameter("Density"),
                          "a body that moves has mass: set its density, or "
                          "Time/Scheme = none.");
-    if (refinement.adaptive_cycles > 0)
-      throw InputError("Refinement/Adaptive cycles",
-                       "the mesh of a motion stays as it is; set Time/Scheme = "
-                       "none, or no cycles.");
-    if (refinement.has_target())
-      throw InputError("Refinement/Target error",
-                       "the mesh of a motion stays as it is; set Time/Scheme = "
-                       "none, or no target.");
-    // A motion begins on the mesh that it ends on.
-    refinement.nested = false;
+    time.fit(refinement);
     static_cast<LoadStepOptions &>(load_steps) = time.steps(load_steps);
   }
 
@@ -273,7 +199,11 @@ namespace abut::app
       prm.leave_subsection();
     }
     LoadStepParameters::declare(prm);
-    InertiaParameters::declare(prm);
+    InertiaParameters::declare(
+        prm,
+        "none|hht|trapezoid|midpoint|newmark|generalised alpha|contact "
+        "stabilised|central difference with projection",
+        "A step that fails is halved, see `Load steps/Cut back`.");
     RefinementParameters::declare(prm, "2", "0");
     declare_solid_results(prm);
   }

@@ -7,9 +7,9 @@
 #include "app/mesh/body_parameters.h"
 #include "app/mesh/rigid_obstacle_parameters.h"
 #include "app/physics/material.h"
+#include "app/scenes/inertia_parameters.h"
 #include "app/scenes/load_step_parameters.h"
 #include "app/scenes/pair_parameters.h"
-#include "app/scenes/time_parameters.h"
 
 #include <string>
 #include <vector>
@@ -25,20 +25,6 @@ namespace abut::app
 
     /** Take them from `Solid/Bodies` and so on. Throws InputError. */
     static SolidCounts read(const ParameterFile &file);
-  };
-
-  /** Section `Time` of bodies. */
-  struct InertiaParameters : TimeParameters
-  {
-    abut_time_mass mass = ABUT_TIME_MASS_MODIFIED;
-    double mass_damping = 0., stiffness_damping = 0.;
-
-    static void declare(dealii::ParameterHandler &prm);
-    void parse(dealii::ParameterHandler &prm);
-
-  private:
-    /** Throws InputError for what the scheme cannot do. */
-    void check() const;
   };
 
   /** All parameters of the scene `solid` but those of the methods. */

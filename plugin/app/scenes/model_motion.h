@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_APP_SOLID_MOTION_H
-#define ABUT_APP_SOLID_MOTION_H
+#ifndef ABUT_APP_MODEL_MOTION_H
+#define ABUT_APP_MODEL_MOTION_H
 
 #include "app/physics/body_motion.h"
-#include "app/scenes/contact_run_state.h"
-#include "solid_pairs.h"
-#include "solid_parameters.h"
+#include "contact_run_state.h"
+#include "inertia_parameters.h"
 
 #include <map>
 #include <set>
@@ -15,28 +14,58 @@
 
 namespace abut::app
 {
-  /** The motion of a scene `solid`: its steps, and the balance of its energies.
-   */
-  template <int dim> class SolidMotion
+  /** What contact does in one of the problems of a step, on one of the sides
+   * that it comes from: a pair, or an obstacle of a membrane. */
+  struct ContactAction
+  {
+    std::vector<double> force; ///< on the body, by component
+    /** How far a rigid obstacle has come since time 0; empty: it does not move
+     * as one. */
+    std::vector<double> place;
+    double friction = 0.;    ///< sum of magnitudes
+    double dissipation = 0.; ///< of the slip of the step under it
+  };
+
+  /** How a model tells of its motion. */
+  struct MotionWords
+  {
+    /** Ends of the names of components, as `_x`; empty of a scalar. */
+    std::vector<std::string> components;
+    /** Sides that contact comes from, as `pair_1`. */
+    std::vector<std::string> sides;
+    /** What touches has mass on any mesh, and loses its velocity: impacts cost
+     * energy, however fine the mesh. */
+    bool stops = false;
+  };
+
+  /** The motion of a model: its steps, and the balance of its energies. */
+  template <int dim> class ModelMotion
   {
   public:
     /** All must outlive it. */
-    SolidMotion(const SolidParameters &parameters,
-                const ContactRunState<dim> &run, Elasticity<dim> &elasticity);
+    ModelMotion(const InertiaParameters &time, MotionWords words,
+                const ContactRunState<dim> &run, DiscreteProblem<dim> &problem);
 
     const BodyMotion<dim> &bodies() const
     {
       return motion;
     }
 
-    /** Mass of the present mesh. @p touching: surfaces whose nodes have none if
-     * mass is modified. Collective. */
-    void setup(const std::map<dealii::types::material_id, double> &density,
+    /** Mass of the present mesh, of the kind that the parameters ask for.
+     * @p touching: surfaces whose nodes have none if mass is modified.
+     * Collective. */
+    void setup(const typename MassData<dim>::Density &density,
                const std::set<dealii::types::boundary_id> &touching);
 
     /** Begin with this displacement and velocity; supports and loads are those
      * of time 0. Returns the displacement. Collective. */
     la::Vector start(std::pair<la::Vector, la::Vector> initial);
+
+    /** See ContactModel::begin_start(). Collective. */
+    bool begin_start(la::Vector &u);
+
+    /** Its contact does @p actions. Collective. */
+    void end_start(const std::vector<ContactAction> &actions);
 
     /** Go on from the displacement of the run; supports and loads are those of
      * the time reached. Collective. */
@@ -54,16 +83,17 @@ namespace abut::app
       return std::exchange(is_new, false);
     }
 
-    /** A solve has led to @p u: see ContactModel::next_solve(). Collective. */
-    bool next_problem(const la::Vector &u, const SolidPairs<dim> &pairs);
-
-    /** Why the solve of this step, which has led to the displacement of the
-     * run, leaves the places that its points were made at; empty: it does not.
-     * Collective. */
-    std::string leaves_points() const;
+    /** A solve has led to @p u, with @p actions of contact by side (empty:
+     * nothing can touch): see ContactModel::next_solve(). Collective. */
+    bool next_problem(const la::Vector &u,
+                      const std::vector<ContactAction> &actions);
 
     /** The last one has led to the displacement of the run. Collective. */
     void end_step();
+
+    /** Obstacles that do not move as rigid ones have worked so much in the step
+     * that has ended. */
+    void add_work(double work);
 
     /** Accept it, and judge the balance of energies: returns why the run must
      * end, or nothing. */
@@ -97,11 +127,10 @@ namespace abut::app
     /** The state at a time. */
     struct Record
     {
-      MotionRecord<dim> bodies;
-      /** By pair: force on the secondary, and how far the obstacle has come
-       * since time 0. */
+      MotionRecord bodies;
+      /** By side, as in ContactAction. */
       std::vector<std::vector<double>> force, place;
-      std::vector<double> friction; ///< by pair: sum of its magnitudes
+      std::vector<double> friction;
 
       /** B of abut_time_balance. */
       double balance() const
@@ -124,18 +153,20 @@ namespace abut::app
     }
 
   private:
+    Record no_contact() const;
     double step_length() const;
-    void measure_contact(const SolidPairs<dim> &pairs);
-    double friction_work(const PairResult<dim> &result, double before) const;
+    void measure_contact(const std::vector<ContactAction> &actions);
+    double friction_work(const ContactAction &action, double before) const;
     double work_of_obstacles() const;
     /** Tell the limit of an explicit scheme, and warn above it. Collective. */
     void look_at_step();
     void judge(const abut_time_energy &energy, abut_time_verdict &verdict);
     void warn_of_loss() const;
 
-    const SolidParameters &parameters;
+    const InertiaParameters &time;
+    const MotionWords words;
     const ContactRunState<dim> &run;
-    Elasticity<dim> &elasticity;
+    DiscreteProblem<dim> &problem;
     BodyMotion<dim> motion;
     bool is_new = false;
     double dissipated = 0., work = 0.; ///< by friction and of obstacles

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "nodal_interpolation.h"
+
+#include "app/input/collective.h"
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Put the values of a formula at the nodes of a cell into their places. */
+    template <int dim, typename Cell>
+    void put_values(const DiscreteProblem<dim> &problem, const Cell &cell,
+                    const Expression<dim> &formula, la::Vector &values)
+    {
+      const dealii::FiniteElement<dim> &fe = problem.fe;
+      const auto &owned = problem.dof_handler.locally_owned_dofs();
+      std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      std::vector<dealii::Point<dim>> places;
+      for (const auto &point : fe.base_element(0).get_unit_support_points())
+        places.push_back(
+            problem.mapping.transform_unit_to_real_cell(cell, point));
+      for (unsigned int c = 0; c < fe.n_components(); ++c)
+      {
+        const std::vector<double> value = formula.evaluate(places, c);
+        for (unsigned int i = 0; i < value.size(); ++i)
+        {
+          const auto dof = dofs[fe.component_to_system_index(c, i)];
+          if (owned.is_element(dof))
+            la::data(values)[owned.index_within_set(dof)] = value[i];
+        }
+      }
+    }
+  } // namespace
+
+  template <int dim>
+  la::Vector values_at_nodes(const DiscreteProblem<dim> &problem,
+                             const FormulaOfCells<dim> &formula_of)
+  {
+    la::Vector values = problem.vector();
+    collective(
+        problem.dof_handler.get_communicator(),
+        [&]
+        {
+          for (const auto &cell : problem.dof_handler.active_cell_iterators())
+          {
+            if (!cell->is_locally_owned())
+              continue;
+            const Expression<dim> *formula = formula_of(cell->material_id());
+            if (formula != nullptr)
+              put_values(problem, cell, *formula, values);
+          }
+        });
+    return values;
+  }
+
+  template la::Vector values_at_nodes(const DiscreteProblem<2> &,
+                                      const FormulaOfCells<2> &);
+  template la::Vector values_at_nodes(const DiscreteProblem<3> &,
+                                      const FormulaOfCells<3> &);
+} // namespace abut::app

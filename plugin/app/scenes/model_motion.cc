@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "model_motion.h"
+
+#include "app/input/short_number.h"
+#include "app/pictures/time_picture.h"
+
+#include <abut/dealii/coded.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** The column of the table; 2D has one axis. */
+    template <int dim> std::string angular_momentum_about(const unsigned int r)
+    {
+      return std::string("angular_momentum_") + "xyz"[dim == 2 ? 2 : r];
+    }
+  } // namespace
+
+  template <int dim>
+  ModelMotion<dim>::ModelMotion(const InertiaParameters &time,
+                                MotionWords words,
+                                const ContactRunState<dim> &run,
+                                DiscreteProblem<dim> &problem)
+      : time(time),
+        words(std::move(words)),
+        run(run),
+        problem(problem),
+        motion(problem,
+               {time.scheme, time.mass_damping, time.stiffness_damping})
+  {
+    balance.struct_size = sizeof(balance);
+  }
+
+  template <int dim>
+  typename ModelMotion<dim>::Record ModelMotion<dim>::no_contact() const
+  {
+    const std::size_t n = words.sides.size();
+    const std::vector<std::vector<double>> nothing(
+        n, std::vector<double>(words.components.size(), 0.));
+    return {{}, nothing, nothing, std::vector<double>(n, 0.)};
+  }
+
+  template <int dim>
+  void
+  ModelMotion<dim>::setup(const typename MassData<dim>::Density &density,
+                          const std::set<dealii::types::boundary_id> &touching)
+  {
+    motion.setup({density, time.mass, touching});
+  }
+
+  template <int dim>
+  la::Vector ModelMotion<dim>::start(std::pair<la::Vector, la::Vector> initial)
+  {
+    auto &[displacement, velocity] = initial;
+    problem.constraints.distribute(displacement);
+    problem.hanging.distribute(velocity);
+    motion.start(displacement, velocity);
+    records = {no_contact()};
+    records.front().bodies = motion.record();
+    balance = {};
+    balance.struct_size = sizeof(balance);
+    dissipated = work = 0.;
+    abut_time_verdict verdict;
+    judge(records.back().bodies.energy, verdict);
+    look_at_step();
+    return displacement;
+  }
+
+  template <int dim> bool ModelMotion<dim>::begin_start(la::Vector &u)
+  {
+    // Forces of laws that need the stress are not those of pressures.
+    if (abut_law_needs_stress(run.method.options.law)
+        || !motion.begin_start(step_length(), u))
+      return false;
+    is_new = true;
+    return true;
+  }
+
+  template <int dim>
+  void ModelMotion<dim>::end_start(const std::vector<ContactAction> &actions)
+  {
+    la::Vector contact = problem.vector(), there = problem.vector();
+    run.contact.add_contact_forces(contact);
+    run.contact.add_forces_on_supports(there);
+    motion.end_start(contact, there);
+    Record &first = records.front();
+    for (std::size_t s = 0; s < actions.size(); ++s)
+    {
+      first.force[s] = actions[s].force;
+      first.friction[s] = actions[s].friction;
+    }
+    is_new = true;
+  }
+
+  template <int dim> void ModelMotion<dim>::look_at_step()
+  {
+    const double limit = motion.stable_step();
+    if (!std::isfinite(limit))
+      return;
+    run.report.set("stable_time_step", limit);
+    if (time.step > limit)
+      run.report.warn(coded(ABUT_FAILURE_BLOW_UP,
+                            "the time step is above the limit of the scheme, "
+                                + short_number(limit, 4)
+                                + ": make Time/Step smaller"));
+  }
+
+  template <int dim> double ModelMotion<dim>::step_length() const
+  {
+    // Differences of times have round-off; steps are equal or halved.
+    const LoadStepOptions &steps = run.settings.load_steps;
+    const double full = steps.end_time / steps.steps;
+    const double length = run.load_steps.target() - run.load_steps.time();
+    const double halved =
+        full * std::exp2(std::round(std::log2(length / full)));
+    return std::abs(length - halved) < 1e-6 * halved ? halved : length;
+  }
+
+  template <int dim> bool ModelMotion<dim>::begin_step(la::Vector &u)
+  {
+    const bool changed = motion.begin_step(step_length(), u);
+    is_new = is_new || changed;
+    present = no_contact();
+    on_supports = problem.vector();
+    friction_of_step = 0.;
+    return changed;
+  }
+
+  /* What friction takes in a step: the scheme brakes by the forces at both of
+   * its ends, and the assembler knows the slip under the last one. */
+  template <int dim>
+  double ModelMotion<dim>::friction_work(const ContactAction &action,
+                                         const double before) const
+  {
+    const double now = part_of_end(time.scheme);
+    return action.friction > 0.
+               ? action.dissipation
+                     * (now + (1. - now) * before / action.friction)
+               : 0.;
+  }
+
+  template <int dim>
+  void
+  ModelMotion<dim>::measure_contact(const std::vector<ContactAction> &actions)
+  {
+    run.contact.add_forces_on_supports(on_supports);
+    for (std::size_t s = 0; s < actions.size(); ++s)
+    {
+      const ContactAction &action = actions[s];
+      present.friction[s] += action.friction;
+      friction_of_step += friction_work(action, records.back().friction[s]);
+      for (std::size_t c = 0; c < action.force.size(); ++c)
+        present.force[s][c] += action.force[c];
+      if (!action.place.empty())
+        present.place[s] = action.place;
+    }
+    const double force = run.contact.contact_force();
+    present.bodies.contact_force += force;
+    // Springs of penalties; what is exact has no gap under pressure.
+    present.bodies.energy.contact =
+        0.5 * run.contact.complementarity() * std::abs(force);
+  }
+
+  template <int dim>
+  bool ModelMotion<dim>::next_problem(const la::Vector &u,
+                                      const std::vector<ContactAction> &actions)
+  {
+    if (!actions.empty())
+      measure_contact(actions);
+    const bool goes_on = motion.next_problem(u);
+    is_new = is_new || goes_on;
+    return goes_on;
+  }
+
+  template <int dim> double ModelMotion<dim>::work_of_obstacles() const
+  {
+    const Record &before = records.back();
+    const double now = part_of_end(time.scheme);
+    double result = 0.;
+    for (std::size_t s = 0; s < present.force.size(); ++s)
+      for (std::size_t c = 0; c < present.force[s].size(); ++c)
+        result += (now * present.force[s][c] + (1. - now) * before.force[s][c])
+                  * (present.place[s][c] - before.place[s][c]);
+    return result;
+  }
+
+  template <int dim> void ModelMotion<dim>::end_step()
+  {
+    motion.end_step(run.u, on_supports);
+    const MotionRecord contact = present.bodies;
+    present.bodies = motion.record();
+    present.bodies.contact_force = contact.contact_force;
+    present.bodies.energy.contact = contact.energy.contact;
+    present.bodies.time = run.load_steps.target();
+    work_of_step = work_of_obstacles();
+    present.bodies.energy.dissipated += dissipated + friction_of_step;
+    present.bodies.energy.external_work += work + work_of_step;
+  }
+
+  template <int dim> void ModelMotion<dim>::add_work(const double more)
+  {
+    work_of_step += more;
+    present.bodies.energy.external_work += more;
+  }
+
+  template <int dim>
+  void ModelMotion<dim>::judge(const abut_time_energy &energy,
+                               abut_time_verdict &verdict)
+  {
+    abut_time_energy given = energy;
+    given.struct_size = sizeof(given);
+    verdict = ABUT_TIME_STEADY;
+    abut_time_judge(&time.scheme, &given, &balance, &verdict);
+  }
+
+  template <int dim> std::string ModelMotion<dim>::commit()
+  {
+    motion.commit();
+    records.push_back(present);
+    dissipated += friction_of_step;
+    work += work_of_step;
+    abut_time_verdict verdict;
+    judge(present.bodies.energy, verdict);
+    loses = verdict == ABUT_TIME_LOSES;
+    if (verdict != ABUT_TIME_GAINS && verdict != ABUT_TIME_BLOWS_UP)
+      return "";
+    const std::string what = "The energy balance at time "
+                             + short_number(present.bodies.time, 6) + " is "
+                             + short_number(100. * balance.gain, 3)
+                             + " % above that of the start: ";
+    const std::string cure =
+        std::string("Use Time/Scheme = ")
+        + (words.stops ? "contact stabilised" : "hht with Time/Mass = modified")
+        + ", or a shorter Time/Step.";
+    if (verdict == ABUT_TIME_BLOWS_UP)
+      return coded(ABUT_FAILURE_BLOW_UP,
+                   what + "the motion is unstable. " + cure);
+    if (!has_warned)
+      run.report.warn(coded(ABUT_FAILURE_ENERGY_GAIN,
+                            what + "more than the scheme may gain. " + cure));
+    has_warned = true;
+    return "";
+  }
+
+  template <int dim> void ModelMotion<dim>::warn_of_loss() const
+  {
+    const auto end = static_cast<std::size_t>(balance.fall_at);
+    if (loses && end > 0)
+      run.report.warn(text_of_loss(time.scheme, balance,
+                                   records.at(end - 1).bodies.time,
+                                   records.at(end).bodies.time, words.stops));
+  }
+
+  template <int dim> bool ModelMotion<dim>::keeps_energy() const
+  {
+    return balance.gain <= useless_gain;
+  }
+
+  template <int dim> double ModelMotion<dim>::energy() const
+  {
+    const abut_time_energy &e = present.bodies.energy;
+    return e.kinetic + e.strain + e.contact;
+  }
+
+  template <int dim> std::vector<std::string> ModelMotion<dim>::columns() const
+  {
+    std::vector<std::string> result = {"kinetic_energy", "strain_energy",
+                                       "contact_energy", "dissipated",
+                                       "external_work",  "balance"};
+    for (const std::string &component : words.components)
+      result.push_back("momentum" + component);
+    if (words.components.size() == dim)
+      for (unsigned int r = 0; r < (dim == 2 ? 1 : 3); ++r)
+        result.push_back(angular_momentum_about<dim>(r));
+    for (const std::string &side : words.sides)
+      for (const std::string &component : words.components)
+        result.push_back(side + "_force" + component);
+    return result;
+  }
+
+  template <int dim>
+  void ModelMotion<dim>::add_to_row(std::map<std::string, double> &row) const
+  {
+    const abut_time_energy &e = present.bodies.energy;
+    row["kinetic_energy"] = e.kinetic;
+    row["strain_energy"] = e.strain;
+    row["contact_energy"] = e.contact;
+    row["dissipated"] = e.dissipated;
+    row["external_work"] = e.external_work;
+    row["balance"] = present.balance();
+    const std::vector<double> &turning = present.bodies.angular_momentum;
+    for (std::size_t r = 0; r < turning.size(); ++r)
+      row[angular_momentum_about<dim>(r)] = turning[r];
+    for (std::size_t c = 0; c < words.components.size(); ++c)
+    {
+      const std::string &component = words.components[c];
+      row["momentum" + component] = present.bodies.momentum[c];
+      for (std::size_t s = 0; s < words.sides.size(); ++s)
+        row[words.sides[s] + "_force" + component] = present.force[s][c];
+    }
+  }
+
+  template <int dim> void ModelMotion<dim>::report() const
+  {
+    Report &report = run.report;
+    report.set("scheme", std::string(time.scheme.name));
+    report.set("mass", motion.total_mass());
+    report.set("energy_gain", balance.gain);
+    report.set("energy_loss", balance.loss);
+    warn_of_loss();
+    report.set("initial_energy", records.front().balance());
+    const MotionRecord &last = records.back().bodies;
+    report.set("kinetic_energy", last.energy.kinetic);
+    report.set("strain_energy", last.energy.strain);
+    report.set("contact_energy", last.energy.contact);
+    report.set("dissipated", last.energy.dissipated);
+    report.set("external_work", last.energy.external_work);
+    report.set("balance", records.back().balance());
+    report.set("momentum", last.momentum);
+    if (!last.angular_momentum.empty())
+      report.set("angular_momentum", last.angular_momentum);
+    // What each side has given over all steps.
+    for (std::size_t s = 0; s < words.sides.size(); ++s)
+    {
+      std::vector<double> impulse(words.components.size(), 0.);
+      for (std::size_t i = 1; i < records.size(); ++i)
+        for (std::size_t c = 0; c < impulse.size(); ++c)
+          impulse[c] += records[i].force[s][c]
+                        * (records[i].bodies.time - records[i - 1].bodies.time);
+      report.set(words.sides[s] + "_impulse", impulse);
+    }
+  }
+
+  template <int dim> void ModelMotion<dim>::draw() const
+  {
+    std::vector<double> times;
+    TimePanel energies{"energy",
+                       {{"kinetic", {}},
+                        {"strain", {}},
+                        {"contact", {}},
+                        {"dissipated", {}},
+                        {"external work", {}},
+                        {"balance", {}}}};
+    TimePanel forces{"force of contact", {}};
+    for (std::string side : words.sides)
+    {
+      std::replace(side.begin(), side.end(), '_', ' ');
+      forces.curves.push_back({side, {}});
+    }
+    for (const Record &record : records)
+    {
+      const abut_time_energy &e = record.bodies.energy;
+      times.push_back(record.bodies.time);
+      const double values[] = {e.kinetic,    e.strain,        e.contact,
+                               e.dissipated, e.external_work, record.balance()};
+      for (std::size_t i = 0; i < energies.curves.size(); ++i)
+        energies.curves[i].second.push_back(values[i]);
+      for (std::size_t p = 0; p < forces.curves.size(); ++p)
+      {
+        double square = 0.;
+        for (const double f : record.force[p])
+          square += f * f;
+        forces.curves[p].second.push_back(std::sqrt(square));
+      }
+    }
+    draw_over_time(run.report, run.options.output_folder, "motion", times,
+                   {energies, forces}, "Energies and forces");
+  }
+
+  template class ModelMotion<2>;
+  template class ModelMotion<3>;
+} // namespace abut::app
