@@ -282,14 +282,27 @@ extern "C"
      * border, up to abut_detection_options.extension, that of the facet there
      * continued). The first direction of a point is minus their gradient, not
      * of unit length where that is not, and the view has their second
-     * derivatives. Nodes and quadrature points only, the latter always on whole
-     * facets, and no ties. NULL (default): points are fixed. */
+     * derivatives. Quadrature points are always on whole facets then, and
+     * mortar always has its segments. Points of
+     * mortar meet what is opposite now, along the present normals, and the view
+     * has what their forces change by; nodes that are covered by less than a
+     * fifth have none. No ties, no tangents of mortar, and no mortar against
+     * obstacles. NULL (default): points are fixed. */
     const double *reference;
     /** Points stand where the surfaces are now and are fixed there:
      * [n_nodes * dimension] positions of the secondary's nodes that weights are
      * measured at, those of the undeformed body. Nothing else is of them.
      * Without reference only. NULL (default): the present ones. */
     const double *areas;
+    /** Partners and weights are those of the surfaces as they stand, that is
+     * undeformed, but directions and gaps those of these places,
+     * [n_nodes * dimension] of the secondary and of the primary: a pair that
+     * turns as one keeps gaps and pressures. The view has what the forces
+     * change by as nodes move from there. Mortar between surfaces only, neither
+     * ties nor tangents. With flush gaps are what they have changed by. NULL
+     * (default): those of the surfaces as they stand. */
+    const double *present;
+    const double *present_primary; /**< given with present */
   } abut_coupling_target;
 
   enum
@@ -311,6 +324,8 @@ extern "C"
                                          0.,
                                          false,
                                          false,
+                                         NULL,
+                                         NULL,
                                          NULL,
                                          NULL};
     return target;
@@ -365,12 +380,25 @@ extern "C"
      * primary facet, in their order there, if it has one. With tangents it is
      * followed by as many more matrices: row k of each has the derivatives of
      * the derivative of the slip along that tangent with respect to unknown k,
-     * by present tangents and shares. NULL: the points are fixed. */
+     * by present tangents and shares. Of mortar it is one matrix with
+     * dimension lines for each node line[line_start[i]] .., those of the
+     * stencil and some with coefficients 0, and dimension columns for each node
+     * column[column_start[i]] ..: the derivatives of the gap's derivatives,
+     * - n c_l, by the places of nodes. The direction n and the primary's
+     * coefficients change; those of the secondary and the weight do not, as
+     * long as the border of the primary does not cut a facet. It is not
+     * symmetric. NULL: the points are fixed. */
     const double *hessian;
     const int64_t *hessian_start; /**< [n_points + 1]; NULL likewise */
     /** [n_points] primary facet that has the nearest point of one that moves;
      * else -1. */
     const int32_t *primary;
+    /** Mortar that moves: nodes by their numbers in the set, those of point i
+     * from start[i] to start[i + 1] - 1; else NULL. */
+    const int64_t *line_start;   /**< [n_points + 1] */
+    const int32_t *line;         /**< [line_start[n_points]] */
+    const int64_t *column_start; /**< [n_points + 1] */
+    const int32_t *column;       /**< [column_start[n_points]] */
   } abut_coupling_view;
 
   /** View of the last build. O(1). */

@@ -450,7 +450,8 @@ namespace abut
       const bool is_obstacle = i.pairs[p].obstacle != nullptr;
       const Scale scale{result.deformation, displacement.linfty_norm(),
                         round_off_of_places * checks[p].facet_size};
-      const bool follows = i.moves() && !i.pairs[p].tied && !is_obstacle;
+      const bool follows = i.method.sliding == Sliding::large
+                           && !i.pairs[p].tied && !is_obstacle;
       if (!follows)
         judge_sliding(pairs[p], checks[p], is_obstacle, scale, findings);
       judge_turn(pairs[p], allow_large_strain, findings);

@@ -17,7 +17,7 @@ namespace abut
   {
     if (source != nullptr && !source_is_outdated)
       return source->moves();
-    return method.sliding == Sliding::large
+    return (method.sliding == Sliding::large || method.sliding == Sliding::turn)
            && std::any_of(pairs.begin(), pairs.end(),
                           [](const ContactPair<dim> &pair)
                           { return !pair.tied; });

@@ -320,39 +320,62 @@ namespace abut
     return "";
   }
 
+  namespace
+  {
+    std::string turn_refusal(const abut_law &law, const bool is_weighted,
+                             const SlidingPair &pair)
+    {
+      const std::string why =
+          "Points whose partners stay turn with the bodies ";
+      if (!is_weighted || pair.has_obstacle)
+        return why + "for mortar between bodies only. Use Sliding = large.";
+      if (pair.has_friction)
+        return why + "without friction only. Use Sliding = small.";
+      if (abut_law_is_interior(&law))
+        return why + "not with Method/Enforcement = " + std::string(law.name)
+               + ". Use lagrange, penalty, quadratic penalty or augmented "
+                 "lagrangian.";
+      return "";
+    }
+  } // namespace
+
   std::string sliding_refusal(const Sliding sliding, const abut_law &law,
                               const abut_discretisation discretisation,
-                              const bool touches_itself,
-                              const bool has_friction_in_space,
-                              const bool has_geometric_gap)
+                              const SlidingPair &pair)
   {
+    const bool is_weighted = discretisation_info(discretisation).is_weighted;
     if (sliding == Sliding::step && abut_law_needs_stress(&law))
       return "Method/Sliding = step does not go with Method/Enforcement = "
              + std::string(law.name)
              + ", whose stress is that of the undeformed bodies. Use small.";
+    if (sliding == Sliding::turn)
+      return turn_refusal(law, is_weighted, pair);
     if (sliding != Sliding::large)
       return "";
     const std::string why = "Method/Sliding = large ";
-    if (touches_itself)
+    const std::string mortar = std::string("Method/Discretisation = ")
+                               + abut_discretisation_name(discretisation);
+    if (pair.touches_itself)
       return why
              + "does not follow a surface that touches itself. Give its two "
                "sides boundary ids of their own, or use small.";
-    if (discretisation_info(discretisation).is_weighted)
+    if (is_weighted && pair.has_obstacle)
       return why
-             + "follows nodes and quadrature points, not Method/"
-               "Discretisation = "
-             + abut_discretisation_name(discretisation)
-             + ". Use node to segment or quadrature point.";
+             + "follows nodes and quadrature points against an obstacle, not "
+             + mortar + ". Use node to segment or quadrature point.";
+    if (is_weighted && pair.has_friction)
+      return why + "does not follow " + mortar
+             + " with friction. Use node to segment or quadrature point.";
     if (abut_law_needs_stress(&law) || abut_law_is_interior(&law))
       return why
              + "does not go with Method/Enforcement = " + std::string(law.name)
              + ". Use lagrange, penalty, quadratic penalty or augmented "
                "lagrangian.";
-    if (has_friction_in_space)
+    if (pair.has_friction && pair.in_space)
       return why
              + "has friction in two dimensions only: leave out the friction of "
                "the pair, or use small.";
-    if (!has_geometric_gap)
+    if (!pair.has_geometric_gap)
       return why
              + "measures gaps where the surfaces are: they must count (leave "
                "out the gap that stands for them), or use small.";
@@ -389,16 +412,19 @@ namespace abut
     prm.declare_entry("Sliding", "auto",
                       Patterns::Selection("auto|small|step|large"),
                       "Where contact is looked at. `small`: on the undeformed "
-                      "bodies; gaps are linear in the displacement. `step`: "
+                      "bodies; gaps are linear in the displacement, but for "
+                      "mortar without friction between bodies of large strain, "
+                      "whose partners and weights are those, and gaps and "
+                      "directions those of the present places. `step`: "
                       "on the bodies where they were at the beginning of the "
                       "load or time step. `large`: "
                       "where the bodies are; points move, and their gaps, "
-                      "directions and second derivatives are made anew at each "
-                      "linearisation. For nodes and quadrature points, with "
-                      "friction in two dimensions; with `Discretisation = "
-                      "auto` between bodies, too, at nodes. `auto`: large for "
-                      "bodies of large strain where that can be and "
-                      "`Discretisation` is none of the mortars, step for "
+                      "directions and derivatives of these are made anew at "
+                      "each linearisation. For nodes and quadrature points, "
+                      "with friction in two dimensions, and for mortar without "
+                      "friction between bodies; with `Discretisation = auto` "
+                      "bodies with friction meet at nodes. `auto`: large for "
+                      "bodies of large strain where that can be, step for "
                       "bodies that move by inertia, else small.");
     prm.declare_entry("System", "auto",
                       Patterns::Selection("auto|condensed|saddle point"),

@@ -346,6 +346,10 @@ namespace abut::shim
           for_each_primary(row.point, add);
           if (pair.steps)
             motion = since;
+          // A turn of both sides is no slip: by places, which have been
+          // opposite each other.
+          if (pair.turns)
+            motion = apart(row.point, u);
           if (pair.data.obstacle)
             motion -= way_of(row.place.position, slip_poses_[row.place.pair],
                              now[row.place.pair]);

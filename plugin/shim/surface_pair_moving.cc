@@ -8,12 +8,13 @@
 
 namespace abut::shim
 {
+  namespace MPI = dealii::Utilities::MPI;
   using dealii::types::global_dof_index;
 
   template <int dim> bool SurfacePairRows<dim>::moves() const
   {
     for (const Pair &pair : pairs_)
-      if (pair.moves)
+      if (pair.is_present())
         return true;
     return false;
   }
@@ -33,6 +34,16 @@ namespace abut::shim
       for (unsigned int d = 0; d < dim; ++d)
         present_displacement_.push_back(u[n][d]);
     }
+  }
+
+  template <int dim>
+  bool SurfacePairRows<dim>::is_made_at(const std::vector<Direction> &u) const
+  {
+    bool same = present_displacement_.size() == dim * u.size();
+    for (std::size_t n = 0; n < u.size() && same; ++n)
+      for (unsigned int d = 0; d < dim; ++d)
+        same = same && present_displacement_[dim * n + d] == u[n][d];
+    return !MPI::logical_or(!same, communicator_);
   }
 
   template <int dim>
@@ -63,6 +74,13 @@ namespace abut::shim
       Place &place = places_[first + i];
       place.hessian.assign(view.hessian + view.hessian_start[i],
                            view.hessian + view.hessian_start[i + 1]);
+      if (view.line != nullptr)
+      {
+        place.lines.assign(view.line + view.line_start[i],
+                           view.line + view.line_start[i + 1]);
+        place.columns.assign(view.column + view.column_start[i],
+                             view.column + view.column_start[i + 1]);
+      }
       if (view.primary[i] < 0)
         continue;
       const auto &facet = surface_.facets[pair.primary.facet[view.primary[i]]];
@@ -72,25 +90,62 @@ namespace abut::shim
   }
 
   template <int dim>
+  std::vector<double>
+  SurfacePairRows<dim>::places_of(const std::vector<Node> &nodes,
+                                  const std::vector<dealii::Point<dim>> &place)
+  {
+    std::vector<double> result;
+    for (const Node node : nodes)
+      for (unsigned int d = 0; d < dim; ++d)
+        result.push_back(place[node][d]);
+    return result;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  SurfacePairRows<dim>::apart(const std::size_t point,
+                              const std::vector<Direction> &u) const
+  {
+    Direction result;
+    const auto add = [&](const Node node, const double c)
+    { result += c * (Direction(surface_.nodes[node].point) + u[node]); };
+    for_each_secondary(point, add);
+    for_each_primary(point, add);
+    return result;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::add_terms(const Node node, const double factor,
+                                       const std::size_t block,
+                                       Terms &terms) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      surface_.map.for_each_term(
+          node, d,
+          [&](const global_dof_index unknown, const double each)
+          { terms[block * dim + d].emplace_back(unknown, factor * each); });
+  }
+
+  template <int dim>
   typename SurfacePairRows<dim>::Terms
   SurfacePairRows<dim>::places_by_unknowns(const std::size_t point) const
   {
     const std::vector<Node> &opposite = places_[point].opposite;
     Terms terms(dim * (1 + opposite.size()));
-    const auto add = [&](const std::size_t block)
-    {
-      return [&terms, this, block](const Node node, const double c)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          surface_.map.for_each_term(
-              node, d,
-              [&](const global_dof_index unknown, const double factor)
-              { terms[block * dim + d].emplace_back(unknown, c * factor); });
-      };
-    };
-    for_each_secondary(point, add(0));
+    for_each_secondary(point, [&](const Node node, const double c)
+                       { add_terms(node, c, 0, terms); });
     for (std::size_t a = 0; a < opposite.size(); ++a)
-      add(1 + a)(opposite[a], 1.);
+      add_terms(opposite[a], 1., 1 + a, terms);
+    return terms;
+  }
+
+  template <int dim>
+  typename SurfacePairRows<dim>::Terms
+  SurfacePairRows<dim>::nodes_by_unknowns(const std::vector<Node> &nodes) const
+  {
+    Terms terms(dim * nodes.size());
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      add_terms(nodes[a], 1., a, terms);
     return terms;
   }
 
@@ -103,7 +158,8 @@ namespace abut::shim
     if (place.hessian.empty())
       return {};
     // One matrix for each component.
-    const std::size_t n = dim * (1 + place.opposite.size()), size = n * n;
+    const std::size_t n = dim * (1 + place.opposite.size());
+    const std::size_t size = place.lines.empty() ? n * n : place.hessian.size();
     std::vector<double> sum(size, 0.);
     double force = 0.;
     for (std::int32_t row = view_.component_start[point], k = 0;
@@ -129,15 +185,20 @@ namespace abut::shim
       const std::vector<double> hessian = turning(i, row_pressure);
       if (hessian.empty())
         continue;
-      const Terms terms = places_by_unknowns(i);
-      const std::size_t n = terms.size();
-      for (std::size_t a = 0; a < n; ++a)
+      const Place &place = places_[i];
+      const bool is_square = place.lines.empty();
+      const Terms terms =
+          is_square ? places_by_unknowns(i) : nodes_by_unknowns(place.lines);
+      const Terms columns =
+          is_square ? terms : nodes_by_unknowns(place.columns);
+      const std::size_t n = columns.size();
+      for (std::size_t a = 0; a < terms.size(); ++a)
         for (const auto &row : terms[a])
         {
           MatrixLine line;
           line.row = row.first;
           for (std::size_t b = 0; b < n; ++b)
-            for (const auto &column : terms[b])
+            for (const auto &column : columns[b])
             {
               line.column.push_back(column.first);
               line.value.push_back(-hessian[a * n + b] * row.second
@@ -195,14 +256,24 @@ namespace abut::shim
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template bool SurfacePairRows<dim>::moves() const;                           \
+  template bool SurfacePairRows<dim>::is_made_at(                              \
+      const std::vector<Direction> &) const;                                   \
   template std::vector<double> SurfacePairRows<dim>::motions(                  \
       const std::vector<Direction> &);                                         \
   template void SurfacePairRows<dim>::note_place(                              \
       const std::vector<Direction> &);                                         \
   template void SurfacePairRows<dim>::take_hessians(                           \
       const Pair &, const abut_coupling_view &);                               \
+  template std::vector<double> SurfacePairRows<dim>::places_of(                \
+      const std::vector<Node> &, const std::vector<dealii::Point<dim>> &);     \
+  template dealii::Tensor<1, dim> SurfacePairRows<dim>::apart(                 \
+      std::size_t, const std::vector<Direction> &) const;                      \
+  template void SurfacePairRows<dim>::add_terms(Node, double, std::size_t,     \
+                                                Terms &) const;                \
   template typename SurfacePairRows<dim>::Terms                                \
       SurfacePairRows<dim>::places_by_unknowns(std::size_t) const;             \
+  template typename SurfacePairRows<dim>::Terms                                \
+  SurfacePairRows<dim>::nodes_by_unknowns(const std::vector<Node> &) const;    \
   template std::vector<double> SurfacePairRows<dim>::turning(                  \
       std::size_t, const double *) const;                                      \
   template std::vector<MatrixLine> SurfacePairRows<dim>::geometric_lines(      \

@@ -138,7 +138,7 @@ namespace abut::shim
                 "secondary."));
     // Obstacles are moved into bodies on purpose, and points that move are
     // those of a step on its way.
-    if (!pair.data.obstacle && !pair.moves
+    if (!pair.data.obstacle && !pair.is_present()
         && result.overlap > large_overlap * sizes.median)
       result.warnings.push_back(
           coded(ABUT_FAILURE_OVERLAP,

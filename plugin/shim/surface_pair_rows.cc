@@ -100,9 +100,12 @@ namespace abut::shim
     const abut_law &law = *settings_.method.options.law;
     const Sliding sliding = settings_.method.sliding;
     pair.moves = sliding == Sliding::large && !data.tied;
+    pair.turns = sliding == Sliding::turn && !data.tied;
     pair.steps = sliding == Sliding::step && !data.tied;
-    pair.discretisation = settings_.method.discretisation.value_or(
-        automatic_discretisation(law, data.obstacle != nullptr || pair.moves));
+    pair.discretisation =
+        settings_.method.discretisation.value_or(automatic_discretisation(
+            law, data.obstacle != nullptr
+                     || (pair.moves && data.friction != nullptr)));
     const std::string reason =
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
@@ -135,11 +138,12 @@ namespace abut::shim
                            "lagrangian."));
     pair.reach = data.reach;
     const std::string fixed =
-        data.tied ? ""
-                  : sliding_refusal(sliding, law, pair.discretisation,
-                                    SelfContact<dim>::is_split(data),
-                                    dim == 3 && data.friction != nullptr,
-                                    data.geometric_gap);
+        data.tied
+            ? ""
+            : sliding_refusal(
+                sliding, law, pair.discretisation,
+                {SelfContact<dim>::is_split(data), data.obstacle != nullptr,
+                 data.friction != nullptr, dim == 3, data.geometric_gap});
     if (!fixed.empty())
       throw ContactError("Pair '" + data.name + "': " + fixed);
     pairs_.push_back(std::move(pair));
@@ -355,13 +359,15 @@ namespace abut::shim
     target.gap = pair.data.gap;
     target.tangents = pair.data.friction != nullptr;
     target.flush = !pair.data.geometric_gap;
-    std::vector<double> reference;
+    std::vector<double> place, of_primary;
     if (pair.is_displaced())
-      for (const Node node : side.node)
-        for (unsigned int d = 0; d < dim; ++d)
-          reference.push_back(reference_[node][d]);
-    target.reference = pair.moves ? reference.data() : nullptr;
-    target.areas = pair.steps ? reference.data() : nullptr;
+      place = places_of(side.node, pair.turns ? present_ : reference_);
+    if (pair.turns)
+      of_primary = places_of(pair.primary.node, present_);
+    target.reference = pair.moves ? place.data() : nullptr;
+    target.areas = pair.steps ? place.data() : nullptr;
+    target.present = pair.turns ? place.data() : nullptr;
+    target.present_primary = pair.turns ? of_primary.data() : nullptr;
     build(pair, pair.coupling.get(), dropped, motion, target);
 
     abut_coupling_view view;
@@ -376,7 +382,7 @@ namespace abut::shim
         place.position[d] = view.position[i * dim + d];
       places_.push_back(place);
     }
-    if (pair.moves)
+    if (pair.is_present())
       take_hessians(pair, view);
     if (pair.is_displaced())
       check(context_,
@@ -421,7 +427,7 @@ namespace abut::shim
     unsigned int n_dropped = 0;
     int shift = 0;
     std::optional<DisplacedSides<dim>> displaced;
-    if (pair.is_displaced())
+    if (pair.has_displaced_sides())
       displaced.emplace(context_, pair.secondary, pair.primary, reference_,
                         present_);
     auto groups =
@@ -519,7 +525,7 @@ namespace abut::shim
     const std::vector<Direction> way = difference(u, place);
     std::vector<Origin> wanted = origins(way);
     if (!wanted.empty() && wanted == origins_ && points == points_
-        && is_where_made(place))
+        && is_where_made(place) && (!moves() || is_made_at(u)))
     {
       ++n_kept_;
       return has_new_constants ? Change::constants : Change::none;

@@ -22,7 +22,8 @@ namespace abut::shim
    *
    * The geometry is that of the reference configuration (displacement 0), so
    * that the gap is linear in the displacement, or, of pairs that move, that of
-   * the displacement of find(), with weights of the reference. A point is on
+   * the displacement of find(), with weights of the reference; of pairs that
+   * turn, directions and gaps alone are of there. A point is on
    * the rank that owns its secondary node, or for quadrature points the facet's
    * cell. Nodes are those of the gathered surface. */
   template <int dim> class SurfacePairRows : public RowSource
@@ -303,11 +304,25 @@ namespace abut::shim
     {
       ContactPair<dim> data;
       bool moves = false; ///< its points are where the bodies are
+      bool turns = false; ///< their directions are, while partners stay
       bool steps = false; ///< they are where these were at the last commit()
 
-      bool is_displaced() const
+      /** Whether its sides are somewhere else when points are made. */
+      bool has_displaced_sides() const
       {
         return moves || steps;
+      }
+
+      /** Whether directions and gaps are not those of the undeformed bodies. */
+      bool is_displaced() const
+      {
+        return has_displaced_sides() || turns;
+      }
+
+      /** Whether they are those of where the bodies are. */
+      bool is_present() const
+      {
+        return moves || turns;
       }
 
       abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
@@ -354,8 +369,10 @@ namespace abut::shim
       /** Of a point that moves: nodes of the primary facet that has the nearest
        * point, and the square matrix of second derivatives of the gap with
        * respect to the position, then these nodes, and those of its tangents;
-       * empty: the point is fixed. */
+       * empty: the point is fixed. Of mortar: nodes of its lines and columns,
+       * and one matrix; see abut_coupling_view. */
       std::vector<Node> opposite;
+      std::vector<Node> lines, columns;
       std::vector<double> hessian;
     };
 
@@ -510,6 +527,9 @@ namespace abut::shim
      * but for pairs that do so step by step. Collective. */
     std::vector<Direction> place_of_step();
     bool is_where_made(const std::vector<Direction> &place) const;
+    /** Whether points that move were made at exactly these displacements.
+     * Collective. */
+    bool is_made_at(const std::vector<Direction> &u) const;
     /** How the nodes have moved from there; @p u where there is no such place.
      */
     static std::vector<Direction>
@@ -525,7 +545,17 @@ namespace abut::shim
      * [components][terms]. */
     using Terms = std::vector<
         std::vector<std::pair<dealii::types::global_dof_index, double>>>;
+    /** From the place that is opposite a point of mortar to its own, if nodes
+     * are displaced by @p u. */
+    Direction apart(std::size_t point, const std::vector<Direction> &u) const;
+    void add_terms(Node node, double factor, std::size_t block,
+                   Terms &terms) const;
     Terms places_by_unknowns(std::size_t point) const;
+    Terms nodes_by_unknowns(const std::vector<Node> &nodes) const;
+    /** [nodes of the side * dim] */
+    static std::vector<double>
+    places_of(const std::vector<Node> &nodes,
+              const std::vector<dealii::Point<dim>> &place);
     /** The derivative of a point's force, of pressures and tractions as in
      * geometric_lines(), by these; empty: 0. */
     std::vector<double> turning(std::size_t point,

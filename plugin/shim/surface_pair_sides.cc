@@ -182,8 +182,10 @@ namespace abut::shim
     {
       places_[i].node = places_[i].node < 0 ? -1 : now[places_[i].node];
       places_[i].facet = index_of(surface_.facets, facets[i]);
-      for (Node &node : places_[i].opposite)
-        node = now[node];
+      for (auto *list :
+           {&places_[i].opposite, &places_[i].lines, &places_[i].columns})
+        for (Node &node : *list)
+          node = now[node];
     }
     if (points_ != nullptr)
       check(context_,

@@ -32,6 +32,15 @@ namespace abut::shim
           make_coupling(pair, ABUT_DISCRETISATION_MORTAR);
       const Handle<abut_points> points = create_points(context_, dim);
       abut_coupling_target target = abut_coupling_target_defaults(points.get());
+      std::vector<double> reference;
+      if (pair.moves) // as the rows are weighed, and where there are any
+      {
+        reference = places_of(pair.secondary.node, reference_);
+        target.reference = discretisation_info(pair.discretisation).is_weighted
+                               ? reference.data()
+                               : nullptr;
+        target.areas = target.reference == nullptr ? reference.data() : nullptr;
+      }
       target.secondary_node = pair.secondary.node.data();
       target.primary_node = pair.primary.node.data();
       build(pair, mortar.get(),

@@ -34,6 +34,10 @@ namespace abut
     automatic, /**< what a program takes that knows its bodies; else small */
     small,     /**< gaps are linear in the displacement, as they are made of
                     the undeformed bodies */
+    turn,      /**< partners and weights are those of the undeformed bodies,
+                    directions and gaps those of the present places: what
+                    `small` is for bodies of large strain. Mortar between
+                    bodies without friction */
     step,      /**< gaps are linear from where the bodies were at the last
                     commit(): detect() makes points at that displacement */
     large      /**< points move with the bodies: at each linearisation gaps,
@@ -56,12 +60,21 @@ namespace abut
 
   struct MethodParameters;
 
+  /** What decides whether the points of a pair can move. */
+  struct SlidingPair
+  {
+    bool touches_itself = false;
+    bool has_obstacle = false;
+    bool has_friction = false;
+    bool in_space = false; ///< three dimensions
+    bool has_geometric_gap = true;
+  };
+
   /** Why points cannot move in this way with a method, with what to take
    * instead; empty if they can. Ties never do. */
   std::string sliding_refusal(Sliding sliding, const abut_law &law,
                               abut_discretisation discretisation,
-                              bool touches_itself, bool has_friction_in_space,
-                              bool has_geometric_gap);
+                              const SlidingPair &pair);
 
   /** Why there is no friction with a method, with what to take instead; empty
    * if there is. */

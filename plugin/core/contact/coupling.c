@@ -15,7 +15,7 @@ typedef struct array_size
 
 enum
 {
-  N_ARRAYS = 50
+  N_ARRAYS = 62
 };
 
 /* All arrays with the sizes of their elements (segments: set by their users);
@@ -54,6 +54,14 @@ list_arrays(abut_coupling *c, array_size *list)
                             {&c->walk, sizeof(double)},
                             {&c->shares, sizeof(abut_coupling_share)},
                             {&c->entries, sizeof(abut_coupling_entry)},
+                            {&c->rates, sizeof(double)},
+                            {&c->blocks, sizeof(abut_coupling_block)},
+                            {&c->block_values, sizeof(double)},
+                            {&c->directions, sizeof(abut_coupling_direction)},
+                            {&c->direction_node, sizeof(int32_t)},
+                            {&c->direction_change, sizeof(double)},
+                            {&c->line_place, sizeof(int32_t)},
+                            {&c->column_place, sizeof(int32_t)},
                             {&c->share_start, sizeof(int64_t)},
                             {&c->share_list, sizeof(int64_t)},
                             {&c->sum[0], sizeof(double)},
@@ -69,6 +77,10 @@ list_arrays(abut_coupling *c, array_size *list)
                             {&c->point_primary, sizeof(int32_t)},
                             {&c->point_hessian_start, sizeof(int64_t)},
                             {&c->point_hessian, sizeof(double)},
+                            {&c->point_line_start, sizeof(int64_t)},
+                            {&c->point_column_start, sizeof(int64_t)},
+                            {&c->point_line, sizeof(int32_t)},
+                            {&c->point_column, sizeof(int32_t)},
                             {&c->stencil_node, sizeof(int32_t)},
                             {&c->stencil_coefficient, sizeof(double)}};
   const int n = (int)(sizeof(all) / sizeof(all[0]));

@@ -13,10 +13,12 @@
  *   coupling_functions.c   its free nodes, those that keep a multiplier, and
  *                          the weighting functions psi
  *   coupling_shares.c      its shares in the rows of its nodes
+ *   coupling_rates.c       of mortar that moves, how these shares change
  *
  * and coupling_append.c adds the shares of each node up to a point. Node to
  * segment (coupling_nodal.c) takes its weights from the functions and its
- * entries from a detection. */
+ * entries from a detection. Directions of mortar that moves, and how its forces
+ * change, are coupling_direction.c's and coupling_block.c's. */
 
 #include "geometry/surface.h"
 
@@ -43,6 +45,8 @@ typedef struct abut_coupling_point
                                          - grad phi; points that move: minus the
                                          derivative of the gap */
   int64_t hessian;                    /* points that move: its place */
+  int64_t rate;                       /* mortar that moves: place of how
+                                         `opposite` changes */
   int32_t primary;                    /* facet; obstacle: -1 */
   int32_t number;                     /* within the facet */
   double shape[ABUT_FACET_MAX_NODES]; /* of the secondary */
@@ -60,8 +64,9 @@ typedef struct abut_coupling_facet
   double normal[3];                             /* mean */
   double node_normal[3 * ABUT_FACET_MAX_NODES]; /* [3 * n] averaged; at a
                                                    feature the facet's own */
-  double size;                                  /* longest side */
-  double warping;                               /* radian */
+  uint32_t own_normals; /* bits of the nodes that have that */
+  double size;          /* longest side */
+  double warping;       /* radian */
 } abut_coupling_facet;
 
 /* The functions of one facet. base_a are the shape functions or, for
@@ -96,10 +101,33 @@ typedef struct abut_coupling_share
   double weight; /* integral of psi */
   double gap[3]; /* integral of psi (x_m - x_s) */
   double distance;
-  double normal[3];   /* integral of psi n */
-  double position[3]; /* quadrature point: where it is */
-  int64_t hessian;    /* of points that move: place in that array */
+  double normal[3];    /* integral of psi n */
+  double position[3];  /* quadrature point: where it is */
+  int64_t hessian;     /* of points that move: place in that array */
+  int64_t first_block; /* of mortar that moves */
+  int32_t n_blocks;
 } abut_coupling_share;
+
+/* How the entries of a share at the nodes of one primary facet change: rows
+ * are these nodes, columns the unknowns of abut_coupling_columns(). */
+typedef struct abut_coupling_block
+{
+  int64_t first; /* in block_values */
+  int32_t facet; /* secondary */
+  int32_t primary;
+  uint32_t own_normals; /* as of abut_coupling_facet */
+  uint32_t unused;
+} abut_coupling_block;
+
+/* A unit normal at a node of the secondary with its derivatives by places of
+ * nodes, 9 numbers each: component by component. */
+typedef struct abut_coupling_direction
+{
+  double normal[3];
+  int64_t first; /* in direction_node, and in direction_change / 9 */
+  int32_t n;     /* nodes; -1: not known yet */
+  int32_t unused;
+} abut_coupling_direction;
 
 typedef struct abut_coupling_entry
 {
@@ -179,6 +207,16 @@ struct abut_coupling
   abut_array entries; /* abut_coupling_entry */
   int64_t n_shares, n_entries;
 
+  /* Mortar that moves. */
+  abut_array rates;            /* double, of the points in work */
+  abut_array blocks;           /* abut_coupling_block */
+  abut_array block_values;     /* double */
+  abut_array directions;       /* abut_coupling_direction, [n_nodes] averaged */
+  abut_array direction_node;   /* int32_t */
+  abut_array direction_change; /* double */
+  abut_array line_place, column_place; /* int32_t, [n_nodes of both sides] */
+  int64_t n_rates, n_blocks, n_block_values, n_directions;
+
   /* Adding up. */
   abut_array share_start; /* int64_t, [n_nodes + 1] */
   abut_array share_list;  /* int64_t */
@@ -193,21 +231,48 @@ struct abut_coupling
   abut_array point_primary;                         /* int32_t */
   abut_array point_hessian_start;                   /* int64_t */
   abut_array point_hessian;                         /* double */
+  abut_array point_line_start, point_column_start;  /* int64_t */
+  abut_array point_line, point_column;              /* int32_t */
   abut_array stencil_node;                          /* int32_t, of one point */
   abut_array stencil_coefficient;                   /* double */
   abut_coupling_view view;
   abut_coupling_statistics statistics;
 };
 
-/* Whether the points of this build move. */
+/* Whether the rows are weighted means over facets. */
+bool abut_coupling_is_mortar(const abut_coupling *c);
+
+/* Whether the points of this build are at the nearest point, or a distance,
+ * wherever that is. */
 static inline bool
 abut_coupling_moves(const abut_coupling *c)
 {
-  return c->target->reference != NULL;
+  return c->target->reference != NULL && !abut_coupling_is_mortar(c);
 }
 
-/* Whether the rows are weighted means over facets. */
-bool abut_coupling_is_mortar(const abut_coupling *c);
+/* Whether those of mortar meet what is opposite where the surfaces are. */
+static inline bool
+abut_coupling_follows(const abut_coupling *c)
+{
+  return c->target->reference != NULL && abut_coupling_is_mortar(c);
+}
+
+/* Whether they do, or have their directions and gaps of there. */
+static inline bool
+abut_coupling_turns(const abut_coupling *c)
+{
+  return abut_coupling_follows(c) || c->target->present != NULL;
+}
+
+/* Where the nodes of a side (0: secondary) are. */
+static inline const double *
+abut_coupling_place(const abut_coupling *c, int side)
+{
+  const abut_coupling_target *t = c->target;
+  if (t->present != NULL)
+    return side == 0 ? t->present : t->present_primary;
+  return side == 0 ? c->secondary->view.position : c->primary->view.position;
+}
 
 /* Gather facet f at the present positions. */
 void abut_coupling_load(const abut_coupling *c, int32_t f,
@@ -279,6 +344,78 @@ void abut_coupling_tangents(int32_t dim, const double *normal,
 void abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
                         const double *shape, const double *hessian,
                         double *turning);
+
+struct abut_linear_patch;
+
+/* What a block's columns are: components of the places of the nodes of the
+ * secondary facet, of those of the primary one, and (2D) of the normals at the
+ * nodes of the secondary one. */
+static inline int32_t
+abut_coupling_columns(const abut_coupling *c, int32_t n_secondary,
+                      int32_t n_primary)
+{
+  const int32_t dim = c->view.dimension;
+  return dim * ((dim == 2 ? 2 : 1) * n_secondary + n_primary);
+}
+
+/* How the opposite point of a point of integration changes while that stays on
+ * its facet: of the secondary's and the primary's parts in work at their
+ * parameters s and t, and in space from patch s to m along the normal of a
+ * patch of the facet. Sets the point's rate. */
+abut_status abut_coupling_rate2(abut_coupling *c,
+                                const abut_coupling_facet *facet, int part,
+                                double s, int primary_part, double t,
+                                abut_coupling_point *point);
+abut_status abut_coupling_rate3(abut_coupling *c,
+                                const abut_coupling_facet *facet,
+                                const struct abut_linear_patch *plane,
+                                const struct abut_linear_patch *s,
+                                const struct abut_linear_patch *m,
+                                const double *opposite,
+                                abut_coupling_point *point);
+
+/* Add the blocks of a share, with the values of its weighting function. */
+abut_status abut_coupling_add_blocks(abut_coupling *c,
+                                     const abut_coupling_facet *facet,
+                                     abut_coupling_share *share);
+
+/* The averaged normal of a node of the secondary where it is. */
+abut_status abut_coupling_average(abut_coupling *c, int32_t node,
+                                  abut_coupling_direction *direction);
+
+/* The normal of a facet where it is, at its node a or (a < 0) in the mean, with
+ * the derivatives by its nodes in direction_node. */
+abut_status abut_coupling_facet_direction(abut_coupling *c, int32_t facet,
+                                          int a,
+                                          abut_coupling_direction *direction);
+
+/* The direction of the point of the shares list[n] with sum total: as the
+ * normal of one that is fixed, but where the surfaces are. */
+abut_status abut_coupling_direct(abut_coupling *c, const int64_t *list,
+                                 int64_t n, const abut_coupling_share *total,
+                                 abut_coupling_direction *direction);
+
+/* int psi (x_m - x_s) / W where the surfaces are (present), or are told to be
+ * by the build. */
+void abut_coupling_gap(const abut_coupling *c, const int64_t *list, int64_t n,
+                       bool present, double *gap);
+
+/* Note how the force of the next point changes; see abut_coupling_view. */
+abut_status abut_coupling_note_block(abut_coupling *c, const int64_t *list,
+                                     int64_t n,
+                                     const abut_coupling_share *total,
+                                     const abut_coupling_direction *direction);
+
+/* Number that a node of a side has in the set of points. */
+static inline int32_t
+abut_coupling_number(const abut_coupling *c, int side, int32_t node)
+{
+  const abut_coupling_target *t = c->target;
+  const int32_t *given = side == 0 ? t->secondary_node : t->primary_node;
+  return given != NULL ? given[node]
+         : side == 0   ? node
+                       : c->secondary->view.n_nodes + node;
+}
 
 /* Number the points of the segments of a facet, and take their opposite points
  * along the facet's normal. */

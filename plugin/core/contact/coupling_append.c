@@ -11,6 +11,11 @@
 /* Weight of a point relative to the full one below which there is none. */
 static const double smallest_weight = 1e-6;
 
+/* The same of mortar that follows: nodes that are covered less come and go
+ * within a step, and with rows at wholly covered ones alone the corner of a die
+ * would sink in. */
+static const double smallest_share = 0.2;
+
 /* Coefficients below this are round-off where matching meshes have zeros; they
  * would fill the matrix. */
 static const double smallest_coefficient = 1e-12;
@@ -78,17 +83,6 @@ sort_by_rank(int32_t *v, int32_t n, const int32_t *rank)
   }
 }
 
-/* Number of a node of a side in the set of points. */
-static int32_t
-number_of(const abut_coupling *c, int side, int32_t node)
-{
-  const abut_coupling_target *t = c->target;
-  const int32_t *given = side == 0 ? t->secondary_node : t->primary_node;
-  return given != NULL ? given[node]
-         : side == 0   ? node
-                       : c->secondary->view.n_nodes + node;
-}
-
 /* Write the entries of a side behind the first *n of the stencil, divided by
  * their sum: the weight but for round-off, which the cancellation of dual
  * functions may magnify. Those of the primary are negative. */
@@ -121,7 +115,7 @@ gather(abut_coupling *c, int side, int32_t n_touched, int32_t *n)
     seen[node] = 0;
     if (!(fabs(sum[node]) > least))
       continue;
-    stencil[*n] = number_of(c, side, node);
+    stencil[*n] = abut_coupling_number(c, side, node);
     coefficient[(*n)++] = sum[node];
     weight += sum[node];
   }
@@ -261,6 +255,55 @@ id_of(const abut_coupling *c, const abut_coupling_share *total)
   return first + (int64_t)each * total->point;
 }
 
+/* The gap of a point of contact along its normal. */
+static double
+gap_of(const abut_coupling *c, const abut_coupling_share *total,
+       const double *normal)
+{
+  const double distance = c->obstacle != NULL || abut_coupling_moves(c)
+                              ? total->distance
+                              : dot3(normal, total->gap);
+  return c->target->flush ? 0. : distance / total->weight;
+}
+
+/* The same of mortar whose partners stay, where the surfaces are; of those that
+ * count as touching, what it has changed by. */
+static double
+present_gap(abut_coupling *c, const int64_t *list, int64_t n,
+            const abut_coupling_share *total, const double *normal)
+{
+  double way[3], before[3];
+  abut_coupling_gap(c, list, n, true, way);
+  if (!c->target->flush)
+    return dot3(normal, way);
+  const abut_coupling_statistics counted = c->statistics;
+  normal_of(c, total, before);
+  c->statistics = counted;
+  const double now = dot3(normal, way);
+  abut_coupling_gap(c, list, n, false, way);
+  return now - dot3(before, way);
+}
+
+/* Normal and gap, and how they change, of a point of mortar that moves. */
+static abut_status
+fill_turning(abut_coupling *c, const int64_t *list, int64_t n,
+             const abut_coupling_share *total, double *frame, double *gap)
+{
+  abut_coupling_direction direction;
+  abut_status status = abut_coupling_direct(c, list, n, total, &direction);
+  if (status == ABUT_SUCCESS)
+    status = abut_coupling_note_block(c, list, n, total, &direction);
+  if (status != ABUT_SUCCESS)
+    return status;
+  memcpy(frame, direction.normal,
+         sizeof(double) * (size_t)c->secondary->view.dimension);
+  *gap = c->target->gap
+         + (abut_coupling_follows(c)
+                ? gap_of(c, total, direction.normal)
+                : present_gap(c, list, n, total, direction.normal));
+  return ABUT_SUCCESS;
+}
+
 /* Frame and gaps of a point: the normal, or the axes of a tie. */
 static int32_t
 fill_components(abut_coupling *c, const abut_coupling_share *total,
@@ -272,11 +315,8 @@ fill_components(abut_coupling *c, const abut_coupling_share *total,
   normal_of(c, total, normal);
   if (t->tie_axes == 0)
   {
-    const double distance = c->obstacle != NULL || abut_coupling_moves(c)
-                                ? total->distance
-                                : dot3(normal, total->gap);
     memcpy(frame, normal, sizeof(double) * (size_t)dim);
-    gap[0] = t->gap + (t->flush ? 0. : distance / total->weight);
+    gap[0] = t->gap + gap_of(c, total, normal);
     gap[1] = gap[2] = 0.;
     if (!t->tangents)
       return 1;
@@ -308,7 +348,13 @@ add_point(abut_coupling *c, const int64_t *list, int64_t n,
   abut_point point = abut_point_defaults();
   point.id = id_of(c, total);
   point.kind = c->target->tie_axes == 0 ? ABUT_POINT_CONTACT : ABUT_POINT_TIE;
-  point.n_components = fill_components(c, total, frame, gap);
+  point.n_components = 1;
+  if (abut_coupling_turns(c))
+    status = fill_turning(c, list, n, total, frame, gap);
+  else
+    point.n_components = fill_components(c, total, frame, gap);
+  if (status != ABUT_SUCCESS)
+    return status;
   point.weight = total->weight;
   point.frame = frame;
   point.gap = gap;
@@ -353,6 +399,9 @@ node_points(abut_coupling *c)
   const int64_t *start = c->share_start.data, *list = c->share_list.data;
   const int32_t *order = c->node_order.data;
   const double *full = c->full.data, *reach = c->row_reach.data;
+  const double smallest = abut_coupling_follows(c) && !abut_coupling_has_weak(c)
+                              ? smallest_share
+                              : smallest_weight;
   for (int32_t i = 0; i < c->secondary->view.n_nodes; ++i)
   {
     const int32_t node = order[i];
@@ -361,7 +410,7 @@ node_points(abut_coupling *c)
       continue;
     abut_coupling_share total;
     add_up(c, list + start[node], n, &total);
-    if (!(total.weight > smallest_weight * full[node]))
+    if (!(total.weight > smallest * full[node]))
     {
       ++c->statistics.n_weak;
       continue;
@@ -431,9 +480,14 @@ abut_coupling_append(abut_coupling *c)
   v->point = c->point_number.data;
   v->full_weight = c->point_full.data;
   v->position = c->point_position.data;
-  v->hessian = abut_coupling_moves(c) ? c->point_hessian.data : NULL;
-  v->hessian_start =
-      abut_coupling_moves(c) ? c->point_hessian_start.data : NULL;
+  const bool turns = abut_coupling_turns(c),
+             moves = turns || abut_coupling_moves(c);
+  v->hessian = moves ? c->point_hessian.data : NULL;
+  v->hessian_start = moves ? c->point_hessian_start.data : NULL;
+  v->line_start = turns ? c->point_line_start.data : NULL;
+  v->line = turns ? c->point_line.data : NULL;
+  v->column_start = turns ? c->point_column_start.data : NULL;
+  v->column = turns ? c->point_column.data : NULL;
   v->primary = c->point_primary.data;
   return ABUT_SUCCESS;
 }

@@ -99,6 +99,27 @@ add_full_area(abut_coupling *c)
   return status;
 }
 
+/* Nothing is known yet of how mortar that moves changes. */
+static abut_status
+begin_turning(abut_coupling *c)
+{
+  const int64_t n = c->secondary->view.n_nodes,
+                n_all = n + c->primary->view.n_nodes;
+  c->n_rates = c->n_blocks = c->n_block_values = c->n_directions = 0;
+  abut_status status = abut_array_reserve(c->context, &c->directions, 0, n + 1);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(c->context, &c->line_place, 0, n_all + 1);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(c->context, &c->column_place, 0, n_all + 1);
+  if (status != ABUT_SUCCESS)
+    return status;
+  for (int64_t i = 0; i < n; ++i)
+    ((abut_coupling_direction *)c->directions.data)[i].n = -1;
+  memset(c->line_place.data, 0, sizeof(int32_t) * (size_t)n_all);
+  memset(c->column_place.data, 0, sizeof(int32_t) * (size_t)n_all);
+  return ABUT_SUCCESS;
+}
+
 static abut_status
 build(abut_coupling *c, double motion)
 {
@@ -111,6 +132,8 @@ build(abut_coupling *c, double motion)
     abut_coupling_set_purpose(c);
     status = search(c, motion);
   }
+  if (status == ABUT_SUCCESS && abut_coupling_turns(c))
+    status = begin_turning(c);
   if (status == ABUT_SUCCESS && c->drops)
     status = abut_coupling_drop(c);
   const uint8_t *purpose = c->purpose.data;
@@ -142,6 +165,28 @@ has_radii(const abut_surface *s, const double *reference)
 }
 
 static const char *
+fault_of_places(const abut_coupling *c, const abut_coupling_target *t)
+{
+  const bool turns = t->present != NULL || t->present_primary != NULL;
+  if ((t->reference != NULL) + (t->areas != NULL) + turns > 1)
+    return "points move, stand where the surfaces are, or turn with them: only "
+           "one of these";
+  if (t->reference == NULL && !turns)
+    return NULL;
+  if (t->tie_axes != 0)
+    return "ties do not move";
+  if (turns && (t->present == NULL || t->present_primary == NULL))
+    return "present places are those of both surfaces";
+  if (turns && !abut_coupling_is_mortar(c))
+    return "only points of mortar turn while their partners stay";
+  if (abut_coupling_is_mortar(c) && c->primary == NULL)
+    return "mortar against an obstacle does not move";
+  if (abut_coupling_is_mortar(c) && t->tangents)
+    return "mortar that moves has no tangents";
+  return NULL;
+}
+
+static const char *
 fault_of_target(const abut_coupling *c, const abut_coupling_target *t)
 {
   if (t->points == NULL)
@@ -152,11 +197,7 @@ fault_of_target(const abut_coupling *c, const abut_coupling_target *t)
     return "an axis of a tie does not exist";
   if (!(fabs(t->gap) <= ABUT_FACET_LIMIT))
     return "the gap to be added is not finite";
-  if (t->reference != NULL && (abut_coupling_is_mortar(c) || t->tie_axes != 0))
-    return "only nodes and quadrature points that are no ties can move";
-  if (t->reference != NULL && t->areas != NULL)
-    return "points move, or stand where the surfaces are: not both";
-  return NULL;
+  return fault_of_places(c, t);
 }
 
 abut_status

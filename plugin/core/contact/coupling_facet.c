@@ -57,6 +57,7 @@ set_node_normals(const abut_coupling *c, abut_coupling_facet *facet)
   const abut_surface_view *v = &c->secondary->view;
   const int32_t *node = v->connectivity + v->facet_start[facet->index];
   const double limit = cos(0.5 * c->secondary->feature_angle);
+  facet->own_normals = 0;
   for (int32_t a = 0; a < facet->n; ++a)
   {
     double *n = facet->node_normal + 3 * a;
@@ -66,8 +67,10 @@ set_node_normals(const abut_coupling *c, abut_coupling_facet *facet)
     n[2] = 0.;
     for (int32_t d = 0; d < v->dimension; ++d)
       n[d] = c->normals[(int64_t)v->dimension * node[a] + d];
-    if (!(dot3(n, own) >= limit))
-      memcpy(n, own, sizeof(own));
+    if (dot3(n, own) >= limit)
+      continue;
+    memcpy(n, own, sizeof(own));
+    facet->own_normals |= UINT32_C(1) << a;
   }
 }
 
@@ -86,7 +89,7 @@ double
 abut_coupling_area_ratio(const abut_coupling *c,
                          const abut_coupling_facet *facet, const double *local)
 {
-  if (c->target->areas == NULL)
+  if (c->target->areas == NULL && c->target->reference == NULL)
     return 1.;
   const bool in_plane = c->secondary->view.dimension == 2;
   const double *nodes[2] = {facet->reference, facet->x};
@@ -260,7 +263,7 @@ abut_coupling_make_points(abut_coupling *c, const abut_coupling_facet *facet,
     return abut_coupling_face_obstacle(c, facet, final);
   if (abut_coupling_moves(c))
     return abut_coupling_near(c, facet, final);
-  if (!c->options.segments)
+  if (!c->options.segments && !abut_coupling_follows(c))
     return abut_coupling_rays(c, facet, final);
   const abut_status status = c->secondary->view.dimension == 2
                                  ? abut_coupling_segments2(c, facet, final)

@@ -198,8 +198,8 @@ add_points(abut_coupling *c, const abut_coupling_facet *facet, const base *b,
   {
     double gap, tangent[2][3];
     const double s = 0.5 * (from + to) + 0.5 * (to - from) * rule.local[q][0];
-    const double local[2] = {
-        whole_parameter(g->part, n_parts, opposite(b, g, s, &gap)), 0.};
+    const double t = opposite(b, g, s, &gap);
+    const double local[2] = {whole_parameter(g->part, n_parts, t), 0.};
     abut_coupling_point *p = abut_coupling_new_point(c);
     if (p == NULL)
       return ABUT_OUT_OF_MEMORY;
@@ -211,6 +211,12 @@ add_points(abut_coupling *c, const abut_coupling_facet *facet, const base *b,
                 * abut_coupling_area_ratio(c, facet, p->local);
     abut_coupling_shape(kind, NULL, local, p->opposite, NULL);
     abut_coupling_finish_point(c, facet, p);
+    const abut_status status =
+        abut_coupling_follows(c)
+            ? abut_coupling_rate2(c, facet, b->part, s, g->part, t, p)
+            : ABUT_SUCCESS;
+    if (status != ABUT_SUCCESS)
+      return status;
   }
   return ABUT_SUCCESS;
 }
@@ -248,6 +254,7 @@ abut_coupling_segments2(abut_coupling *c, const abut_coupling_facet *facet,
 {
   int32_t n_candidates, n;
   c->n_points = 0;
+  c->n_rates = 0;
   c->segments.element = sizeof(segment);
   abut_status status =
       abut_coupling_find_candidates(c, facet->index, &n_candidates);

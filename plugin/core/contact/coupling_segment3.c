@@ -49,6 +49,7 @@ typedef struct work
 {
   abut_coupling *c;
   const abut_coupling_facet *facet;
+  const abut_linear_patch *plane; /* that the normal is of */
   double origin[3], normal[3], e[2][3];
   int32_t n; /* segments */
 } work;
@@ -248,7 +249,9 @@ add_point(work *w, const segment *g, const double *uv, double area)
   p->weight = area * (ratio <= largest_area_ratio ? ratio : 1.)
               * abut_coupling_area_ratio(w->c, w->facet, local);
   abut_coupling_finish_point(w->c, w->facet, p);
-  return ABUT_SUCCESS;
+  return abut_coupling_follows(w->c) ? abut_coupling_rate3(
+             w->c, w->facet, w->plane, &g->s, &g->m, opposite, p)
+                                     : ABUT_SUCCESS;
 }
 
 /* A polygon as a fan of triangles. */
@@ -317,6 +320,7 @@ abut_coupling_segments3(abut_coupling *c, const abut_coupling_facet *facet,
   abut_linear_patch s[ABUT_MAX_LINEAR_PATCHES];
   work w = {.c = c, .facet = facet};
   c->n_points = 0;
+  c->n_rates = 0;
   c->segments.element = sizeof(segment);
   abut_status status =
       abut_coupling_find_candidates(c, facet->index, &n_candidates);
@@ -327,6 +331,7 @@ abut_coupling_segments3(abut_coupling *c, const abut_coupling_facet *facet,
   {
     abut_part part;
     abut_linear_patch_walk(&s[i], &part);
+    w.plane = &s[i];
     if (!(abut_part_area(&part, w.normal) > 0.))
       continue;
     if (!abut_coupling_is_mortar(c))

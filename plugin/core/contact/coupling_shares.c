@@ -171,6 +171,8 @@ abut_coupling_add_shares(abut_coupling *c, const abut_coupling_facet *facet,
     status = add_secondary(c, facet, f, j, s);
     if (status == ABUT_SUCCESS)
       status = add_primary(c, s);
+    if (status == ABUT_SUCCESS && abut_coupling_follows(c))
+      status = abut_coupling_add_blocks(c, facet, s);
     if (status != ABUT_SUCCESS)
       return status;
   }

@@ -83,6 +83,11 @@ abut_surface_gather(const abut_surface *s, int32_t f, double *restrict nodes)
  * (lines: by one): not of unit length. */
 void abut_surface_angle_weighted(const abut_surface *s, int32_t i, double *sum);
 
+/* Angle of facet f with nodes x at its node i; 1 at the ends of lines, pi at
+ * nodes that are no corners. */
+double abut_surface_angle(const abut_surface *s, int32_t f, int32_t i,
+                          const double *x);
+
 /* Length of the longest side of a facet between its corners. */
 double abut_surface_longest_side(abut_facet_kind kind, const double *nodes);
 

@@ -138,10 +138,8 @@ add_quad4_area_vectors(const abut_surface *s, double *restrict sum)
   }
 }
 
-/* Angle of facet f at its node i; 1 at the ends of lines, pi at nodes that are
- * no corners. */
-static double
-angle_at(const abut_surface *s, int32_t f, int32_t i, const double *x)
+double
+abut_surface_angle(const abut_surface *s, int32_t f, int32_t i, const double *x)
 {
   const int32_t *c = s->view.connectivity + s->view.facet_start[f];
   const int32_t n = abut_facet_n_corners((abut_facet_kind)s->view.kinds[f]);
@@ -181,7 +179,7 @@ abut_surface_angle_weighted(const abut_surface *s, int32_t i, double *sum)
     int32_t a = 0;
     while (c[a] != i)
       ++a;
-    const double weight = area > 0 ? angle_at(s, f, i, x) / area : 0;
+    const double weight = area > 0 ? abut_surface_angle(s, f, i, x) / area : 0;
     for (int d = 0; d < 3; ++d)
       sum[d] += weight * v[3 * a + d];
   }

@@ -32,12 +32,30 @@ namespace abut::app
             const bool touches_itself =
                 pair.obstacle == 0 && pair.secondary == pair.primary;
             return pair.tied
-                   || sliding_refusal(sliding, *method.options.law,
-                                      discretisation, touches_itself,
-                                      dim == 3 && is_frictional<dim>(pair),
-                                      pair.mesh_gap)
+                   || sliding_refusal(
+                          sliding, *method.options.law, discretisation,
+                          {touches_itself, pair.obstacle > 0,
+                           is_frictional<dim>(pair), dim == 3, pair.mesh_gap})
                           .empty();
           });
+    }
+
+    /** The ways that suit bodies, the better ones first, where the parameter
+     * file says @p given; the last one can always be. */
+    std::vector<Sliding> suitable(const Sliding given,
+                                  const bool has_large_strain,
+                                  const bool in_time)
+    {
+      const bool is_free = given == Sliding::automatic;
+      std::vector<Sliding> ways;
+      if (is_free && has_large_strain)
+        ways.push_back(Sliding::large);
+      if ((is_free || given == Sliding::small) && has_large_strain)
+        ways.push_back(Sliding::turn);
+      if (is_free && in_time)
+        ways.push_back(Sliding::step);
+      ways.push_back(given);
+      return ways;
     }
 
     template <int dim> class SolidScene : public ContactScene<dim>
@@ -69,12 +87,14 @@ namespace abut::app
                            "nitsche takes the stress for linear in the "
                            "displacement, and Body 1/Material is for large "
                            "strain: use lagrange or augmented lagrangian.");
-        const Sliding wanted = parameters.has_large_strain() ? Sliding::large
-                               : parameters.time.is_on       ? Sliding::step
-                                                             : Sliding::small;
-        if (this->method.sliding == Sliding::automatic
-            && can_move<dim>(wanted, this->method, parameters.pairs))
-          this->method.sliding = wanted;
+        const std::vector<Sliding> ways =
+            suitable(this->method.sliding, parameters.has_large_strain(),
+                     parameters.time.is_on);
+        const auto way = std::find_if(
+            ways.begin(), ways.end() - 1,
+            [&](const Sliding each)
+            { return can_move<dim>(each, this->method, parameters.pairs); });
+        this->method.sliding = *way;
         this->method.run_refused = parameters.run_refused;
       }
 

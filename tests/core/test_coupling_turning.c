@@ -1,0 +1,355 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/* Mortar that moves: what its forces change by, against differences; surfaces
+ * that turn as one; nodes that are hardly covered. */
+#include "coupling_fixture.h"
+
+enum
+{
+  MAX_NODES = 150,
+  MAX_POINTS = 100
+};
+
+/* Whether partners follow, or stay those of the undeformed surfaces. */
+typedef enum way
+{
+  FOLLOWS,
+  STAYS
+} way;
+
+/* Surfaces of which x are the present places, both sides one behind the
+ * other. */
+typedef struct moving
+{
+  couple c;
+  way how;
+  int dim, n_secondary, n_nodes;
+  double reference[3 * MAX_NODES], x[3 * MAX_NODES];
+  abut_coupling_view view;
+  abut_points_view points;
+} moving;
+
+static void
+rebuild(moving *m)
+{
+  const double *primary = m->x + m->dim * m->n_secondary;
+  abut_coupling_target target = abut_coupling_target_defaults(m->c.points);
+  require(abut_points_clear(m->c.points));
+  if (m->how == FOLLOWS)
+  {
+    require(abut_surface_update(m->c.secondary, m->x));
+    require(abut_surface_update(m->c.primary, primary));
+    target.reference = m->reference;
+  }
+  else
+  {
+    target.present = m->x;
+    target.present_primary = primary;
+  }
+  require(abut_coupling_build(m->c.coupling, NULL, 0., &target));
+  m->view.struct_size = sizeof(m->view);
+  require(abut_coupling_get(m->c.coupling, &m->view));
+  require(abut_points_get(m->c.points, &m->points));
+  assert_true(m->points.n_points <= MAX_POINTS);
+}
+
+static void
+start(moving *m, const scene_mesh *secondary, const scene_mesh *primary,
+      abut_discretisation discretisation, way how)
+{
+  abut_coupling_options options = mortar_options(discretisation, 0);
+  options.quadrature_degree = 8;
+  options.search.relative_reach = 0.;
+  options.search.reach = 0.6;
+  memset(m, 0, sizeof(*m));
+  m->how = how;
+  m->dim = secondary->dimension;
+  m->n_secondary = secondary->n_nodes;
+  m->n_nodes = secondary->n_nodes + primary->n_nodes;
+  assert_true(m->n_nodes <= MAX_NODES);
+  memcpy(m->reference, secondary->position,
+         sizeof(double) * (size_t)(m->dim * secondary->n_nodes));
+  memcpy(m->x, m->reference, sizeof(m->reference));
+  memcpy(m->x + m->dim * m->n_secondary, primary->position,
+         sizeof(double) * (size_t)(m->dim * primary->n_nodes));
+  m->c = couple_meshes(secondary, primary, &options, NULL);
+  rebuild(m);
+}
+
+/* The derivatives - n c_l of the gaps of all points by all nodes. */
+typedef struct slopes
+{
+  int32_t n_points;
+  double gap[MAX_POINTS], weight[MAX_POINTS], row[MAX_POINTS][3 * MAX_NODES];
+} slopes;
+
+static void
+look(const moving *m, slopes *out)
+{
+  const abut_points_view *p = &m->points;
+  out->n_points = p->n_points;
+  memset(out->row, 0, sizeof(out->row));
+  for (int32_t i = 0; i < p->n_points; ++i)
+  {
+    out->gap[i] = p->gap[i];
+    out->weight[i] = p->weight[i];
+    for (int64_t e = p->start[i]; e < p->start[i + 1]; ++e)
+      for (int d = 0; d < m->dim; ++d)
+        out->row[i][m->dim * p->node[e] + d] -=
+            p->coefficient[e] * p->frame[m->dim * i + d];
+  }
+}
+
+static slopes here, before, after, told;
+
+/* What the view says the derivatives change by as unknown k does. */
+static void
+tell(const moving *m, int k, slopes *out)
+{
+  const abut_coupling_view *v = &m->view;
+  const int dim = m->dim;
+  memset(out->row, 0, sizeof(out->row));
+  for (int32_t i = 0; i < v->n_points; ++i)
+  {
+    const int64_t l = v->line_start[i], c = v->column_start[i],
+                  n_columns = v->column_start[i + 1] - c;
+    const double *h = v->hessian + v->hessian_start[i];
+    assert_int_equal(v->hessian_start[i + 1] - v->hessian_start[i],
+                     (v->line_start[i + 1] - l) * n_columns * dim * dim);
+    for (int64_t a = l; a < v->line_start[i + 1]; ++a)
+      for (int d = 0; d < dim; ++d)
+        for (int64_t b = 0; b < n_columns; ++b)
+          if (v->column[c + b] == k / dim)
+            out->row[i][dim * v->line[a] + d] +=
+                h[(((a - l) * dim + d) * n_columns + b) * dim + k % dim];
+  }
+}
+
+/* Against differences; gaps have derivatives as told where surfaces touch. */
+static void
+check_unknown(moving *m, int k, double tolerance)
+{
+  const double h = 1e-5;
+  tell(m, k, &told);
+  m->x[k] += h;
+  rebuild(m);
+  look(m, &after);
+  m->x[k] -= 2. * h;
+  rebuild(m);
+  look(m, &before);
+  m->x[k] += h;
+  rebuild(m);
+  assert_int_equal(before.n_points, here.n_points);
+  assert_int_equal(after.n_points, here.n_points);
+  for (int32_t i = 0; i < here.n_points; ++i)
+  {
+    near(after.weight[i], here.weight[i], 1e-5 * tolerance, "weight");
+    for (int r = 0; r < m->dim * m->n_nodes; ++r)
+      near((after.row[i][r] - before.row[i][r]) / (2. * h), told.row[i][r],
+           tolerance, "change of a force");
+  }
+}
+
+static void
+check_moving(const scene_mesh *secondary, const scene_mesh *primary,
+             double tolerance)
+{
+  static const abut_discretisation kinds[2] = {ABUT_DISCRETISATION_DUAL_MORTAR,
+                                               ABUT_DISCRETISATION_MORTAR};
+  static moving m;
+  for (int k = 0; k < 4; ++k)
+  {
+    start(&m, secondary, primary, kinds[k / 2], k % 2 == 0 ? FOLLOWS : STAYS);
+    assert_int_equal(m.points.n_points, secondary->n_nodes);
+    /* Where partners stay, places are not those of the undeformed surfaces. */
+    for (int i = 0; i < m.dim * m.n_nodes && m.how == STAYS; ++i)
+      m.x[i] += 0.05 * sin(1. + 3. * i);
+    rebuild(&m);
+    look(&m, &here);
+    /* In space some unknowns will do, of all components. */
+    for (int i = 0; i < m.dim * m.n_nodes; i += m.dim == 3 ? 7 : 1)
+      check_unknown(&m, i, m.how == STAYS ? 1e-8 : tolerance);
+    couple_destroy(&m.c);
+  }
+}
+
+static double x_long[12] = {-.5, .02, .5,  -.03, 1.1, .02,
+                            1.9, .05, 2.6, 0.,   3.4, .03},
+              y_short[10] = {0.,   0.08, .8,   0.03, 1.6,
+                             0.08, 2.3,  0.12, 3.,   0.05};
+static int32_t up[10] = {1, 0, 2, 1, 3, 2, 4, 3, 5, 4},
+               down[8] = {0, 1, 1, 2, 2, 3, 3, 4};
+
+static void
+test_lines(void **state)
+{
+  (void)state;
+  const scene_mesh primary = {2, 6, 5, ABUT_FACET_LINE2, x_long, up},
+                   secondary = {2, 5, 4, ABUT_FACET_LINE2, y_short, down};
+  check_moving(&secondary, &primary, 1e-6);
+  /* The same with middle nodes off the middle. */
+  double x[22], y[18];
+  int32_t curved_up[15], curved_down[12];
+  memcpy(x, x_long, sizeof(x_long));
+  memcpy(y, y_short, sizeof(y_short));
+  for (int f = 0; f < 5; ++f)
+  {
+    for (int d = 0; d < 2; ++d)
+      x[2 * (6 + f) + d] =
+          0.5 * (x_long[2 * f + d] + x_long[2 * f + 2 + d]) + 0.01 * d;
+    curved_up[3 * f] = f + 1;
+    curved_up[3 * f + 1] = f;
+    curved_up[3 * f + 2] = 6 + f;
+  }
+  for (int f = 0; f < 4; ++f)
+  {
+    for (int d = 0; d < 2; ++d)
+      y[2 * (5 + f) + d] = 0.5 * (y_short[2 * f + d] + y_short[2 * f + 2 + d])
+                           - 0.01 * (1 - d) + 0.01 * d;
+    curved_down[3 * f] = f;
+    curved_down[3 * f + 1] = f + 1;
+    curved_down[3 * f + 2] = 5 + f;
+  }
+  const scene_mesh two = {2, 11, 5, ABUT_FACET_LINE3, x, curved_up},
+                   one = {2, 9, 4, ABUT_FACET_LINE3, y, curved_down};
+  check_moving(&one, &two, 1e-4);
+}
+
+static void
+test_space(void **state)
+{
+  (void)state;
+  static const abut_facet_kind kinds[3] = {ABUT_FACET_TRI3, ABUT_FACET_QUAD4,
+                                           ABUT_FACET_QUAD9};
+  const double below[5] = {-.53, -.44, 2.61, 2.57, 0.},
+               over[5] = {0., 0., 2., 2.};
+  for (int k = 0; k < 3; ++k)
+  {
+    const int n = kinds[k] == ABUT_FACET_QUAD9 ? 1 : 2;
+    scene_mesh primary = scene_patch(kinds[k], n + 1, n + 1, scene_plane, below,
+                                     false),
+               secondary = scene_patch(kinds[k], n, n, scene_plane, over, true);
+    for (int i = 0; i < primary.n_nodes; ++i)
+      primary.position[3 * i + 2] = 0.02 * sin(7. * i);
+    for (int i = 0; i < secondary.n_nodes; ++i)
+      secondary.position[3 * i + 2] = 0.08 + 0.02 * sin(3. * i);
+    check_moving(&secondary, &primary,
+                 kinds[k] == ABUT_FACET_TRI3 ? 1e-5 : 1e-3);
+    scene_free(&primary);
+    scene_free(&secondary);
+  }
+}
+
+/* Turn all places about the origin of the plane. */
+static void
+turn(moving *m, const double *from, double angle)
+{
+  for (int i = 0; i < m->n_nodes; ++i)
+  {
+    const double *a = from + (ptrdiff_t)m->dim * i;
+    double *b = m->x + (ptrdiff_t)m->dim * i;
+    memcpy(b, a, sizeof(double) * (size_t)m->dim);
+    b[0] = cos(angle) * a[0] - sin(angle) * a[1];
+    b[1] = sin(angle) * a[0] + cos(angle) * a[1];
+  }
+}
+
+/* Pairs that turn as one keep weights, gaps and coefficients; directions turn
+ * with them. */
+static void
+test_turn(void **state)
+{
+  (void)state;
+  static moving m;
+  static double from[3 * MAX_NODES];
+  const scene_mesh primary = {2, 6, 5, ABUT_FACET_LINE2, x_long, up},
+                   secondary = {2, 5, 4, ABUT_FACET_LINE2, y_short, down};
+  for (int k = 0; k < 2; ++k)
+  {
+    start(&m, &secondary, &primary, ABUT_DISCRETISATION_DUAL_MORTAR,
+          k == 0 ? FOLLOWS : STAYS);
+    look(&m, &here);
+    memcpy(from, m.x, sizeof(from));
+    for (int degrees = 30; degrees <= 180; degrees += 50)
+    {
+      const double angle = degrees * 3.14159265358979323846 / 180.;
+      turn(&m, from, angle);
+      rebuild(&m);
+      look(&m, &after);
+      assert_int_equal(after.n_points, here.n_points);
+      for (int32_t i = 0; i < here.n_points; ++i)
+      {
+        near(after.gap[i], here.gap[i], 1e-14, "gap");
+        near(after.weight[i], here.weight[i], 1e-14, "weight");
+        for (int n = 0; n < m.n_nodes; ++n)
+        {
+          const double *a = here.row[i] + 2 * n, *b = after.row[i] + 2 * n;
+          near(b[0], cos(angle) * a[0] - sin(angle) * a[1], 1e-13, "force");
+          near(b[1], sin(angle) * a[0] + cos(angle) * a[1], 1e-13, "force");
+        }
+      }
+    }
+    couple_destroy(&m.c);
+  }
+}
+
+/* A flat secondary facet slides out from under the primary, whose end is at x =
+ * 1: its outer node has a point down to a share of a fifth. */
+static void
+test_cover(void **state)
+{
+  (void)state;
+  static moving m;
+  double x[4] = {-1., 0., 1., 0.}, y[4] = {0., 0.1, 0.5, 0.1};
+  int32_t up_one[2] = {1, 0}, down_one[2] = {0, 1};
+  const scene_mesh primary = {2, 2, 1, ABUT_FACET_LINE2, x, up_one},
+                   secondary = {2, 2, 1, ABUT_FACET_LINE2, y, down_one};
+  start(&m, &secondary, &primary, ABUT_DISCRETISATION_DUAL_MORTAR, FOLLOWS);
+  for (int k = 0; k < 10; ++k)
+  {
+    /* Covered to the part c, the outer node's share is c^2. */
+    const double c = 0.95 - 0.1 * k;
+    m.x[0] = 1. - 0.5 * c;
+    m.x[2] = m.x[0] + 0.5;
+    rebuild(&m);
+    const bool outer = c * c > 0.2, inner = c * (2. - c) > 0.2;
+    assert_int_equal(m.points.n_points, outer + inner);
+    if (outer)
+      near(m.points.weight[1], 0.25 * c * c, 1e-14, "weight");
+  }
+  couple_destroy(&m.c);
+}
+
+static void
+test_refusals(void **state)
+{
+  (void)state;
+  static moving m;
+  const scene_mesh primary = {2, 6, 5, ABUT_FACET_LINE2, x_long, up},
+                   secondary = {2, 5, 4, ABUT_FACET_LINE2, y_short, down};
+  start(&m, &secondary, &primary, ABUT_DISCRETISATION_DUAL_MORTAR, FOLLOWS);
+  for (int k = 0; k < 5; ++k)
+  {
+    abut_coupling_target target = abut_coupling_target_defaults(m.c.points);
+    target.reference = k != 2 ? m.reference : NULL;
+    target.tie_axes = k == 0;
+    target.tangents = k == 1;
+    target.present = k == 2 || k == 3 ? m.x : NULL;
+    target.present_primary = k == 3 ? m.x : NULL;
+    target.areas = k == 4 ? m.reference : NULL;
+    assert_int_equal(abut_coupling_build(m.c.coupling, NULL, 0., &target),
+                     ABUT_INVALID_ARGUMENT);
+  }
+  couple_destroy(&m.c);
+}
+
+int
+main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(test_lines, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_space, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_turn, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_cover, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_refusals, set_up, tear_down)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
