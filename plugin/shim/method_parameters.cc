@@ -363,6 +363,10 @@ namespace abut
       return why
              + "follows nodes and quadrature points against an obstacle, not "
              + mortar + ". Use node to segment or quadrature point.";
+    if (pair.has_friction && pair.in_space)
+      return why
+             + "has friction in two dimensions only: leave out the friction of "
+               "the pair, or use small.";
     if (is_weighted && pair.has_friction)
       return why + "does not follow " + mortar
              + " with friction. Use node to segment or quadrature point.";
@@ -371,10 +375,6 @@ namespace abut
              + "does not go with Method/Enforcement = " + std::string(law.name)
              + ". Use lagrange, penalty, quadratic penalty or augmented "
                "lagrangian.";
-    if (pair.has_friction && pair.in_space)
-      return why
-             + "has friction in two dimensions only: leave out the friction of "
-               "the pair, or use small.";
     if (!pair.has_geometric_gap)
       return why
              + "measures gaps where the surfaces are: they must count (leave "
