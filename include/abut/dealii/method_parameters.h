@@ -63,11 +63,11 @@ namespace abut
   /** What decides whether the points of a pair can move. */
   struct SlidingPair
   {
-    bool touches_itself = false;
-    bool has_obstacle = false;
-    bool has_friction = false;
-    bool in_space = false; ///< three dimensions
-    bool has_geometric_gap = true;
+    bool touches_itself = false;   ///< self contact
+    bool has_obstacle = false;     ///< a rigid obstacle, not a second body
+    bool has_friction = false;     ///< its points have tangential components
+    bool in_space = false;         ///< three dimensions
+    bool has_geometric_gap = true; ///< gaps are those of surfaces
   };
 
   /** Why points cannot move in this way with a method, with what to take
