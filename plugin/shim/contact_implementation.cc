@@ -473,14 +473,14 @@ namespace abut
     if (surfaces == nullptr || weight <= 0.)
       return;
     // Bodies without load are pressed by their overlap. Surfaces that touch
-    // have gaps of round-off, which measure nothing: then it is the
-    // indentation by the load.
+    // have no gaps, or such of round-off, which measure nothing: then it is
+    // the indentation by the load.
     const double soft = softness();
     if (load <= 0.)
       options.pressure_scale = options.length_scale / soft;
     else if (given_length == 0. && start_displacement.linfty_norm() == 0.)
       options.length_scale =
-          std::max(options.length_scale, options.pressure_scale * soft);
+          std::max(measured_length(), options.pressure_scale * soft);
   }
 
   template <int dim>
@@ -525,6 +525,15 @@ namespace abut
   template <int dim>
   double ContactAssembler<dim>::Implementation::length_scale() const
   {
+    const double length = measured_length();
+    if (length > 0.)
+      return length;
+    return surfaces == nullptr ? 1. : surfaces->facet_size();
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::Implementation::measured_length() const
+  {
     const double way = length_scale(start_displacement);
     if (way > 0.)
       return way;
@@ -538,7 +547,7 @@ namespace abut
         sums[1] += coefficients.weights()[i] / std::abs(gap[i]);
       }
     MPI::sum(sums, communicator, sums);
-    return sums[1] > 0. ? sums[0] / sums[1] : 1.;
+    return sums[1] > 0. ? sums[0] / sums[1] : 0.;
   }
 
   template <int dim>

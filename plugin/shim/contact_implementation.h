@@ -89,6 +89,9 @@ namespace abut
     void set_scales(const la::Matrix &matrix, const la::Vector &residual);
     /** Of the present iteration. Collective. */
     double length_scale() const;
+    /** The same, or 0 where nothing has moved and all gaps are 0. Collective.
+     */
+    double measured_length() const;
     /** See ContactAssembler::length_scale(). Collective. */
     double length_scale(const la::Vector &displacement) const;
     /** Find the local stiffness of the rows in a new matrix, which is that of

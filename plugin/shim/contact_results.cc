@@ -105,7 +105,8 @@ namespace abut
         largest = std::max(largest,
                            i.row_pressure(row) / (penalty * i.stiffness[row]));
     return MPI::max(largest, i.communicator)
-           + i.method.options.allowed_penetration * i.length_scale();
+           + i.method.options.allowed_penetration
+                 * i.method.options.length_scale;
   }
 
   template <int dim>
