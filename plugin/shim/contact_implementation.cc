@@ -623,7 +623,9 @@ namespace abut
       bodies = surfaces == nullptr
                    ? solve::NearNullSpace()
                    : shim::make_near_null_space(*mapping, *dof_handler);
-      if (solver_parameters.linear == SolverParameters::Linear::geometric)
+      if (!is_nitsche()
+          && solve::wants_meshes(solver_parameters, dof_handler->n_dofs(),
+                                 bodies->n_components))
         bodies->meshes = std::make_shared<const solve::MeshHierarchy>(
             shim::make_mesh_hierarchy(*dof_handler, *constraints));
     }

@@ -87,7 +87,7 @@ namespace abut::solve
 
   CondensedSolver::CondensedSolver(const SolverParameters &parameters,
                                    const PreconditionerKeeper &keeper)
-      : parameters_(parameters), keeper_(keeper)
+      : parameters_(parameters), choice_(parameters), keeper_(keeper)
   {
   }
 
@@ -132,8 +132,7 @@ namespace abut::solve
     row_stiffness_ = row_stiffness;
     is_symmetric_ = is_symmetric(stiffness);
     matrix_.reinit(stiffness, rows);
-    if (parameters_.linear == SolverParameters::Linear::geometric)
-      missing_ = why_not_geometric(stiffness, space_);
+    choice_.choose(stiffness, space_, is_definite());
   }
 
   bool CondensedSolver::is_direct() const
@@ -208,7 +207,7 @@ namespace abut::solve
   std::unique_ptr<Multigrid>
   CondensedSolver::make_cycle(const la::Matrix &system) const
   {
-    if (!is_geometric())
+    if (!choice_.is_geometric())
       return make_multigrid(system, parameters_, space_, matrix_.has_blocks());
     std::vector<std::uint8_t> held(diagonal_.size(), 0);
     for (const std::int64_t pivot : built_.pivot)
@@ -307,14 +306,17 @@ namespace abut::solve
       build();
       report.n_setups = 1;
     }
-    report.method =
-        is_direct()
-            ? DirectSolver::name()
-            : std::string(is_definite() ? "conjugate gradients" : "FGMRES")
-                  + ", " + multigrid_name(parameters_, missing_)
-                  + (filter_ ? " with contact filter" : "");
+    report.method = method();
     report.setup_seconds = timer.wall_time();
     return report;
+  }
+
+  std::string CondensedSolver::method() const
+  {
+    if (is_direct())
+      return DirectSolver::name();
+    return std::string(is_definite() ? "conjugate gradients" : "FGMRES") + ", "
+           + choice_.name() + (filter_ ? " with contact filter" : "");
   }
 
   double CondensedSolver::load(const la::Vector &rhs) const
@@ -408,8 +410,8 @@ namespace abut::solve
 
   bool CondensedSolver::iterate(const la::Vector &rhs,
                                 const unsigned int max_iterations,
-                                const double tolerance, la::Vector &x,
-                                LinearReport &report)
+                                const double digits, const double tolerance,
+                                la::Vector &x, LinearReport &report)
   {
     dealii::SolverControl control(max_iterations, tolerance, false, false);
     bool converged = true;
@@ -431,12 +433,14 @@ namespace abut::solve
     catch (const dealii::SolverControl::NoConvergence &failure)
     {
       converged = false;
-      if (!keeper_.is_kept())
+      if (!keeper_.is_kept() && !choice_.is_geometric())
         throw_failure(is_definite() ? "Conjugate gradients" : "FGMRES", failure,
                       tolerance);
     }
     report.n_iterations += control.last_step();
     report.n_matvecs += control.last_step() * (filter_ ? 3 : 1);
+    if (converged)
+      keeper_.note_speed(digits, control.last_step());
     return converged;
   }
 
@@ -444,25 +448,26 @@ namespace abut::solve
                                           const double tolerance, la::Vector &x,
                                           LinearReport &report)
   {
+    // What is kept may have become bad, and the coarser meshes may be of no
+    // use: neither is worth waiting for.
     const double digits = std::log10(rhs.l2_norm() / tolerance);
-    if (keeper_.is_kept())
+    while (keeper_.is_kept() || choice_.is_geometric())
     {
       const unsigned int patience =
-          std::min(parameters_.max_iterations, keeper_.patience());
-      if (iterate(rhs, patience, tolerance, x, report))
-      {
-        keeper_.note_speed(digits, report.n_iterations);
+          keeper_.is_kept() ? keeper_.patience() : choice_.patience(digits);
+      if (iterate(rhs, std::min(parameters_.max_iterations, patience), digits,
+                  tolerance, x, report))
         return;
-      }
       const dealii::Timer timer;
+      if (!keeper_.is_kept())
+        choice_.give_up(patience);
       build();
+      report.method = method();
       ++report.n_setups;
       report.setup_seconds += timer.wall_time();
       x = 0.;
     }
-    const unsigned int before = report.n_iterations;
-    iterate(rhs, parameters_.max_iterations, tolerance, x, report);
-    keeper_.note_speed(digits, report.n_iterations - before);
+    iterate(rhs, parameters_.max_iterations, digits, tolerance, x, report);
   }
 
   void CondensedSolver::solve_directly(const la::Vector &rhs,

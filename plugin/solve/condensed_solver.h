@@ -5,6 +5,7 @@
 #include "condensed_matrix.h"
 #include "contact_filter.h"
 #include "direct_solver.h"
+#include "geometric_multigrid.h"
 #include "near_null_space.h"
 #include "preconditioner_state.h"
 
@@ -99,18 +100,15 @@ namespace abut::solve
     {
       return is_symmetric_ && !matrix_.has_blocks();
     }
-    bool is_geometric() const
-    {
-      return parameters_.linear == SolverParameters::Linear::geometric
-             && missing_.empty();
-    }
     void build();
+    std::string method() const;
     /** A multigrid cycle for a matrix with the present pivots. */
     std::unique_ptr<Multigrid> make_cycle(const la::Matrix &system) const;
     /** What a symmetric preconditioner is built for. */
     Condensate without_friction_forces() const;
     bool iterate(const la::Vector &rhs, unsigned int max_iterations,
-                 double tolerance, la::Vector &x, LinearReport &report);
+                 double digits, double tolerance, la::Vector &x,
+                 LinearReport &report);
     void solve_iteratively(const la::Vector &rhs, double tolerance,
                            la::Vector &x, LinearReport &report);
     void solve_directly(const la::Vector &rhs, double tolerance, la::Vector &x,
@@ -123,7 +121,7 @@ namespace abut::solve
     std::vector<double> diagonal_, row_stiffness_;
     bool is_symmetric_ = true;
     CondensedMatrix matrix_;
-    std::string missing_; ///< why geometric multigrid is not taken
+    MultigridChoice choice_;
 
     /** What the preconditioner was built on. */
     std::unique_ptr<la::Matrix> assembled_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "geometric_multigrid.h"
 
+#include <algorithm>
+
 namespace abut::solve
 {
   GeometricMultigrid::GeometricMultigrid(const la::Matrix &matrix,
@@ -47,27 +49,72 @@ namespace abut::solve
     check(abut_multigrid_cycle(multigrid_.get(), la::data(src), la::data(dst)));
   }
 
-  std::string why_not_geometric(const la::Matrix &matrix,
-                                const NearNullSpace &space)
+  namespace
   {
-    const unsigned int n_ranks =
-        dealii::Utilities::MPI::n_mpi_processes(matrix.get_mpi_communicator());
-    if (n_ranks > 1)
-      return "it works on one rank, here are " + std::to_string(n_ranks);
-    if (space.meshes == nullptr)
-      return "the coarser meshes are not known";
-    if (space.meshes->missing.empty()
-        && space.meshes->unknown.size() != matrix.m())
-      return "there are unknowns beside those of the mesh";
-    return space.meshes->missing;
+    /** Digits per iteration that are too few: ML takes two to three times as
+     * long for a cycle. */
+    constexpr double slow = 0.1;
+
+    /** Why a system cannot have it, as the end of a sentence; empty: it can.
+     * Collective. */
+    std::string why_not_geometric(const la::Matrix &matrix,
+                                  const NearNullSpace &space)
+    {
+      const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(
+          matrix.get_mpi_communicator());
+      if (n_ranks > 1)
+        return "it works on one rank, here are " + std::to_string(n_ranks);
+      if (space.meshes == nullptr)
+        return "the coarser meshes are not known";
+      if (space.meshes->missing.empty()
+          && space.meshes->unknown.size() != matrix.m())
+        return "there are unknowns beside those of the mesh";
+      return space.meshes->missing;
+    }
+  } // namespace
+
+  bool wants_meshes(const SolverParameters &parameters,
+                    const unsigned long long n_unknowns,
+                    const unsigned int n_components)
+  {
+    using Linear = SolverParameters::Linear;
+    return parameters.linear == Linear::geometric
+           || (parameters.linear == Linear::automatic
+               && !parameters.is_direct(n_unknowns, n_components));
   }
 
-  std::string multigrid_name(const SolverParameters &parameters,
-                             const std::string &missing)
+  void MultigridChoice::choose(const la::Matrix &matrix,
+                               const NearNullSpace &space, const bool is_faster)
   {
-    if (parameters.linear != SolverParameters::Linear::geometric)
-      return "ML";
-    return missing.empty() ? "geometric multigrid"
-                           : "ML (no geometric multigrid: " + missing + ")";
+    is_wanted_ =
+        wants_meshes(parameters_, matrix.m(), space.n_components)
+        && (is_faster
+            || parameters_.linear == SolverParameters::Linear::geometric);
+    if (is_wanted_ && !is_given_up_)
+      missing_ = why_not_geometric(matrix, space);
+  }
+
+  unsigned int MultigridChoice::patience(const double digits) const
+  {
+    const double most = 20. + std::max(digits, 0.) / slow;
+    return std::min<double>(parameters_.max_iterations, most);
+  }
+
+  void MultigridChoice::give_up(const unsigned int n_iterations)
+  {
+    is_given_up_ = true;
+    missing_ = "no solution after " + std::to_string(n_iterations)
+               + " iterations with it";
+  }
+
+  std::string MultigridChoice::name() const
+  {
+    if (is_geometric())
+      return "geometric multigrid";
+    const bool was_asked =
+        parameters_.linear == SolverParameters::Linear::geometric;
+    return was_asked || is_given_up_
+               ? "ML (no geometric multigrid: " + missing_ + ")"
+               : "ML";
   }
 } // namespace abut::solve

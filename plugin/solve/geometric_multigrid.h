@@ -6,6 +6,8 @@
 
 #include <abut/multigrid.h>
 
+#include <string>
+
 namespace abut::solve
 {
   /** V-cycles over the meshes that a mesh was refined from, see
@@ -42,15 +44,47 @@ namespace abut::solve
     std::unique_ptr<abut_multigrid, Destroy> multigrid_;
   };
 
-  /** Why a system cannot have geometric multigrid, as the end of a sentence;
-   * empty: it can. Collective. */
-  std::string why_not_geometric(const la::Matrix &matrix,
-                                const NearNullSpace &space);
+  /** Whether a system of @p n_unknowns of a field with @p n_components gets
+   * geometric multigrid if its coarser meshes are known. */
+  bool wants_meshes(const SolverParameters &parameters,
+                    unsigned long long n_unknowns, unsigned int n_components);
 
-  /** What multigrid is used, in words: the geometric one if it was asked for
-   * and nothing is @p missing. */
-  std::string multigrid_name(const SolverParameters &parameters,
-                             const std::string &missing);
+  /** Which multigrid a solver takes: the geometric one where it is asked for
+   * or is the faster one, until a system takes it too long. */
+  class MultigridChoice
+  {
+  public:
+    explicit MultigridChoice(const SolverParameters &parameters)
+        : parameters_(parameters)
+    {
+    }
+
+    /** Choose for a new matrix. @p is_faster: whether it is to be taken
+     * without being asked for. Collective. */
+    void choose(const la::Matrix &matrix, const NearNullSpace &space,
+                bool is_faster = true);
+
+    bool is_geometric() const
+    {
+      return is_wanted_ && missing_.empty();
+    }
+
+    /** Iterations for so many digits after which the geometric one is given
+     * up, as where cells are long or materials jump within coarse cells. */
+    unsigned int patience(double digits) const;
+
+    /** ML from now on, as that was not enough. */
+    void give_up(unsigned int n_iterations);
+
+    /** What is used, in words. */
+    std::string name() const;
+
+  private:
+    SolverParameters parameters_;
+    bool is_wanted_ = false;
+    bool is_given_up_ = false;
+    std::string missing_; ///< why it is not taken, as the end of a sentence
+  };
 } // namespace abut::solve
 
 #endif

@@ -31,7 +31,7 @@ namespace abut::solve
   } // namespace
 
   MaskedSolver::MaskedSolver(const SolverParameters &parameters)
-      : parameters_(parameters)
+      : parameters_(parameters), choice_(parameters)
   {
   }
 
@@ -53,14 +53,13 @@ namespace abut::solve
   {
     matrix_ = &matrix;
     diagonal_ = la::diagonal(la::local_rows(matrix));
-    if (parameters_.linear == SolverParameters::Linear::geometric)
-      missing_ = why_not_geometric(matrix, space_);
+    choice_.choose(matrix, space_);
   }
 
   void MaskedSolver::renew(const la::Matrix &matrix)
   {
     if (&matrix != matrix_ || !keeper_.is_built() || is_direct()
-        || is_geometric())
+        || choice_.is_geometric())
     {
       reinit(matrix);
       return;
@@ -85,7 +84,7 @@ namespace abut::solve
 
   bool MaskedSolver::is_outdated(const Mask &mask) const
   {
-    if (is_geometric())
+    if (choice_.is_geometric())
       return geometric_ == nullptr;
     if (keeper_.must_build())
       return true;
@@ -143,7 +142,7 @@ namespace abut::solve
   {
     built_mask_ = mask;
     keeper_.note_built();
-    if (is_geometric())
+    if (choice_.is_geometric())
     {
       geometric_ =
           std::make_unique<GeometricMultigrid>(*matrix_, *space_.meshes);
@@ -180,7 +179,7 @@ namespace abut::solve
   ScaledPreconditioner
   MaskedSolver::preconditioner(const Mask &mask, const la::Vector &model) const
   {
-    if (is_geometric())
+    if (choice_.is_geometric())
       return ScaledPreconditioner(*geometric_, mask, {}, model);
     if (mask.diagonal.empty() && built_mask_.diagonal.empty())
       return ScaledPreconditioner(*amg_, mask, {}, model);
@@ -193,28 +192,61 @@ namespace abut::solve
     return ScaledPreconditioner(*amg_, mask, std::move(scaling), model);
   }
 
-  unsigned int MaskedSolver::solve_iteratively(const Mask &mask,
-                                               const la::Vector &residual,
-                                               const double tolerance,
-                                               la::Vector &correction,
-                                               LinearReport &report)
+  bool MaskedSolver::iterate(const Mask &mask, const la::Vector &residual,
+                             const double tolerance,
+                             const unsigned int max_iterations,
+                             la::Vector &correction, LinearReport &report,
+                             unsigned int &n_iterations)
   {
     const MaskedOperator matrix(*matrix_, mask);
-    dealii::SolverControl control(parameters_.max_iterations, tolerance, false,
-                                  false);
+    dealii::SolverControl control(max_iterations, tolerance, false, false);
     dealii::SolverCG<la::Vector> cg(control);
     cg.connect_condition_number_slot(
         [&](const double estimate)
         { report.condition = std::max(report.condition, estimate); });
+    bool converged = true;
     try
     {
       cg.solve(matrix, correction, residual, preconditioner(mask, residual));
     }
     catch (const dealii::SolverControl::NoConvergence &failure)
     {
-      throw_failure("Conjugate gradients", failure, tolerance);
+      converged = false;
+      if (!choice_.is_geometric())
+        throw_failure("Conjugate gradients", failure, tolerance);
     }
-    return control.last_step();
+    n_iterations = control.last_step();
+    report.n_iterations += n_iterations;
+    report.n_matvecs += n_iterations;
+    return converged;
+  }
+
+  void MaskedSolver::solve_iteratively(const Mask &mask,
+                                       const la::Vector &residual,
+                                       const double tolerance,
+                                       la::Vector &correction,
+                                       LinearReport &report)
+  {
+    const double digits = std::log10(residual.l2_norm() / tolerance);
+    const unsigned int most = choice_.is_geometric()
+                                  ? choice_.patience(digits)
+                                  : parameters_.max_iterations;
+    unsigned int n_iterations = 0;
+    if (!iterate(mask, residual, tolerance, most, correction, report,
+                 n_iterations))
+    {
+      const dealii::Timer timer;
+      choice_.give_up(n_iterations);
+      geometric_.reset();
+      build(mask);
+      report.method = method();
+      ++report.n_setups;
+      report.setup_seconds += timer.wall_time();
+      correction = 0.;
+      iterate(mask, residual, tolerance, parameters_.max_iterations, correction,
+              report, n_iterations);
+    }
+    keeper_.note_speed(digits, n_iterations);
   }
 
   PreconditionerState MaskedSolver::state() const
@@ -227,7 +259,7 @@ namespace abut::solve
     if (!state.keeper.is_built())
       return;
     build({state.held, state.stiffness});
-    if (!is_geometric() && !is_direct() && !is_plain_)
+    if (!choice_.is_geometric() && !is_direct() && !is_plain_)
       cut_off(state.cut, built_mask_, false);
     keeper_.restore(state.keeper);
   }
@@ -235,7 +267,7 @@ namespace abut::solve
   LinearReport MaskedSolver::prepare(const Mask &mask)
   {
     LinearReport report;
-    if (is_geometric() && geometric_ != nullptr)
+    if (choice_.is_geometric() && geometric_ != nullptr)
     {
       const dealii::Timer timer;
       geometric_->hold(mask.held, mask.diagonal);
@@ -257,10 +289,14 @@ namespace abut::solve
       if (changed)
         cut_off(mask.held, built_mask_, false);
     }
-    report.method = is_direct() ? DirectSolver::name()
-                                : "conjugate gradients, "
-                                      + multigrid_name(parameters_, missing_);
+    report.method = method();
     return report;
+  }
+
+  std::string MaskedSolver::method() const
+  {
+    return is_direct() ? DirectSolver::name()
+                       : "conjugate gradients, " + choice_.name();
   }
 
   LinearReport MaskedSolver::solve(const Mask &mask, const la::Vector &rhs,
@@ -268,6 +304,7 @@ namespace abut::solve
                                    const bool start_is_zero)
   {
     LinearReport report = prepare(mask);
+    const double prepared = report.setup_seconds;
     const dealii::Timer timer;
     la::Vector residual(rhs);
     if (!start_is_zero)
@@ -292,16 +329,13 @@ namespace abut::solve
       else
       {
         const double reachable = std::max(tolerance, round_off * norm);
-        const double digits = std::log10(norm / reachable);
-        report.n_iterations =
-            solve_iteratively(mask, residual, reachable, correction, report);
-        report.n_matvecs += report.n_iterations;
-        keeper_.note_speed(digits, report.n_iterations);
+        solve_iteratively(mask, residual, reachable, correction, report);
       }
       zero_held(mask, correction);
       x.add(1., correction);
     }
-    report.solve_seconds = timer.wall_time();
+    report.solve_seconds =
+        timer.wall_time() - (report.setup_seconds - prepared);
     return report;
   }
 } // namespace abut::solve

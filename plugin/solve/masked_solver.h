@@ -162,20 +162,20 @@ namespace abut::solve
     }
 
   private:
-    bool is_geometric() const
-    {
-      return parameters_.linear == SolverParameters::Linear::geometric
-             && missing_.empty();
-    }
     void take(const la::Matrix &matrix);
     bool is_outdated(const Mask &mask) const;
     bool is_plain(const Mask &mask) const;
     void cut_off(const std::vector<std::uint8_t> &held, const Mask &mask,
                  bool everything);
     void build(const Mask &mask);
-    unsigned int solve_iteratively(const Mask &mask, const la::Vector &residual,
-                                   double tolerance, la::Vector &correction,
-                                   LinearReport &report);
+    std::string method() const;
+    /** Whether that was enough iterations; @p n_iterations counts them. */
+    bool iterate(const Mask &mask, const la::Vector &residual, double tolerance,
+                 unsigned int max_iterations, la::Vector &correction,
+                 LinearReport &report, unsigned int &n_iterations);
+    void solve_iteratively(const Mask &mask, const la::Vector &residual,
+                           double tolerance, la::Vector &correction,
+                           LinearReport &report);
 
     SolverParameters parameters_;
     NearNullSpace space_;
@@ -188,7 +188,7 @@ namespace abut::solve
     std::vector<std::uint8_t> cut_; ///< held unknowns of truncated_
     bool is_plain_ = false;         ///< built on K itself: nothing held, no D
     PreconditionerKeeper keeper_{1. / 3.};
-    std::string missing_; ///< why geometric multigrid is not taken
+    MultigridChoice choice_;
     std::unique_ptr<Multigrid> amg_;
     std::unique_ptr<GeometricMultigrid> geometric_;
     std::unique_ptr<DirectSolver> direct_;

@@ -65,9 +65,11 @@ namespace abut::app
       return;
     linear_solver =
         std::make_unique<solve::MaskedSolver>(state.settings.solver);
-    if (state.settings.solver.linear == SolverParameters::Linear::geometric)
+    solve::NearNullSpace space;
+    if (solve::wants_meshes(state.settings.solver,
+                            model.problem().dof_handler.n_dofs(),
+                            space.n_components))
     {
-      solve::NearNullSpace space;
       space.meshes = std::make_shared<const solve::MeshHierarchy>(
           shim::make_mesh_hierarchy(model.problem().dof_handler,
                                     model.problem().constraints));
