@@ -132,7 +132,7 @@ namespace abut::solve
     row_stiffness_ = row_stiffness;
     is_symmetric_ = is_symmetric(stiffness);
     matrix_.reinit(stiffness, rows);
-    choice_.choose(stiffness, space_, is_definite());
+    choice_.choose(stiffness, space_, is_symmetric_);
   }
 
   bool CondensedSolver::is_direct() const

@@ -28,7 +28,7 @@ def run(arguments, level, mu, support):
          "Refinement/Coarsest level": level,
          "Pair 1/Friction": mu, "Body 2/Support": support,
          "Solid/Allow large strain": "true",
-         "Solver/Linear solver": "iterative"}, arguments.set)
+         "Solver/Linear solver": arguments.linear}, arguments.set)
     steps = [step for step in one.steps if int(step["level"]) == level]
     seconds = one.seconds("solve", "processor_seconds")
     return (one.summary, [int(s["linear_iterations"]) for s in steps],
@@ -38,6 +38,8 @@ def run(arguments, level, mu, support):
 def main():
     parser = measured.options(__doc__)
     parser.add_argument("--levels", default="2,3")
+    parser.add_argument("--linear", default="geometric",
+                        help="Solver/Linear solver")
     measured.add_set(parser)
     arguments = parser.parse_args()
     measured.head(["unknowns", "case", "slip", "systems", "setups",
