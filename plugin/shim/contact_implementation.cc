@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace abut
 {
@@ -474,13 +475,17 @@ namespace abut
       return;
     // Bodies without load are pressed by their overlap. Surfaces that touch
     // have no gaps, or such of round-off, which measure nothing: then it is
-    // the indentation by the load.
+    // the indentation by the load, if that is more than round-off.
     const double soft = softness();
+    const double least =
+        std::numeric_limits<double>::epsilon() * unmeasured_length();
+    const double length =
+        std::max(measured_length(), options.pressure_scale * soft);
     if (load <= 0.)
       options.pressure_scale = options.length_scale / soft;
-    else if (given_length == 0. && start_displacement.linfty_norm() == 0.)
-      options.length_scale =
-          std::max(measured_length(), options.pressure_scale * soft);
+    else if (given_length == 0. && start_displacement.linfty_norm() == 0.
+             && length > least)
+      options.length_scale = length;
   }
 
   template <int dim>
@@ -526,9 +531,14 @@ namespace abut
   double ContactAssembler<dim>::Implementation::length_scale() const
   {
     const double length = measured_length();
-    if (length > 0.)
-      return length;
-    return surfaces == nullptr ? 1. : surfaces->facet_size();
+    return length > 0. ? length : unmeasured_length();
+  }
+
+  template <int dim>
+  double ContactAssembler<dim>::Implementation::unmeasured_length() const
+  {
+    const double facet = surfaces == nullptr ? 0. : surfaces->facet_size();
+    return facet > 0. ? facet : 1.; // any: there is no row, or none has a gap
   }
 
   template <int dim>

@@ -92,6 +92,7 @@ namespace abut
     /** The same, or 0 where nothing has moved and all gaps are 0. Collective.
      */
     double measured_length() const;
+    double unmeasured_length() const;
     /** See ContactAssembler::length_scale(). Collective. */
     double length_scale(const la::Vector &displacement) const;
     /** Find the local stiffness of the rows in a new matrix, which is that of

@@ -148,6 +148,10 @@ namespace abut::solve
     double n_changed = 0., n_in_contact = 0.;
     for (int i = 0; i < rows_->n_rows(); ++i)
     {
+      // A cycle that holds an unknown never moves it. (There is one rank.)
+      if (choice_.is_geometric() && built_.pivot[i] != Condensate::none
+          && now.pivot[i] != built_.pivot[i])
+        return true;
       const double unit = rows_->weight(i) * row_stiffness_[i];
       const double ratio =
           (unit + now.stiffness[i]) / (unit + built_.stiffness[i]);

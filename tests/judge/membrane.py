@@ -390,7 +390,9 @@ class MembraneJudge:
         limit = THRESHOLDS["stored energy"]
         self.findings.check("stored energy, integrated again",
                             abs(stored - mine), limit.value * mine
-                            + 1e-12 * size, limit.reason)
+                            + 1e-12 * size
+                            + self.round_off() * max(map(abs, self.u)),
+                            limit.reason)
 
     def stored_energy(self):
         k = Formula(self.scene.get("Membrane/Conductivity", "1"))

@@ -89,7 +89,8 @@ class MotionJudge:
         return ""
 
     def forces(self):
-        """By component: column of the momentum, and outer force in a row."""
+        """By component: column of the momentum, and the outer forces in a
+        row, which may cancel."""
         gravity = [Formula(part)((0., 0., 0.), 0.) for part in split(
             self.scene.get("Solid/Gravity"), ",")] or [0.] * self.solid.dim
         walls = [p.number for p in self.solid.pairs if p.obstacle]
@@ -97,8 +98,8 @@ class MotionJudge:
         for k, axis in enumerate("xyz"[:self.solid.dim]):
             weight = self.solid.summary["mass"][k] * gravity[k]
             result.append((f"momentum_{axis}",
-                           lambda row, weight=weight, axis=axis: weight + sum(
-                               row[f"pair_{n}_force_{axis}"] for n in walls)))
+                           lambda row, weight=weight, axis=axis: [weight] + [
+                               row[f"pair_{n}_force_{axis}"] for n in walls]))
         return result
 
     def momentum(self):
@@ -108,14 +109,16 @@ class MotionJudge:
                                                          default)
         gamma = GAMMAS[self.scene.get("Time/Scheme")](number)
         worst = size = 0.
-        for mass, (column, force) in zip(self.solid.summary["mass"],
-                                         self.forces()):
+        for mass, (column, forces) in zip(self.solid.summary["mass"],
+                                          self.forces()):
             for before, now in zip(self.rows, self.rows[1:]):
-                given = (now["time"] - before["time"]) * (
-                    (1 - gamma) * force(before) + gamma * force(now))
-                worst = max(worst, abs(now[column] - before[column] - given))
+                step = now["time"] - before["time"]
+                given = ([step * (1 - gamma) * f for f in forces(before)]
+                         + [step * gamma * f for f in forces(now)])
+                worst = max(worst, abs(now[column] - before[column]
+                                       - math.fsum(given)))
                 # what swings within the bodies has momentum, too
-                size = max(size, abs(given), math.sqrt(
+                size = max(size, sum(map(abs, given)), math.sqrt(
                     2 * mass * max(0., now["kinetic_energy"])))
         limit = THRESHOLDS["momentum"]
         self.solid.findings.check("momentum of each step", worst,
@@ -142,4 +145,4 @@ class MembraneMotionJudge(MotionJudge):
         names = [name for name in ("obstacle_force", "upper_obstacle_force")
                  if name in self.rows[0]]
         return [("momentum",
-                 lambda row: load + sum(row[name] for name in names))]
+                 lambda row: [load] + [row[name] for name in names])]
