@@ -30,7 +30,7 @@ namespace abut
         "elements on one rank (elsewhere as iterative, and the report says "
         "why); auto: direct up to `Direct limit` unknowns, else geometric "
         "where "
-        "that is possible and the system symmetric, else iterative.");
+        "that is possible and the tangent symmetric, else iterative.");
     prm.declare_entry("Maximum iterations",
                       std::to_string(standard.max_iterations), Integer(1),
                       "Iterations after which a linear solve is given up.");
