@@ -3,12 +3,11 @@
 #include "contact_implementation.h"
 
 #include "agree.h"
-#include "bodies.h"
 #include "fnv_hash.h"
-#include "mesh_hierarchy.h"
 #include "nodal_obstacle_rows.h"
 #include "solve/make_row_solver.h"
 #include "solve/row_stiffness.h"
+#include "solver_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -630,14 +629,12 @@ namespace abut
   {
     if (!bodies)
     {
-      bodies = surfaces == nullptr
-                   ? solve::NearNullSpace()
-                   : shim::make_near_null_space(*mapping, *dof_handler);
-      if (!is_nitsche()
-          && solve::wants_meshes(solver_parameters, dof_handler->n_dofs(),
-                                 bodies->n_components))
-        bodies->meshes = std::make_shared<const solve::MeshHierarchy>(
-            shim::make_mesh_hierarchy(*dof_handler, *constraints));
+      // Nitsche's method has its own multigrid.
+      SolverParameters parameters = solver_parameters;
+      if (is_nitsche())
+        parameters.linear = SolverParameters::Linear::iterative;
+      bodies = shim::make_solver_space(*mapping, *dof_handler, *constraints,
+                                       surfaces != nullptr, parameters);
     }
     return *bodies;
   }

@@ -11,7 +11,7 @@
 #include "app/restart/restart.h"
 #include "diagnosis.h"
 #include "name_parameter.h"
-#include "shim/mesh_hierarchy.h"
+#include "shim/solver_space.h"
 
 #include <deal.II/distributed/grid_refinement.h>
 
@@ -63,19 +63,14 @@ namespace abut::app
     model.setup_mesh();
     if (model.has_contact() || !model.problem().is_linear())
       return;
+    const DiscreteProblem<dim> &problem = model.problem();
     linear_solver =
         std::make_unique<solve::MaskedSolver>(state.settings.solver);
-    solve::NearNullSpace space;
-    if (solve::wants_meshes(state.settings.solver,
-                            model.problem().dof_handler.n_dofs(),
-                            space.n_components))
-    {
-      space.meshes = std::make_shared<const solve::MeshHierarchy>(
-          shim::make_mesh_hierarchy(model.problem().dof_handler,
-                                    model.problem().constraints));
-      linear_solver->set_near_null_space(space);
-    }
-    linear_solver->reinit(model.problem().stiffness);
+    linear_solver->set_near_null_space(shim::make_solver_space(
+        problem.mapping, problem.dof_handler, problem.constraints,
+        problem.dof_handler.get_fe().n_components() > 1,
+        state.settings.solver));
+    linear_solver->reinit(problem.stiffness);
   }
 
   template <int dim> void ContactRun<dim>::check()

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solver_space.h"
+
+#include "bodies.h"
+#include "mesh_hierarchy.h"
+#include "solve/geometric_multigrid.h"
+
+namespace abut::shim
+{
+  template <int dim>
+  solve::NearNullSpace
+  make_solver_space(const dealii::Mapping<dim> &mapping,
+                    const dealii::DoFHandler<dim> &dof_handler,
+                    const dealii::AffineConstraints<double> &constraints,
+                    const bool is_displacement,
+                    const SolverParameters &parameters)
+  {
+    solve::NearNullSpace space;
+    if (is_displacement)
+      space = make_near_null_space(mapping, dof_handler);
+    if (solve::wants_meshes(parameters, dof_handler.n_dofs(),
+                            space.n_components))
+      space.meshes = std::make_shared<const solve::MeshHierarchy>(
+          make_mesh_hierarchy(dof_handler, constraints));
+    return space;
+  }
+
+  template solve::NearNullSpace
+  make_solver_space(const dealii::Mapping<2> &, const dealii::DoFHandler<2> &,
+                    const dealii::AffineConstraints<double> &, bool,
+                    const SolverParameters &);
+  template solve::NearNullSpace
+  make_solver_space(const dealii::Mapping<3> &, const dealii::DoFHandler<3> &,
+                    const dealii::AffineConstraints<double> &, bool,
+                    const SolverParameters &);
+} // namespace abut::shim

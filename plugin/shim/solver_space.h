@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_SOLVER_SPACE_H
+#define ABUT_SHIM_SOLVER_SPACE_H
+
+#include "solve/near_null_space.h"
+
+#include <abut/dealii/solver_parameters.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/affine_constraints.h>
+
+namespace abut::shim
+{
+  /** What solvers with @p parameters are to know of the unknowns of a field:
+   * rigid motions of the bodies if it is a displacement, and the coarser
+   * meshes if multigrid may want them. Collective. */
+  template <int dim>
+  solve::NearNullSpace
+  make_solver_space(const dealii::Mapping<dim> &mapping,
+                    const dealii::DoFHandler<dim> &dof_handler,
+                    const dealii::AffineConstraints<double> &constraints,
+                    bool is_displacement, const SolverParameters &parameters);
+} // namespace abut::shim
+
+#endif
