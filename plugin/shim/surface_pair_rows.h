@@ -548,6 +548,10 @@ namespace abut::shim
     /** From the place that is opposite a point of mortar to its own, if nodes
      * are displaced by @p u. */
     Direction apart(std::size_t point, const std::vector<Direction> &u) const;
+    /** How far the two sides of a row have come against each other since they
+     * were paired, or since the step began. */
+    Direction way_of_partners(const Component &row,
+                              const std::vector<Direction> &u) const;
     void add_terms(Node node, double factor, std::size_t block,
                    Terms &terms) const;
     Terms places_by_unknowns(std::size_t point) const;
