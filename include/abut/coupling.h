@@ -286,8 +286,8 @@ extern "C"
      * mortar always has its segments. Points of
      * mortar meet what is opposite now, along the present normals, and the view
      * has what their forces change by; nodes that are covered by less than a
-     * fifth have none. No ties, no tangents of mortar, and no mortar against
-     * obstacles. NULL (default): points are fixed. */
+     * fifth have none. No ties, and no mortar against obstacles. NULL
+     * (default): points are fixed. */
     const double *reference;
     /** Points stand where the surfaces are now and are fixed there:
      * [n_nodes * dimension] positions of the secondary's nodes that weights are
@@ -298,8 +298,8 @@ extern "C"
      * undeformed, but directions and gaps those of these places,
      * [n_nodes * dimension] of the secondary and of the primary: a pair that
      * turns as one keeps gaps and pressures. The view has what the forces
-     * change by as nodes move from there. Mortar between surfaces only, neither
-     * ties nor tangents. With flush gaps are what they have changed by. NULL
+     * change by as nodes move from there. Mortar between surfaces only, and
+     * no ties. With flush gaps are what they have changed by. NULL
      * (default): those of the surfaces as they stand. */
     const double *present;
     const double *present_primary; /**< given with present */
@@ -387,7 +387,8 @@ extern "C"
      * - n c_l, by the places of nodes. The direction n and the primary's
      * coefficients change; those of the secondary and the weight do not, as
      * long as the border of the primary does not cut a facet. It is not
-     * symmetric. NULL: the points are fixed. */
+     * symmetric. With tangents it is followed by as many more matrices of that
+     * size, those of t c_l. NULL: the points are fixed. */
     const double *hessian;
     const int64_t *hessian_start; /**< [n_points + 1]; NULL likewise */
     /** [n_points] primary facet that has the nearest point of one that moves;

@@ -334,22 +334,15 @@ namespace abut::shim
               || row_state[row.row] == ABUT_STATE_OPEN)
             return;
           // Of the place, and since the point was made there.
-          Direction motion, since;
+          Direction motion = way_of_partners(row, u), since;
           const auto add = [&](const Node node, const double c)
           {
-            motion += c * u[node];
             since += c
                      * (u[node]
                         - (pair.is_displaced() ? made_at(node) : Direction()));
           };
           for_each_secondary(row.point, add);
           for_each_primary(row.point, add);
-          if (pair.steps)
-            motion = since;
-          // A turn of both sides is no slip: by places, which have been
-          // opposite each other.
-          if (pair.turns)
-            motion = apart(row.point, u);
           if (pair.data.obstacle)
             motion -= way_of(row.place.position, slip_poses_[row.place.pair],
                              now[row.place.pair]);

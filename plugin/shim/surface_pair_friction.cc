@@ -263,6 +263,24 @@ namespace abut::shim
   }
 
   template <int dim>
+  double
+  SurfacePairRows<dim>::reference_of_slip(const Component &row,
+                                          const std::vector<Direction> &u) const
+  {
+    // Slips of points that stand elsewhere are 0 there.
+    const bool elsewhere = pairs_[row.place.pair].is_displaced();
+    double sum = 0.;
+    const auto add = [&](const Node node, const double c)
+    {
+      const Direction from = elsewhere ? made_at(node) : Direction();
+      sum -= c * ((u[node] - from) * row.direction);
+    };
+    for_each_secondary(row.point, add);
+    for_each_primary(row.point, add);
+    return sum;
+  }
+
+  template <int dim>
   std::vector<double>
   SurfacePairRows<dim>::slip_reference(const la::Vector &committed)
   {
@@ -272,22 +290,18 @@ namespace abut::shim
     const std::vector<RigidPose<dim>> now = poses(),
                                       then = poses_before(now, true);
     refuse_turns(then, now);
+    find_partners(u);
     std::vector<double> result(view_.n_components, 0.);
     for_each_row(
         [&](const Component &row)
         {
           if (!is_tangent(row))
             return;
-          // Slips of points that stand elsewhere are 0 there.
-          const bool elsewhere = pairs_[row.place.pair].is_displaced();
-          const auto add = [&](const Node node, const double c)
-          {
-            const Direction from = elsewhere ? made_at(node) : Direction();
-            result[row.row] -= c * ((u[node] - from) * row.direction);
-          };
-          for_each_secondary(row.point, add);
-          for_each_primary(row.point, add);
           const std::size_t p = row.place.pair;
+          const Partners *const partners = partners_of(row);
+          result[row.row] = partners != nullptr
+                                ? reference_of_slip(row, *partners)
+                                : reference_of_slip(row, u);
           if (pairs_[p].data.obstacle != nullptr)
             result[row.row] -=
                 way_of(row.place.position, then[p], now[p]) * row.direction;
@@ -356,6 +370,8 @@ namespace abut::shim
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template RowSource::FrictionalPoints SurfacePairRows<dim>::friction() const; \
+  template double SurfacePairRows<dim>::reference_of_slip(                     \
+      const Component &, const std::vector<Direction> &) const;                \
   template std::vector<double> SurfacePairRows<dim>::slip_reference(           \
       const la::Vector &);                                                     \
   template dealii::Tensor<1, dim> SurfacePairRows<dim>::way_of(                \

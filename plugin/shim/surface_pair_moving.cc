@@ -159,7 +159,10 @@ namespace abut::shim
       return {};
     // One matrix for each component.
     const std::size_t n = dim * (1 + place.opposite.size());
-    const std::size_t size = place.lines.empty() ? n * n : place.hessian.size();
+    const std::size_t size =
+        place.lines.empty()
+            ? n * n
+            : dim * place.lines.size() * dim * place.columns.size();
     std::vector<double> sum(size, 0.);
     double force = 0.;
     for (std::int32_t row = view_.component_start[point], k = 0;

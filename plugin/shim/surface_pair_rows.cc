@@ -102,10 +102,8 @@ namespace abut::shim
     pair.moves = sliding == Sliding::large && !data.tied;
     pair.turns = sliding == Sliding::turn && !data.tied;
     pair.steps = sliding == Sliding::step && !data.tied;
-    pair.discretisation =
-        settings_.method.discretisation.value_or(automatic_discretisation(
-            law, data.obstacle != nullptr
-                     || (pair.moves && data.friction != nullptr)));
+    pair.discretisation = settings_.method.discretisation.value_or(
+        automatic_discretisation(law, data.obstacle != nullptr));
     const std::string reason =
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())

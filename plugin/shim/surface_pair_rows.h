@@ -13,6 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <utility>
 
 namespace abut::shim
 {
@@ -450,6 +453,26 @@ namespace abut::shim
      * their way. */
     void refuse_turns(const std::vector<RigidPose<dim>> &then,
                       const std::vector<RigidPose<dim>> &now) const;
+    /** What a tangent's point of mortar that moves had opposite it at the last
+     * commit(). */
+    struct Partners
+    {
+      std::vector<std::pair<Node, double>> stencil;
+      double offset = 0.; ///< sum of c x along the direction of the row then
+    };
+    /** Find them if nodes were displaced by @p u then; nothing happens if they
+     * are those. Collective. */
+    void find_partners(const std::vector<Direction> &u);
+    void note_partners();
+    /** Those of a row, or null. */
+    const Partners *partners_of(const Component &row) const;
+    /** The value of a tangent's row that is no slip since then, or since nodes
+     * were displaced by @p u, but for obstacles. */
+    double reference_of_slip(const Component &row,
+                             const Partners &partners) const;
+    double reference_of_slip(const Component &row,
+                             const std::vector<Direction> &u) const;
+    bool has_partners(const Pair &pair) const;
     /** Whether what supports leave free at a point moves it along a tangent
      * only as it moves along the normal or the other tangent. */
     bool is_guided(std::size_t point) const;
@@ -548,6 +571,10 @@ namespace abut::shim
     /** From the place that is opposite a point of mortar to its own, if nodes
      * are displaced by @p u. */
     Direction apart(std::size_t point, const std::vector<Direction> &u) const;
+    /** How far the two sides of a row have come against each other since they
+     * were paired, or since the step began. */
+    Direction way_of_partners(const Component &row,
+                              const std::vector<Direction> &u) const;
     void add_terms(Node node, double factor, std::size_t block,
                    Terms &terms) const;
     Terms places_by_unknowns(std::size_t point) const;
@@ -610,6 +637,10 @@ namespace abut::shim
     std::vector<RigidPose<dim>> committed_poses_; ///< [pairs], or empty
     /** [pairs] that PairResult::slip is measured from. */
     std::vector<RigidPose<dim>> slip_poses_;
+    /** By the number of the row, and the displacements that they were found at;
+     * empty: none have been. */
+    std::unordered_map<std::int64_t, Partners> partners_;
+    std::optional<std::vector<Direction>> partners_place_;
     la::Vector searched_from_;  ///< where points move: of the last commit()
     std::vector<Place> places_; ///< [points]
     const la::Vector *committed_ = nullptr;

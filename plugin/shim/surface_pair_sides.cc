@@ -33,6 +33,7 @@ namespace abut::shim
   template <int dim> void SurfacePairRows<dim>::gather()
   {
     origins_.clear();
+    partners_place_.reset();
     std::vector<typename SurfaceExchange<dim>::Link> links;
     for (const Pair &pair : pairs_)
       links.push_back({pair.data.name, pair.data.secondary, pair.data.primary,

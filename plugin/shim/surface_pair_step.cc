@@ -121,15 +121,38 @@ namespace abut::shim
   }
 
   template <int dim>
+  dealii::Tensor<1, dim>
+  SurfacePairRows<dim>::way_of_partners(const Component &row,
+                                        const std::vector<Direction> &u) const
+  {
+    const Pair &pair = pairs_[row.place.pair];
+    // A turn of both sides is no slip: by places, which have been opposite each
+    // other.
+    if (pair.turns)
+      return apart(row.point, u);
+    Direction way;
+    const auto add = [&](const Node node, const double c)
+    { way += c * (u[node] - (pair.steps ? made_at(node) : Direction())); };
+    for_each_secondary(row.point, add);
+    for_each_primary(row.point, add);
+    return way;
+  }
+
+  template <int dim>
   std::vector<StepMotion>
   SurfacePairRows<dim>::step_motion(const la::Vector &displacement,
                                     const std::uint8_t *row_state)
   {
     std::vector<StepMotion> result(pairs_.size());
-    if (!has_steps())
+    const auto stays = [](const Pair &pair)
+    {
+      return !pair.moves && !pair.steps && !pair.data.tied
+             && !pair.data.obstacle;
+    };
+    if (!has_steps() && std::none_of(pairs_.begin(), pairs_.end(), stays))
       return result;
-    const std::vector<Direction> way =
-        way_since(displacements_in_reach(displacement));
+    const std::vector<Direction> u = displacements_in_reach(displacement);
+    const std::vector<Direction> way = way_since(u);
     std::vector<std::vector<std::uint8_t>> marked(
         pairs_.size(), std::vector<std::uint8_t>(surface_.nodes.size(), 0));
     std::vector<std::vector<dealii::Point<dim>>> places(pairs_.size());
@@ -137,19 +160,19 @@ namespace abut::shim
         [&](const Component &row)
         {
           const std::size_t p = row.place.pair;
-          if (!pairs_[p].steps || row_state[row.row] == ABUT_STATE_OPEN)
+          if ((!pairs_[p].steps && !stays(pairs_[p]))
+              || row_state[row.row] == ABUT_STATE_OPEN)
             return;
-          Direction motion;
-          const auto add = [&](const Node node, const double c)
-          {
-            motion += c * way[node];
-            marked[p][node] = 1;
-          };
-          for_each_secondary(row.point, add);
-          for_each_primary(row.point, add);
+          const Direction motion = way_of_partners(row, u);
           const Direction n = row.direction / row.direction.norm();
           result[p].slip =
               std::max(result[p].slip, (motion - (motion * n) * n).norm());
+          if (!pairs_[p].steps)
+            return;
+          const auto mark = [&](const Node node, double)
+          { marked[p][node] = 1; };
+          for_each_secondary(row.point, mark);
+          for_each_primary(row.point, mark);
           places[p].push_back(row.place.position);
           places[p].push_back(row.place.position + motion);
         });
@@ -161,6 +184,7 @@ namespace abut::shim
           {
             const Pair &pair = pairs_[p];
             StepMotion &motion = result[p];
+            motion.stays = stays(pair);
             if (!pair.data.obstacle)
             {
               motion.facet = std::min(pair.secondary.everywhere.median,
@@ -200,6 +224,8 @@ namespace abut::shim
   template double SurfacePairRows<dim>::largest_turn_of(                       \
       const SurfaceSide<dim> &, const std::vector<std::uint8_t> &,             \
       const std::vector<Direction> &) const;                                   \
+  template dealii::Tensor<1, dim> SurfacePairRows<dim>::way_of_partners(       \
+      const Component &, const std::vector<Direction> &) const;                \
   template std::vector<StepMotion> SurfacePairRows<dim>::step_motion(          \
       const la::Vector &, const std::uint8_t *);
 

@@ -135,10 +135,17 @@ def check_slide(*words, steps=22):
 check_slide()
 check_slide(STANDARD)
 
-# Partners that stay are left behind: the run says that it finds no way on.
+# Partners that stay are left behind: the run says that it finds no way on, and
+# what to take instead; of bodies that do not slide it would not.
 left = run("slide.prm", SMALL)
-p.expect(left.returncode == 3 and "Newton's method" in left.stderr,
+p.expect(left.returncode == 3 and "Newton's method" in left.stderr
+         and "slid on each other" in left.stderr
+         and "Method/Sliding = large" in left.stderr,
          f"partners left behind: {left.returncode}\n{left.stderr}")
+stuck = run("patch-2.prm", SMALL, "Load steps/Newton steps=1",
+            "Load steps/Cut back=false")
+p.expect(stuck.returncode == 3 and "slid on each other" not in stuck.stderr,
+         f"too few steps: {stuck.returncode}\n{stuck.stderr}")
 
 # On two ranks as on one.
 words = ["Load steps/End time=0.5", "Load steps/Steps=5"]
@@ -147,9 +154,8 @@ two = solved("slide.prm", *words, ranks=2)
 p.close(two["energy"], one["energy"], 1e-9, "energy on two ranks")
 
 # What does not follow.
-DUAL = "Method/Discretisation=dual mortar"
-p.expect_error(run("slide.prm", LARGE, DUAL, "Pair 1/Friction=0.3"),
-               "Method/Sliding = large", "with friction")
+p.expect_error(run(turn(p, 3), LARGE, "Pair 1/Friction=0.3"),
+               "Method/Sliding = large", "friction in two dimensions only")
 p.expect_error(run("slide.prm", LARGE, "Method/Enforcement=interior point"),
                "Method/Sliding = large", "interior point")
 p.finish()

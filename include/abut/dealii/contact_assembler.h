@@ -384,8 +384,8 @@ namespace abut
     /** With Sliding::step: how far closed rows go in the step that leads to
      * @p displacement, by pair. A host halves steps in which surfaces slide by
      * more than half a facet, or turn by more than 5 degrees: points are those
-     * of its beginning. To be called after the solve and before commit().
-     * Collective. */
+     * of its beginning. To be called after the solve and before commit(). Where
+     * partners stay: how far they have slid in all. Collective. */
     virtual std::vector<StepMotion>
     step_motion(const la::Vector &displacement) const;
 

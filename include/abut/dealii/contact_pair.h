@@ -193,8 +193,9 @@ namespace abut
   };
 
   /** How far closed rows of a pair go, at a displacement, from where their
-   * points were made at the beginning of the step (Sliding::step). Global over
-   * ranks. */
+   * points were made at the beginning of the step (Sliding::step), or, where
+   * partners stay (Sliding::small and turn, between bodies), from where they
+   * were paired. All 0 where points move. Global over ranks. */
   struct StepMotion
   {
     double slip = 0.;  /**< along the surface, of both sides against each other,
@@ -202,7 +203,8 @@ namespace abut
     double facet = 0.; /**< to compare it with: median size of the side with
                             the smaller ones; 0: an obstacle, which has none */
     double turn = 0.;  /**< of facets in contact, or of the obstacle's normal,
-                            radian >= 0 */
+                            radian >= 0; Sliding::step only */
+    bool stays = false; /**< from the undeformed bodies, not from the step */
   };
 
   /** A point of the secondary that has penetrated without a row. */

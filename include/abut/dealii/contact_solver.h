@@ -273,7 +273,7 @@ namespace abut
                       + short_number(result_.error)
                       + ". Use smaller load steps, or check that the tangent "
                         "is the derivative of the residual."
-                      + about_negative_steps());
+                      + about_negative_steps() + about_sliding(u));
     }
 
     /** Forces of the linearisation whose residual_ is that at step_. */
@@ -478,7 +478,7 @@ namespace abut
             || is_at_end(scales))
           break;
         if (halving == parameters_.max_halvings)
-          return give_up(scales.before);
+          return give_up(scales.before, u);
         part /= 2.;
         trial_ = u;
         trial_.add(part, step_);
@@ -544,7 +544,21 @@ namespace abut
                "instead of forces, or use smaller load steps.";
     }
 
-    bool give_up(const double before)
+    /** A sentence, if bodies have left what contact takes for opposite. */
+    std::string about_sliding(const la::Vector &u)
+    {
+      constexpr double too_far = 0.25;
+      for (const StepMotion &pair : contact_.step_motion(goal(u)))
+        if (pair.stays && pair.facet > 0. && pair.slip > too_far * pair.facet)
+          return " Bodies have slid on each other by "
+                 + short_number(pair.slip / pair.facet)
+                 + " facets, but contact has the partners of the undeformed "
+                   "ones: let points follow where they can (Method/Sliding = "
+                   "large).";
+      return "";
+    }
+
+    bool give_up(const double before, const la::Vector &u)
     {
       if (!std::isfinite(result_.residual))
         return stop_not_finite();
@@ -554,7 +568,7 @@ namespace abut
                       + " after the shortest one tried. Check that the tangent "
                         "is the derivative of the residual, and use smaller "
                         "load steps."
-                      + about_negative_steps());
+                      + about_negative_steps() + about_sliding(u));
     }
 
     /** Whether to search again on the deformed bodies. */

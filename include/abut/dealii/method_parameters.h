@@ -37,7 +37,7 @@ namespace abut
     turn,      /**< partners and weights are those of the undeformed bodies,
                     directions and gaps those of the present places: what
                     `small` is for bodies of large strain. Mortar between
-                    bodies without friction */
+                    bodies, in space without friction */
     step,      /**< gaps are linear from where the bodies were at the last
                     commit(): detect() makes points at that displacement */
     large      /**< points move with the bodies: at each linearisation gaps,

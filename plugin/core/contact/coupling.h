@@ -345,6 +345,13 @@ void abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
                         const double *shape, const double *hessian,
                         double *turning);
 
+/* The same of a point of mortar with a unit normal: of its matrix by the normal
+ * [dim n_lines][n_columns], minus the derivatives of n c_l, that by its
+ * tangents [dim - 1], of t c_l. */
+void abut_coupling_turn_lines(int32_t dim, int32_t n_lines, int64_t n_columns,
+                              const double *normal, const double *block,
+                              double *turning);
+
 struct abut_linear_patch;
 
 /* What a block's columns are: components of the places of the nodes of the

@@ -284,10 +284,23 @@ present_gap(abut_coupling *c, const int64_t *list, int64_t n,
   return now - dot3(before, way);
 }
 
-/* Normal and gap, and how they change, of a point of mortar that moves. */
+/* Add the tangents of a unit normal to a frame, if they are wanted. Returns the
+ * number of components. */
+static int32_t
+add_tangents(const abut_coupling *c, const double *unit, double *frame)
+{
+  const int32_t dim = c->secondary->view.dimension;
+  if (!c->target->tangents)
+    return 1;
+  abut_coupling_tangents(dim, unit, frame + dim);
+  return dim;
+}
+
+/* Frame and gaps, and how they change, of a point of mortar that moves. */
 static abut_status
 fill_turning(abut_coupling *c, const int64_t *list, int64_t n,
-             const abut_coupling_share *total, double *frame, double *gap)
+             const abut_coupling_share *total, double *frame, double *gap,
+             int32_t *n_components)
 {
   abut_coupling_direction direction;
   abut_status status = abut_coupling_direct(c, list, n, total, &direction);
@@ -297,10 +310,12 @@ fill_turning(abut_coupling *c, const int64_t *list, int64_t n,
     return status;
   memcpy(frame, direction.normal,
          sizeof(double) * (size_t)c->secondary->view.dimension);
-  *gap = c->target->gap
-         + (abut_coupling_follows(c)
-                ? gap_of(c, total, direction.normal)
-                : present_gap(c, list, n, total, direction.normal));
+  *n_components = add_tangents(c, direction.normal, frame);
+  gap[0] = c->target->gap
+           + (abut_coupling_follows(c)
+                  ? gap_of(c, total, direction.normal)
+                  : present_gap(c, list, n, total, direction.normal));
+  gap[1] = gap[2] = 0.;
   return ABUT_SUCCESS;
 }
 
@@ -318,12 +333,9 @@ fill_components(abut_coupling *c, const abut_coupling_share *total,
     memcpy(frame, normal, sizeof(double) * (size_t)dim);
     gap[0] = t->gap + gap_of(c, total, normal);
     gap[1] = gap[2] = 0.;
-    if (!t->tangents)
-      return 1;
     if (abut_coupling_moves(c)) /* the tangents are unit vectors all the same */
       unit3(normal, 0.);
-    abut_coupling_tangents(dim, normal, frame + dim);
-    return dim;
+    return add_tangents(c, normal, frame);
   }
   int32_t n = 0;
   for (int32_t axis = 0; axis < dim; ++axis)
@@ -350,7 +362,7 @@ add_point(abut_coupling *c, const int64_t *list, int64_t n,
   point.kind = c->target->tie_axes == 0 ? ABUT_POINT_CONTACT : ABUT_POINT_TIE;
   point.n_components = 1;
   if (abut_coupling_turns(c))
-    status = fill_turning(c, list, n, total, frame, gap);
+    status = fill_turning(c, list, n, total, frame, gap, &point.n_components);
   else
     point.n_components = fill_components(c, total, frame, gap);
   if (status != ABUT_SUCCESS)

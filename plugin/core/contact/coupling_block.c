@@ -314,15 +314,19 @@ abut_coupling_note_block(abut_coupling *c, const int64_t *list, int64_t n,
     status = enter_direction(&m, direction);
   if (status == ABUT_SUCCESS)
     status = enter_shares(&m, list, n);
-  const int64_t size = (int64_t)m.lines.n * m.columns.n * m.dim * m.dim;
+  const int64_t size = (int64_t)m.lines.n * m.columns.n * m.dim * m.dim,
+                all = c->target->tangents ? m.dim * size : size;
   if (status == ABUT_SUCCESS)
     status =
-        abut_array_reserve(c->context, &c->point_hessian, first, first + size);
+        abut_array_reserve(c->context, &c->point_hessian, first, first + all);
   if (status == ABUT_SUCCESS)
   {
     m.value = (double *)c->point_hessian.data + first;
     memset(m.value, 0, sizeof(double) * (size_t)size);
     status = fill(&m, list, n, total, direction);
+    if (c->target->tangents)
+      abut_coupling_turn_lines(m.dim, m.lines.n, (int64_t)m.columns.n * m.dim,
+                               direction->normal, m.value, m.value + size);
   }
   finish(&m.lines);
   finish(&m.columns);
@@ -330,7 +334,7 @@ abut_coupling_note_block(abut_coupling *c, const int64_t *list, int64_t n,
     return status;
   end_at(c, &c->point_line_start, m.lines.n);
   end_at(c, &c->point_column_start, m.columns.n);
-  end_at(c, &c->point_hessian_start, size);
+  end_at(c, &c->point_hessian_start, all);
   return ABUT_SUCCESS;
 }
 

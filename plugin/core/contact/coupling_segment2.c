@@ -91,6 +91,49 @@ opposite(const base *b, const segment *g, double s, double *gap)
   return t;
 }
 
+static bool
+reaches(const abut_coupling *c, const base *b, const segment *g, double size,
+        double s)
+{
+  double gap;
+  opposite(b, g, s, &gap);
+  return abut_coupling_in_reach(c, gap, size);
+}
+
+/* Where a segment, of which an end is out of reach, leaves the reach between
+ * parameters in and out. */
+static double
+border_of_reach(const abut_coupling *c, const base *b, const segment *g,
+                double size, double in, double out)
+{
+  for (int k = 0; k < 50; ++k)
+  {
+    const double middle = 0.5 * (in + out);
+    if (reaches(c, b, g, size, middle))
+      in = middle;
+    else
+      out = middle;
+  }
+  return in;
+}
+
+/* Cut off what is out of reach, so that what is covered does not jump while
+ * surfaces move, as where a facet leans on the flank beside a corner. */
+static int
+cut_to_reach(const abut_coupling *c, const base *b, double size, segment *g)
+{
+  const double middle = 0.5 * (g->from + g->to);
+  const bool first = reaches(c, b, g, size, g->from),
+             last = reaches(c, b, g, size, g->to);
+  if (!first && !last)
+    return reaches(c, b, g, size, middle);
+  if (!first)
+    g->from = border_of_reach(c, b, g, size, g->to, g->from);
+  if (!last)
+    g->to = border_of_reach(c, b, g, size, g->from, g->to);
+  return g->to - g->from > ABUT_CLIP_SMALLEST;
+}
+
 /* Common interval with one part of a primary facet; nonzero if there is one.
  */
 static int
@@ -116,7 +159,8 @@ intersect(const abut_coupling *c, const base *b, abut_facet_kind kind,
   g->from = clip.secondary[0];
   g->to = clip.secondary[1];
   opposite(b, g, 0.5 * (g->from + g->to), &g->gap);
-  return abut_coupling_in_reach(c, g->gap, size);
+  return abut_coupling_follows(c) ? cut_to_reach(c, b, size, g)
+                                  : abut_coupling_in_reach(c, g->gap, size);
 }
 
 static abut_status

@@ -9,7 +9,12 @@
  * where H_x and H_a are the rows of the point and of node a. The slip along a
  * tangent t changes by t . (dx - sum_a N_a dx_a), whose derivative is
  *
- *     dt at the point,  - N_a dt - dN_a t at node a. */
+ *     dt at the point,  - N_a dt - dN_a t at node a.
+ *
+ * Of mortar the slip changes by t . sum_l c_l dx_l. What n c_l changes by has a
+ * part along n, n dc_l, and one across it, c_l dn, so that
+ *
+ *     d(t c_l) = t dc_l + c_l dt . */
 #include "contact/coupling.h"
 #include "geometry/vector.h"
 
@@ -101,4 +106,30 @@ abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
               share * dt[k][d] - change * t[k][d];
     }
   }
+}
+
+void
+abut_coupling_turn_lines(int32_t dim, int32_t n_lines, int64_t n_columns,
+                         const double *normal, const double *block,
+                         double *turning)
+{
+  double unit[3] = {0., 0., 0.}, t[2][3];
+  const int64_t size = n_lines * dim * n_columns;
+  memcpy(unit, normal, sizeof(double) * (size_t)dim);
+  (void)tangents_of(dim, unit, t);
+  for (int32_t l = 0; l < n_lines; ++l)
+    for (int64_t u = 0; u < n_columns; ++u)
+    {
+      double way[3] = {0., 0., 0.}, dt[2][3];
+      const int64_t first = (int64_t)l * dim * n_columns + u;
+      for (int d = 0; d < dim; ++d)
+        way[d] = -block[first + d * n_columns];
+      const double change = dot3(unit, way);
+      axpy3(way, -change, unit, way);
+      turn_tangents(dim, unit, way, dt);
+      for (int k = 0; k < dim - 1; ++k)
+        for (int d = 0; d < dim; ++d)
+          turning[k * size + first + d * n_columns] =
+              change * t[k][d] + dt[k][d];
+    }
 }

@@ -58,6 +58,8 @@ namespace abut::app
     for (std::size_t p = 0; p < motions.size(); ++p)
     {
       const StepMotion &pair = motions[p];
+      if (pair.stays)
+        continue;
       const bool slides =
           pair.facet > 0. && pair.slip > largest_slip * pair.facet;
       if (!slides && pair.turn <= largest_turn)

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Friction of mortar that moves with bodies of large strain: a block that is
+dragged over many facets, what turns as a whole, what sticks, a die."""
+import math
+import statistics
+
+from block_scene import block, pair, section, solid
+from program import Program, set_words
+from sliding_scenes import RUBBER, newton, slide, turn
+
+p = Program()
+FINE = ["Load steps/Newton tolerance=1e-12",
+        "Method/Final linear tolerance=1e-14"]
+SMALL, STANDARD = "Method/Sliding=small", "Method/Discretisation=mortar"
+DUAL = "Method/Discretisation=dual mortar"
+MU = 0.3
+FRICTION = f"Pair 1/Friction={MU}"
+
+
+def run(scene, *settings, ranks=0):
+    return p.call("run", scene, "--output", "out", "--quiet",
+                  *set_words(settings), ranks=ranks)
+
+
+def solved(scene, *settings, ranks=0):
+    result = run(scene, *settings, ranks=ranks)
+    p.expect(result.returncode == 0, f"{scene} {settings}: exit code "
+             f"{result.returncode}\n{result.stderr}")
+    return p.results()[0]
+
+
+# A block is pressed on a plate all of whose nodes are held, and that moves to
+# and fro below it: its facets stay in a line, so that all tractions add up to
+# mu N along it, and where nothing else moves any more, all of its way is slip.
+# All of it stands at an angle.
+PRESS = 0.05
+
+
+def drag(angle, way):
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+
+    def moved(x, y):
+        return f"{c!r}*({x}) - {s!r}*({y}), {s!r}*({x}) + {c!r}*({y})"
+
+    plate = moved(way, "0")
+    return p.write("drag.prm", solid(
+        2, block(1, "8, 4 : 0, 0 : 2, 1 : true",
+                 f"3: {moved('0', f'-{PRESS}*min(1, t)')}",
+                 f"Rotate = {angle}", more=RUBBER),
+        block(2, "28, 1 : -2.5, -0.5 : 4.5, 0 : true",
+              f"2: {plate}; 3: {plate}", f"Rotate = {angle}", more=RUBBER),
+        pair("1: 2", "2: 3"), section("Refinement", "Level = 0"),
+        section("Output", "Fields = false")))
+
+
+def drag_rows(angle, way, steps, mu, *words):
+    """Forces along the plate, onto it, and dissipation by load step."""
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    summary = solved(drag(angle, way), *FINE, f"Pair 1/Friction={mu}",
+                     f"Load steps/Steps={2 * steps}", "Load steps/End time=2",
+                     *words)
+    rows = p.table("levels.csv")
+    for row in rows:
+        x, y = row["pair_1_force_x"], row["pair_1_force_y"]
+        row["along"], row["onto"] = c * x + s * y, c * y - s * x
+    return summary, [row for row in rows if row["time"] > 1.01]
+
+
+def check_drag(steps, *words, mu=MU):
+    what = f"dragged in {steps} steps {words}"
+    there = "if(t > 1, 2*(t - 1), 0)"
+    summary, rows = drag_rows(0., there, steps, mu, *words)
+    p.expect(summary["pair_1_slipping"] == summary["pair_1_active"] == 9,
+             f"{what}: {summary['pair_1_slipping']} slip")
+    for row in rows[1:]:
+        p.close(row["along"] / row["onto"], mu, 1e-9,
+                f"{what}: T/N at {row['time']}")
+    for row in rows[2:]:
+        p.close(row["dissipation"], row["along"] * 2. / steps, 1e-8,
+                f"{what}: dissipation at {row['time']}")
+    _, other = drag_rows(0., f"-{there}", steps, mu, *words)
+    p.close(other[-1]["along"] / other[-1]["onto"], -mu, 1e-9,
+            f"{what}, the other way")
+    turned, _ = drag_rows(40., there, steps, mu, *words)
+    for key in ("energy", "pair_1_friction_force", "pair_1_normal_force"):
+        p.close(turned[key], summary[key], 1e-9, f"{what}, at an angle: {key}")
+
+
+check_drag(8)                                    # one facet at a step
+check_drag(3)                                    # 2.7 facets at a step
+check_drag(8, STANDARD, mu=0.1)                  # the front stays pressed
+check_drag(8, "Method/System=saddle point")
+check_drag(8, "Method/Enforcement=augmented lagrangian",
+           "Method/Pressure tolerance=1e-12")
+
+
+# What is turned as a whole by 90 degrees after it has been pressed keeps all its
+# forces, friction too, which here some nodes take up by sticking.
+def check_turn(*words):
+    scene = turn(p, 2)
+    words = [*FINE, FRICTION, *words]
+    here = solved(scene, *words, "Load steps/End time=0.2",
+                  "Load steps/Steps=3")
+    there = solved(scene, *words)
+    what = f"turned {words}"
+    p.expect(here["pair_1_friction_force"] > 1e-3 * here["contact_force"],
+             f"{what}: no friction to turn")
+    for key in ("energy", "pair_1_pressure", "pair_1_normal_force",
+                "pair_1_friction_force", "least_stretch", "least_volume"):
+        p.close(there[key], here[key], 1e-9, f"{what}: {key}")
+    # What has slipped is at its bound and stays there, without a way.
+    p.expect(there["pair_1_dissipation"] < 1e-10 * here["energy"],
+             f"{what}: dissipation {there['pair_1_dissipation']}")
+    scale = here["contact_force"]
+    for key in ("pair_1_force", "pair_1_friction"):
+        force, before = there[key], here[key]
+        p.expect(abs(force[0] + before[1]) < 1e-9 * scale
+                 and abs(force[1] - before[0]) < 1e-9 * scale,
+                 f"{what}: {key} {force} from {before}")
+
+
+for each in ([], [STANDARD], [SMALL], [SMALL, STANDARD],
+             ["Method/Enforcement=penalty"]):
+    check_turn(*each)
+
+
+# What sticks on a mesh that matches is one body.
+def check_stick(*words):
+    push = "if(t > 0.5, 0.1*(t - 0.5), 0), -0.08*min(1, 2*t)"
+    steps = section("Load steps", "Steps = 4")
+    level = section("Refinement", "Level = 0")
+    quiet = section("Output", "Fields = false")
+    one = p.write("one.prm", solid(
+        2, block(1, "12, 4 : 0, 0 : 3, 1 : true", f"2: 0, 0; 3: {push}",
+                 more=RUBBER), steps, level, quiet, bodies=1
+        ).replace("Pairs = 1", "Pairs = 0"))
+    two = p.write("two.prm", solid(
+        2, block(1, "12, 2 : 0, 0 : 3, 0.5 : true", "2: 0, 0", more=RUBBER),
+        block(2, "12, 2 : 0, 0.5 : 3, 1 : true", f"3: {push}", more=RUBBER),
+        pair("1: 3", "2: 2"), steps, level, quiet))
+    whole = solved(one, *FINE)
+    parts = solved(two, *FINE, "Pair 1/Friction=100", *words)
+    p.expect(parts["pair_1_active"] == 13 and parts["pair_1_slipping"] == 0,
+             f"stick {words}: {parts['pair_1_active']}, "
+             f"{parts['pair_1_slipping']} slip")
+    p.close(parts["energy"], whole["energy"], 1e-9, f"stick {words}: energy")
+
+
+for each in ([], [STANDARD], [SMALL]):
+    check_stick(*each)
+
+
+# A die slides over 20 facets, so far from the ends of the block that what is not
+# friction is small; and in larger steps it is the same.
+def check_slide(steps, *words):
+    summary = solved(slide(p, 80, 10, 12, 5, steps, width=8), FRICTION, *words)
+    rows = [row for row in p.table("levels.csv") if row["time"] > 1.01]
+    forces = [-row["pair_1_force_y"] for row in rows]
+    ratios = [-row["pair_1_force_x"] / row["pair_1_force_y"] for row in rows]
+    n = [len(newton(p, step)) for step in range(steps + 1, 2 * steps + 1)]
+    print(words, steps, "force", statistics.mean(forces), "ripple",
+          statistics.pstdev(forces) / statistics.mean(forces), "tangential",
+          min(ratios[3:]), max(ratios[3:]), "linearisations",
+          statistics.mean(n), max(n))
+    p.expect(summary["force_imbalance"] < 1e-12,
+             f"{words}: forces {summary['force_imbalance']}")
+    p.expect(all(0.155 < force < 0.168 for force in forces),
+             f"{words}: forces {forces}")
+    p.expect(statistics.mean(n) <= 6., f"{words}: {n} linearisations")
+    return ratios
+
+
+fine = check_slide(22)                           # 0.9 facets at a step
+coarse = check_slide(11)                         # 1.8 facets
+far = check_slide(6)                             # 3.3 facets
+check_slide(22, STANDARD)
+p.expect(max(fine[3:]) - min(fine[3:]) < 1e-3 * MU,
+         f"ripple of the friction: {fine}")
+# By the pressure along the surface, which the die bends: nearly mu.
+p.close(statistics.mean(fine[3:]), MU, 5e-3, "friction by pressure")
+for a, b in zip(fine[3::2], coarse[1:]):
+    p.close(b, a, 1e-4, "friction in steps twice as large")
+p.close(far[-1], fine[-1], 1e-3, "friction in steps of 3.3 facets")
+
+# On two ranks as on one.
+words = [FRICTION, "Load steps/End time=1.4", "Load steps/Steps=7"]
+one = solved("slide.prm", *words)
+two = solved("slide.prm", *words, ranks=2)
+for key in ("energy", "pair_1_friction_force", "pair_1_dissipation"):
+    p.close(two[key], one[key], 1e-7, f"{key} on two ranks")
+
+p.finish()
