@@ -293,6 +293,19 @@ def check_large_strain():
     stopped(disc, 2, signal.SIGTERM, expected, coarse)
 
 
+def check_large_motion():
+    """A soft ring on its way, in contact and off again, in time: velocities,
+    pressures at points that move, and steps that were halved go on."""
+    ring = p.write("ring.prm", (p.source / "prm/ring-impact.prm").read_text()
+                   + EVERY)
+    short = ["Time/End=0.8", "Time/Step=0.04", "Output/Every=4",
+             "Output/Pictures=false", "Body 1/Mesh/Arguments="
+             "0, 1.02 : 0.8 : 1 : 16 : true"]
+    expected = alone(ring, short)
+    killed(ring, 9, expected, short)
+    stopped(ring, 3, signal.SIGTERM, expected, short)
+
+
 def check_friction(ranks):
     """A block that a plate drags to and fro: the places that slips are measured
     from, and the tractions that springs go on from."""
@@ -328,6 +341,7 @@ elif p.part == 1:
     check_motion()
     check_string()
     check_large_strain()
+    check_large_motion()
     check_friction(1)
     check_one_rank(membrane, cycles)
     check_target()

@@ -184,6 +184,8 @@ end
     .replace("set Steps = 15", "set Steps = 4"),
     "motion": (ROOT / "prm/bar-impact.prm").read_text(encoding="utf-8")
     .replace("set End = 2", "set End = 0.6"),
+    "rubber in motion": (ROOT / "prm/ring-impact.prm").read_text(
+        encoding="utf-8").replace("set End = 4", "set End = 0.6"),
     "thrown": """
 set Scene = motion
 set Dimension = 2
@@ -695,6 +697,17 @@ FALSIFICATIONS = [
         lambda r: r["load_step"] == 80,
         kinetic_energy=lambda r: r["kinetic_energy"] + 5,
         balance=lambda r: r["balance"] + 5))),
+    ("another stiffness of what moves in the scene", "rubber in motion",
+     lambda c: c.edit("modulus = 100", "modulus = 101")),
+    ("momentum of one step of rubber", "rubber in motion",
+     lambda c: c.table("levels.csv", first(
+         lambda r: r["load_step"] == 20,
+         momentum_y=lambda r: 1.001 * r["momentum_y"]))),
+    ("two hundredths of the energy from nowhere", "rubber in motion",
+     lambda c: c.table("levels.csv", first(
+         lambda r: r["load_step"] == 20,
+         kinetic_energy=lambda r: r["kinetic_energy"] + 0.03,
+         balance=lambda r: r["balance"] + 0.03))),
     ("gravity in the scene of a motion", "motion",
      lambda c: c.edit("subsection Body 1", "subsection Solid\n"
                       "  set Gravity = -0.1, 0\nend\nsubsection Body 1")),

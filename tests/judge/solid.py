@@ -114,6 +114,7 @@ class SolidJudge:
             # inertia is not among the forces of nodal.csv
             self.work_size = self.works(self.contact)[1]
             MotionJudge(self).judge()
+            self.strain_energy()
         else:
             self.balance()
             self.energies()
@@ -339,6 +340,18 @@ class SolidJudge:
                 limit.value * self.work_size
                 + 1e-12 * ends[0] / h + self.round_off() * self.largest,
                 limit.reason)
+
+    def strain_energy(self):
+        """Of a motion at its end, integrated again."""
+        if len(self.fields.cells) > MOST_CELLS:
+            self.findings.leave("strain energy", "too many cells")
+            return
+        mine = self.stored_energy()
+        limit = THRESHOLDS["stored energy"]
+        self.findings.check(
+            "strain energy, integrated again",
+            abs(self.summary["strain_energy"] - mine),
+            limit.value * mine + self.round_off() * self.largest, limit.reason)
 
     def works(self, forces):
         """Work of forces on the displacements, and of the magnitudes."""

@@ -46,6 +46,9 @@ THRESHOLDS = {
     "gain": Threshold(
         2e-3, "of the energy at the start or the work done: what implicit "
         "schemes with modified mass may gain"),
+    "large gain": Threshold(
+        1e-2, "of the energy at the start or the work done: what schemes may "
+        "gain at large strain before it is told"),
     "explicit gain": Threshold(
         1e-2, "of the energy at the start or the work done: what explicit "
         "schemes may gain"),

@@ -2,14 +2,10 @@
 #include "body_motion.h"
 
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/quadrature.h>
-#include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace abut::app
@@ -59,18 +55,6 @@ namespace abut::app
             rows.value[k] = own[i];
     }
 
-    /** A component of the velocity at a place of what turns about an axis of
-     * the origin, once in 2 pi of time. */
-    template <int dim>
-    double turned(const dealii::Point<dim> &place, const unsigned int axis,
-                  const unsigned int component)
-    {
-      const unsigned int next = (axis + 1) % 3, last = (axis + 2) % 3;
-      return component == next   ? -place[last]
-             : component == last ? place[next]
-                                 : 0.;
-    }
-
     /** The inverse of its diagonal. */
     struct DiagonalInverse
     {
@@ -111,50 +95,6 @@ namespace abut::app
     find_rigid_motions();
   }
 
-  template <int dim> void BodyMotion<dim>::find_rigid_motions()
-  {
-    const auto &fe = problem_.fe;
-    const auto &owned = problem_.dof_handler.locally_owned_dofs();
-    dealii::FEValues<dim> places(
-        problem_.mapping, fe.base_element(0),
-        dealii::Quadrature<dim>(fe.base_element(0).get_unit_support_points()),
-        dealii::update_quadrature_points);
-    // A membrane moves across its plane, and does not turn in it.
-    const bool turns = fe.n_components() == dim;
-    std::vector<la::Vector> along(fe.n_components(), problem_.vector()),
-        about(turns ? (dim == 2 ? 1 : 3) : 0, problem_.vector());
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    for (const auto &cell : problem_.dof_handler.active_cell_iterators())
-    {
-      if (!cell->is_locally_owned())
-        continue;
-      places.reinit(
-          static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
-              cell));
-      cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-      {
-        if (!owned.is_element(dofs[i]))
-          continue;
-        const auto k = owned.index_within_set(dofs[i]);
-        const auto [component, node] = fe.system_to_component_index(i);
-        la::data(along[component])[k] = 1.;
-        for (unsigned int r = 0; r < about.size(); ++r)
-          la::data(about[r])[k] = turned(places.quadrature_point(node),
-                                         dim == 2 ? 2 : r, component);
-      }
-    }
-    const auto times_mass = [&](const std::vector<la::Vector> &motions,
-                                std::vector<la::Vector> &result)
-    {
-      result.assign(motions.size(), problem_.vector());
-      for (std::size_t m = 0; m < motions.size(); ++m)
-        mass_->vmult(result[m], motions[m]);
-    };
-    times_mass(along, mass_of_component_);
-    times_mass(about, mass_of_rotation_);
-  }
-
   template <int dim> void BodyMotion<dim>::mark_massless()
   {
     const la::LocalRows rows = la::local_rows(*mass_);
@@ -189,7 +129,7 @@ namespace abut::app
     la::Vector moved = velocity_;
     moved *= settings_.stiffness_damping;
     moved += displacement_;
-    la::Vector force = problem_.stiffness_times(moved);
+    la::Vector force = problem_.internal_forces(moved);
     la::Vector product = problem_.vector();
     mass_->vmult(product, velocity_);
     force.add(settings_.mass_damping, product);
@@ -315,8 +255,21 @@ namespace abut::app
   {
     if (settings_.scheme.projects != 0)
       make_tangent(ABUT_TIME_PROJECTION, projection_);
-    if (!is_explicit())
+    if (has_constant_tangent() && !is_explicit())
       make_tangent(ABUT_TIME_STEP, tangent_);
+  }
+
+  template <int dim>
+  const la::Matrix &BodyMotion<dim>::tangent(const la::Vector &u)
+  {
+    if (stage_ == ABUT_TIME_PROJECTION)
+      return projection_;
+    if (!has_constant_tangent())
+    {
+      problem_.tangent(elastic_place(u));
+      make_tangent(ABUT_TIME_STEP, tangent_);
+    }
+    return tangent_;
   }
 
   template <int dim>
@@ -337,13 +290,21 @@ namespace abut::app
         state(displacement_, step_velocity_, acceleration_);
     check(abut_time_begin(&from, la::data(predicted_)));
     u = predicted_;
-    problem_.constraints.distribute(u);
+    if (has_constant_tangent())
+      problem_.constraints.distribute(u);
+    else
+    {
+      take_prescribed(displacement_, u);
+      problem_.hanging.distribute(u);
+    }
     begin_problem(u);
     return is_new || (projects && !is_explicit());
   }
 
   template <int dim> void BodyMotion<dim>::begin_problem(const la::Vector &u)
   {
+    if (stage_ == ABUT_TIME_STEP && !has_constant_tangent())
+      return;
     base_ = u;
     base_residual_ = full_residual(u);
     problem_.constraints.set_zero(base_residual_);
@@ -387,15 +348,35 @@ namespace abut::app
       return way;
     // What is prescribed moves in the step that follows: here it would push its
     // neighbours by its mass.
+    take_prescribed(problem_.vector(), way);
+    return way;
+  }
+
+  template <int dim>
+  void BodyMotion<dim>::take_prescribed(const la::Vector &from,
+                                        la::Vector &values) const
+  {
     const auto &owned = problem_.dof_handler.locally_owned_dofs();
-    for (int i = 0; i < la::n_owned(way); ++i)
+    for (int i = 0; i < la::n_owned(values); ++i)
     {
       const auto unknown = owned.nth_index_in_set(i);
       if (problem_.constraints.is_constrained(unknown)
           && !problem_.hanging.is_constrained(unknown))
-        la::data(way)[i] = 0.;
+        la::data(values)[i] = la::data(from)[i];
     }
-    return way;
+  }
+
+  template <int dim>
+  la::Vector BodyMotion<dim>::elastic_place(const la::Vector &u) const
+  {
+    la::Vector result = problem_.vector();
+    abut_time_arguments arguments = {sizeof(abut_time_arguments), nullptr,
+                                     nullptr, la::data(result)};
+    // The state is not changed.
+    la::Vector before(displacement_), v(step_velocity_), a(acceleration_);
+    const abut_time_state from = state(before, v, a);
+    check(abut_time_evaluate(&from, la::data(u), &arguments));
+    return result;
   }
 
   template <int dim>
@@ -412,7 +393,7 @@ namespace abut::app
     check(abut_time_evaluate(&from, la::data(unknown), &arguments));
     elastic.add(settings_.stiffness_damping, damping);
     inertia.add(settings_.mass_damping, damping);
-    la::Vector result = problem_.stiffness_times(elastic);
+    la::Vector result = problem_.internal_forces(elastic);
     mass_->vmult(product, inertia);
     result += product;
     abut_time_weights weights;
@@ -437,40 +418,19 @@ namespace abut::app
     return result;
   }
 
-  template <int dim> double BodyMotion<dim>::stable_step() const
-  {
-    if (!is_explicit())
-      return std::numeric_limits<double>::infinity();
-    const std::vector<double> mass = la::diagonal(la::local_rows(*free_mass_));
-    const auto n = static_cast<std::int64_t>(mass.size());
-    const auto &owned = problem_.dof_handler.locally_owned_dofs();
-    const auto first =
-        n > 0 ? static_cast<std::int64_t>(owned.nth_index_in_set(0)) : 0;
-    la::Vector x = problem_.vector(), y = problem_.vector();
-    abut_time_limit limit;
-    check(abut_time_limit_begin(&limit, first, n, la::data(x)));
-    problem_.constraints.set_zero(x);
-    while (limit.goes_on != 0)
-    {
-      double sums[2];
-      problem_.stiffness.vmult(y, x);
-      check(
-          abut_time_limit_sums(n, mass.data(), la::data(x), la::data(y), sums));
-      dealii::Utilities::MPI::sum(sums, problem_.dof_handler.get_communicator(),
-                                  sums);
-      check(abut_time_limit_next(&limit, sums, n, mass.data(), la::data(y),
-                                 la::data(x)));
-    }
-    return limit.step;
-  }
-
   template <int dim>
   void BodyMotion<dim>::residual(const la::Vector &u, la::Vector &result) const
   {
-    la::Vector way(u);
-    way -= base_;
-    tangent().vmult(result, way);
-    result += base_residual_;
+    if (stage_ == ABUT_TIME_STEP && !has_constant_tangent())
+      result = step_residual(u);
+    else
+    {
+      la::Vector way(u);
+      way -= base_;
+      const bool steps = stage_ == ABUT_TIME_STEP;
+      (steps ? tangent_ : projection_).vmult(result, way);
+      result += base_residual_;
+    }
     problem_.constraints.set_zero(result);
   }
 
@@ -480,26 +440,6 @@ namespace abut::app
     la::Vector result(values);
     problem_.constraints.set_zero(result);
     return result;
-  }
-
-  template <int dim>
-  double BodyMotion<dim>::damping_energy(const la::Vector &way) const
-  {
-    double result = 0.;
-    la::Vector product = problem_.vector();
-    if (settings_.mass_damping > 0.)
-    {
-      mass_->vmult(product, way);
-      result += settings_.mass_damping * (product * way);
-    }
-    if (settings_.stiffness_damping > 0.)
-    {
-      la::Vector free(way);
-      problem_.hanging.set_zero(free);
-      result +=
-          settings_.stiffness_damping * (problem_.stiffness_times(way) * free);
-    }
-    return result / dt_;
   }
 
   template <int dim>
@@ -520,64 +460,6 @@ namespace abut::app
     check(abut_time_end(&to, la::data(unknown)));
     record_ = measure(next_displacement_, next_velocity_);
     measure_works();
-  }
-
-  template <int dim> void BodyMotion<dim>::measure_works()
-  {
-    la::Vector way(next_displacement_);
-    way -= displacement_;
-    problem_.hanging.set_zero(way);
-    la::Vector force(load_);
-    force += problem_.external;
-    force *= 0.5;
-    // Prescribed unknowns are moved by what holds them and by their loads.
-    const double now = part_of_end(settings_.scheme);
-    la::Vector held(next_held_);
-    held *= now;
-    held.add(1. - now, held_);
-    held -= without_prescribed(held);
-    force += held;
-    record_.energy.dissipated = dissipated_ + damping_energy(way);
-    record_.energy.external_work = work_ + force * way;
-  }
-
-  template <int dim>
-  MotionRecord BodyMotion<dim>::measure(const la::Vector &u,
-                                        const la::Vector &v) const
-  {
-    MotionRecord result;
-    la::Vector product = problem_.vector(), free(u);
-    mass_->vmult(product, v);
-    result.energy.kinetic = 0.5 * (product * v);
-    problem_.hanging.set_zero(free);
-    result.energy.strain = 0.5 * (problem_.stiffness_times(u) * free);
-    for (const la::Vector &mass : mass_of_component_)
-      result.momentum.push_back(mass * v);
-    for (const la::Vector &mass : mass_of_rotation_)
-      result.angular_momentum.push_back(mass * v);
-    return result;
-  }
-
-  template <int dim> std::vector<double> BodyMotion<dim>::total_mass() const
-  {
-    std::vector<double> result;
-    for (const la::Vector &mass : mass_of_component_)
-      result.push_back(mass.mean_value() * double(mass.size()));
-    return result;
-  }
-
-  template <int dim> double BodyMotion<dim>::cancelling_forces() const
-  {
-    la::Vector product = problem_.vector();
-    mass_->vmult(product, velocity_);
-    la::Vector held(displacement_);
-    const std::vector<double> diagonal =
-        la::diagonal(la::local_rows(problem_.stiffness));
-    for (std::size_t i = 0; i < diagonal.size(); ++i)
-      la::data(held)[i] *= diagonal[i];
-    problem_.constraints.set_zero(held);
-    const double stopping = dt_ > 0. ? product.l2_norm() / dt_ : 0.;
-    return stopping + held.l2_norm();
   }
 
   template <int dim> void BodyMotion<dim>::commit()

@@ -23,8 +23,9 @@ namespace abut::app
     abut_time_energy energy = {};
     double contact_force = 0.;    ///< sum over all pairs
     std::vector<double> momentum; ///< by component
-    /** About the origin, of the undeformed places, at which small strain has
-     * its forces act; in 2D one component, of membranes none. */
+    /** About the origin: of large strain of present places, else of the
+     * undeformed ones, at which small strain has its forces act. In 2D one
+     * component, of membranes none. */
     std::vector<double> angular_momentum;
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
@@ -40,8 +41,10 @@ namespace abut::app
    * by the forces at its end; the rest is by those before. */
   double part_of_end(const abut_time_scheme &scheme);
 
-  /** The motion of a linear problem by a scheme of the core: bodies, of whose
-   * displacement it has all components, or a membrane. Time is where the last
+  /** The motion of a problem by a scheme of the core: bodies, of whose
+   * displacement it has all components, or a membrane. Forces that are not
+   * linear are those of the displacement that the scheme weighs them at,
+   * F(u(alpha_f)). Time is where the last
    * committed step has led to; a step in work leaves that alone, so that it may
    * be given up.
    *
@@ -95,15 +98,14 @@ namespace abut::app
 
     /** Begin a step of length @p dt; supports and loads of its end have been
      * put into the problem. @p u becomes a start of the iteration, where the
-     * velocity leads to. Returns whether the tangent is another one than
+     * velocity leads to, of problems that are not linear with the prescribed
+     * values of before. Returns whether the tangent is another one than
      * before. Collective. */
     bool begin_step(double dt, la::Vector &u);
 
-    /** The tangent of the problem in work. */
-    const la::Matrix &tangent() const
-    {
-      return stage_ == ABUT_TIME_STEP ? tangent_ : projection_;
-    }
+    /** The tangent of the problem in work at @p u, as it is until the next
+     * call. Collective. */
+    const la::Matrix &tangent(const la::Vector &u);
 
     /** Its residual at the displacement @p u of the end, contact left out, 0 at
      * constrained unknowns. Collective. */
@@ -187,10 +189,19 @@ namespace abut::app
     la::Vector way_of_projection(const la::Vector &u) const;
     la::Vector step_residual(const la::Vector &unknown) const;
     la::Vector full_residual(const la::Vector &u) const;
+    /** Where internal forces of the step are those of. */
+    la::Vector elastic_place(const la::Vector &u) const;
+    /** Put the values of @p from at prescribed unknowns into @p values. */
+    void take_prescribed(const la::Vector &from, la::Vector &values) const;
     la::Vector without_prescribed(const la::Vector &values) const;
     bool is_explicit() const
     {
       return settings_.scheme.beta == 0.;
+    }
+    /** Whether the tangent of the step is the same for all displacements. */
+    bool has_constant_tangent() const
+    {
+      return problem_.is_linear();
     }
     /** Make the tangents of steps of the present length. */
     void make_tangents();
@@ -207,7 +218,16 @@ namespace abut::app
     /** A multiple of M as a tangent. */
     void scale_mass(double factor, la::Matrix &matrix) const;
     void mark_massless();
+    /** Whether the problem is that of bodies: a membrane moves across its
+     * plane, and does not turn in it. */
+    bool has_rotations() const
+    {
+      return problem_.fe.n_components() == dim;
+    }
     void find_rigid_motions();
+    /** Unit rotations about each axis, of places that a displacement (with
+     * ghosts; null: none) leads to. */
+    std::vector<la::Vector> turns_at(const la::Vector *displacement) const;
     void measure_works();
     MotionRecord measure(const la::Vector &u, const la::Vector &v) const;
     double damping_energy(const la::Vector &way) const;
@@ -217,7 +237,7 @@ namespace abut::app
     std::unique_ptr<const la::Matrix> mass_, free_mass_;
     la::Matrix tangent_, projection_;
     abut_time_stage stage_ = ABUT_TIME_STEP; ///< of the problem in work
-    /** M times a unit motion along, and about, each axis. */
+    /** M times a unit motion along each axis, and of small strain about it. */
     std::vector<la::Vector> mass_of_component_, mass_of_rotation_;
     std::vector<std::uint8_t> massless_;
     bool touches_with_mass_ = false;

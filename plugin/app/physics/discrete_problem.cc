@@ -71,6 +71,14 @@ namespace abut::app
     return std::sqrt(std::max(0., free * force));
   }
 
+  template <int dim>
+  double DiscreteProblem<dim>::stored_energy(const la::Vector &u) const
+  {
+    la::Vector free(u);
+    hanging.set_zero(free);
+    return 0.5 * (stiffness_times(u) * free);
+  }
+
   template <int dim> la::Vector DiscreteProblem<dim>::open_load() const
   {
     la::Vector open;

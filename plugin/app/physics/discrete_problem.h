@@ -68,6 +68,17 @@ namespace abut::app
      * Collective. */
     virtual la::Vector stiffness_times(const la::Vector &u) const = 0;
 
+    /** Internal forces of @p u at all unknowns but hanging ones, whatever is
+     * prescribed now: K u of linear problems. Collective. */
+    virtual la::Vector internal_forces(const la::Vector &u) const
+    {
+      return stiffness_times(u);
+    }
+
+    /** The energy that they are the derivative of, nan where a material has
+     * none; u as above. Collective. */
+    virtual double stored_energy(const la::Vector &u) const;
+
     /** (d K d)^(1/2) with the present tangent of a difference (owned) of two
      * solutions, which have the same values where these are prescribed. */
     double energy_norm(const la::Vector &difference) const;

@@ -208,7 +208,7 @@ namespace abut::app
       this->linear_residual(u, result);
       return;
     }
-    result = internal_forces(u, this->constraints);
+    result = forces_by(u, this->constraints);
     result.add(-1., this->load);
     this->constraints.set_zero(result);
   }
@@ -352,7 +352,7 @@ namespace abut::app
   }
 
   template <int dim>
-  la::Vector Elasticity<dim>::internal_forces(
+  la::Vector Elasticity<dim>::forces_by(
       const la::Vector &u, const dealii::AffineConstraints<double> &rules) const
   {
     const la::Vector ghosted = this->ghosted_field(u);
@@ -381,10 +381,16 @@ namespace abut::app
   }
 
   template <int dim>
+  la::Vector Elasticity<dim>::internal_forces(const la::Vector &u) const
+  {
+    return is_linear() ? stiffness_times(u) : forces_by(u, this->hanging);
+  }
+
+  template <int dim>
   la::Vector Elasticity<dim>::all_internal_forces(const la::Vector &u) const
   {
     if (!is_linear())
-      return internal_forces(u, this->hanging);
+      return forces_by(u, this->hanging);
     la::Vector all(u);
     this->constraints.distribute(all);
     return stiffness_times(all);
@@ -407,6 +413,8 @@ namespace abut::app
   template <int dim>
   double Elasticity<dim>::stored_energy(const la::Vector &u) const
   {
+    if (is_linear())
+      return DiscreteProblem<dim>::stored_energy(u);
     double energy = 0.;
     for_each_state(*this, this->ghosted_field(u),
                    [&](const auto &cell, const auto &points, const auto &state,

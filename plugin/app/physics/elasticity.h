@@ -87,6 +87,8 @@ namespace abut::app
     la::Vector unbalanced_forces(const la::Vector &u) const;
 
     la::Vector stiffness_times(const la::Vector &u) const override;
+    la::Vector internal_forces(const la::Vector &u) const override;
+    double stored_energy(const la::Vector &u) const override;
 
     /** Stored energy minus the work of external forces, supports included.
      * Collective. */
@@ -105,12 +107,10 @@ namespace abut::app
     void add_support_forces(la::Vector &load) const;
     /** Internal forces by rules of hanging nodes alone, or of supports, too,
      * cell by cell. */
-    la::Vector
-    internal_forces(const la::Vector &u,
-                    const dealii::AffineConstraints<double> &rules) const;
+    la::Vector forces_by(const la::Vector &u,
+                         const dealii::AffineConstraints<double> &rules) const;
     /** Those of the first kind, with the present prescribed values. */
     la::Vector all_internal_forces(const la::Vector &u) const;
-    double stored_energy(const la::Vector &u) const;
     void assemble_tangent(const la::Vector &u);
 
     la::Matrix undeformed; ///< of nonlinear materials

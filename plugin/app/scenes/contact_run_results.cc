@@ -113,6 +113,7 @@ namespace abut::app
       const DiscreteProblem<dim> &problem = model.problem();
       state.contact.reinit(problem.mapping, problem.dof_handler,
                            problem.constraints);
+      contact_is_ready = false; // what it was told is gone
     }
     name_parameter(model,
                    [&]

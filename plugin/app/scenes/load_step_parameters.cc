@@ -36,7 +36,8 @@ namespace abut::app
     prm.declare_entry("Newton tolerance", "1e-8",
                       NumberPattern({nullptr, 1e-14, 1., false, true}),
                       "Of large strain: error of the iteration relative to the "
-                      "displacement, in the energy norm.");
+                      "displacement, in the energy norm; of motions a "
+                      "hundredth of that, or what round-off leaves.");
     prm.leave_subsection();
   }
 

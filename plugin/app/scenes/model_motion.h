@@ -77,6 +77,12 @@ namespace abut::app
     /** See ContactModel::begin_solve(). */
     bool begin_step(la::Vector &u);
 
+    /** See BodyMotion::tangent(). Collective. */
+    const la::Matrix &tangent(const la::Vector &u)
+    {
+      return motion.tangent(u);
+    }
+
     /** Whether the tangent has changed since this was asked. */
     bool has_new_tangent()
     {

@@ -59,7 +59,7 @@ namespace abut::app
   template <int dim>
   const la::Matrix &MovingModel<dim>::tangent(const la::Vector &u)
   {
-    return motion ? motion->bodies().tangent() : ContactModel<dim>::tangent(u);
+    return motion ? motion->tangent(u) : ContactModel<dim>::tangent(u);
   }
 
   template <int dim> bool MovingModel<dim>::next_solve(const la::Vector &u)

@@ -4,12 +4,30 @@
 #include "app/physics/stretches.h"
 #include "solid_model.h"
 
+#include <algorithm>
+
 namespace abut::app
 {
+  template <int dim> double SolidModel<dim>::part_of_flight() const
+  {
+    // Gradients of displacements have the round-off of 1, which is not to be
+    // asked for.
+    constexpr double least = 1e-2, round_off = 1e-14;
+    const double way = run.u.linfty_norm();
+    const double length = half_extent(this->triangulation);
+    return way > 0. ? std::clamp(
+               round_off * length
+                   / (way * parameters.load_steps.newton_tolerance),
+               least, 1.)
+                    : 1.;
+  }
+
   template <int dim> NewtonParameters SolidModel<dim>::newton_parameters() const
   {
     NewtonParameters result;
     result.tolerance = parameters.load_steps.newton_tolerance;
+    if (has_large_strain() && motion)
+      result.tolerance *= part_of_flight();
     result.max_steps = parameters.load_steps.newton_steps;
     return result;
   }
@@ -43,6 +61,8 @@ namespace abut::app
                      "stiffness.")}};
   }
 
+  template double SolidModel<2>::part_of_flight() const;
+  template double SolidModel<3>::part_of_flight() const;
   template NewtonParameters SolidModel<2>::newton_parameters() const;
   template std::vector<ContactFinding> SolidModel<2>::examine_materials() const;
   template NewtonParameters SolidModel<3>::newton_parameters() const;

@@ -285,6 +285,11 @@ namespace abut::app
 
   template <int dim> std::string SolidModel<dim>::refuse() const
   {
+    if (motion && has_large_strain()
+        && !std::isfinite(elasticity.stored_energy(run.u)))
+      return coded(ABUT_FAILURE_NOT_FINITE,
+                   "At the end of this time step a cell is turned inside out. "
+                   "Make Time/Step shorter.");
     // A step that cannot be shortened is told of at the end.
     if (motion && parameters.load_steps.cut_back)
       return leaves_points();
@@ -418,7 +423,8 @@ namespace abut::app
     if (has_large_strain())
     {
       columns.push_back("linearisations");
-      for (std::size_t p = 0; p < parameters.pairs.size(); ++p)
+      // A motion has forces of its own, of all problems of a step.
+      for (std::size_t p = 0; p < parameters.pairs.size() && !motion; ++p)
         for (unsigned int d = 0; d < dim; ++d)
           columns.push_back(force_column(p, d));
     }
@@ -449,7 +455,7 @@ namespace abut::app
     {
       row["linearisations"] = result.linearisations;
       const auto results = run.contact.pair_results();
-      for (std::size_t p = 0; p < results.size(); ++p)
+      for (std::size_t p = 0; p < results.size() && !motion; ++p)
         for (unsigned int d = 0; d < dim; ++d)
           row[force_column(p, d)] = results[p].secondary_force[d];
     }

@@ -149,6 +149,10 @@ namespace abut::app
     /** Why the solve of this time step leaves the places that its points were
      * made at; empty: it does not. Collective. */
     std::string leaves_points() const;
+    /** Errors of Newton's method are parts of the displacement, and a body
+     * that flies has come far beside what it is deformed by: the part of the
+     * tolerance that is asked for then. Collective. */
+    double part_of_flight() const;
     /** Whether refinement keeps the chords of a round side in contact. */
     void look_for_chords() const;
     bool is_held(const BodyPart<dim> &part,

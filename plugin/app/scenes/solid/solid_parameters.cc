@@ -5,6 +5,7 @@
 
 #include <abut/dealii/number_pattern.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace abut::app
@@ -13,6 +14,10 @@ namespace abut::app
   {
     using dealii::ParameterHandler;
     namespace Patterns = dealii::Patterns;
+
+    /** Part of the energy above which a gain is told where strains are large:
+     * schemes that keep that of linear forces do not keep that of others. */
+    constexpr double growth_of_large_strain = 1e-2;
 
     /** Numbered sections that a file may have of one kind. */
     constexpr unsigned int most = 100;
@@ -164,9 +169,11 @@ namespace abut::app
       refuse("Solid/Plane", "large strain is computed in plane strain, around "
                             "an axis and in space, not in plane stress: set "
                             "strain, or model the plate in three dimensions.");
-    if (time.is_on)
-      refuse("Time/Scheme", "motions are those of small strain: set none and "
-                            "Load steps/Steps for a way in equilibrium.");
+    if (time.is_on && time.stiffness_damping > 0.)
+      refuse("Time/Stiffness damping",
+             "the stiffness of the undeformed bodies would brake what only "
+             "turns: set Time/Mass damping, or Time/Scheme = hht, which damps "
+             "what vibrates fast.");
     if (refinement.has_target())
       refuse("Refinement/Target error",
              "what the error estimate promises is known of small strain only; "
@@ -180,6 +187,8 @@ namespace abut::app
         throw InputError(body.parameter("Density"),
                          "a body that moves has mass: set its density, or "
                          "Time/Scheme = none.");
+    if (has_large_strain())
+      time.scheme.growth = std::max(time.scheme.growth, growth_of_large_strain);
     time.fit(refinement);
     static_cast<LoadStepOptions &>(load_steps) = time.steps(load_steps);
   }

@@ -50,10 +50,10 @@ namespace abut::app
       std::vector<Sliding> ways;
       if (is_free && has_large_strain)
         ways.push_back(Sliding::large);
-      if ((is_free || given == Sliding::small) && has_large_strain)
-        ways.push_back(Sliding::turn);
       if (is_free && in_time)
         ways.push_back(Sliding::step);
+      if ((is_free || given == Sliding::small) && has_large_strain)
+        ways.push_back(Sliding::turn);
       ways.push_back(given);
       return ways;
     }
