@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cost of contact as a multiple of one linear elastic solve.
 
-Runs a scene of the kind `solid` three times on each level, on one thread:
+Runs a scene of the kind `solid` four times on each level, on one thread:
 with its pair tied from the start on the finest mesh alone, which is one linear
-solve with the same preconditioner; with contact, from the coarsest mesh on
+solve, with algebraic multigrid and with what contact has; with contact, from the coarsest mesh on
 (nested iteration); with contact, on the finest mesh alone (cold). The cost is
 that of assembly, transfer, contact rows (search, integration, assembly) and
 solve on all levels; mesh, numbering and sparsity pattern are the same for all
-three. Seconds are the processor's.
+four. Seconds are the processor's.
 
     tests/bench/cost.py build/release/abut prm/two-blocks-3d.prm
 """
@@ -58,7 +58,9 @@ def main():
     tie, tied = arguments.tied.split("=", 1)
     for level in [int(word) for word in arguments.levels.split(",")]:
         alone = {"Refinement/Coarsest level": level}
-        kinds = {"tied": dict(alone, **{tie: tied}), "contact, nested": {},
+        kinds = {"tied, algebraic": {**alone, tie: tied,
+                                     "Solver/Linear solver": "iterative"},
+                 "tied": {**alone, tie: tied}, "contact, nested": {},
                  "contact, cold": alone}
         unit = None
         for kind, settings in kinds.items():
