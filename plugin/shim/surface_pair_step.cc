@@ -189,9 +189,10 @@ namespace abut::shim
             {
               motion.facet = std::min(pair.secondary.everywhere.median,
                                       pair.primary.everywhere.median);
-              for (const auto *side : {&pair.secondary, &pair.primary})
-                motion.turn = std::max(motion.turn,
-                                       largest_turn_of(*side, marked[p], way));
+              if (pair.steps)
+                for (const auto *side : {&pair.secondary, &pair.primary})
+                  motion.turn = std::max(
+                      motion.turn, largest_turn_of(*side, marked[p], way));
               continue;
             }
             if (places[p].empty())
