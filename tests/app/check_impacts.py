@@ -138,19 +138,20 @@ class Masses:
         self.step = r.uniform(0.002, 0.01)
         self.end = 2.
         self.restitution = r.choice((0., r.random()))
+        self.mass = r.uniform(0.5, 2)
+        self.velocity = [r.uniform(-1, 1) for _ in range(self.dimension - 1)]
+        self.velocity.append(r.uniform(-2, 0))
 
     def text(self):
         r, d = self.random, self.dimension
-        aside = [r.uniform(-1, 1) for _ in range(d - 1)]
         return (f"# seed {self.seed}\nset Scene = motion\nset Dimension = {d}\n"
                 + section("Masses", f"Number = {self.number}",
-                          f"Mass = {r.uniform(0.5, 2)!r}",
+                          f"Mass = {self.mass!r}",
                           *([f"Spring = {r.uniform(10, 100)!r}"]
                             if self.number > 1 else []))
                 + section("Motion", f"Gap = {r.uniform(0.1, 1)!r}",
                           "Initial velocity = "
-                          + "; ".join(f"{v:.12g}" for v in aside
-                                      + [r.uniform(-2, 0)]),
+                          + "; ".join(map(repr, self.velocity)),
                           "Acceleration = "
                           + "; ".join(["0"] * (d - 1)
                                       + [f"{-self.gravity!r}"]))
@@ -176,8 +177,9 @@ def largest_gain(rows, key, first):
 
 def print_row(scene, scheme, gain, momentum, depth, loss):
     print(f"| {scene.seed} | {scene.dimension}D {scene.kind} on {scene.other} "
-          f"| {scheme} | {gain:.1e} | {loss:.3f} | {momentum:.1e} "
-          f"| {depth:.1e} |")
+          f"| {scheme} | {gain:.1e} | "
+          + ("-" if loss is None else f"{100 * loss:.1f} %")
+          + f" | {momentum:.1e} | {depth:.1e} |")
 
 
 def check_bodies(p, impact, scheme):
@@ -186,6 +188,8 @@ def check_bodies(p, impact, scheme):
     settings = {"Time/Scheme": scheme}
     if scheme.startswith("central"):
         short = run(p, name, {**settings, "Time/Step": 1e-4, "Time/End": 1e-4})
+        # Its energy is that of the ends of steps, which goes up and down by
+        # (omega step)^2/4 of what is in the highest modes.
         settings["Time/Step"] = 0.2 * short[1]["stable_time_step"]
     found = run(p, name, settings)
     if found is None:
@@ -211,13 +215,17 @@ def check_bodies(p, impact, scheme):
             given -= mass * impact.gravity * rows[-1]["time"]
         error = max(error, abs(rows[-1]["momentum_" + axis] - given))
     error /= mass * impact.speed
-    # What a step in contact gives counts at its ends by halves or more, and a
-    # weight by nine tenths in the first step: exact where a contact begins and
-    # ends in steps of one length.
-    equal = summary["load_steps_cut_back"] == 0 and rows[-1]["contact_force"] == 0
-    weight = impact.gravity * impact.step / impact.speed
-    p.expect(error <= weight + (1e-6 if equal or impact.bodies == 2 else 0.05),
-             f"{what}: momentum is off by {error:.2e}")
+    # A step of hht in contact gives part of its impulse in the next one, and
+    # the first step a tenth of the weight too little: exact where contact
+    # begins and ends in steps of one length, without weight.
+    allowed = 1e-9
+    if scheme == "hht":
+        equal = (summary["load_steps_cut_back"] == 0
+                 and rows[-1]["contact_force"] == 0)
+        allowed += impact.gravity * impact.step / impact.speed
+        if not equal and impact.bodies == 1:
+            allowed += 0.05
+    p.expect(error <= allowed, f"{what}: momentum is off by {error:.2e}")
     p.expect(impact.bodies == 2 or abs(impulse[-1]) > 0.1 * mass * impact.speed,
              f"{what}: nothing has touched")
     p.expect(max(row["contact_force"] for row in rows) > 0,
@@ -248,8 +256,16 @@ def check_masses(p, masses):
     p.expect(summary["n_touches"] > 0, f"{what}: nothing has touched")
     p.expect(summary["max_penetration"] <= 1e-9,
              f"{what}: {summary['max_penetration']} deep")
-    print_row(masses, "velocity level", gain, 0., summary["max_penetration"],
-              summary["energy_loss"])
+    impulse, momentum = summary["contact_impulse"], summary["momentum"]
+    mass = masses.mass * summary["dofs"] / masses.dimension
+    weight = [0.] * (masses.dimension - 1) + [-masses.gravity * masses.end]
+    error = max(abs(momentum[d] - impulse[d]
+                    - mass * (masses.velocity[d] + weight[d]))
+                for d in range(masses.dimension))
+    error /= mass * (abs(masses.velocity[-1]) + abs(weight[-1]))
+    p.expect(error <= 1e-9, f"{what}: momentum is off by {error:.2e}")
+    print_row(masses, "velocity level", gain, error,
+              summary["max_penetration"], None)
 
 
 PADDLE = """set Scene = solid
@@ -318,8 +334,9 @@ def main():
     check_passage(p)
     print("| seed | scene | scheme | gain | loss | momentum | depth |")
     print("|---|---|---|---|---|---|---|")
-    import os
-    for seed in (map(int, os.environ["SEEDS"].split()) if "SEEDS" in os.environ else p.some(SEEDS, 4)):
+    # Parts: 1 in 2D, 2 in 3D; in short two seeds, one of each.
+    seeds = [seed for seed in SEEDS if not p.part or seed % 2 == p.part % 2]
+    for seed in p.some(seeds, 2):
         for scheme in list(BOUNDS)[:3]:
             check_bodies(p, Impact(seed), scheme)
         check_masses(p, Masses(seed))
