@@ -424,7 +424,11 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("length_scale()");
     i.check_size("length_scale()", "displacement", displacement.size());
-    return i.length_scale(displacement);
+    const double length = i.length_scale(displacement);
+    // Obstacles may come to bodies that rest.
+    return length == 0. && i.surfaces != nullptr && i.surfaces->has_steps()
+               ? i.surfaces->facet_size()
+               : length;
   }
 
   template <int dim>

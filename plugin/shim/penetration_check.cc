@@ -3,6 +3,7 @@
 #include "surface_pair_rows.h"
 
 #include "agree.h"
+#include "passage_check.h"
 
 #include <abut/dealii/rigid_obstacle.h>
 
@@ -187,6 +188,84 @@ namespace abut::shim
   }
 
   template <int dim>
+  void SurfacePairRows<dim>::check_passage_of_obstacle(
+      const std::size_t p, const std::uint8_t *held,
+      const std::vector<dealii::Point<dim>> &present, const double tolerance,
+      std::vector<Penetration<dim>> &missed) const
+  {
+    const Pair &pair = pairs_[p];
+    const std::vector<RigidPose<dim>> now = poses();
+    const RigidPose<dim> then = poses_before(now, false)[p];
+    std::vector<dealii::Point<dim>> from, to;
+    for (const Node node : pair.secondary.node)
+      if (is_owned(node) && held[node] == 0)
+      {
+        // Where it was, seen from the obstacle.
+        const Direction own =
+            transpose(then.rotation) * (present_[node] - then.translation);
+        from.emplace_back(now[p].rotation * own + now[p].translation);
+        to.push_back(present[node]);
+      }
+    std::vector<double> end;
+    pair.data.obstacle->distance(to, end);
+    const std::vector<double> depth =
+        deepest_on_the_way(*pair.data.obstacle, from, to, end);
+    for (std::size_t i = 0; i < to.size(); ++i)
+      if (depth[i] - pair.data.gap > tolerance)
+        missed.push_back(
+            {pair.data.name, to[i], depth[i] - pair.data.gap, false, false});
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::check_passage(
+      const std::size_t p, const std::uint8_t *held,
+      const std::vector<dealii::Point<dim>> &present, const double motion,
+      const double tolerance, std::vector<Penetration<dim>> &missed) const
+  {
+    const Pair &pair = pairs_[p];
+    if (!pair.steps || present_.empty())
+      return;
+    if (pair.data.obstacle)
+    {
+      check_passage_of_obstacle(p, held, present, tolerance, missed);
+      return;
+    }
+    // What goes no farther than this had a row from the start.
+    const abut_search_options &search = settings_.search.detection.search;
+    const double smallest = std::min(pair.secondary.everywhere.smallest,
+                                     pair.primary.everywhere.smallest);
+    if (motion <= std::max(
+            {search.reach, pair.data.reach, search.relative_reach * smallest}))
+      return;
+    std::vector<Direction> way(present.size());
+    for (std::size_t n = 0; n < way.size(); ++n)
+      way[n] = present[n] - present_[n];
+    const double depth = tolerance + pair.data.gap;
+    for (const Passage &found :
+         passing_nodes(context_, surface_, pair.secondary, pair.primary,
+                       present_, way, depth))
+    {
+      const Node node = pair.secondary.node[found.node];
+      if (is_owned(node) && held[node] == 0)
+        missed.push_back({pair.data.name, present[node],
+                          found.depth - pair.data.gap, false, false});
+    }
+    for (const Passage &found :
+         passing_nodes(context_, surface_, pair.primary, pair.secondary,
+                       present_, way, depth))
+    {
+      const Node node = pair.primary.node[found.node];
+      const auto &facet = surface_.facets[pair.secondary.facet[found.facet]];
+      bool between = false;
+      for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)
+        between = between || held[facet.node[a]] != 0;
+      if (is_owned(node) && !between)
+        missed.push_back({pair.data.name, present[node],
+                          found.depth - pair.data.gap, true, false});
+    }
+  }
+
+  template <int dim>
   std::vector<Penetration<dim>>
   SurfacePairRows<dim>::penetrations(const la::Vector &displacement,
                                      const double tolerance)
@@ -214,9 +293,12 @@ namespace abut::shim
         if (pair.data.tied || !pair.data.geometric_gap)
           continue;
         const std::uint8_t *marks = held.data() + p * surface_.nodes.size();
+        const std::size_t before = missed.size();
         if (pair.data.obstacle)
         {
           check_obstacle(pair, marks, present, tolerance, missed);
+          if (missed.size() == before)
+            check_passage(p, marks, present, motions[p], tolerance, missed);
           continue;
         }
         const DisplacedSides<dim> sides(context_, pair.secondary, pair.primary,
@@ -224,6 +306,8 @@ namespace abut::shim
         check_surfaces(pair, marks, present,
                        std::max(pair.data.reach, 1.5 * motions[p]), tolerance,
                        missed);
+        if (missed.size() == before)
+          check_passage(p, marks, present, motions[p], tolerance, missed);
       }
       catch (const std::exception &error)
       {
@@ -247,6 +331,14 @@ namespace abut::shim
   template void SurfacePairRows<dim>::check_surfaces(                          \
       Pair &, const std::uint8_t *, const std::vector<dealii::Point<dim>> &,   \
       double, double, std::vector<Penetration<dim>> &);                        \
+  template void SurfacePairRows<dim>::check_passage_of_obstacle(               \
+      std::size_t, const std::uint8_t *,                                       \
+      const std::vector<dealii::Point<dim>> &, double,                         \
+      std::vector<Penetration<dim>> &) const;                                  \
+  template void SurfacePairRows<dim>::check_passage(                           \
+      std::size_t, const std::uint8_t *,                                       \
+      const std::vector<dealii::Point<dim>> &, double, double,                 \
+      std::vector<Penetration<dim>> &) const;                                  \
   template std::vector<Penetration<dim>> SurfacePairRows<dim>::penetrations(   \
       const la::Vector &, double);
 

@@ -165,6 +165,9 @@ namespace abut::shim
                   const std::vector<double> &pressure,
                   const std::vector<double> &scale) const;
 
+    /** Whether points of a pair are made step by step (Sliding::step). */
+    bool has_steps() const;
+
     /** Median of the secondary surfaces, that of the pair of the largest. */
     double facet_size() const
     {
@@ -488,6 +491,18 @@ namespace abut::shim
                         const std::vector<dealii::Point<dim>> &present,
                         double reach, double tolerance,
                         std::vector<Penetration<dim>> &missed);
+    /** Look for what has come through the other side of pair @p p since points
+     * were made, and is not inside of it any more: of bodies (where the sides
+     * are at @p present) or of the obstacle. */
+    void check_passage(std::size_t p, const std::uint8_t *held,
+                       const std::vector<dealii::Point<dim>> &present,
+                       double motion, double tolerance,
+                       std::vector<Penetration<dim>> &missed) const;
+    void
+    check_passage_of_obstacle(std::size_t p, const std::uint8_t *held,
+                              const std::vector<dealii::Point<dim>> &present,
+                              double tolerance,
+                              std::vector<Penetration<dim>> &missed) const;
 
     /** [pairs][nodes of the whole surface] nonzero: the node has a closed row
      * of the pair, or none that could be. Collective. */
@@ -545,7 +560,6 @@ namespace abut::shim
                const std::vector<std::uint8_t> &dropped, double motion,
                const abut_coupling_target &target) const;
     void note_place(const std::vector<Direction> &u);
-    bool has_steps() const;
     /** Displacements that the next find() makes points at, unless they move; 0
      * but for pairs that do so step by step. Collective. */
     std::vector<Direction> place_of_step();

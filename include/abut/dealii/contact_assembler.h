@@ -331,7 +331,8 @@ namespace abut
     /** The length that gaps and depths at @p displacement are measured by:
      * the one that was set or, without, the largest displacement, but of pairs
      * not more than a facet, the median of their secondary surfaces: a body
-     * may travel far. */
+     * may travel far. With Sliding::step it is a facet where nothing has moved.
+     */
     virtual double length_scale(const la::Vector &displacement) const;
 
     /** The unknowns of this rank that may take part in contact: those of all
@@ -458,7 +459,9 @@ namespace abut
      * rows, for points of secondary surfaces that are inside the other body (or
      * obstacle) by more than @p tolerance, length > 0, although they have no
      * row: nodes of the secondary, and facets of it without rows that hold a
-     * node of the primary. To be called after convergence; if something is
+     * node of the primary; with Sliding::step also what has come through the
+     * other side since the last commit(), on straight ways, and is outside of
+     * it again. To be called after convergence; if something is
      * found, call detect() with this displacement, whose reach follows the
      * motion, and solve on. Nodes of the primary between rows are no misses: no
      * search helps against them, see PairResult::between_rows. The same list on

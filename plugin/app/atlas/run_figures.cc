@@ -50,6 +50,19 @@ namespace abut::app
 
   std::optional<double> RunFigures::value(const std::string &name) const
   {
+    if (const auto argument = argument_of(name, "starts"))
+    {
+      const auto column = columns.find(*argument);
+      if (column == columns.end())
+        return {};
+      double before = 0., result = 0.;
+      for (const double value : column->second)
+      {
+        result += before == 0. && value != 0. ? 1. : 0.;
+        before = value;
+      }
+      return result;
+    }
     for (const std::string function : {"order", "growth"})
       if (const auto argument = argument_of(name, function))
       {

@@ -26,6 +26,7 @@ namespace abut::app
      *
      *     order(h1_error)         log2 of the last two rows of levels.csv
      *     growth(energy)          last row by the one before
+     *     starts(contact_force)   how often the column leaves 0
      *     contact_force           of summary.json, see RunSummary::number()
      */
     std::optional<double> value(const std::string &name) const;

@@ -283,6 +283,15 @@ namespace abut::app
     }
   }
 
+  template <int dim> std::string ContactRun<dim>::time_step() const
+  {
+    const LoadSteps &steps = state.load_steps;
+    return model.has_inertia() ? " That was in the step from time "
+                                     + short_number(steps.time(), 6) + " to "
+                                     + short_number(steps.target(), 6) + "."
+                               : "";
+  }
+
   template <int dim> bool ContactRun<dim>::solve_with_contact()
   {
     begin_contact();
@@ -499,6 +508,7 @@ namespace abut::app
             : "";
     if (!why.empty())
       failure = why;
+    const std::string where = time_step();
     const bool goes_on = load_steps.reject() && why.empty();
     if (goes_on)
       report.progress("load step cut back to time "
@@ -508,7 +518,7 @@ namespace abut::app
     {
       // Perhaps the reason.
       model.look_at_rows(true);
-      report.warn(failure);
+      report.warn(failure + where);
     }
     told = failure;
     if (!goes_on && model.reports_failures())

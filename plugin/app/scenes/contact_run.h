@@ -52,6 +52,8 @@ namespace abut::app
     std::string refuse(unsigned int search);
     bool is_balanced(std::string &why);
     std::string failure_of(const NewtonResult &result) const;
+    /** A sentence about the present step in time; empty in statics. */
+    std::string time_step() const;
     bool solve_with_contact();
     bool solve_without_contact();
     /** One of the problems of a step. */

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_PASSAGE_CHECK_H
+#define ABUT_SHIM_PASSAGE_CHECK_H
+
+#include "surface_side.h"
+
+namespace abut
+{
+  template <int dim> class RigidObstacle;
+}
+
+namespace abut::shim
+{
+  /** A node that has come through a facet. */
+  struct Passage
+  {
+    int node, facet; ///< of the two sides
+    double depth;    ///< behind the plane of the facet at the end
+  };
+
+  /** Nodes of @p nodes that go through a facet of @p facets, from outside to
+   * deeper than @p depth behind it, on the way of the bodies from @p start
+   * [nodes of the whole] by @p way: what is thin may be on the far side at the
+   * end, where no search for penetrations looks. Only facets count that the
+   * surface at the node faces. Nodes go on straight lines past each facet as it
+   * is at the start, by their way relative to the mean of its corners: exact
+   * for facets that do not turn. Each node once, with the facet it is farthest
+   * behind. O((n + m) log m) where ways are as short as facets. Not collective.
+   */
+  template <int dim>
+  std::vector<Passage>
+  passing_nodes(abut_context *context, const ContactSurface<dim> &whole,
+                const SurfaceSide<dim> &nodes, const SurfaceSide<dim> &facets,
+                const std::vector<dealii::Point<dim>> &start,
+                const std::vector<dealii::Tensor<1, dim>> &way, double depth);
+
+  /** How deep points are in an obstacle on straight ways past it as it stands,
+   * [points] length >= 0; 0 also where that is less than they could see: ways
+   * are sampled as far apart as the distance is, and by 1/64 of them at least.
+   * @p end are distances at the ends; ways that are shorter are not looked at.
+   */
+  template <int dim>
+  std::vector<double>
+  deepest_on_the_way(const RigidObstacle<dim> &obstacle,
+                     const std::vector<dealii::Point<dim>> &from,
+                     const std::vector<dealii::Point<dim>> &to,
+                     const std::vector<double> &end);
+} // namespace abut::shim
+
+#endif
