@@ -306,6 +306,19 @@ def check_large_motion():
     stopped(ring, 3, signal.SIGTERM, expected, short)
 
 
+def check_rolling():
+    """A disc that rolls in a ring: in the middle of a motion slips are measured
+    from where the last step has ended, not from where the next one leads."""
+    disc = p.write("disc.prm", (p.source / "prm/rolling-disc.prm").read_text()
+                   + EVERY)
+    short = ["Time/End=0.15", "Time/Step=0.01", "Output/Every=4",
+             "Output/Pictures=false", "Refinement/Level=2",
+             "Body 1/Young modulus=1000"]
+    expected = alone(disc, short)
+    killed(disc, 9, expected, short)
+    stopped(disc, 5, signal.SIGTERM, expected, short)
+
+
 def check_friction(ranks):
     """A block that a plate drags to and fro: the places that slips are measured
     from, and the tractions that springs go on from."""
@@ -342,6 +355,7 @@ elif p.part == 1:
     check_string()
     check_large_strain()
     check_large_motion()
+    check_rolling()
     check_friction(1)
     check_one_rank(membrane, cycles)
     check_target()

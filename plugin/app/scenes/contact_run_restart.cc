@@ -151,9 +151,10 @@ namespace abut::app
   {
     std::istringstream stream(resumed->contact, std::ios::binary);
     state.contact.load(stream);
-    // Before the first step nothing has moved.
-    la::Vector committed(state.u);
-    if (state.load_steps.n_accepted() == 0)
+    // A step of a motion has taken the displacement on its way. Without one
+    // nothing has moved before the first step.
+    la::Vector committed(model.has_inertia() ? model.last_place() : state.u);
+    if (state.load_steps.n_accepted() == 0 && !model.has_inertia())
       committed = 0.;
     model.set_contact(state.contact, state.load_steps.time());
     state.contact.set_committed(committed);
