@@ -100,6 +100,8 @@ class PairFriction:
                                         "dual mortar"):
             return "nodal forces are those of several points"
         if not self.pair.obstacle:
+            if solid.large:
+                return "nodal forces have the normals of several facets"
             if any(any(solid.held[i]) for i in self.nodes):
                 return "supports hold nodes, which hand their share on"
             first = self.facets[0].normal

@@ -170,7 +170,7 @@ class SolidJudge:
     # Forces and energies
 
     def balance(self):
-        limit = of_balance(self.scene, self.summary)
+        limit = of_balance(self.scene, self.summary, self.large)
         if limit is None:
             self.findings.leave("balance of forces",
                                 "the target error sets the tolerances")

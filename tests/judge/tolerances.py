@@ -4,13 +4,17 @@ default."""
 from thresholds import THRESHOLDS, Threshold
 
 
-def of_balance(scene, summary):
+def of_balance(scene, summary, large=False):
     """Limit of balances of forces, or None where a target error sets the
-    tolerances."""
+    tolerances. large: of large strain."""
     if scene.number("Refinement/Target error", 0.) > 0:
         return None
     if not summary.get("linear_iterations"):
-        return THRESHOLDS["balance, direct"]
+        least = THRESHOLDS["balance, direct"]
+        # of large strain the error of displacements, in the energy norm
+        newton = scene.number("Load steps/Newton tolerance", 1e-8)
+        return (Threshold(max(least.value, 10 * newton), least.reason)
+                if large else least)
     least = THRESHOLDS["balance, iterative"]
     asked = scene.number("Method/Final linear tolerance", 1e-10) / 1e-10
     return Threshold(min(1., least.value * max(1., asked)), least.reason)
