@@ -221,6 +221,8 @@ namespace abut
                                                         axisymmetric},
           context.get(), exchange);
       surfaces = made.get();
+      if (committed.size() > 0)
+        surfaces->note_commit(committed);
       if (exchange != surfaces->exchange())
         count_messages();
       exchange = surfaces->exchange();

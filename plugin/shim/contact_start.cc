@@ -187,6 +187,8 @@ namespace abut
     i.check_size("set_committed()", "displacement", displacement.size());
     i.committed = displacement;
     i.committed_is_lost = false;
+    if (i.surfaces != nullptr)
+      i.surfaces->note_commit(displacement);
     i.note_poses();
     if (i.has_rows)
       i.find_slip_reference();

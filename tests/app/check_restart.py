@@ -336,6 +336,27 @@ def check_friction(ranks):
             killed(block, 9, expected, drag)
 
 
+def check_ironing():
+    """A die that is drawn over a block with friction by mortar: what was
+    opposite at the last step is found again. Newton's method begins the next
+    one elsewhere, so that figures are those of its tolerance."""
+    shutil.copy(p.source / "prm/ironing-die.inp", p.folder)
+    ironing = p.write("ironing.prm", (p.source / "prm/ironing.prm").read_text()
+                      + EVERY)
+    short = ["Load steps/Steps=22", "Load steps/End time=1.1",
+             "Refinement/Level=0", "Output/Fields=false",
+             "Output/Pictures=false"]
+    expected = alone(ironing, short)
+    for number, how in ((10, signal.SIGTERM), (21, signal.SIGKILL)):
+        interrupt(ironing, number, how, short)
+        result = run(ironing, "--resume", settings=short)
+        p.expect(result.returncode == 0, f"{ironing}: {result.stderr}")
+        for line in kill_and_resume.compare_coarsely(
+                expected, kill_and_resume.results(OUT), 1e-7, "die, resumed"):
+            p.expect(False, line)
+        shutil.rmtree(OUT)
+
+
 def check_short():
     expected = alone(bodies, steps)
     killed(bodies, 3, expected, steps)
@@ -357,6 +378,7 @@ elif p.part == 1:
     check_large_motion()
     check_rolling()
     check_friction(1)
+    check_ironing()
     check_one_rank(membrane, cycles)
     check_target()
     check_files()
