@@ -118,20 +118,25 @@ namespace abut::app
   std::vector<typename DiscreteProblem<dim>::Cell>
   DiscreteProblem<dim>::find_support_cells() const
   {
-    // Marks that differ: what hangs on several of them must not get 0.
-    constexpr double golden_ratio = 0.6180339887498949;
-    la::Vector all = vector();
-    for (int i = 0; i < la::n_owned(all); ++i)
-      la::data(all)[i] = 1. + std::fmod(golden_ratio * i, 1.);
-    const la::Vector mark = ghosted_field(at_supports(all));
+    const auto is_supported = [&](const dealii::types::global_dof_index dof)
+    { return constraints.is_constrained(dof) && !hanging.is_constrained(dof); };
+    const auto knows_support = [&](const dealii::types::global_dof_index dof)
+    {
+      if (is_supported(dof))
+        return true;
+      const auto *masters = hanging.get_constraint_entries(dof);
+      return masters != nullptr
+             && std::any_of(masters->begin(), masters->end(),
+                            [&](const auto &entry)
+                            { return is_supported(entry.first); });
+    };
     std::vector<Cell> result;
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
       {
         cell->get_dof_indices(dofs);
-        if (std::any_of(dofs.begin(), dofs.end(),
-                        [&](const auto dof) { return mark(dof) != 0.; }))
+        if (std::any_of(dofs.begin(), dofs.end(), knows_support))
           result.push_back(cell);
       }
     return result;
@@ -150,28 +155,30 @@ namespace abut::app
   la::Vector DiscreteProblem<dim>::support_forces(
       const la::Vector &u, const CellStiffness &cell_stiffness) const
   {
-    la::Vector free(u);
-    constraints.set_zero(free);
-    const la::Vector of[] = {ghosted_field(at_supports(u)),
-                             ghosted_field(free)};
-    la::Vector by[] = {open_load(), open_load()};
     const unsigned int n = fe.n_dofs_per_cell();
     dealii::Vector<double> values(n), force(n);
     std::vector<dealii::types::global_dof_index> dofs(n);
-    for (const Cell &cell : support_cells())
+    // One after the other: this is where a run needs most memory.
+    const auto forces_of = [&](const la::Vector &part)
     {
-      cell->get_dof_indices(dofs);
-      const dealii::FullMatrix<double> &matrix = cell_stiffness(cell);
-      for (int part = 0; part < 2; ++part)
+      const la::Vector of = ghosted_field(part);
+      la::Vector by = open_load();
+      for (const Cell &cell : support_cells())
       {
+        cell->get_dof_indices(dofs);
         for (unsigned int i = 0; i < n; ++i)
-          values(i) = of[part](dofs[i]);
-        matrix.vmult(force, values);
-        hanging.distribute_local_to_global(force, dofs, by[part]);
+          values(i) = of(dofs[i]);
+        cell_stiffness(cell).vmult(force, values);
+        hanging.distribute_local_to_global(force, dofs, by);
       }
-    }
-    la::Vector result = close_load(by[0]);
-    result += at_supports(close_load(by[1]));
+      return close_load(by);
+    };
+    la::Vector part(u);
+    constraints.set_zero(part);
+    la::Vector result = at_supports(forces_of(part));
+    part.sadd(-1., u);
+    hanging.set_zero(part);
+    result += forces_of(part);
     return result;
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "nodal_forces.h"
 
+#include <utility>
+
 namespace abut::app
 {
   template <int dim>
@@ -13,15 +15,15 @@ namespace abut::app
     reaction.add(-1., forces.external);
     if (unbalanced != nullptr)
       reaction = *unbalanced;
-    la::Vector free(reaction);
-    problem.constraints.set_zero(free);
-    reaction.add(-1., free);
-
-    la::Vector contact = problem.vector();
-    if (has_contact && abut_law_needs_stress(run.method.options.law))
-      contact = free;
-    else if (has_contact)
-      run.contact.add_contact_forces(contact);
+    la::Vector contact(reaction);
+    problem.constraints.set_zero(contact);
+    reaction.add(-1., contact);
+    if (!has_contact || !abut_law_needs_stress(run.method.options.law))
+    {
+      contact = 0.;
+      if (has_contact)
+        run.contact.add_contact_forces(contact);
+    }
     problem.constraints.set_zero(contact);
     if (has_contact)
     {
@@ -30,7 +32,7 @@ namespace abut::app
       contact += on_supports;
       reaction -= on_supports;
     }
-    return {contact, reaction};
+    return {std::move(contact), std::move(reaction)};
   }
 
   template <int dim>

@@ -20,6 +20,17 @@ namespace abut::app
         size += std::abs(f[i] * d[i]);
       return forces * u;
     }
+
+    /** Sum of d^2 |K_ii| over the unknowns of this rank. */
+    double work_apart(const la::Matrix &stiffness, const la::Vector &u)
+    {
+      const std::vector<double> diagonal =
+          la::diagonal(la::local_rows(stiffness));
+      double result = 0.;
+      for (int i = 0; i < la::n_owned(u); ++i)
+        result += la::data(u)[i] * la::data(u)[i] * std::abs(diagonal[i]);
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -34,13 +45,7 @@ namespace abut::app
     Works works;
     const NodalForces forces = problem.nodal_forces(run.u);
     works.stored = forces.internal * u;
-    const std::vector<double> diagonal =
-        la::diagonal(la::local_rows(problem.stiffness));
-    for (int i = 0; i < la::n_owned(u); ++i)
-    {
-      const double d = la::data(u)[i];
-      works.apart += d * d * std::abs(diagonal[i]);
-    }
+    works.apart = work_apart(problem.stiffness, u);
     AppliedForces applied = applied_forces(problem, run, forces, has_contact);
     works.given = work(forces.external, u, works.size)
                   + work(applied.reaction, u, works.size);
