@@ -36,6 +36,26 @@ extern "C"
 {
 #endif
 
+  /** How an answer of stick and slip is looked for. The first is what Abut
+   * means to be used. The other two are the textbooks', to see where they fail;
+   * they change no answer, only whether and how fast it is found. */
+  typedef enum abut_friction_iteration
+  {
+    /** Newton's method with the linearisation of the head of this file, and
+     * the cures of abut_progress.friction_rung where sets come back. */
+    ABUT_FRICTION_PRIMAL_DUAL,
+    /** Newton's method on the return map itself: the traction is the trial
+     * traction x returned to the disc, in the derivative, too, and the bound
+     * has no derivative where p <= 0 (Alart and Curnier, Comput. Methods Appl.
+     * Mech. Engrg. 92 (1991) 353; with springs c = eps, the radial return of
+     * Simo and Laursen, Comput. Struct. 42 (1992) 97). No cures. */
+    ABUT_FRICTION_RADIAL_RETURN,
+    /** Tresca's problem again and again, its bounds those of the pressures that
+     * the one before has found: a fixed point, which contracts only where
+     * pressures depend little enough on friction. */
+    ABUT_FRICTION_TRESCA
+  } abut_friction_iteration;
+
   /** Points at which the bound of the traction is wanted; arrays of n entries,
    * owned by the caller. */
   typedef struct abut_friction_bounds
@@ -79,6 +99,9 @@ extern "C"
     const double *scale;              /**< [n] c > 0, pressure per length */
     const double *bound;              /**< [n] rho >= 0 */
     const double *d_bound;            /**< [n] drho/dp */
+    /** Nonzero: linearise tau - rho x/|x| as it stands, with nothing held in
+     * the disc and nothing kept regular (ABUT_FRICTION_RADIAL_RETURN). */
+    int32_t radial_return;
   } abut_friction_points;
 
   /** The linearisation of the head of the file; arrays owned by the caller. M

@@ -126,6 +126,8 @@ extern "C"
     void *project_user;         /**< handed to project */
     const void *law_parameters; /**< handed to the law's functions; may be NULL,
                                      the built-in laws have none */
+    /** How stick and slip are found; default ABUT_FRICTION_PRIMAL_DUAL. */
+    abut_friction_iteration friction_iteration;
   } abut_strategy_options;
 
   /** Default options. */
@@ -215,7 +217,8 @@ extern "C"
     int64_t n_slipping; /**< points in contact whose traction is at its bound */
     /** How far sets of stick and slip that came back were cured: 0 not needed,
      * 1 by another derivative of the bound, 2 by a coefficient that grew in
-     * quarters, 3 by Tresca's problems with frozen bounds, 4 not at all. */
+     * quarters, 3 by Tresca's problems with frozen bounds, 4 not at all. Of
+     * ABUT_FRICTION_TRESCA it is 3 from the start. */
     int32_t friction_rung;
   } abut_progress;
 

@@ -460,7 +460,11 @@ namespace abut
         abut_context_message(implementation->context.get());
     const bool failed =
         reason() != ABUT_REASON_NONE && reason() != ABUT_REASON_CONVERGED;
-    return abut_reason_text(reason())
+    const abut_failure_entry *known = abut_failure_get(failure());
+    // What helps other methods that do not contract is of no use to friction.
+    return (known != nullptr && known->failure == ABUT_FAILURE_STICK_SLIP
+                ? std::string(known->name) + ": " + known->remedy
+                : std::string(abut_reason_text(reason())))
            + (failed && !seen.empty() ? " (" + seen + ")" : "");
   }
 

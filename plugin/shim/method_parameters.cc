@@ -21,6 +21,10 @@ namespace abut
 
     const char automatic_word[] = "auto";
 
+    /** Words for abut_friction_iteration, by its numbers. */
+    const char *const iteration_words[] = {"primal-dual", "radial return",
+                                           "tresca"};
+
     /** Names of all discretisations, separated by bars. */
     std::string discretisation_names()
     {
@@ -106,6 +110,18 @@ namespace abut
       prm.declare_entry("Friction parameters", "", user_parameters(),
                         "Parameters of your own friction law, written like "
                         "`Law parameters`.");
+      prm.declare_entry("Friction iteration", iteration_words[0],
+                        Patterns::Selection(std::string(iteration_words[0])
+                                            + "|" + iteration_words[1] + "|"
+                                            + iteration_words[2]),
+                        "How points that stick and slip are found. "
+                        "`primal-dual`: Newton's method for pressures, "
+                        "tractions and displacements, with cures where states "
+                        "come back. The others are the textbooks', there to "
+                        "see where they fail (doc/failures.md). `radial "
+                        "return`: Newton's method on the return map. `tresca`: "
+                        "the bounds of friction are frozen, then made anew "
+                        "from the pressures, and so on.");
     }
 
     std::map<std::string, double> parse_user_parameters(const std::string &text)
@@ -474,6 +490,9 @@ namespace abut
       user_friction = shim::load_user_friction(
           prm.get("Friction file"),
           parse_user_parameters(prm.get("Friction parameters")));
+    for (int i = ABUT_FRICTION_PRIMAL_DUAL; i <= ABUT_FRICTION_TRESCA; ++i)
+      if (prm.get("Friction iteration") == iteration_words[i])
+        options.friction_iteration = static_cast<abut_friction_iteration>(i);
     multiplier_degree = prm.get_integer("Multiplier degree");
     quadrature_degree = prm.get_integer("Quadrature degree");
     segments = prm.get_bool("Segments");

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The example elasto-plastic: contact forces of deal.II's step-42 on its
-meshes, by Abut loaded at run time."""
+meshes, by Abut loaded at run time; with friction, also linked."""
 import argparse
 import json
 import subprocess
@@ -13,6 +13,7 @@ STEP_42 = {0: (512, 2187, 1, 37.3058), 3: (14652, 52497, 145, 56.794)}
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", required=True)
+    parser.add_argument("--linked", required=True)
     parser.add_argument("--plugin", required=True)
     arguments = parser.parse_args()
     failures = []
@@ -21,11 +22,12 @@ def main():
         if not condition:
             failures.append(message)
 
-    def cycles(ranks, n, *words):
+    def cycles(ranks, n, *words, program=(arguments.program,
+                                          arguments.plugin)):
         text = subprocess.run(
-            ["mpirun", "--oversubscribe", "-n", str(ranks), arguments.program,
-             arguments.plugin, str(n), *words], text=True, check=True,
-            capture_output=True, timeout=600).stdout
+            ["mpirun", "--oversubscribe", "-n", str(ranks), *program, str(n),
+             *words], text=True, check=True, capture_output=True,
+            timeout=600).stdout
         return [json.loads(line) for line in text.splitlines()]
 
     serial = cycles(1, 4, "--tolerance", "1e-8")
@@ -54,8 +56,17 @@ def main():
     # The ball is dragged, by more than the cube gives way: all of it slides, and
     # T = mu N.
     for ranks, mu in ((1, 0.1), (2, 0.1), (1, 1.)):
-        for row, smooth in zip(cycles(ranks, 2, "--friction", str(mu),
-                                      "--tolerance", "1e-8"), serial):
+        words = ("--friction", str(mu), "--tolerance", "1e-8")
+        loaded = cycles(ranks, 2, *words)
+        # The same lines do it where Abut is linked, not loaded.
+        linked = cycles(ranks, 2, *words, program=(arguments.linked, "none"))
+        for one, other in zip(loaded, linked):
+            for key in ("active", "slipping", "steps", "force", "friction"):
+                expect(abs(one[key] - other[key]) <= 1e-10 * one[key],
+                       f"cycle {one['cycle']}, linked: {key} {other[key]}, "
+                       f"not {one[key]}")
+        expect(len(linked) == 2, f"{len(linked)} cycles, linked")
+        for row, smooth in zip(loaded, serial):
             what = f"cycle {row['cycle']}, mu = {mu}, {ranks} ranks"
             expect(row["slipping"] == row["active"],
                    f"{what}: {row['slipping']} of {row['active']} slip")

@@ -89,7 +89,8 @@ def run(words, seconds, folder, memory=MEMORY):
         code = code_of(list(map(str, words)), seconds, folder, memory, texts)
     except subprocess.TimeoutExpired:
         code = "time"
-    if code in (-signal.SIGXCPU, -signal.SIGKILL):
+    # mpirun tells of its children's signals as shells do.
+    if code in (-signal.SIGXCPU, -signal.SIGKILL, 128 + signal.SIGXCPU):
         code = "time"
     return code, *(text.read_text(encoding="utf-8", errors="replace")
                    for text in texts)

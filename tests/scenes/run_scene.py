@@ -31,6 +31,9 @@ same keys, each of which is merged over the top ones and run by itself.
               cases' values of a summary key, all but the first `skip` of them;
               "of": v compares |value - v| instead of the value; "entry": i
               takes the i-th entry of a list
+    extrapolated {key: check}: twice a summary key of the last case less that
+              of the one before, where the increment is halved from case to
+              case and the error is first order in it
     same      {"as": name of a case before, "keys": {key: relative tolerance}}:
               summary against that of the other case
     relations {key: {"of": other key, "factor": f, "relative": r}}: a value of
@@ -292,6 +295,21 @@ def run_case(program, case, folder):
     return all_faults, first
 
 
+def check_extrapolated(limits, summaries):
+    """First order errors taken out of the last two cases."""
+    faults = Faults()
+    for key, check in limits.items():
+        before, last = (summary.get(key) for summary in summaries[-2:])
+        if last is None or before is None:
+            faults.append(f"{key} is missing")
+            continue
+        pairs = zip(*(v if isinstance(v, list) else [v]
+                      for v in (before, last)))
+        value = [2. * fine - coarse for coarse, fine in pairs]
+        check_value(f"{key}, extrapolated,", value, check, faults)
+    return faults
+
+
 def check_orders(orders, summaries):
     """Orders of convergence over the cases."""
     faults = Faults()
@@ -358,6 +376,7 @@ def run_file(program, path, folder, part="all"):
     """The cases of an expectation file; returns faults."""
     expectation = json.loads(path.read_text(encoding="utf-8"))
     orders = expectation.pop("orders", {}) if part != "several" else {}
+    limits = expectation.pop("extrapolated", {}) if part != "several" else {}
     faults, summaries, others = [], [], {}
     for index, case in enumerate(cases_of(expectation, part)):
         found, summary = run_case(program, case, folder / str(index + 1))
@@ -367,7 +386,8 @@ def run_file(program, path, folder, part="all"):
         print(f"{'ok    ' if not found else 'FAILED'} {label}", flush=True)
         faults += [f"{label}: {fault}" for fault in found]
         summaries.append(summary or {})
-    return faults + check_orders(orders, summaries)
+    return (faults + check_orders(orders, summaries)
+            + check_extrapolated(limits, summaries))
 
 
 def main():

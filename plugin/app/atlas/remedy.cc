@@ -23,6 +23,9 @@ namespace abut::app
          "leave Method/Penalty = 0, or Method/Nitsche theta = -1"},
         {ABUT_FAILURE_NEGATIVE_WEIGHTS, "Method/Discretisation = mortar"},
         {ABUT_FAILURE_INTERIOR, "lagrange, or a looser Method/Gap tolerance"},
+        {ABUT_FAILURE_STICK_SLIP,
+         "Method/Friction iteration = primal-dual; smaller load steps, or a "
+         "smaller coefficient of friction"},
         {ABUT_FAILURE_UNBALANCED,
          "Method/Barrier end = 1e-8, or lagrange; in a program of one's own, "
          "look at the sign of the residual"},

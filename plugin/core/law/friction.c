@@ -6,6 +6,7 @@
 #include <abut/friction.h>
 #include <abut/law.h>
 #include <math.h>
+#include <stdbool.h>
 
 enum
 {
@@ -19,6 +20,7 @@ typedef struct contact
   double x[MAX_T], tau[MAX_T], shifted[MAX_T]; /* x, tau, s~ */
   double length, rho;                          /* |x|, rho */
   double c, compliance;
+  bool radial_return;
 } contact;
 
 static double
@@ -39,6 +41,7 @@ contact_at(const abut_friction_points *points, int32_t i, int64_t first)
   contact at = {.t = points->n_tangents[i],
                 .rho = points->bound[i],
                 .c = points->scale[i],
+                .radial_return = points->radial_return != 0,
                 .compliance =
                     points->compliance == NULL ? 0 : points->compliance[i]};
   for (int32_t k = 0; k < at.t; ++k)
@@ -135,10 +138,17 @@ stick(const contact *at, const target *to)
 }
 
 /* tau inside the disc, and the factor beta that keeps A regular: without it A
- * is singular at |x| = 2 rho, tau = -rho e. */
+ * is singular at |x| = 2 rho, tau = -rho e. With rho e in the place of tau, and
+ * no factor, the blocks are the derivatives of tau - rho e themselves. */
 static double
 safeguard(const contact *at, const double *e, double *inside)
 {
+  if (at->radial_return)
+  {
+    for (int32_t k = 0; k < at->t; ++k)
+      inside[k] = at->rho * e[k];
+    return 1;
+  }
   const double length = norm(at->tau, at->t);
   const double factor = length > at->rho ? at->rho / length : 1;
   for (int32_t k = 0; k < at->t; ++k)

@@ -371,8 +371,9 @@ static abut_status
 stop_without_state(abut_strategy *s)
 {
   abut_text text = abut_strategy_remark(s);
-  abut_text_add(&text, "sets of stick and slip came back and no cure helped");
+  abut_friction_describe_end(&s->friction, &text);
   s->progress.seen = ABUT_FAILURE_STICK_SLIP;
+  s->progress.friction_rung = ABUT_RUNG_END;
   return abut_strategy_stop(s, ABUT_REASON_STAGNATION);
 }
 
@@ -489,6 +490,8 @@ moved(abut_strategy *s)
   bool goes_on = true;
   if (abut_friction_has_ladder(&s->friction))
     status = change_frictional_set(s, &found, &goes_on);
+  else if (abut_friction_is_frozen_and_lost(&s->friction))
+    goes_on = false;
   else
     change_set(s, &found);
   if (status != ABUT_SUCCESS)

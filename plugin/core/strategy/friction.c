@@ -113,6 +113,7 @@ abut_friction_start(abut_strategy *s)
   if (status != ABUT_SUCCESS)
     return status;
   mark_rows(s);
+  f->iteration = s->options.friction_iteration;
   f->rung = ABUT_RUNG_NEWTON;
   f->quarter = ABUT_FRICTION_QUARTERS;
   f->steps = f->rounds = 0;
@@ -133,6 +134,7 @@ gather(abut_strategy *s)
 {
   abut_friction_rows *f = &s->friction;
   const bool updates = s->reference != NULL;
+  const bool returns = f->iteration == ABUT_FRICTION_RADIAL_RETURN;
   int32_t t = 0;
   for (int32_t i = 0; i < f->n; ++i)
   {
@@ -140,6 +142,9 @@ gather(abut_strategy *s)
     f->pressure[i] = s->pressure[row];
     f->scale[i] = s->scale[row + 1];
     f->compliance[i] = s->compliance == NULL ? 0 : s->compliance[row + 1];
+    /* So that x is the trial traction of the spring. */
+    if (returns && f->compliance[i] > 0)
+      f->scale[i] = 1 / f->compliance[i];
     for (int32_t k = 1; k <= f->n_tangents[i]; ++k, ++t)
     {
       f->slip[t] = s->gap[row + k];
@@ -207,16 +212,28 @@ abut_friction_find_bounds(abut_strategy *s)
       f->bound[i] = f->frozen[i];
       f->d_bound[i] = 0;
     }
-    else if (f->rung == ABUT_RUNG_BOUND && f->pressure[i] <= 0)
+    else if ((f->rung == ABUT_RUNG_BOUND
+              || f->iteration == ABUT_FRICTION_RADIAL_RETURN)
+             && f->pressure[i] <= 0)
       f->d_bound[i] = 0;
   }
   drop_bounds_of_rivals(s);
   return status;
 }
 
-static abut_friction_points
-points_of(const abut_friction_rows *f)
+/* Tresca's problem has an energy: where its sets come back, the derivative that
+ * forgets where the traction was does better. */
+static bool
+forgets_traction(const abut_strategy *s)
 {
+  return s->friction.iteration == ABUT_FRICTION_RADIAL_RETURN
+         || (s->friction.rung == ABUT_RUNG_TRESCA && s->active_set.budget == 0);
+}
+
+static abut_friction_points
+points_of(const abut_strategy *s)
+{
+  const abut_friction_rows *f = &s->friction;
   const abut_friction_points points = {
       .struct_size = sizeof(points),
       .n = f->n,
@@ -228,6 +245,7 @@ points_of(const abut_friction_rows *f)
       .scale = f->scale,
       .bound = f->bound,
       .d_bound = f->d_bound,
+      .radial_return = forgets_traction(s),
   };
   return points;
 }
@@ -250,10 +268,14 @@ abut_friction_first_state(abut_strategy *s, const uint8_t *state)
   abut_friction_rows *f = &s->friction;
   if (!abut_friction_is_on(f))
     return ABUT_SUCCESS;
-  abut_status status = abut_friction_find_bounds(s);
+  abut_status status = f->iteration == ABUT_FRICTION_TRESCA
+                           ? abut_friction_begin_tresca(s)
+                           : ABUT_SUCCESS;
+  if (status == ABUT_SUCCESS)
+    status = abut_friction_find_bounds(s);
   for (int32_t i = 0; i < f->n; ++i)
     f->state[i] = s->state[f->first[i]];
-  const abut_friction_points points = points_of(f);
+  const abut_friction_points points = points_of(s);
   if (status == ABUT_SUCCESS)
     status = abut_friction_classify(&points, f->state);
   for (int32_t i = 0; i < f->n; ++i)
@@ -328,7 +350,7 @@ abut_friction_evaluate(abut_strategy *s)
 {
   abut_friction_rows *f = &s->friction;
   abut_status status = abut_friction_find_bounds(s);
-  const abut_friction_points points = points_of(f);
+  const abut_friction_points points = points_of(s);
   const abut_friction_linearisation result = {
       .struct_size = sizeof(result),
       .residual = f->residual,
@@ -412,7 +434,7 @@ abut_friction_find_states(abut_strategy *s, double pressure_noise,
   allow_noise(f, pressure_noise, slip_noise);
   for (int32_t i = 0; i < f->n; ++i)
     f->trial[i] = s->trial_state[f->first[i]];
-  const abut_friction_points points = points_of(f);
+  const abut_friction_points points = points_of(s);
   if (status == ABUT_SUCCESS)
     status = abut_friction_classify(&points, f->trial);
   int32_t tangent = 0;

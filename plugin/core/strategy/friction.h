@@ -9,9 +9,12 @@
  * Where sets of stick and slip come back, a ladder is climbed: the other
  * derivative of the bound where nothing presses; the coefficient in four rounds
  * of a quarter each; Tresca's problem, with the bound frozen in each round;
- * then there is no answer. */
+ * then there is no answer. The iterations of textbooks are parts of this: the
+ * radial return has its own linearisation and no ladder, Tresca's fixed point
+ * begins on that rung. */
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <abut/strategy.h>
 
@@ -64,6 +67,7 @@ typedef struct abut_friction_rows
   uint8_t *row_changes;   /* [rows] nonzero at normals whose state is bad */
   uint8_t *row_mark;      /* [rows] state and direction, for signatures */
 
+  abut_friction_iteration iteration;
   abut_friction_rung rung;
   int32_t quarter; /* of the coefficient, 1 .. 4 */
   int32_t steps;   /* since the last rung */
@@ -128,8 +132,19 @@ bool abut_friction_has_ladder(const abut_friction_rows *f);
 /* Whether a rung has had steps enough. Counts the step. */
 bool abut_friction_is_lost(abut_friction_rows *f);
 
+/* The same on Tresca's rung: with so much friction a point may lift, and
+ * without contact have none, so that a frozen problem need not have an answer.
+ */
+bool abut_friction_is_frozen_and_lost(abut_friction_rows *f);
+
 /* Next rung; false at the end of the ladder. */
 abut_status abut_friction_climb(abut_strategy *s, bool *goes_on);
+
+/* Tresca's fixed point begins: the bounds are those of the first pressures. */
+abut_status abut_friction_begin_tresca(abut_strategy *s);
+
+/* What was seen where no state was found, for a message. */
+void abut_friction_describe_end(const abut_friction_rows *f, abut_text *text);
 
 /* The set has settled: whether another round of the rung follows. */
 abut_status abut_friction_settled(abut_strategy *s, bool *goes_on);

@@ -28,6 +28,13 @@ abut_friction_is_lost(abut_friction_rows *f)
   return f->steps > MAX_STEPS;
 }
 
+bool
+abut_friction_is_frozen_and_lost(abut_friction_rows *f)
+{
+  return abut_friction_is_on(f) && f->rung == ABUT_RUNG_TRESCA
+         && abut_friction_is_lost(f);
+}
+
 /* The bounds of the present pressures, into frozen; their change, relative to
  * the largest one. Collective. */
 static abut_status
@@ -57,7 +64,9 @@ abut_friction_climb(abut_strategy *s, bool *goes_on)
   abut_friction_rows *f = &s->friction;
   abut_status status = ABUT_SUCCESS;
   f->steps = 0;
-  f->rung = (abut_friction_rung)(f->rung + 1);
+  f->rung = f->iteration == ABUT_FRICTION_RADIAL_RETURN
+                ? ABUT_RUNG_END
+                : (abut_friction_rung)(f->rung + 1);
   s->progress.friction_rung = (int32_t)f->rung;
   if (f->rung == ABUT_RUNG_QUARTERS)
     f->quarter = 1;
@@ -74,6 +83,45 @@ abut_friction_climb(abut_strategy *s, bool *goes_on)
   }
   *goes_on = f->rung < ABUT_RUNG_END;
   return status;
+}
+
+abut_status
+abut_friction_begin_tresca(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  const abut_status status = abut_friction_find_bounds(s);
+  for (int32_t i = 0; i < f->n && status == ABUT_SUCCESS; ++i)
+    f->frozen[i] = f->bound[i];
+  f->rung = ABUT_RUNG_TRESCA;
+  s->progress.friction_rung = (int32_t)f->rung;
+  s->progress.seen = ABUT_FAILURE_STICK_SLIP;
+  return status;
+}
+
+void
+abut_friction_describe_end(const abut_friction_rows *f, abut_text *text)
+{
+  switch (f->iteration)
+  {
+  case ABUT_FRICTION_PRIMAL_DUAL:
+    abut_text_add(text, "sets of stick and slip came back and no cure helped");
+    break;
+  case ABUT_FRICTION_RADIAL_RETURN:
+    abut_text_add(text, "sets of stick and slip came back: Newton's method on "
+                        "the return map goes to and fro between them; primal-"
+                        "dual is the iteration that does not");
+    break;
+  case ABUT_FRICTION_TRESCA:
+    abut_text_add(text, "Tresca's fixed point has not settled: after ");
+    abut_text_add_integer(text, f->rounds);
+    abut_text_add(text, " rounds the bounds of friction still change by ");
+    abut_text_add_number(text, f->change);
+    abut_text_add(text, " of the largest one");
+    if (f->steps > MAX_STEPS)
+      abut_text_add(text, ", and with these no state is found");
+    abut_text_add(text, "; primal-dual needs no rounds");
+    break;
+  }
 }
 
 abut_status

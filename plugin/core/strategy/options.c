@@ -120,6 +120,10 @@ abut_strategy_check_options(abut_context *context,
     if (!abut_limit_holds(&entries[i].limit, value))
       return fail_range(context, &entries[i].limit, value, call);
   }
+  if (options->friction_iteration < ABUT_FRICTION_PRIMAL_DUAL
+      || options->friction_iteration > ABUT_FRICTION_TRESCA)
+    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
+                     "there is no such friction_iteration");
   if (options->barrier_end > options->barrier_start)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "barrier_end is larger than barrier_start");

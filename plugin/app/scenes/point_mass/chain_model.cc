@@ -34,8 +34,10 @@ namespace abut::app
     {
       if (status != ABUT_SUCCESS)
         return coded(ABUT_FAILURE_FLOATING_BODY, abut_context_message(context));
-      return coded(abut_reason_failure(reason, law, &progress),
-                   abut_reason_text(reason));
+      const abut_failure failure = abut_reason_failure(reason, law, &progress);
+      return coded(failure, failure == ABUT_FAILURE_STICK_SLIP
+                                ? abut_context_message(context)
+                                : abut_reason_text(reason));
     }
   } // namespace
 
