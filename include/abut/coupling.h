@@ -271,7 +271,11 @@ extern "C"
     bool flush; /**< surfaces count as touching: leave out their distance */
     /** Points of contact have their tangents, too, with slips of zero: in the
      * plane t = (-n2, n1); in space t1 is the axis that is most tangential, in
-     * the tangent plane, and t2 = n x t1. Their numbers follow that of the
+     * the tangent plane, and t2 = n x t1. With reference, areas or present they
+     * turn with the secondary instead: t1 is, in the tangent plane, half way
+     * between a facet's first local direction and its second one turned by a
+     * right angle; at a node it is the facet with the smallest number there,
+     * but for those that are 60 degrees off. Their numbers follow that of the
      * normal: numbers of points that are given must leave room. */
     bool tangents;
     /** Points move: [n_nodes * dimension] positions of the secondary's nodes

@@ -52,15 +52,18 @@ namespace abut::shim
     const auto &fe = dof_handler.get_fe();
     const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
     solve::NearNullSpace space;
-    space.n_components = fe.n_components();
+    space.n_components = dim;
     const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
     space.n_bodies = bodies.n_bodies();
     space.component.resize(owned.n_elements());
     space.body.resize(owned.n_elements());
     space.point.resize(owned.n_elements());
 
+    // Other fields than the displacement may have no support points.
+    const dealii::FiniteElement<dim> &element = fe.base_element(0);
     dealii::FEValues<dim> values(
-        mapping, fe, dealii::Quadrature<dim>(fe.get_unit_support_points()),
+        mapping, element,
+        dealii::Quadrature<dim>(element.get_unit_support_points()),
         dealii::update_quadrature_points);
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
     // An unknown of this rank may lie on ghost cells only.
@@ -68,7 +71,9 @@ namespace abut::shim
     {
       if (cell->is_artificial())
         continue;
-      values.reinit(cell);
+      values.reinit(
+          static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+              cell));
       cell->get_dof_indices(dofs);
       const unsigned int body = bodies.of(cell);
       for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -76,10 +81,15 @@ namespace abut::shim
         if (!owned.is_element(dofs[i]))
           continue;
         const auto k = owned.index_within_set(dofs[i]);
-        space.component[k] = fe.system_to_component_index(i).first;
+        const bool is_displacement =
+            fe.is_primitive(i) && fe.system_to_component_index(i).first < dim;
+        space.component[k] =
+            is_displacement ? fe.system_to_component_index(i).first : dim;
         space.body[k] = static_cast<int>(body);
+        const unsigned int node =
+            is_displacement ? fe.system_to_base_index(i).second : 0;
         for (unsigned int d = 0; d < dim; ++d)
-          space.point[k][d] = values.quadrature_point(i)[d];
+          space.point[k][d] = values.quadrature_point(node)[d];
       }
     }
     return space;

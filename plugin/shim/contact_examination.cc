@@ -448,7 +448,9 @@ namespace abut
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
       const bool is_obstacle = i.pairs[p].obstacle != nullptr;
-      const Scale scale{result.deformation, displacement.linfty_norm(),
+      const Scale scale{result.deformation,
+                        shim::largest_displacement(
+                            i.near_null_space(), displacement, i.communicator),
                         round_off_of_places * checks[p].facet_size};
       const bool follows = i.method.sliding == Sliding::large
                            && !i.pairs[p].tied && !is_obstacle;

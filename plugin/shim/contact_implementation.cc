@@ -453,44 +453,6 @@ namespace abut
 
   template <int dim>
   void
-  ContactAssembler<dim>::Implementation::set_scales(const la::Matrix &matrix,
-                                                    const la::Vector &residual)
-  {
-    // Internal forces at the start measure the load when the residual is
-    // small because the start is good.
-    la::Vector internal(residual);
-    stiffness_matrix(matrix).vmult(internal, start_displacement);
-    constraints->set_zero(internal);
-    smallest_residual = method.options.final_linear_tolerance
-                        * std::max(residual.l2_norm(), internal.l2_norm());
-
-    double weight = 0.;
-    for (int i = 0; i < coefficients.n_rows(); ++i)
-      weight += coefficients.weights()[i];
-    weight = MPI::sum(weight, communicator);
-    const double load = std::max(residual.l1_norm(), internal.l1_norm());
-    abut_strategy_options &options = method.options;
-    options.pressure_scale = load > 0. && weight > 0. ? load / weight : 1.;
-    options.length_scale = length_scale();
-    if (surfaces == nullptr || weight <= 0.)
-      return;
-    // Bodies without load are pressed by their overlap. Surfaces that touch
-    // have no gaps, or such of round-off, which measure nothing: then it is
-    // the indentation by the load, if that is more than round-off.
-    const double soft = softness();
-    const double least =
-        std::numeric_limits<double>::epsilon() * unmeasured_length();
-    const double length =
-        std::max(measured_length(), options.pressure_scale * soft);
-    if (load <= 0.)
-      options.pressure_scale = options.length_scale / soft;
-    else if (given_length == 0. && start_displacement.linfty_norm() == 0.
-             && length > least)
-      options.length_scale = length;
-  }
-
-  template <int dim>
-  void
   ContactAssembler<dim>::Implementation::take_matrix(const la::Matrix &matrix)
   {
     la::Vector compliance = solve::compliance(matrix);
@@ -503,62 +465,6 @@ namespace abut
       if (moves()) // directions turn, and the law must not
         surfaces->make_isotropic(law_compliance);
     }
-  }
-
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::softness() const
-  {
-    double sums[2] = {0., 0.};
-    for (int i = 0; i < coefficients.n_rows(); ++i)
-    {
-      sums[0] += coefficients.weights()[i];
-      sums[1] += coefficients.weights()[i] * stiffness[i];
-    }
-    MPI::sum(sums, communicator, sums);
-    return sums[1] > 0. ? sums[0] / sums[1] : 0.;
-  }
-
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::length_scale(
-      const la::Vector &displacement) const
-  {
-    if (given_length > 0.)
-      return given_length;
-    const double way = displacement.linfty_norm();
-    return surfaces == nullptr ? way : std::min(way, surfaces->facet_size());
-  }
-
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::length_scale() const
-  {
-    const double length = measured_length();
-    return length > 0. ? length : unmeasured_length();
-  }
-
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::unmeasured_length() const
-  {
-    const double facet = surfaces == nullptr ? 0. : surfaces->facet_size();
-    return facet > 0. ? facet : 1.; // any: there is no row, or none has a gap
-  }
-
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::measured_length() const
-  {
-    const double way = length_scale(start_displacement);
-    if (way > 0.)
-      return way;
-    // The harmonic mean of the gaps: parts of an obstacle that are out of
-    // reach do not count.
-    double sums[2] = {0., 0.};
-    for (int i = 0; i < coefficients.n_rows(); ++i)
-      if (gap[i] != 0.)
-      {
-        sums[0] += coefficients.weights()[i];
-        sums[1] += coefficients.weights()[i] / std::abs(gap[i]);
-      }
-    MPI::sum(sums, communicator, sums);
-    return sums[1] > 0. ? sums[0] / sums[1] : 0.;
   }
 
   template <int dim>

@@ -132,6 +132,8 @@ namespace abut::shim
                               -std::numeric_limits<double>::infinity());
     for (std::size_t k = 0; k < space.component.size(); ++k)
     {
+      if (space.component[k] >= n)
+        continue;
       double *ends =
           range.data() + 2 * (n * space.body[k] + space.component[k]);
       ends[0] = std::max(ends[0], values[k]);
@@ -150,7 +152,18 @@ namespace abut::shim
       }
       sum += std::sqrt(square);
     }
-    return std::min(sum, u.linfty_norm());
+    return std::min(sum, largest_displacement(space, u, communicator));
+  }
+
+  double largest_displacement(const solve::NearNullSpace &space,
+                              const la::Vector &u, const MPI_Comm communicator)
+  {
+    const double *values = la::data(u);
+    double largest = 0.;
+    for (std::size_t k = 0; k < space.component.size(); ++k)
+      if (space.component[k] < space.n_components)
+        largest = std::max(largest, std::abs(values[k]));
+    return dealii::Utilities::MPI::max(largest, communicator);
   }
 
   template <int dim>

@@ -17,6 +17,11 @@ namespace abut::shim
   double deformation(const solve::NearNullSpace &space, const la::Vector &u,
                      MPI_Comm communicator);
 
+  /** The largest component of the displacement, length >= 0; other fields
+   * beside it do not count. Collective. */
+  double largest_displacement(const solve::NearNullSpace &space,
+                              const la::Vector &u, MPI_Comm communicator);
+
   /** Strains of a displacement. */
   struct Strains
   {

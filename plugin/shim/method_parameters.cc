@@ -345,8 +345,6 @@ namespace abut
           "Points whose partners stay turn with the bodies ";
       if (!is_weighted || pair.has_obstacle)
         return why + "for mortar between bodies only. Use Sliding = large.";
-      if (pair.has_friction && pair.in_space)
-        return why + "without friction in space. Use Sliding = small.";
       if (abut_law_is_interior(&law))
         return why + "not with Method/Enforcement = " + std::string(law.name)
                + ". Use lagrange, penalty, quadratic penalty or augmented "
@@ -379,10 +377,6 @@ namespace abut
       return why
              + "follows nodes and quadrature points against an obstacle, not "
              + mortar + ". Use node to segment or quadrature point.";
-    if (pair.has_friction && pair.in_space)
-      return why
-             + "has friction in two dimensions only: leave out the friction of "
-               "the pair, or use small.";
     if (abut_law_needs_stress(&law) || abut_law_is_interior(&law))
       return why
              + "does not go with Method/Enforcement = " + std::string(law.name)
@@ -426,17 +420,16 @@ namespace abut
         "Sliding", "auto", Patterns::Selection("auto|small|step|large"),
         "Where contact is looked at. `small`: on the undeformed "
         "bodies; gaps are linear in the displacement, but for "
-        "mortar between bodies of large strain (in space: "
-        "without friction), whose partners and weights are those, "
-        "and gaps and directions those of the present places. "
+        "mortar between bodies of large strain, whose partners and "
+        "weights are those, and gaps and directions those of the present "
+        "places. "
         "`step`: "
         "on the bodies where they were at the beginning of the "
         "load or time step. `large`: "
         "where the bodies are; points move, and their gaps, "
         "directions and derivatives of these are made anew at "
         "each linearisation. For nodes and quadrature points, "
-        "and for mortar between bodies, with friction in two "
-        "dimensions. `auto`: large for "
+        "and for mortar between bodies. `auto`: large for "
         "bodies of large strain where that can be, step for "
         "bodies that move by inertia, else small.");
     prm.declare_entry("System", "auto",

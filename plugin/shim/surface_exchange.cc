@@ -75,7 +75,7 @@ namespace abut::shim
     const auto &fe = dof_handler_.get_fe();
     const unsigned int degree = fe.base_element(0).degree;
     const bool is_usable =
-        fe.n_components() >= dim && fe.has_support_points()
+        fe.n_components() >= dim && fe.base_element(0).has_support_points()
         && fe.base_element(0).n_components() == 1
         && fe.element_multiplicity(0) >= dim && (degree == 1 || degree == 2)
         && fe.base_element(0).n_dofs_per_vertex() == 1
@@ -245,6 +245,8 @@ namespace abut::shim
   template <int dim> void SurfaceExchange<dim>::describe()
   {
     const auto &fe = dof_handler_.get_fe();
+    // Other fields than the displacement may have no support points.
+    const auto &nodes_of_cell = fe.base_element(0).get_unit_support_points();
     std::vector<Index> dofs(fe.n_dofs_per_cell());
     // Nodes that others hang on need not be on the boundary.
     for (const bool at_boundary : {true, false})
@@ -265,9 +267,12 @@ namespace abut::shim
             for (unsigned int d = 0; d < dim; ++d)
               dof[d] = dofs[local[d]];
             described_.emplace(
-                first, describe_node(mapping_.transform_unit_to_real_cell(
-                                         cell, fe.unit_support_point(local[0])),
-                                     dof));
+                first,
+                describe_node(
+                    mapping_.transform_unit_to_real_cell(
+                        cell, nodes_of_cell[fe.system_to_base_index(local[0])
+                                                .second]),
+                    dof));
           }
       }
   }

@@ -138,10 +138,9 @@ namespace abut::shim
     const std::string fixed =
         data.tied
             ? ""
-            : sliding_refusal(
-                sliding, law, pair.discretisation,
-                {SelfContact<dim>::is_split(data), data.obstacle != nullptr,
-                 data.friction != nullptr, dim == 3, data.geometric_gap});
+            : sliding_refusal(sliding, law, pair.discretisation,
+                              {SelfContact<dim>::is_split(data),
+                               data.obstacle != nullptr, data.geometric_gap});
     if (!fixed.empty())
       throw ContactError("Pair '" + data.name + "': " + fixed);
     pairs_.push_back(std::move(pair));

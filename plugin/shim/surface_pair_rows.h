@@ -4,15 +4,12 @@
 
 #include "row_source.h"
 #include "surface_exchange.h"
-#include "surface_side.h"
+#include "surface_pair.h"
 
-#include <abut/dealii/contact_examination.h>
-#include <abut/dealii/contact_pair.h>
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/surface_traction.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -126,13 +123,7 @@ namespace abut::shim
                  const double *row_gap, const std::uint8_t *row_state,
                  const std::vector<Unseen> &unseen);
 
-    /** An obstacle beside a facet near it. */
-    struct Narrow
-    {
-      /** See RigidObstacle::width(); infinite where there is none. */
-      double width = INFINITY;
-      double facet = 1.; ///< size, length
-    };
+    using Narrow = ObstacleWidth;
 
     /** The obstacle of a pair where it is narrowest for the facets, by the last
      * examine(). */
@@ -276,26 +267,7 @@ namespace abut::shim
 
     using Direction = dealii::Tensor<1, dim>;
 
-    /** What the directions of the forces of a pair have turned by. */
-    struct Turn
-    {
-      double force = 0.;   ///< sum of the magnitudes
-      double sum = 0.;     ///< of force by angle (radian)
-      double largest = 0.; ///< angle
-      Direction change;    ///< what the secondary's resultant would change by
-
-      /** A force whose direction, of unit length, was @p before. */
-      void add(const double magnitude, const Direction &before,
-               const Direction &after)
-      {
-        const double chord = std::min(2., (after - before).norm());
-        const double angle = 2. * std::asin(0.5 * chord);
-        force += magnitude;
-        sum += magnitude * angle;
-        largest = std::max(largest, angle);
-        change += magnitude * (after - before);
-      }
-    };
+    using Turn = DirectionTurn<dim>;
 
     /** A point that carries a force. */
     struct Pressed
@@ -305,82 +277,11 @@ namespace abut::shim
       dealii::Point<dim> position; ///< where the point was made
     };
 
-    /** A pair with its two sides and their coupling. */
-    struct Pair
-    {
-      ContactPair<dim> data;
-      bool moves = false; ///< its points are where the bodies are
-      bool turns = false; ///< their directions are, while partners stay
-      bool steps = false; ///< they are where these were at the last commit()
+    using Pair = SurfacePair<dim>;
 
-      /** Whether its sides are somewhere else when points are made. */
-      bool has_displaced_sides() const
-      {
-        return moves || steps;
-      }
+    using Origin = PointsOrigin;
 
-      /** Whether directions and gaps are not those of the undeformed bodies. */
-      bool is_displaced() const
-      {
-        return has_displaced_sides() || turns;
-      }
-
-      /** Whether they are those of where the bodies are. */
-      bool is_present() const
-      {
-        return moves || turns;
-      }
-
-      abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
-      SurfaceSide<dim> secondary, primary;
-      Handle<abut_coupling> coupling;
-      /** Of the body that a point must not be pushed through, the primary's or,
-       * at an obstacle, its own; and that of the secondary's body; length, 0:
-       * not known. */
-      double thickness = 0., own_thickness = 0.;
-      /** Distances that the facets known here suffice for. */
-      double reach = 0., margin = 0.;
-      /** [nodes of the secondary] without a multiplier in the present rows:
-       * 1 because of another pair, 2 because of supports. */
-      std::vector<std::uint8_t> dropped;
-      // As in PairResult.
-      double between_rows = 0., held_inside = 0.;
-      double held_in_the_mean = 0.; ///< as the function
-      /** Known failures that it was made with all the same. */
-      std::vector<ContactFinding> refused;
-      double slip = 0., gap_error = 0., missed_depth = 0.;
-      Turn turn;
-      Narrow narrow;
-    };
-
-    /** What the points of a pair depend on that may change from one find() to
-     * the next; positions, supports and settings do not. */
-    struct Origin
-    {
-      double reach, gap; ///< reach 0: a part of each facet's size
-
-      bool operator==(const Origin &other) const
-      {
-        return reach == other.reach && gap == other.gap;
-      }
-    };
-
-    /** What is known of a point beside the set that it is in. */
-    struct Place
-    {
-      std::size_t pair;
-      Node node;                   ///< -1: quadrature point
-      std::int32_t facet;          ///< of a quadrature point
-      dealii::Point<dim> position; ///< where the point sits
-      /** Of a point that moves: nodes of the primary facet that has the nearest
-       * point, and the square matrix of second derivatives of the gap with
-       * respect to the position, then these nodes, and those of its tangents;
-       * empty: the point is fixed. Of mortar: nodes of its lines and columns,
-       * and one matrix; see abut_coupling_view. */
-      std::vector<Node> opposite;
-      std::vector<Node> lines, columns;
-      std::vector<double> hessian;
-    };
+    using Place = PointPlace<dim>;
 
   public:
     /** The points of a find(), to be put back after another one. */
@@ -456,13 +357,7 @@ namespace abut::shim
      * their way. */
     void refuse_turns(const std::vector<RigidPose<dim>> &then,
                       const std::vector<RigidPose<dim>> &now) const;
-    /** What a tangent's point of mortar that moves had opposite it at the last
-     * commit(). */
-    struct Partners
-    {
-      std::vector<std::pair<Node, double>> stencil;
-      double offset = 0.; ///< sum of c x along the direction of the row then
-    };
+    using Partners = CommittedPartners;
     /** Find them if nodes were displaced by @p u then; nothing happens if they
      * are those. Collective. */
     void find_partners(const std::vector<Direction> &u);
@@ -601,12 +496,7 @@ namespace abut::shim
      * geometric_lines(), by these; empty: 0. */
     std::vector<double> turning(std::size_t point,
                                 const double *row_pressure) const;
-    /** Directions of a tie that the same nodes are dropped for. */
-    struct TieGroup
-    {
-      std::uint32_t axes = 0; ///< bits
-      std::vector<std::uint8_t> dropped;
-    };
+    using TieGroup = TiedAxes;
     std::vector<TieGroup>
     tie_groups(const Pair &pair, const std::vector<std::uint8_t> &taken) const;
     /** Numbers of points, that far behind the first of their node: by node of

@@ -70,6 +70,8 @@ namespace abut::solve
         if (!is_coupled_[i])
           return 0.;
         const unsigned int component = space_.component[i];
+        if (component >= dim_)
+          return 0.; // of another field
         if (mode < dim_)
           return component == mode ? 1. : 0.;
         // In the plane about z, in space about the axis mode - dim.

@@ -68,7 +68,8 @@ namespace abut::solve
       Epetra_MultiVector modes(matrix.trilinos_matrix().DomainMap(),
                                static_cast<int>(dim + n_rotations));
       for (std::size_t i = 0; i < space.component.size(); ++i)
-        modes[space.component[i]][i] = 1.;
+        if (space.component[i] < dim)
+          modes[space.component[i]][i] = 1.;
       if (!rotates)
         return modes;
       const auto x = relative_positions(space, matrix.get_mpi_communicator());

@@ -17,11 +17,13 @@ namespace abut::solve
    * default the field is scalar and in one piece. */
   struct NearNullSpace
   {
-    /** Components of the field; more than one: a displacement. */
+    /** Components of the field; more than one: a displacement, beside which
+     * there may be other fields. */
     unsigned int n_components = 1;
     /** Bodies, the connected parts of the mesh over all ranks. */
     unsigned int n_bodies = 1;
-    /** [owned] component of each unknown; empty for a scalar field. */
+    /** [owned] component of each unknown, n_components where it is of another
+     * field; empty for a scalar field. */
     std::vector<std::uint8_t> component;
     /** [owned] body of each unknown from 0; empty: all in body 0. */
     std::vector<int> body;

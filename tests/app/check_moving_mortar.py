@@ -154,8 +154,6 @@ two = solved("slide.prm", *words, ranks=2)
 p.close(two["energy"], one["energy"], 1e-9, "energy on two ranks")
 
 # What does not follow.
-p.expect_error(run(turn(p, 3), LARGE, "Pair 1/Friction=0.3"),
-               "Method/Sliding = large", "friction in two dimensions only")
 p.expect_error(run("slide.prm", LARGE, "Method/Enforcement=interior point"),
                "Method/Sliding = large", "interior point")
 p.finish()

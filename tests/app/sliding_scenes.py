@@ -79,19 +79,36 @@ def write_die(p, columns, rows, middle, width=1.2, radius=1., height=0.6):
     return p.write("die.inp", "\n".join(lines) + "\n")
 
 
+def dies(columns, rows, width, mesh, young, way, *more):
+    """A die of a mesh file that moves on a block of a width and height 1."""
+    return solid(
+        2, block(1, f"{columns}, {rows} : 0, 0 : {width}, 1 : true", "2: 0, 0",
+                 more=RUBBER),
+        section("Body 2", section("Mesh", f"File = {mesh}"), RUBBER[0],
+                f"Young modulus = {young}", RUBBER[2], f"Support = 3: {way}"),
+        pair("1: 3", "2: 2"), section("Refinement", "Level = 0"),
+        section("Output", "Fields = false"), *more)
+
+
 def slide(p, columns, rows, die_columns, die_rows, steps, length=2., width=4):
     """On a block of a width, over its middle."""
     die = write_die(p, die_columns, die_rows, width / 2 - 1.)
     way = f"if(t > 1, {length}*(t - 1), 0), -0.15*min(2*t, 1)"
-    return p.write("slide.prm", solid(
-        2, block(1, f"{columns}, {rows} : 0, 0 : {width}, 1 : true", "2: 0, 0",
-                 more=RUBBER),
-        section("Body 2", section("Mesh", f"File = {die}"), RUBBER[0],
-                "Young modulus = 10", RUBBER[2], f"Support = 3: {way}"),
-        pair("1: 3", "2: 2"),
-        section("Load steps", f"Steps = {2 * steps}", "End time = 2"),
-        section("Refinement", "Level = 0"),
-        section("Output", "Fields = false")))
+    return p.write("slide.prm", dies(
+        columns, rows, width, die, 10, way,
+        section("Load steps", f"Steps = {2 * steps}", "End time = 2")))
+
+
+# The same in ten steps of pressing, and n of sliding: soft and shallow, or deep,
+# with a small die whose arc is half a circle.
+def press_and_slide(p, n, hard=False, die_young=10):
+    columns, radius, height, depth, length = (
+        11, 0.6, 1.2, 0.35, 0.7) if hard else (12, 1., 0.6, 0.15, 2.)
+    die = write_die(p, columns, 5, 2. - length / 2, radius=radius, height=height)
+    way = (f"if(t > 10, {length}*(t - 10)/{n}, 0), -{depth}*min(t/10, 1)")
+    return p.write("press-and-slide.prm", dies(
+        40, 10, 4, die, die_young, way,
+        section("Load steps", f"Steps = {10 + n}", f"End time = {10 + n}")))
 
 
 def orders(p, load_step):

@@ -251,60 +251,88 @@ test_space(void **state)
   }
 }
 
-/* Turn all places about the origin of the plane. */
+/* Turn all places about the origin of the plane, in space then also about the
+ * first axis; and directions [3] likewise. */
+static void
+turned(int dim, double angle, const double *from, double *to)
+{
+  const double c = cos(angle), s = sin(angle);
+  const double x = c * from[0] - s * from[1], y = s * from[0] + c * from[1];
+  to[0] = x;
+  to[1] = y;
+  if (dim == 2)
+    return;
+  const double z = from[2];
+  to[1] = c * y - s * z;
+  to[2] = s * y + c * z;
+}
+
 static void
 turn(moving *m, const double *from, double angle)
 {
   for (int i = 0; i < m->n_nodes; ++i)
-  {
-    const double *a = from + (ptrdiff_t)m->dim * i;
-    double *b = m->x + (ptrdiff_t)m->dim * i;
-    memcpy(b, a, sizeof(double) * (size_t)m->dim);
-    b[0] = cos(angle) * a[0] - sin(angle) * a[1];
-    b[1] = sin(angle) * a[0] + cos(angle) * a[1];
-  }
+    turned(m->dim, angle, from + (ptrdiff_t)m->dim * i,
+           m->x + (ptrdiff_t)m->dim * i);
 }
 
 /* Pairs that turn as one keep weights, gaps and coefficients; directions turn
  * with them. */
 static void
+check_turn(const scene_mesh *secondary, const scene_mesh *primary, way how)
+{
+  static moving m;
+  static double from[3 * MAX_NODES];
+  start(&m, secondary, primary, ABUT_DISCRETISATION_DUAL_MORTAR, how);
+  m.tangents = true;
+  rebuild(&m);
+  look(&m, &here);
+  assert_true(here.n_points > 0);
+  memcpy(from, m.x, sizeof(from));
+  for (int degrees = 30; degrees <= 180; degrees += 50)
+  {
+    const double angle = degrees * 3.14159265358979323846 / 180.;
+    turn(&m, from, angle);
+    rebuild(&m);
+    look(&m, &after);
+    assert_int_equal(after.n_points, here.n_points);
+    for (int32_t i = 0; i < here.n_points; ++i)
+    {
+      near(after.gap[i], here.gap[i], 1e-14, "gap");
+      near(after.weight[i], here.weight[i], 1e-14, "weight");
+    }
+    for (int32_t i = 0; i < m.points.n_components; ++i)
+      for (int n = 0; n < m.n_nodes; ++n)
+      {
+        double goal[3];
+        turned(m.dim, angle, here.row[i] + m.dim * n, goal);
+        for (int d = 0; d < m.dim; ++d)
+          near(after.row[i][m.dim * n + d], goal[d], 1e-12, "force");
+      }
+  }
+  couple_destroy(&m.c);
+}
+
+static void
 test_turn(void **state)
 {
   (void)state;
-  static moving m;
-  static double from[3 * MAX_NODES];
   const scene_mesh primary = {2, 6, 5, ABUT_FACET_LINE2, x_long, up},
                    secondary = {2, 5, 4, ABUT_FACET_LINE2, y_short, down};
+  const double below[5] = {-.53, -.44, 2.61, 2.57, 0.},
+               over[5] = {0., 0., 2., 2.};
+  scene_mesh ground =
+                 scene_patch(ABUT_FACET_QUAD4, 3, 3, scene_plane, below, false),
+             block =
+                 scene_patch(ABUT_FACET_QUAD4, 2, 2, scene_plane, over, true);
+  for (int i = 0; i < block.n_nodes; ++i)
+    block.position[3 * i + 2] = 0.08 + 0.02 * sin(3. * i);
   for (int k = 0; k < 2; ++k)
   {
-    start(&m, &secondary, &primary, ABUT_DISCRETISATION_DUAL_MORTAR,
-          k == 0 ? FOLLOWS : STAYS);
-    m.tangents = true;
-    rebuild(&m);
-    look(&m, &here);
-    memcpy(from, m.x, sizeof(from));
-    for (int degrees = 30; degrees <= 180; degrees += 50)
-    {
-      const double angle = degrees * 3.14159265358979323846 / 180.;
-      turn(&m, from, angle);
-      rebuild(&m);
-      look(&m, &after);
-      assert_int_equal(after.n_points, here.n_points);
-      for (int32_t i = 0; i < here.n_points; ++i)
-      {
-        near(after.gap[i], here.gap[i], 1e-14, "gap");
-        near(after.weight[i], here.weight[i], 1e-14, "weight");
-      }
-      for (int32_t i = 0; i < m.points.n_components; ++i)
-        for (int n = 0; n < m.n_nodes; ++n)
-        {
-          const double *a = here.row[i] + 2 * n, *b = after.row[i] + 2 * n;
-          near(b[0], cos(angle) * a[0] - sin(angle) * a[1], 1e-13, "force");
-          near(b[1], sin(angle) * a[0] + cos(angle) * a[1], 1e-13, "force");
-        }
-    }
-    couple_destroy(&m.c);
+    check_turn(&secondary, &primary, k == 0 ? FOLLOWS : STAYS);
+    check_turn(&block, &ground, k == 0 ? FOLLOWS : STAYS);
   }
+  scene_free(&ground);
+  scene_free(&block);
 }
 
 /* A flat secondary facet slides out from under the primary, whose end is at x =

@@ -37,7 +37,7 @@ namespace abut
     turn,      /**< partners and weights are those of the undeformed bodies,
                     directions and gaps those of the present places: what
                     `small` is for bodies of large strain. Mortar between
-                    bodies, in space without friction */
+                    bodies */
     step,      /**< gaps are linear from where the bodies were at the last
                     commit(): detect() makes points at that displacement */
     large      /**< points move with the bodies: at each linearisation gaps,
@@ -65,8 +65,6 @@ namespace abut
   {
     bool touches_itself = false;   ///< self contact
     bool has_obstacle = false;     ///< a rigid obstacle, not a second body
-    bool has_friction = false;     ///< its points have tangential components
-    bool in_space = false;         ///< three dimensions
     bool has_geometric_gap = true; ///< gaps are those of surfaces
   };
 

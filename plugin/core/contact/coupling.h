@@ -334,23 +334,36 @@ abut_status abut_coupling_follow(abut_coupling *c, int32_t primary,
                                  const double *x, bool *found,
                                  abut_coupling_opposite *opposite);
 
+/* The vector [3] of unit length that tangents are made of in space: of the
+ * point of a share, or sum of shares, with a unit normal. Returns the facet of
+ * the secondary that it turns with; -1: it is an axis. */
+int32_t abut_coupling_guide(const abut_coupling *c,
+                            const abut_coupling_share *share,
+                            const double *normal, double *guide);
+
+/* How such a facet turns the tangents of a unit normal about that, radian, by
+ * the places of its corners: node[n], spin[n][3]. Returns n. */
+int abut_coupling_spin(const abut_coupling *c, int32_t facet,
+                       const double *normal, const int32_t **node,
+                       double (*spin)[3]);
+
 /* The tangents of a unit normal; see abut_coupling_target. */
 void abut_coupling_tangents(int32_t dim, const double *normal,
-                            double *tangents);
+                            const double *guide, double *tangents);
 
 /* Derivatives of the rows of the tangents of a point that moves: n unknowns,
  * shape functions of its n / dim - 1 primary nodes, Hessian [n^2] of the gap;
- * turning [(dim - 1) n^2]. */
+ * turning [(dim - 1) n^2]. The guide counts as constant. */
 void abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
-                        const double *shape, const double *hessian,
-                        double *turning);
+                        const double *guide, const double *shape,
+                        const double *hessian, double *turning);
 
 /* The same of a point of mortar with a unit normal: of its matrix by the normal
  * [dim n_lines][n_columns], minus the derivatives of n c_l, that by its
- * tangents [dim - 1], of t c_l. */
+ * tangents [dim - 1], of t c_l. The guide counts as constant. */
 void abut_coupling_turn_lines(int32_t dim, int32_t n_lines, int64_t n_columns,
-                              const double *normal, const double *block,
-                              double *turning);
+                              const double *normal, const double *guide,
+                              const double *block, double *turning);
 
 struct abut_linear_patch;
 

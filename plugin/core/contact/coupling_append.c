@@ -199,12 +199,14 @@ note_hessian(abut_coupling *c, const abut_coupling_share *total)
     return ABUT_SUCCESS;
   const abut_coupling_entry *e = (const abut_coupling_entry *)c->entries.data
                                  + total->first + total->n_secondary;
-  double shape[ABUT_FACET_MAX_NODES], normal[3];
+  double shape[ABUT_FACET_MAX_NODES], normal[3], unit[3], guide[3];
   for (int32_t a = 0; a < n_nodes; ++a)
     shape[a] = e[a].value / total->weight;
   for (int d = 0; d < 3; ++d)
-    normal[d] = total->normal[d] / total->weight;
-  abut_coupling_turn(dim, n, normal, shape, hessian, hessian + n * n);
+    unit[d] = normal[d] = total->normal[d] / total->weight;
+  unit3(unit, 0.);
+  (void)abut_coupling_guide(c, total, unit, guide);
+  abut_coupling_turn(dim, n, normal, guide, shape, hessian, hessian + n * n);
   return ABUT_SUCCESS;
 }
 
@@ -287,12 +289,15 @@ present_gap(abut_coupling *c, const int64_t *list, int64_t n,
 /* Add the tangents of a unit normal to a frame, if they are wanted. Returns the
  * number of components. */
 static int32_t
-add_tangents(const abut_coupling *c, const double *unit, double *frame)
+add_tangents(const abut_coupling *c, const abut_coupling_share *total,
+             const double *unit, double *frame)
 {
   const int32_t dim = c->secondary->view.dimension;
+  double guide[3];
   if (!c->target->tangents)
     return 1;
-  abut_coupling_tangents(dim, unit, frame + dim);
+  (void)abut_coupling_guide(c, total, unit, guide);
+  abut_coupling_tangents(dim, unit, guide, frame + dim);
   return dim;
 }
 
@@ -310,7 +315,7 @@ fill_turning(abut_coupling *c, const int64_t *list, int64_t n,
     return status;
   memcpy(frame, direction.normal,
          sizeof(double) * (size_t)c->secondary->view.dimension);
-  *n_components = add_tangents(c, direction.normal, frame);
+  *n_components = add_tangents(c, total, direction.normal, frame);
   gap[0] = c->target->gap
            + (abut_coupling_follows(c)
                   ? gap_of(c, total, direction.normal)
@@ -335,7 +340,7 @@ fill_components(abut_coupling *c, const abut_coupling_share *total,
     gap[1] = gap[2] = 0.;
     if (abut_coupling_moves(c)) /* the tangents are unit vectors all the same */
       unit3(normal, 0.);
-    return add_tangents(c, normal, frame);
+    return add_tangents(c, total, normal, frame);
   }
   int32_t n = 0;
   for (int32_t axis = 0; axis < dim; ++axis)

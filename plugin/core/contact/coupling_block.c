@@ -274,6 +274,71 @@ fill(matrix *m, const int64_t *list, int64_t n,
   return status;
 }
 
+/* Add what the tangents t[2] of the point turn by about its normal, to the
+ * matrices behind that of the normal. */
+static void
+add_spin(matrix *m, const int64_t *list, int64_t n,
+         const abut_coupling_share *total, int32_t facet, const double *normal,
+         double (*t)[3])
+{
+  const int64_t size = (int64_t)m->lines.n * m->columns.n * m->dim * m->dim;
+  const int32_t *corner;
+  double spin[4][3];
+  const int n_corners = abut_coupling_spin(m->c, facet, normal, &corner, spin);
+  for (int64_t i = 0; i < n; ++i)
+  {
+    const abut_coupling_share *s = share_at(m->c, list[i]);
+    const abut_coupling_entry *e =
+        (const abut_coupling_entry *)m->c->entries.data + s->first;
+    for (int32_t k = 0; k < s->n_secondary + s->n_primary; ++k)
+    {
+      const bool opposite = k >= s->n_secondary;
+      const double share = (opposite ? -1. : 1.) * e[k].value / total->weight;
+      const int32_t line =
+          m->lines.place[key_of(m->c, opposite, e[k].node)] - 1;
+      for (int a = 0; a < n_corners; ++a)
+        for (int d = 0; d < 3; ++d)
+        {
+          double *to = at(m, line, d, m->columns.place[corner[a]] - 1);
+          for (int f = 0; f < 3; ++f)
+          {
+            to[size + f] += share * t[1][d] * spin[a][f];
+            to[2 * size + f] -= share * t[0][d] * spin[a][f];
+          }
+        }
+    }
+  }
+}
+
+/* Enter what a guide turns with. */
+static abut_status
+enter_facet(matrix *m, int32_t facet)
+{
+  int32_t n;
+  const int32_t *node = nodes_of(m->c->secondary, facet, &n);
+  for (int32_t a = 0; a < n; ++a)
+    if (enter(&m->columns, 0, node[a]) < 0)
+      return ABUT_OUT_OF_MEMORY;
+  return ABUT_SUCCESS;
+}
+
+/* The matrices by the tangents, behind that by the normal. */
+static void
+fill_tangents(matrix *m, const int64_t *list, int64_t n,
+              const abut_coupling_share *total, const double *normal,
+              const double *guide, int32_t facet)
+{
+  double t[2][3];
+  const int64_t n_columns = (int64_t)m->columns.n * m->dim,
+                size = m->lines.n * m->dim * n_columns;
+  abut_coupling_turn_lines(m->dim, m->lines.n, n_columns, normal, guide,
+                           m->value, m->value + size);
+  if (facet < 0)
+    return;
+  abut_coupling_tangents(m->dim, normal, guide, t[0]);
+  add_spin(m, list, n, total, facet, normal, t);
+}
+
 /* The next matrix begins where the last one ends. */
 static abut_status
 begin_at(abut_coupling *c, abut_array *start, int64_t *first)
@@ -314,6 +379,13 @@ abut_coupling_note_block(abut_coupling *c, const int64_t *list, int64_t n,
     status = enter_direction(&m, direction);
   if (status == ABUT_SUCCESS)
     status = enter_shares(&m, list, n);
+  double guide[3];
+  const int32_t facet =
+      c->target->tangents
+          ? abut_coupling_guide(c, total, direction->normal, guide)
+          : -1;
+  if (status == ABUT_SUCCESS && facet >= 0)
+    status = enter_facet(&m, facet);
   const int64_t size = (int64_t)m.lines.n * m.columns.n * m.dim * m.dim,
                 all = c->target->tangents ? m.dim * size : size;
   if (status == ABUT_SUCCESS)
@@ -325,8 +397,7 @@ abut_coupling_note_block(abut_coupling *c, const int64_t *list, int64_t n,
     memset(m.value, 0, sizeof(double) * (size_t)size);
     status = fill(&m, list, n, total, direction);
     if (c->target->tangents)
-      abut_coupling_turn_lines(m.dim, m.lines.n, (int64_t)m.columns.n * m.dim,
-                               direction->normal, m.value, m.value + size);
+      fill_tangents(&m, list, n, total, direction->normal, guide, facet);
   }
   finish(&m.lines);
   finish(&m.columns);

@@ -14,50 +14,184 @@
  * Of mortar the slip changes by t . sum_l c_l dx_l. What n c_l changes by has a
  * part along n, n dc_l, and one across it, c_l dn, so that
  *
- *     d(t c_l) = t dc_l + c_l dt . */
+ *     d(t c_l) = t dc_l + c_l dt .
+ *
+ * In space tangents are made of a guide, which turns with the secondary: that
+ * turns them about the normal, besides. */
 #include "contact/coupling.h"
 #include "geometry/vector.h"
 
 #include <string.h>
 
 /* Two vectors that make a frame with the unit normal; see abut_coupling_target.
- * Returns the axis that they are made of. */
-static int
-tangents_of(int dim, const double *n, double (*t)[3])
+ */
+static void
+tangents_of(int dim, const double *n, const double *guide, double (*t)[3])
 {
   memset(t, 0, 2 * sizeof(*t));
   if (dim == 2)
   {
     t[0][0] = -n[1];
     t[0][1] = n[0];
-    return 0;
+    return;
   }
-  int axis = 0;
-  for (int d = 1; d < 3; ++d)
-    if (fabs(n[d]) < fabs(n[axis]))
-      axis = d;
-  for (int d = 0; d < 3; ++d)
-    t[0][d] = (d == axis) - n[axis] * n[d];
+  axpy3(guide, -dot3(guide, n), n, t[0]);
   unit3(t[0], 0.);
   cross3(n, t[0], t[1]);
-  return axis;
+}
+
+/* Cosine of the angle between a facet and a tangent plane from which on the
+ * facet does not show directions in that. */
+static const double steepest = 0.5;
+
+/* A direction on a facet that turns with it: half way between those of its two
+ * local coordinates, the second of which is turned by a right angle, so that
+ * shear turns it by half. */
+typedef struct facet_direction
+{
+  int n_corners;
+  const int32_t *node;
+  double share[2][4];        /* of the corners in the coordinates' directions */
+  double t[2][3], length[2]; /* these, of unit length */
+  double n[3], guide[3];
+} facet_direction;
+
+static void
+look_along(const abut_coupling *c, int32_t f, facet_direction *d)
+{
+  static const double quadrilateral[2][4] = {{-1., 1., -1., 1.},
+                                             {-1., -1., 1., 1.}},
+                      triangle[2][4] = {{-1., 1., 0., 0.}, {-1., -1., 2., 0.}};
+  const abut_surface_view *v = &c->secondary->view;
+  const double *place = abut_coupling_place(c, 0);
+  double turned[3];
+  memset(d, 0, sizeof(*d));
+  d->node = v->connectivity + v->facet_start[f];
+  d->n_corners = abut_facet_n_corners((abut_facet_kind)v->kinds[f]);
+  memcpy(d->share, d->n_corners == 4 ? quadrilateral : triangle,
+         sizeof(d->share));
+  for (int k = 0; k < 2; ++k)
+  {
+    for (int a = 0; a < d->n_corners; ++a)
+      axpy3(d->t[k], d->share[k][a], place + 3 * (int64_t)d->node[a], d->t[k]);
+    d->length[k] = unit3(d->t[k], 0.);
+  }
+  cross3(d->t[0], d->t[1], d->n);
+  unit3(d->n, 0.);
+  cross3(d->t[1], d->n, turned);
+  axpy3(d->t[0], 1., turned, d->guide);
+  unit3(d->guide, 0.);
+}
+
+/* Whether a facet is near the tangent plane of a unit normal; then the guide is
+ * its direction. */
+static bool
+take_guide(const abut_coupling *c, int32_t f, const double *normal,
+           double *guide)
+{
+  facet_direction d;
+  look_along(c, f, &d);
+  if (!(fabs(dot3(d.n, normal)) > steepest))
+    return false;
+  memcpy(guide, d.guide, sizeof(d.guide));
+  return true;
+}
+
+/* Of the facets of a node that with the smallest number, so that it is the same
+ * wherever the node goes; -1: none will do. */
+static int32_t
+guide_of_node(const abut_coupling *c, int32_t node, const double *normal,
+              double *guide)
+{
+  const abut_surface_view *v = &c->secondary->view;
+  int64_t least = INT64_MAX;
+  int32_t found = -1;
+  for (int32_t e = v->node_start[node]; e < v->node_start[node + 1]; ++e)
+  {
+    const int32_t f = v->node_facet[e];
+    const int64_t id = abut_surface_facet_id(c->secondary, f);
+    if (id >= least || !take_guide(c, f, normal, guide))
+      continue;
+    least = id;
+    found = f;
+  }
+  return found;
+}
+
+int32_t
+abut_coupling_guide(const abut_coupling *c, const abut_coupling_share *share,
+                    const double *normal, double *guide)
+{
+  const abut_coupling_target *target = c->target;
+  int32_t facet = -1;
+  memset(guide, 0, 3 * sizeof(*guide));
+  if (c->secondary->view.dimension == 2)
+    return -1;
+  if (target->reference != NULL || target->areas != NULL
+      || target->present != NULL)
+    facet = share->node >= 0 ? guide_of_node(c, share->node, normal, guide)
+            : take_guide(c, share->facet, normal, guide) ? share->facet
+                                                         : -1;
+  if (facet >= 0)
+    return facet;
+  int axis = 0;
+  for (int d = 1; d < 3; ++d)
+    if (fabs(normal[d]) < fabs(normal[axis]))
+      axis = d;
+  guide[axis] = 1.;
+  return -1;
+}
+
+/* With the directions a and b of the coordinates, the facet's normal N and the
+ * guide g = p a + q b, dg is half the turns of a and b about N, and the part
+ * p da . N + q db . N along N. Tangents turn by t2 . dg / |g - n n . g| . */
+int
+abut_coupling_spin(const abut_coupling *c, int32_t facet, const double *normal,
+                   const int32_t **node, double (*spin)[3])
+{
+  facet_direction d;
+  double t[2][3], across[3], turned[3], by[2][3] = {{0.}, {0.}};
+  look_along(c, facet, &d);
+  tangents_of(3, normal, d.guide, t);
+  axpy3(d.guide, -dot3(d.guide, normal), normal, across);
+  const double length = norm3(across);
+  cross3(d.n, d.guide, across);
+  const double half = 0.5 * dot3(t[1], across), out = dot3(t[1], d.n);
+  cross3(d.t[0], d.t[1], turned);
+  const double det = dot3(turned, d.n);
+  for (int k = 0; k < 2; ++k)
+  {
+    cross3(d.guide, d.t[1 - k], turned);
+    const double part = (k == 0 ? 1. : -1.) * dot3(turned, d.n) / det;
+    cross3(d.n, d.t[k], turned);
+    axpy3(by[k], half / (d.length[k] * length), turned, by[k]);
+    axpy3(by[k], part * out / (d.length[k] * length), d.n, by[k]);
+  }
+  memset(spin, 0, (size_t)d.n_corners * sizeof(*spin));
+  for (int a = 0; a < d.n_corners; ++a)
+    for (int k = 0; k < 2; ++k)
+      axpy3(spin[a], d.share[k][a], by[k], spin[a]);
+  *node = d.node;
+  return d.n_corners;
 }
 
 void
-abut_coupling_tangents(int32_t dim, const double *normal, double *tangents)
+abut_coupling_tangents(int32_t dim, const double *normal, const double *guide,
+                       double *tangents)
 {
   double t[2][3];
-  (void)tangents_of(dim, normal, t);
+  tangents_of(dim, normal, guide, t);
   for (int k = 0; k < dim - 1; ++k)
     memcpy(tangents + k * dim, t[k], sizeof(double) * (size_t)dim);
 }
 
-/* How they change as the unit normal does. */
+/* How they change as the unit normal does, while their guide stays. */
 static void
-turn_tangents(int dim, const double *n, const double *dn, double (*dt)[3])
+turn_tangents(int dim, const double *n, const double *guide, const double *dn,
+              double (*dt)[3])
 {
-  double t[2][3], e[3] = {0., 0., 0.}, a[3], b[3];
-  const int axis = tangents_of(dim, n, t);
+  double t[2][3], a[3], b[3];
+  tangents_of(dim, n, guide, t);
   memset(dt, 0, 2 * sizeof(*dt));
   if (dim == 2)
   {
@@ -65,12 +199,12 @@ turn_tangents(int dim, const double *n, const double *dn, double (*dt)[3])
     dt[0][1] = dn[0];
     return;
   }
-  /* Of v = e - n_axis n, which is made a unit vector. */
-  e[axis] = 1.;
-  axpy3(e, -n[axis], n, a);
+  /* Of v = e - (e . n) n, which is made a unit vector. */
+  const double along = dot3(guide, n), change = dot3(guide, dn);
+  axpy3(guide, -along, n, a);
   const double length = norm3(a);
   for (int d = 0; d < 3; ++d)
-    dt[0][d] = -(dn[axis] * n[d] + n[axis] * dn[d]) / length;
+    dt[0][d] = -(change * n[d] + along * dn[d]) / length;
   axpy3(dt[0], -dot3(dt[0], t[0]), t[0], dt[0]);
   cross3(dn, t[0], a);
   cross3(n, dt[0], b);
@@ -79,12 +213,13 @@ turn_tangents(int dim, const double *n, const double *dn, double (*dt)[3])
 
 void
 abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
-                   const double *shape, const double *hessian, double *turning)
+                   const double *guide, const double *shape,
+                   const double *hessian, double *turning)
 {
   double unit[3] = {0., 0., 0.}, t[2][3];
   memcpy(unit, normal, sizeof(double) * (size_t)dim);
   const double length = unit3(unit, 0.);
-  (void)tangents_of(dim, unit, t);
+  tangents_of(dim, unit, guide, t);
   for (int32_t u = 0; u < n; ++u)
   {
     /* The normal is minus the gradient. */
@@ -92,7 +227,7 @@ abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
     for (int d = 0; d < dim; ++d)
       dn[d] = -hessian[d * n + u] / length;
     axpy3(dn, -dot3(dn, unit), unit, dn);
-    turn_tangents(dim, unit, dn, dt);
+    turn_tangents(dim, unit, guide, dn, dt);
     for (int32_t a = 0; a < n / dim; ++a)
     {
       double share = 1., change = 0.;
@@ -110,13 +245,13 @@ abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
 
 void
 abut_coupling_turn_lines(int32_t dim, int32_t n_lines, int64_t n_columns,
-                         const double *normal, const double *block,
-                         double *turning)
+                         const double *normal, const double *guide,
+                         const double *block, double *turning)
 {
   double unit[3] = {0., 0., 0.}, t[2][3];
   const int64_t size = n_lines * dim * n_columns;
   memcpy(unit, normal, sizeof(double) * (size_t)dim);
-  (void)tangents_of(dim, unit, t);
+  tangents_of(dim, unit, guide, t);
   for (int32_t l = 0; l < n_lines; ++l)
     for (int64_t u = 0; u < n_columns; ++u)
     {
@@ -126,7 +261,7 @@ abut_coupling_turn_lines(int32_t dim, int32_t n_lines, int64_t n_columns,
         way[d] = -block[first + d * n_columns];
       const double change = dot3(unit, way);
       axpy3(way, -change, unit, way);
-      turn_tangents(dim, unit, way, dt);
+      turn_tangents(dim, unit, guide, way, dt);
       for (int k = 0; k < dim - 1; ++k)
         for (int d = 0; d < dim; ++d)
           turning[k * size + first + d * n_columns] =

@@ -34,8 +34,7 @@ namespace abut::app
             return pair.tied
                    || sliding_refusal(
                           sliding, *method.options.law, discretisation,
-                          {touches_itself, pair.obstacle > 0,
-                           is_frictional<dim>(pair), dim == 3, pair.mesh_gap})
+                          {touches_itself, pair.obstacle > 0, pair.mesh_gap})
                           .empty();
           });
     }

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A pair of surfaces, or a surface against an obstacle, and what is known of
+// its points beside the set that they are in.
+#ifndef ABUT_SHIM_SURFACE_PAIR_H
+#define ABUT_SHIM_SURFACE_PAIR_H
+
+#include "handles.h"
+#include "surface_side.h"
+
+#include <abut/dealii/contact_examination.h>
+#include <abut/dealii/contact_pair.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace abut::shim
+{
+  /** An obstacle beside a facet near it. */
+  struct ObstacleWidth
+  {
+    /** See RigidObstacle::width(); infinite where there is none. */
+    double width = INFINITY;
+    double facet = 1.; ///< size, length
+  };
+
+  /** What the directions of the forces of a pair have turned by. */
+  template <int dim> struct DirectionTurn
+  {
+    using Direction = dealii::Tensor<1, dim>;
+
+    double force = 0.;   ///< sum of the magnitudes
+    double sum = 0.;     ///< of force by angle (radian)
+    double largest = 0.; ///< angle
+    Direction change;    ///< what the secondary's resultant would change by
+
+    /** A force whose direction, of unit length, was @p before. */
+    void add(const double magnitude, const Direction &before,
+             const Direction &after)
+    {
+      const double chord = std::min(2., (after - before).norm());
+      const double angle = 2. * std::asin(0.5 * chord);
+      force += magnitude;
+      sum += magnitude * angle;
+      largest = std::max(largest, angle);
+      change += magnitude * (after - before);
+    }
+  };
+
+  /** A pair with its two sides and their coupling. */
+  template <int dim> struct SurfacePair
+  {
+    ContactPair<dim> data;
+    bool moves = false; ///< its points are where the bodies are
+    bool turns = false; ///< their directions are, while partners stay
+    bool steps = false; ///< they are where these were at the last commit()
+
+    /** Whether its sides are somewhere else when points are made. */
+    bool has_displaced_sides() const
+    {
+      return moves || steps;
+    }
+
+    /** Whether directions and gaps are not those of the undeformed bodies. */
+    bool is_displaced() const
+    {
+      return has_displaced_sides() || turns;
+    }
+
+    /** Whether they are those of where the bodies are. */
+    bool is_present() const
+    {
+      return moves || turns;
+    }
+
+    abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
+    SurfaceSide<dim> secondary, primary;
+    Handle<abut_coupling> coupling;
+    /** Of the body that a point must not be pushed through, the primary's or,
+     * at an obstacle, its own; and that of the secondary's body; length, 0:
+     * not known. */
+    double thickness = 0., own_thickness = 0.;
+    /** Distances that the facets known here suffice for. */
+    double reach = 0., margin = 0.;
+    /** [nodes of the secondary] without a multiplier in the present rows:
+     * 1 because of another pair, 2 because of supports. */
+    std::vector<std::uint8_t> dropped;
+    // As in PairResult.
+    double between_rows = 0., held_inside = 0.;
+    double held_in_the_mean = 0.; ///< as the function
+    /** Known failures that it was made with all the same. */
+    std::vector<ContactFinding> refused;
+    double slip = 0., gap_error = 0., missed_depth = 0.;
+    DirectionTurn<dim> turn;
+    ObstacleWidth narrow;
+  };
+
+  /** What the points of a pair depend on that may change from one find() to
+   * the next; positions, supports and settings do not. */
+  struct PointsOrigin
+  {
+    double reach, gap; ///< reach 0: a part of each facet's size
+
+    bool operator==(const PointsOrigin &other) const
+    {
+      return reach == other.reach && gap == other.gap;
+    }
+  };
+
+  /** What is known of a point beside the set that it is in. */
+  template <int dim> struct PointPlace
+  {
+    std::size_t pair;
+    std::int32_t node;           ///< -1: quadrature point
+    std::int32_t facet;          ///< of a quadrature point
+    dealii::Point<dim> position; ///< where the point sits
+    /** Of a point that moves: nodes of the primary facet that has the nearest
+     * point, and the square matrix of second derivatives of the gap with
+     * respect to the position, then these nodes, and those of its tangents;
+     * empty: the point is fixed. Of mortar: nodes of its lines and columns,
+     * and one matrix; see abut_coupling_view. */
+    std::vector<std::int32_t> opposite;
+    std::vector<std::int32_t> lines, columns;
+    std::vector<double> hessian;
+  };
+
+  /** What a tangent's point of mortar that moves had opposite it at the last
+   * commit(). */
+  struct CommittedPartners
+  {
+    std::vector<std::pair<std::int32_t, double>> stencil;
+    double offset = 0.; ///< sum of c x along the direction of the row then
+  };
+
+  /** Directions of a tie that the same nodes are dropped for. */
+  struct TiedAxes
+  {
+    std::uint32_t axes = 0; ///< bits
+    std::vector<std::uint8_t> dropped;
+  };
+} // namespace abut::shim
+
+#endif

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Friction of points that move, in space: mortar, nodes and quadrature points
+between bodies, and against obstacles: blocks that are dragged in any direction,
+what turns as a whole, what sticks, ranks."""
+import math
+
+from block_scene import block, pair, section, solid
+from program import Program, set_words
+from sliding_scenes import RUBBER, newton, turn
+
+p = Program()
+FINE = ["Load steps/Newton tolerance=1e-12",
+        "Method/Final linear tolerance=1e-14"]
+STANDARD, SMALL = "Method/Discretisation=mortar", "Method/Sliding=small"
+NODES = "Method/Discretisation=node to segment"
+POINTS = ["Method/Discretisation=quadrature point",
+          "Method/Enforcement=penalty"]
+MU = 0.3
+FRICTION = f"Pair 1/Friction={MU}"
+
+
+def run(scene, *settings, ranks=0):
+    return p.call("run", scene, "--output", "out", "--quiet",
+                  *set_words(settings), ranks=ranks)
+
+
+def solved(scene, *settings, ranks=0):
+    result = run(scene, *settings, ranks=ranks)
+    p.expect(result.returncode == 0, f"{scene} {settings}: exit code "
+             f"{result.returncode}\n{result.stderr}")
+    return p.results()[0]
+
+
+# A block is pressed on a plate all of whose nodes are held, or on a rigid plane,
+# that moves on below it, over facets. After some steps nothing else moves any more:
+# all tractions are along that way.
+PRESS, WAY, STEPS = 0.04, 2.5, 10
+
+
+def drag(angle, on_obstacle):
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    way = f"if(t > 1, {WAY}*(t - 1), 0)"
+    moved = f"{c!r}*{way}, {s!r}*{way}, 0"
+    parts = [block(1, "4, 3, 2 : 0, 0, 0 : 1, 0.75, 0.5 : true",
+                   f"5: 0, 0, -{PRESS}*min(1, t)", more=RUBBER)]
+    if on_obstacle:
+        # Muparser's other form of a choice.
+        moved = moved.replace("if(t > 1, ", "(t > 1 ? ").replace(", 0)", " : 0)")
+        parts += [section("Obstacle 1", "Kind = plane", "Point = 0, 0, 0",
+                          "Normal = 0, 0, 1", f"Motion = {moved}"),
+                  section("Pair 1", "Secondary = 1: 4", "Obstacle = 1")]
+    else:
+        parts += [block(2, "16, 16, 1 : -2.7, -2.7, -0.5 : 3.7, 3.45, 0 : true",
+                        f"4: {moved}; 5: {moved}", more=RUBBER),
+                  pair("1: 4", "2: 5")]
+    parts += [section("Refinement", "Level = 0"),
+              section("Load steps", f"Steps = {2 * STEPS}", "End time = 2"),
+              section("Output", "Fields = false")]
+    return p.write("drag.prm", solid(3, *parts, bodies=1 if on_obstacle else 2,
+                                     obstacles=1 if on_obstacle else 0))
+
+
+def check_drag(angle, *words, on_obstacle=False, ranks=0):
+    """Forces along the way, across it and onto the plate."""
+    what = f"dragged at {angle} degrees {words}"
+    summary = solved(drag(angle, on_obstacle), *FINE, FRICTION, *words,
+                     ranks=ranks)
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    p.expect(summary["pair_1_slipping"] == summary["pair_1_active"] > 0,
+             f"{what}: {summary['pair_1_slipping']} of "
+             f"{summary['pair_1_active']} slip")
+    last = p.table("levels.csv")[-1]
+    x, y, z = (last[f"pair_1_force_{axis}"] for axis in "xyz")
+    along, across = c * x + s * y, c * y - s * x
+    # The plate takes the block along with it.
+    p.close(along / z, MU, 1e-9, f"{what}: T/N")
+    p.expect(abs(across) < 1e-9 * z, f"{what}: across {across / z} N")
+    p.close(last["dissipation"], along * WAY / STEPS, 1e-8,
+            f"{what}: dissipation")
+    print(what, "T/N - mu", along / z - MU, "across", across / z)
+    return summary
+
+
+dual = check_drag(0.)
+check_drag(90.)
+check_drag(-130.)
+# Forces of the first step are round-off sooner.
+check_drag(0., STANDARD, "Load steps/Newton tolerance=1e-8")
+check_drag(-130., NODES)
+check_drag(-130., *POINTS)
+check_drag(90., on_obstacle=True)
+check_drag(-130., on_obstacle=True)
+check_drag(-130., *POINTS, on_obstacle=True)
+check_drag(90., "Method/Enforcement=augmented lagrangian",
+           "Method/Pressure tolerance=1e-12")
+two = check_drag(0., ranks=2)
+for key in ("energy", "pair_1_friction_force", "pair_1_normal_force"):
+    p.close(two[key], dual[key], 1e-7, f"dragged on two ranks: {key}")
+
+
+# What is turned as a whole by 90 degrees after it has been pressed keeps all its
+# forces, friction too, which here some nodes take up by sticking.
+def check_turn(*words):
+    scene = turn(p, 3)
+    words = [*FINE, FRICTION, *words]
+    here = solved(scene, *words, "Load steps/End time=0.2",
+                  "Load steps/Steps=3")
+    there = solved(scene, *words)
+    what = f"turned {words}"
+    p.expect(here["pair_1_friction_force"] > 1e-3 * here["contact_force"],
+             f"{what}: no friction to turn")
+    for key in ("energy", "pair_1_pressure", "pair_1_normal_force",
+                "pair_1_friction_force", "least_stretch", "least_volume"):
+        p.close(there[key], here[key], 1e-9, f"{what}: {key}")
+    p.expect(there["pair_1_dissipation"] < 1e-10 * here["energy"],
+             f"{what}: dissipation {there['pair_1_dissipation']}")
+    scale = here["contact_force"]
+    for key in ("pair_1_force", "pair_1_friction"):
+        force, before = there[key], here[key]
+        p.expect(abs(force[0] + before[1]) < 1e-9 * scale
+                 and abs(force[1] - before[0]) < 1e-9 * scale,
+                 f"{what}: {key} {force} from {before}")
+    print(what, "linearisations",
+          [len(newton(p, step)) for step in range(1, 16)])
+
+
+for each in ([], [STANDARD], [SMALL], [NODES],
+             ["Method/Enforcement=penalty"]):
+    check_turn(*each)
+
+
+# What sticks on a mesh that matches is one body.
+def check_stick(*words):
+    push = "if(t > 0.5, 0.1*(t - 0.5), 0), if(t > 0.5, 0.06*(t - 0.5), 0), " \
+        "-0.04*min(1, 2*t)"
+    steps = section("Load steps", "Steps = 4")
+    level = section("Refinement", "Level = 0")
+    quiet = section("Output", "Fields = false")
+    one = p.write("one.prm", solid(
+        3, block(1, "4, 3, 2 : 0, 0, 0 : 2, 1.5, 0.5 : true",
+                 f"4: 0, 0, 0; 5: {push}", more=RUBBER), steps, level, quiet,
+        bodies=1).replace("Pairs = 1", "Pairs = 0"))
+    two = p.write("two.prm", solid(
+        3, block(1, "4, 3, 1 : 0, 0, 0 : 2, 1.5, 0.25 : true", "4: 0, 0, 0",
+                 more=RUBBER),
+        block(2, "4, 3, 1 : 0, 0, 0.25 : 2, 1.5, 0.5 : true", f"5: {push}",
+              more=RUBBER), pair("1: 5", "2: 4"), steps, level, quiet))
+    whole = solved(one, *FINE)
+    parts = solved(two, *FINE, "Pair 1/Friction=100", *words)
+    p.expect(parts["pair_1_active"] == 20 and parts["pair_1_slipping"] == 0,
+             f"stick {words}: {parts['pair_1_active']}, "
+             f"{parts['pair_1_slipping']} slip")
+    p.close(parts["energy"], whole["energy"], 1e-9, f"stick {words}: energy")
+
+
+for each in ([], [STANDARD], [NODES], [SMALL]):
+    check_stick(*each)
+
+# A round die that is pressed in slides over ten facets, symmetric about a plane
+# along its way; without friction also about the middle of the block, which is
+# half of the way.
+def check_ironing(mu):
+    summary, rows = p.solve("ironing-3d.prm", *set_words(
+        ["Output/Fields=false", "Output/Pictures=false",
+         f"Pair 1/Friction={mu}"]))
+    what = f"ironing with mu = {mu}"
+    n = [len(newton(p, step)) for step in range(1, 25)]
+    print(what, "linearisations", n, "moments", summary["moment_imbalance"])
+    p.expect(len(rows) == 24 and max(n) <= 8, f"{what}: {n} linearisations")
+    p.expect(summary["force_imbalance"] < 1e-12, f"{what}: forces")
+    p.expect(summary["moment_imbalance"] < 1e-4, f"{what}: moments")
+    slid = rows[12:]
+    for row in slid:
+        x, y, z = (row[f"pair_1_force_{axis}"] for axis in "xyz")
+        p.expect(abs(y) < 1e-6 * abs(z), f"{what}: sideways {y}")
+        # Tractions are along the surface, which the die bends.
+        p.expect(abs(-x / z - mu) < 0.02 * mu + 1e-3,
+                 f"{what}: T/N = {-x / z} at {row['time']}")
+    for one, other in zip(rows[11:], reversed(rows)):
+        if mu == 0.:
+            p.expect(abs(one["pair_1_force_x"] + other["pair_1_force_x"])
+                     < 1e-6 * abs(one["pair_1_force_z"])
+                     and abs(one["pair_1_force_z"] - other["pair_1_force_z"])
+                     < 1e-6 * abs(one["pair_1_force_z"]),
+                     f"{what}: not the same on both ends, {one['time']}")
+
+
+for each in (0., MU):
+    check_ironing(each)
+
+p.finish()
