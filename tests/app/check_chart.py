@@ -269,7 +269,7 @@ for name, *texts in (
          "write 'contact_impulse[0]'"),
         ("contact_impulse[1]", "is a list of 1", "'contact_impulse[0]'"),
         ("energy_gain[0]", "'energy_gain' is one number", "write 'energy_gain'"),
-        ("scheme", "'scheme' is there, but is no number"),
+        ("scene", "'scene' is there, but is no number"),
         ("contact_impuls", "'contact_impulse[0]'"),
         ("contact_impuls[0]", "'contact_impulse[0]'")):
     p.expect_error(quantity(name), "Error/Quantity", *texts)
