@@ -17,7 +17,10 @@ OUT = p.folder / "out"
 EXACT = 3.980995758125676707  # energy of the flat obstacle's exact solution
 
 
-def chart(head="", error="", curves="", scene="flat-obstacle.prm"):
+def chart(head="", error="", curves="", scene="flat-obstacle.prm",
+          head_axis=""):
+    if head_axis:
+        head += f"\nset Axis = {head_axis}"
     return p.write("chart.prm", f"""set Scene file = {p.source}/prm/{scene}
 set Repeats = 1
 {head}
@@ -251,6 +254,28 @@ result = p.call("chart", chart(VALUES, "set Quantity = contact_forc\n"
                                "set Reference = 6"), "--output", "out",
                 alone=True)
 p.expect_error(result, "chart.prm:5: Error/Quantity", "'contact_force'")
+
+# Lists and numbers: what to write is what works.
+def quantity(name):
+    return p.call("chart", chart("set Values = 20", f"set Quantity = {name}\n"
+                                 "set Reference = 200\nset Scale = 1\n",
+                                 scene="dynamics-bar-on-a-wall.prm",
+                                 head_axis="Bar/Elements"),
+                  "--output", "lists", alone=True)
+
+
+for name, *texts in (
+        ("contact_impulse", "'contact_impulse' is a list of 1",
+         "write 'contact_impulse[0]'"),
+        ("contact_impulse[1]", "is a list of 1", "'contact_impulse[0]'"),
+        ("energy_gain[0]", "'energy_gain' is one number", "write 'energy_gain'"),
+        ("scene", "'scene' is there, but is no number"),
+        ("contact_impuls", "'contact_impulse[0]'"),
+        ("contact_impuls[0]", "'contact_impulse[0]'")):
+    p.expect_error(quantity(name), "Error/Quantity", *texts)
+for name in ("contact_impulse[0]", "energy_gain"):
+    result = quantity(name)
+    p.expect(result.returncode == 0, f"quantity {name}: {result.stderr}")
 
 if p.short:
     p.finish()

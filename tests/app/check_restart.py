@@ -267,6 +267,22 @@ def check_motion():
     stopped(bar, 3, signal.SIGINT, expected, short)
 
 
+def check_driven():
+    """A mass on its way into a bar, and a ball that is pressed deeper in load
+    steps: place, velocity and stiffness of obstacles go on, too."""
+    for name, more in (
+            ("struck-bar", ["Body 1/Mesh/Arguments=10, 1 : 0, 0 : 1, 1 : true",
+                            "Time/Step=0.1", "Time/End=1.2",
+                            "Output/Every=4"]),
+            ("pressed-ball", ["Load steps/Steps=12", "Refinement/Level=3",
+                              "Refinement/Adaptive cycles=0"])):
+        scene = p.write(name + ".prm",
+                        (p.source / f"prm/{name}.prm").read_text() + EVERY)
+        expected = alone(scene, more)
+        killed(scene, 5, expected, more)
+        stopped(scene, 3, signal.SIGTERM, expected, more)
+
+
 def check_string():
     """A string that is lifted off a floor that falls: what the floor has worked
     goes on, too."""
@@ -373,6 +389,7 @@ if p.short:
 elif p.part == 1:
     check_one_rank(bodies, steps)
     check_motion()
+    check_driven()
     check_string()
     check_large_strain()
     check_large_motion()

@@ -5,7 +5,6 @@ import math
 
 from formula import Formula
 from motion import in_motion
-from obstacles import Obstacle
 from thresholds import THRESHOLDS
 from tolerances import of_balance
 from vectors import add, dot, norm, scale, sub, unit
@@ -111,8 +110,7 @@ class PairFriction:
         if solid.scene.get(f"Obstacle {self.pair.obstacle}/Kind",
                            "plane") != "plane":
             return "its obstacle is no plane"
-        obstacle = Obstacle(solid.scene, self.pair.obstacle, solid.dim,
-                            solid.time)
+        obstacle = solid.obstacle(self.pair)
         return plane_normal(obstacle, solid.nodes.place[self.nodes[0]],
                             solid.nodes.extent)
 

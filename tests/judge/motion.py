@@ -3,6 +3,7 @@
 import csv
 import math
 
+from driven import judge_driven_motion
 from formula import Formula, split
 from thresholds import THRESHOLDS
 
@@ -36,6 +37,7 @@ class MotionJudge:
     def judge(self):
         self.sums()
         self.gain()
+        judge_driven_motion(self, GAMMAS)
         reason = self.unknown_forces()
         if reason:
             self.solid.findings.leave("momentum of each step", reason)
@@ -74,9 +76,11 @@ class MotionJudge:
             return
         limit = THRESHOLDS["large gain" if large
                            else GAINS.get(scheme, "gain")]
-        self.solid.findings.check(
-            "gain of energy", max(r["balance"] for r in self.rows) - start,
-            limit.value * scale, limit.reason)
+        # what central differences keep is less than the energy at ends of steps
+        highest = max(min(r["balance"], r.get("kept_balance", r["balance"]))
+                      for r in self.rows)
+        self.solid.findings.check("gain of energy", highest - start,
+                                  limit.value * scale, limit.reason)
 
     def unknown_forces(self):
         """Why the table does not have all outer forces, or nothing."""

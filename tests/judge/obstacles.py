@@ -20,8 +20,10 @@ class Obstacle:
     """Signed distance at a time, positive outside of the material. Inside it is
     exact up to the nearest face; outside it is a lower bound."""
 
-    def __init__(self, scene, number, dim, time):
+    def __init__(self, scene, number, dim, time, driven=None):
         self.scene, self.dim, self.time = scene, dim, time
+        # What forces have moved it by.
+        self.driven = tuple(driven or (0.,) * dim)
         self.section = f"Obstacle {number}"
         self.kind = self._text("Kind", "plane")
         self.sign = -1. if self._flag("Hollow") else 1.
@@ -59,7 +61,7 @@ class Obstacle:
         angle = math.radians(self._formulas("Rotation angle", 1)[0])
         axis = tuple(numbers(self._text("Rotation axis", "0, 0, 1")))
         return (angle, self._vector("Rotation centre"), axis,
-                self._formulas("Motion", self.dim))
+                add(self._formulas("Motion", self.dim), self.driven))
 
     def _first_turns(self):
         angles = [math.radians(a) for a in numbers(self._text("Rotate"))]

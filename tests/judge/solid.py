@@ -3,6 +3,7 @@
 import math
 
 from coulomb import judge_friction
+from driven import driven_work, judge_driven_balance
 from elements import (corners, derivative, gauss, interpolate, shapes,
                       slopes)
 from formula import Formula, split
@@ -117,6 +118,7 @@ class SolidJudge:
             self.strain_energy()
         else:
             self.balance()
+            judge_driven_balance(self)
             self.energies()
         if not self.pairs:
             return
@@ -365,7 +367,7 @@ class SolidJudge:
         reaction, reaction_size = self.works(self.reaction)
         contact, contact_size = self.works(self.contact)
         self.work_size = load_size + reaction_size + contact_size
-        stored = self.summary["energy"] + load
+        stored = self.summary["energy"] + load + driven_work(self)
         limit = of_energy(self.scene, self.summary)
         if limit is None:
             self.findings.leave("works", "the target error sets the tolerances")
@@ -469,9 +471,15 @@ class SolidJudge:
                 + self.part_of_facet(pair).value * secondary.size
                 + 1e-9 * self.nodes.extent)
 
+    def obstacle(self, pair):
+        """The obstacle of a pair where it is now."""
+        return Obstacle(self.scene, pair.obstacle, self.dim, self.time,
+                        self.summary.get(
+                            f"obstacle_{pair.obstacle}_displacement"))
+
     def into_obstacle(self, pair):
         """Depths of samples of the surface, and of the obstacle."""
-        obstacle = Obstacle(self.scene, pair.obstacle, self.dim, self.time)
+        obstacle = self.obstacle(pair)
         facets = Pair.facets(pair.secondary, self.facets)
         for facet in facets:
             # what supports hold inside no contact can move
@@ -683,8 +691,8 @@ class SolidJudge:
     def slips_at_once(self):
         """Whether all that slips does so in one step, against what stays: then
         what is dissipated is the work of the last tractions on all slips."""
-        moves = any(self.scene.get(f"Obstacle {pair.obstacle}/Motion", "")
-                    for pair in self.pairs if pair.obstacle)
+        moves = any(self.scene.get(f"Obstacle {pair.obstacle}/{name}", "")
+                    for name in ("Motion", "Free directions") for pair in self.pairs if pair.obstacle)
         return (not moves and not in_motion(self.scene)
                 and self.summary["method"] == "lagrange"
                 and int(self.scene.get("Load steps/Steps", "1")) == 1

@@ -43,6 +43,10 @@ THRESHOLDS = {
     "momentum": Threshold(
         1e-7, "of the largest momentum that the kinetic energy could be: what a "
         "step changes of it is the outer forces times the step"),
+    "obstacle": Threshold(
+        1e-5, "of the force of contact: what is left of the balance of an "
+        "obstacle that forces move; with default tolerances 1e-9, of large "
+        "strain that of Newton's method"),
     "gain": Threshold(
         2e-3, "of the energy at the start or the work done: what implicit "
         "schemes with modified mass may gain"),

@@ -239,12 +239,11 @@ namespace abut::app
                           const std::string &key)
       {
         const auto number = record.summary.cost(key);
-        if (!number)
-          throw InputError(parameter,
-                           "the runs have no number '" + key
-                               + "' in summary.json."
-                               + did_you_mean(key, record.summary.keys()));
-        return *number;
+        if (number)
+          return *number;
+        throw InputError(parameter, "the runs have no number '" + key
+                                        + "' in summary.json."
+                                        + record.summary.explain(key));
       }
 
       ChartRow run_point(const Point &point)

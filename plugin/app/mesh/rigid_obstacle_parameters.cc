@@ -3,10 +3,13 @@
 
 #include "app/input/expression.h"
 #include "app/input/input_error.h"
+#include "app/input/parameters.h"
 
+#include <abut/dealii/number_pattern.h>
 #include <abut/obstacle.h>
 
 #include <algorithm>
+#include <set>
 
 namespace abut::app
 {
@@ -92,6 +95,26 @@ namespace abut::app
            {},
            "Displacement of the obstacle as formulas in t, one per direction, "
            "separated by commas: `0, 0, -0.1*t`. Empty: none."},
+          {"Free directions",
+           "",
+           {},
+           "Directions in which the obstacle is a rigid body that forces move, "
+           "such as `z` or `x, y`: it goes where `Force`, its weight, contact "
+           "and, in time, the inertia of `Mass` are in balance, by "
+           "translations. In the others it follows `Motion`, which must be 0 "
+           "in these. Empty: none."},
+          {"Force",
+           "",
+           {},
+           "Force on the obstacle as formulas in t, one per direction; those "
+           "of `Free directions` count. Around an axis that on the whole "
+           "turn, of a part of what is symmetric that on the part. Empty: "
+           "none."},
+          {"Initial velocity",
+           "",
+           {},
+           "Velocity at the start of a motion along `Free directions`, one "
+           "number per direction. Empty: 0."},
           {"Rotation angle",
            "",
            {},
@@ -106,6 +129,23 @@ namespace abut::app
            {},
            "Direction about which `Rotation angle` turns in 3D."}};
       return all;
+    }
+
+    /** The directions of a list of names; throws InputError. */
+    std::vector<unsigned int> parse_directions(const std::string &text,
+                                               const std::string &parameter)
+    {
+      std::set<unsigned int> directions;
+      for (const std::string &word : split_list(text, ','))
+      {
+        const std::size_t d = std::string("xyz").find(word);
+        if (word.size() != 1 || d == std::string::npos)
+          throw InputError(parameter, "'" + word
+                                          + "' is none of the directions x, "
+                                            "y, z.");
+        directions.insert(static_cast<unsigned int>(d));
+      }
+      return {directions.begin(), directions.end()};
     }
 
     /** Those that belong to surfaces alone; Rotate and Move place all kinds. */
@@ -160,6 +200,11 @@ namespace abut::app
     for (const Entry &entry : entries())
       prm.declare_entry(entry.name, entry.default_value, Patterns::Anything(),
                         entry.documentation);
+    prm.declare_entry("Mass", "0", NumberPattern::from(0.),
+                      "Mass of the obstacle: it has the weight of "
+                      "`Solid/Gravity`, and in time inertia along `Free "
+                      "directions`. 0: in time, too, forces on it are in "
+                      "equilibrium.");
     prm.declare_entry("Gap along", "axis", Patterns::Selection("axis|normal"),
                       "height: whether the gap is measured along the axis, "
                       "and the contact force acts along it, or normal to the "
@@ -187,6 +232,11 @@ namespace abut::app
     surface.parse(prm, section);
     for (const Entry &entry : entries())
       values[entry.name] = prm.get(entry.name);
+    free = parse_directions(values["Free directions"],
+                            parameter("Free directions"));
+    mass = prm.get_double("Mass");
+    initial_velocity = parse_numbers(values["Initial velocity"],
+                                     parameter("Initial velocity"));
     refuse_without_meaning(*this, prm);
     if ((kind == "height" || kind == "distance")
         && values["Expression"].empty())

@@ -12,6 +12,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace abut::app
 {
@@ -23,6 +24,11 @@ namespace abut::app
     bool hollow = false;
     bool open = false;      ///< surface: may have borders
     bool along_axis = true; ///< height: where the gap is measured
+    /** Directions in which forces move it, ascending; empty: it goes where its
+     * motion says. */
+    std::vector<unsigned int> free;
+    double mass = 0.;
+    std::vector<double> initial_velocity; ///< by direction; empty: 0
     SurfaceParameters surface;
     /** The other parameters as they were given, by name. */
     std::map<std::string, std::string> values;

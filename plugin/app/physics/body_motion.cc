@@ -459,6 +459,7 @@ namespace abut::app
         state(next_displacement_, next_velocity_, next_acceleration_);
     check(abut_time_end(&to, la::data(unknown)));
     record_ = measure(next_displacement_, next_velocity_);
+    record_.not_kept = energy_not_kept(dt_, next_acceleration_);
     measure_works();
   }
 

@@ -27,13 +27,18 @@ namespace abut::app
      * undeformed ones, at which small strain has its forces act. In 2D one
      * component, of membranes none. */
     std::vector<double> angular_momentum;
+    /** What an explicit scheme does not keep of these energies: central
+     * differences keep 1/2 v.Mv - dt^2/8 a.Ma + the energy of all forces, the
+     * kinetic energy of the steps' middles less that of half a step. 0 for
+     * others. */
+    double not_kept = 0.;
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
       archive &time &contact_force;
       archive &energy.kinetic &energy.strain &energy.contact;
       archive &energy.dissipated &energy.external_work;
-      archive &momentum &angular_momentum;
+      archive &momentum &angular_momentum &not_kept;
     }
   };
 
@@ -72,6 +77,13 @@ namespace abut::app
      * time put into the problem. The acceleration is that of M a = f - C v -
      * K u at unknowns with mass, without contact. Collective. */
     void start(const la::Vector &displacement, const la::Vector &velocity);
+
+    /** MotionRecord::not_kept of the start, with steps of length @p dt.
+     * Collective. */
+    double energy_not_kept(double dt) const
+    {
+      return energy_not_kept(dt, acceleration_);
+    }
 
     /** Begin the problem of contact at the start, whose answer is u + dt^2 a
      * with the displacement @p u and the acceleration there: what touches and
@@ -231,6 +243,7 @@ namespace abut::app
     void measure_works();
     MotionRecord measure(const la::Vector &u, const la::Vector &v) const;
     double damping_energy(const la::Vector &way) const;
+    double energy_not_kept(double dt, const la::Vector &acceleration) const;
 
     DiscreteProblem<dim> &problem_;
     const Settings settings_;

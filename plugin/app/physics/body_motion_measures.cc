@@ -113,6 +113,18 @@ namespace abut::app
     return result / dt_;
   }
 
+  template <int dim>
+  double BodyMotion<dim>::energy_not_kept(const double dt,
+                                          const la::Vector &acceleration) const
+  {
+    if (!is_explicit())
+      return 0.;
+    const la::Vector free = without_prescribed(acceleration);
+    la::Vector product = problem_.vector();
+    mass_->vmult(product, free);
+    return dt * dt / 8. * (product * free);
+  }
+
   template <int dim> void BodyMotion<dim>::measure_works()
   {
     la::Vector way(next_displacement_);
@@ -206,6 +218,8 @@ namespace abut::app
   BodyMotion<2>::turns_at(const la::Vector *) const;
   template void BodyMotion<2>::find_rigid_motions();
   template double BodyMotion<2>::damping_energy(const la::Vector &) const;
+  template double BodyMotion<2>::energy_not_kept(double,
+                                                 const la::Vector &) const;
   template void BodyMotion<2>::measure_works();
   template MotionRecord BodyMotion<2>::measure(const la::Vector &,
                                                const la::Vector &) const;
@@ -216,6 +230,8 @@ namespace abut::app
   BodyMotion<3>::turns_at(const la::Vector *) const;
   template void BodyMotion<3>::find_rigid_motions();
   template double BodyMotion<3>::damping_energy(const la::Vector &) const;
+  template double BodyMotion<3>::energy_not_kept(double,
+                                                 const la::Vector &) const;
   template void BodyMotion<3>::measure_works();
   template MotionRecord BodyMotion<3>::measure(const la::Vector &,
                                                const la::Vector &) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "run_summary.h"
 
+#include <abut/dealii/nearest_word.h>
+
 #include <boost/property_tree/json_parser.hpp>
 
 #include <cmath>
@@ -68,6 +70,28 @@ namespace abut::app
                           + (key == "wall_seconds" ? "seconds" : key))
                        .value_or(0.);
     return result;
+  }
+
+  std::string RunSummary::explain(const std::string &key) const
+  {
+    const std::string name = key.substr(0, key.find('['));
+    const auto entry = tree.get_child_optional(ptree::path_type(name, '/'));
+    if (!entry)
+    {
+      const std::string nearest = nearest_word(name, keys());
+      for (const char *end : {"", "[0]"})
+        if (number(nearest + end))
+          return " Did you mean '" + nearest + end + "'?";
+      return "";
+    }
+    const std::size_t n = entry->size();
+    if (n == 0 && number_of(entry->data()))
+      return " '" + name + "' is one number, not a list: write '" + name + "'.";
+    if (n == 0 || component(*entry, 0) == nullptr)
+      return " '" + name + "' is there, but is no number.";
+    return " '" + name + "' is a list of " + std::to_string(n) + ": write '"
+           + name + "[0]'"
+           + (n == 1 ? "." : " or up to '[" + std::to_string(n - 1) + "]'.");
   }
 
   std::vector<std::string> RunSummary::keys() const

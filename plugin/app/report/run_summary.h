@@ -34,6 +34,10 @@ namespace abut::app
 
     std::vector<std::string> keys() const;
 
+    /** What is wrong with a key that number() has nothing for, and what to
+     * write instead, with a blank in front; empty if nothing is like it. */
+    std::string explain(const std::string &key) const;
+
   private:
     boost::property_tree::ptree tree;
   };

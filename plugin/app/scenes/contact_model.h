@@ -139,6 +139,36 @@ namespace abut::app
       return false;
     }
 
+    /** What obstacles do after a contact problem. */
+    enum class Placing
+    {
+      settled, ///< they are where they belong
+      again,   ///< they have moved: the problem has to be solved anew
+      lost     ///< there is no place for them
+    };
+
+    /** Whether forces move obstacles. */
+    virtual bool places_obstacles() const
+    {
+      return false;
+    }
+
+    /** A contact problem begins, in which @p tolerance of the forces on
+     * obstacles may be left without balance. */
+    virtual void begin_places(double /*tolerance*/)
+    {
+    }
+
+    /** It has been solved with obstacles where they are now, or (@p solved is
+     * false) has no answer there: where obstacles that forces move have to be
+     * for these to be in balance. @p why: of what is lost, unless the problem
+     * itself has told. */
+    virtual Placing place_obstacles(bool solved, std::string &why)
+    {
+      (void)why;
+      return solved ? Placing::settled : Placing::lost;
+    }
+
     /** All solves of the step have led to the displacement of the run's state,
      * which results are now asked of. */
     virtual void end_solve()

@@ -24,6 +24,9 @@ namespace abut::app
     /** Level of the smallest cells that a mesh may have: one less than p4est
      * can number, as neighbours are refined along. */
     template <int dim> constexpr int deepest_level = dim == 2 ? 28 : 17;
+
+    /** Sums of forces have some of the digits of each. */
+    constexpr double ten_times = 10.;
   } // namespace
 
   template <int dim>
@@ -123,14 +126,17 @@ namespace abut::app
     contact_is_ready = false;
   }
 
-  template <int dim> void ContactRun<dim>::set_parameters()
+  template <int dim> MethodParameters ContactRun<dim>::present_method() const
   {
     const bool loose = !state.is_last_mesh() && !model.has_exact_solution()
                        && !state.settings.all_levels && !state.control.is_on();
-    state.contact.set_parameters(
-        loose ? state.settings.refinement.loosened(state.method)
-              : state.control.method(),
-        state.settings.solver);
+    return loose ? state.settings.refinement.loosened(state.method)
+                 : state.control.method();
+  }
+
+  template <int dim> void ContactRun<dim>::set_parameters()
+  {
+    state.contact.set_parameters(present_method(), state.settings.solver);
   }
 
   template <int dim> void ContactRun<dim>::begin_contact()
@@ -293,6 +299,29 @@ namespace abut::app
   }
 
   template <int dim> bool ContactRun<dim>::solve_with_contact()
+  {
+    if (!model.places_obstacles())
+      return solve_contact_problem();
+    // Forces are as good as the linear systems that they come of, or as
+    // Newton's method leaves them.
+    double tolerance =
+        ten_times * present_method().options.final_linear_tolerance;
+    if (!model.problem().is_linear() || state.contact.points_move())
+      tolerance = std::max(tolerance, model.newton_parameters().tolerance);
+    model.begin_places(tolerance);
+    using Placing = typename ContactModel<dim>::Placing;
+    la::Vector good(state.u);
+    for (;;)
+    {
+      const bool solved = solve_contact_problem();
+      (solved ? good : state.u) = solved ? state.u : good;
+      const Placing placing = model.place_obstacles(solved, failure);
+      if (placing != Placing::again)
+        return placing == Placing::settled;
+    }
+  }
+
+  template <int dim> bool ContactRun<dim>::solve_contact_problem()
   {
     begin_contact();
     ContactSolver<dim> solver(state.contact, model.problem().constraints,

@@ -54,6 +54,11 @@ namespace abut::app
     std::string failure_of(const NewtonResult &result) const;
     /** A sentence about the present step in time; empty in statics. */
     std::string time_step() const;
+    /** The method on the present mesh. */
+    MethodParameters present_method() const;
+    /** With obstacles where they are. */
+    bool solve_contact_problem();
+    /** With obstacles that forces move where these are in balance. */
     bool solve_with_contact();
     bool solve_without_contact();
     /** One of the problems of a step. */

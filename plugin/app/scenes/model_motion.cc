@@ -53,7 +53,8 @@ namespace abut::app
   }
 
   template <int dim>
-  la::Vector ModelMotion<dim>::start(std::pair<la::Vector, la::Vector> initial)
+  la::Vector ModelMotion<dim>::start(std::pair<la::Vector, la::Vector> initial,
+                                     const double rigid_energy)
   {
     auto &[displacement, velocity] = initial;
     problem.constraints.distribute(displacement);
@@ -61,11 +62,13 @@ namespace abut::app
     motion.start(displacement, velocity);
     records = {no_contact()};
     records.front().bodies = motion.record();
+    records.front().bodies.energy.kinetic += rigid_energy;
+    records.front().bodies.not_kept = motion.energy_not_kept(step_length());
     balance = {};
     balance.struct_size = sizeof(balance);
     dissipated = work = 0.;
     abut_time_verdict verdict;
-    judge(records.back().bodies.energy, verdict);
+    judge(records.back().bodies, verdict);
     look_at_step();
     return displacement;
   }
@@ -208,11 +211,19 @@ namespace abut::app
   }
 
   template <int dim>
-  void ModelMotion<dim>::judge(const abut_time_energy &energy,
+  void ModelMotion<dim>::add_rigid(const double energy, const double work_there)
+  {
+    present.bodies.energy.kinetic += energy;
+    add_work(work_there);
+  }
+
+  template <int dim>
+  void ModelMotion<dim>::judge(const MotionRecord &record,
                                abut_time_verdict &verdict)
   {
-    abut_time_energy given = energy;
+    abut_time_energy given = record.energy;
     given.struct_size = sizeof(given);
+    given.kinetic -= record.not_kept;
     verdict = ABUT_TIME_STEADY;
     abut_time_judge(&time.scheme, &given, &balance, &verdict);
   }
@@ -224,7 +235,7 @@ namespace abut::app
     dissipated += friction_of_step;
     work += work_of_step;
     abut_time_verdict verdict;
-    judge(present.bodies.energy, verdict);
+    judge(present.bodies, verdict);
     loses = verdict == ABUT_TIME_LOSES;
     if (verdict != ABUT_TIME_GAINS && verdict != ABUT_TIME_BLOWS_UP)
       return "";
@@ -271,6 +282,8 @@ namespace abut::app
     std::vector<std::string> result = {"kinetic_energy", "strain_energy",
                                        "contact_energy", "dissipated",
                                        "external_work",  "balance"};
+    if (time.scheme.beta == 0.)
+      result.emplace_back("kept_balance");
     for (const std::string &component : words.components)
       result.push_back("momentum" + component);
     if (words.components.size() == dim)
@@ -292,6 +305,8 @@ namespace abut::app
     row["dissipated"] = e.dissipated;
     row["external_work"] = e.external_work;
     row["balance"] = present.balance();
+    if (time.scheme.beta == 0.)
+      row["kept_balance"] = present.balance() - present.bodies.not_kept;
     const std::vector<double> &turning = present.bodies.angular_momentum;
     for (std::size_t r = 0; r < turning.size(); ++r)
       row[angular_momentum_about<dim>(r)] = turning[r];

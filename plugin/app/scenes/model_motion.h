@@ -58,8 +58,10 @@ namespace abut::app
                const std::set<dealii::types::boundary_id> &touching);
 
     /** Begin with this displacement and velocity; supports and loads are those
-     * of time 0. Returns the displacement. Collective. */
-    la::Vector start(std::pair<la::Vector, la::Vector> initial);
+     * of time 0. @p rigid_energy: kinetic energy of rigid obstacles. Returns
+     * the displacement. Collective. */
+    la::Vector start(std::pair<la::Vector, la::Vector> initial,
+                     double rigid_energy = 0.);
 
     /** See ContactModel::begin_start(). Collective. */
     bool begin_start(la::Vector &u);
@@ -100,6 +102,13 @@ namespace abut::app
     /** Obstacles that do not move as rigid ones have worked so much in the step
      * that has ended. */
     void add_work(double work);
+
+    /** Kinetic energy of rigid obstacles at the end of that step, and work of
+     * forces on them in it. */
+    void add_rigid(double energy, double work);
+
+    /** Length of the step in work. */
+    double step_length() const;
 
     /** Accept it, and judge the balance of energies: returns why the run must
      * end, or nothing. */
@@ -160,13 +169,12 @@ namespace abut::app
 
   private:
     Record no_contact() const;
-    double step_length() const;
     void measure_contact(const std::vector<ContactAction> &actions);
     double friction_work(const ContactAction &action, double before) const;
     double work_of_obstacles() const;
     /** Tell the limit of an explicit scheme, and warn above it. Collective. */
     void look_at_step();
-    void judge(const abut_time_energy &energy, abut_time_verdict &verdict);
+    void judge(const MotionRecord &record, abut_time_verdict &verdict);
     void warn_of_loss() const;
 
     const InertiaParameters &time;

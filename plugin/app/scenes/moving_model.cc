@@ -19,7 +19,7 @@ namespace abut::app
       return ContactModel<dim>::start();
     this->set_time(0.);
     this->assemble();
-    return motion->start(initial_motion());
+    return motion->start(initial_motion(), initial_rigid_energy());
   }
 
   template <int dim> bool MovingModel<dim>::begin_start(la::Vector &u)

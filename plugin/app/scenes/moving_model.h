@@ -57,6 +57,12 @@ namespace abut::app
      * if nothing can touch. Collective. */
     virtual std::vector<ContactAction> contact_actions() const = 0;
 
+    /** Kinetic energy of rigid obstacles at the start. */
+    virtual double initial_rigid_energy() const
+    {
+      return 0.;
+    }
+
     /** The matrix that penalties are measured by. */
     virtual const la::Matrix &reference_stiffness() const = 0;
 

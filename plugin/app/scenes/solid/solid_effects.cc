@@ -26,9 +26,10 @@ namespace abut::app
 
     bool any_has_weight(const SceneValues &values)
     {
-      for (const std::string &path : values.matching("Body */Density"))
-        if (values.number(path) > 0.)
-          return true;
+      for (const char *masses : {"Body */Density", "Obstacle */Mass"})
+        for (const std::string &path : values.matching(masses))
+          if (values.number(path) > 0.)
+            return true;
       return false;
     }
 
@@ -128,7 +129,33 @@ namespace abut::app
         const std::string angle = section_of(path) + "/Rotation angle";
         return values(angle).empty() ? angle + " is empty." : "";
       };
+      const auto is_driven =
+          [](const SceneValues &values, const std::string &path)
+      {
+        const std::string free = section_of(path) + "/Free directions";
+        return values(free).empty()
+                   ? free
+                         + " is empty: the obstacle is where its Motion says, "
+                           "whatever acts on it."
+                   : "";
+      };
       return {
+          {"Obstacle */Force", Weight::data, is_driven},
+          {"Obstacle */Mass", Weight::data,
+           [is_driven](const SceneValues &values, const std::string &path)
+           {
+             const std::string why = is_driven(values, path);
+             return !why.empty() || has_motion(values) || has_gravity(values)
+                        ? why
+                        : "nothing moves in time, and Solid/Gravity is empty.";
+           }},
+          {"Obstacle */Initial velocity", Weight::data,
+           [is_driven](const SceneValues &values, const std::string &path)
+           {
+             return has_motion(values) ? is_driven(values, path)
+                                       : "nothing moves: Time/Scheme is none. "
+                                         "hht is the one to begin with.";
+           }},
           {"Obstacle */Gradient", Weight::data,
            [](const SceneValues &values, const std::string &path)
            {

@@ -43,6 +43,7 @@ namespace abut::app
         parameters(parameters),
         bodies(parameters.bodies, is_of_revolution<dim>(parameters)),
         elasticity(this->triangulation, parameters.degree),
+        driven(parameters),
         search(search),
         assembler(run.contact),
         output(*this)
@@ -57,6 +58,7 @@ namespace abut::app
   {
     functions = std::make_unique<SolidFunctions<dim>>(parameters);
     pairs = std::make_unique<SolidPairs<dim>>(parameters, run.options);
+    driven.create_functions();
     const abut_time_scheme &scheme = parameters.time.scheme;
     if (motion && scheme.projects != 0 && scheme.contact_in_step != 0
         && pairs->has_friction())
@@ -110,6 +112,14 @@ namespace abut::app
     data = functions->data(bodies, pairs->surfaces());
     pairs->require_free(bodies, data.supports);
     points = read_points(parameters.points, bodies);
+    double stiffness = 0.;
+    for (const auto &[body, material] : data.materials)
+      stiffness = stiffness > 0. ? std::min(stiffness, material->stiffness())
+                                 : material->stiffness();
+    driven.set_sizes(stiffness, length);
+    for (std::size_t o = 0; o < parameters.obstacles.size(); ++o)
+      if (driven.is_driven(o))
+        pairs->let_come(o);
   }
 
   template <int dim> void SolidModel<dim>::check_setup()
@@ -203,6 +213,7 @@ namespace abut::app
   template <int dim> void SolidModel<dim>::set_time(const double time)
   {
     functions->set_time(time);
+    driven.set_time(time);
     if (exact)
       exact->set_time(time);
     // The first mesh gets its supports with its unknowns.
@@ -214,6 +225,8 @@ namespace abut::app
   void SolidModel<dim>::set_contact(ContactAssembler<dim> &contact,
                                     const double time)
   {
+    if (!driven.empty())
+      pairs->set_driven(driven_places(time));
     pairs->set_time(time);
     contact.set_pairs(pairs->pairs());
     contact.set_surface_traction(std::make_shared<ElasticTraction<dim>>(
@@ -232,17 +245,20 @@ namespace abut::app
 
   template <int dim> std::string SolidModel<dim>::save_state() const
   {
-    return to_bytes(std::make_pair(
-        std::make_pair(to_bytes(output), this->motion_state()), has_warned));
+    return to_bytes(
+        std::make_pair(std::make_pair(to_bytes(output), this->motion_state()),
+                       std::make_pair(to_bytes(driven), has_warned)));
   }
 
   template <int dim> void SolidModel<dim>::load_state(const std::string &bytes)
   {
-    std::pair<std::pair<std::string, std::string>, bool> parts;
+    std::pair<std::pair<std::string, std::string>, std::pair<std::string, bool>>
+        parts;
     from_bytes(bytes, parts);
     from_bytes(parts.first.first, output);
     this->load_motion(parts.first.second);
-    has_warned = parts.second;
+    from_bytes(parts.second.first, driven);
+    has_warned = parts.second.second;
   }
 
   template <int dim>
@@ -431,6 +447,8 @@ namespace abut::app
     if (motion)
       for (const std::string &column : motion->columns())
         columns.push_back(column);
+    for (const std::string &column : driven.columns())
+      columns.push_back(column);
     run.report.declare_columns(columns);
   }
 
@@ -461,6 +479,7 @@ namespace abut::app
     }
     if (motion)
       motion->add_to_row(row);
+    driven.add_to_row(row);
     row["load_step"] = result.load_step;
     row["time"] = result.time;
     if (result.errors)

@@ -5,6 +5,7 @@
 #include "app/physics/rigid_modes.h"
 #include "app/scenes/moving_model.h"
 #include "body_parts.h"
+#include "driven_obstacles.h"
 #include "solid_functions.h"
 #include "solid_output.h"
 #include "solid_pairs.h"
@@ -31,8 +32,25 @@ namespace abut::app
     void check_setup() override;
     void declare_tables() override;
 
+    la::Vector start() override;
+    bool begin_start(la::Vector &u) override;
+    void end_start(la::Vector &u) override;
+    void resume(std::vector<la::Vector> fields) override;
+
     void set_time(double time) override;
     void assemble() override;
+    bool begin_solve(la::Vector &u) override;
+    bool next_solve(const la::Vector &u) override;
+    void end_solve() override;
+    std::string commit() override;
+    bool places_obstacles() const override
+    {
+      return !driven.empty();
+    }
+    void begin_places(double tolerance) override;
+    typename ContactModel<dim>::Placing
+    place_obstacles(bool solved, std::string &why) override;
+    double energy(const la::Vector &u) const override;
     NewtonParameters newton_parameters() const override;
     DiscreteProblem<dim> &problem() override
     {
@@ -126,6 +144,7 @@ namespace abut::app
     Elasticity<dim> elasticity;
     std::unique_ptr<SolidFunctions<dim>> functions;
     std::unique_ptr<SolidPairs<dim>> pairs;
+    DrivenObstacles<dim> driven;
     std::unique_ptr<ExactSolution<dim>> exact;
     ElasticData<dim> data;
     std::vector<OutputPoint<dim>> points; ///< of `Output/Points`
@@ -136,6 +155,10 @@ namespace abut::app
       return functions->initial_motion(elasticity);
     }
     std::vector<ContactAction> contact_actions() const override;
+    double initial_rigid_energy() const override
+    {
+      return driven.kinetic_energy();
+    }
     const la::Matrix &reference_stiffness() const override
     {
       return elasticity.undeformed_stiffness();
@@ -146,6 +169,12 @@ namespace abut::app
      * user's boundary ids. Throws InputError for ids that no body has. */
     SearchParameters numbered_search() const;
     MotionWords motion_words() const;
+    /** Where obstacles that forces move are at a time. */
+    std::vector<dealii::Tensor<1, dim>> driven_places(double time) const;
+    /** How far an obstacle displaced by @p displacement is from the surfaces
+     * that it may touch, at the displacement of the run. Collective. */
+    double clearance(std::size_t obstacle,
+                     const dealii::Tensor<1, dim> &displacement) const;
     /** Why the solve of this time step leaves the places that its points were
      * made at; empty: it does not. Collective. */
     std::string leaves_points() const;

@@ -48,6 +48,11 @@ namespace abut::app
       for (const auto &obstacle : obstacles)
         if (obstacle.shape == pairs->pairs()[p].obstacle)
           actions[p].place = components(obstacle.motion);
+      // What forces move takes the work of contact from its own energy.
+      if (const auto number = pairs->obstacle_of(p))
+        for (unsigned int d = 0; d < dim; ++d)
+          if (driven.is_free(*number, d))
+            actions[p].place[d] = 0.;
     }
     return actions;
   }

@@ -147,13 +147,34 @@ namespace abut::app
     return result;
   }
 
+  template <int dim> void SolidPairs<dim>::let_come(const std::size_t obstacle)
+  {
+    for (ContactPair<dim> &pair : all)
+      if (pair.obstacle == obstacles[obstacle])
+        pair.may_be_apart = true;
+  }
+
+  template <int dim>
+  void SolidPairs<dim>::place_obstacle(
+      const std::size_t number,
+      const dealii::Tensor<1, dim> &displacement) const
+  {
+    RigidObstacle<dim> &obstacle = *obstacles[number];
+    obstacle.set_time(time);
+    if (displacement == dealii::Tensor<1, dim>())
+      return;
+    RigidPose<dim> pose = obstacle.pose();
+    pose.translation += displacement;
+    obstacle.set_pose(pose);
+  }
+
   template <int dim> void SolidPairs<dim>::set_time(const double present)
   {
     time = present;
     for (const auto &formula : friction)
       formula->set_time(time);
-    for (const auto &obstacle : obstacles)
-      obstacle->set_time(time);
+    for (std::size_t o = 0; o < obstacles.size(); ++o)
+      place_obstacle(o, driven.empty() ? dealii::Tensor<1, dim>() : driven[o]);
     for (std::size_t i = 0; i < all.size(); ++i)
     {
       gaps[i]->set_time(time);
@@ -182,11 +203,12 @@ namespace abut::app
       return result;
     };
     std::vector<MovedObstacle> result;
-    for (const auto &obstacle : obstacles)
+    for (std::size_t o = 0; o < obstacles.size(); ++o)
     {
+      const auto &obstacle = obstacles[o];
       obstacle->set_time(0.);
       const dealii::Tensor<1, dim> start = place(*obstacle);
-      obstacle->set_time(time);
+      place_obstacle(o, driven.empty() ? dealii::Tensor<1, dim>() : driven[o]);
       result.push_back({obstacle, place(*obstacle) - start});
     }
     return result;

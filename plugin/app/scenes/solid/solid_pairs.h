@@ -12,7 +12,9 @@
 #include <abut/dealii/rigid_obstacle.h>
 
 #include <memory>
+#include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace abut::app
@@ -56,8 +58,30 @@ namespace abut::app
     /** Secondary surfaces that touch and leave: those of ties do not. */
     std::set<dealii::types::boundary_id> touching() const;
 
+    /** What forces have moved the obstacles by, by obstacle, from the next
+     * set_time() on. Without, they are where their motions say. */
+    void set_driven(std::vector<dealii::Tensor<1, dim>> displacements)
+    {
+      driven = std::move(displacements);
+    }
+
     /** Time of gaps and obstacles. */
     void set_time(double time);
+
+    /** Place an obstacle of the pairs as at the present time, but moved by
+     * forces by @p displacement; until the next set_time(). */
+    void place_obstacle(std::size_t obstacle,
+                        const dealii::Tensor<1, dim> &displacement) const;
+
+    /** Pairs with this obstacle need not be in reach before it has come. */
+    void let_come(std::size_t obstacle);
+
+    /** The number of the obstacle of a pair, if it has one. */
+    std::optional<std::size_t> obstacle_of(std::size_t pair) const
+    {
+      const unsigned int number = parameters.pairs[pair].obstacle;
+      return number > 0 ? std::optional<std::size_t>(number - 1) : std::nullopt;
+    }
 
     /** The pairs at the present time. */
     const std::vector<ContactPair<dim>> &pairs() const
@@ -106,6 +130,7 @@ namespace abut::app
     const std::shared_ptr<double> half_extent = std::make_shared<double>(1.);
     double time = 0.;
     std::vector<std::shared_ptr<RigidObstacle<dim>>> obstacles;
+    std::vector<dealii::Tensor<1, dim>> driven; ///< by obstacle, or empty
     std::vector<std::unique_ptr<Expression<dim>>> gaps;
     /** Of the pairs with friction. */
     std::vector<std::shared_ptr<Expression<dim>>> friction;

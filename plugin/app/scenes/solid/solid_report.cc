@@ -244,6 +244,28 @@ namespace abut::app
     report.set("max_complementarity", contact.complementarity());
   }
 
+  template <int dim> void SolidReport<dim>::report_driven() const
+  {
+    const DrivenObstacles<dim> &driven = model.driven;
+    const auto set = [&](const std::string &key, const auto &vector) {
+      report.set(key,
+                 std::vector<double>(vector.begin_raw(), vector.end_raw()));
+    };
+    for (std::size_t o = 0; o < parameters.obstacles.size(); ++o)
+    {
+      if (!driven.is_driven(o))
+        continue;
+      const std::string key = "obstacle_" + std::to_string(o + 1);
+      set(key + "_displacement",
+          driven.displacement(o, run.results.back().time));
+      if (model.motion)
+        set(key + "_velocity", driven.velocity(o));
+      set(key + "_force", driven.contact_force(o));
+    }
+    report.set("obstacle_imbalance", driven.imbalance());
+    report.set("obstacle_places", driven.n_places());
+  }
+
   template <int dim>
   std::optional<double> SolidReport<dim>::relative_error() const
   {
@@ -314,6 +336,8 @@ namespace abut::app
       model.motion->report();
     if (!pairs.empty())
       report_contact();
+    if (model.places_obstacles())
+      report_driven();
     if (converged)
       report_numerics();
   }
@@ -396,6 +420,11 @@ namespace abut::app
                  model.has_inertia()
                      ? std::string("scheme ") + parameters.time.scheme.name
                      : "each load step is in equilibrium");
+    report.model("obstacles moved by forces", model.places_obstacles(),
+                 model.places_obstacles()
+                     ? std::to_string(model.driven.n_places())
+                           + " places were tried, each a contact problem"
+                     : "obstacles are where their motions say");
     report.model("large strain", model.has_large_strain(),
                  model.has_large_strain()
                      ? "strains and rotations of any size"

@@ -35,6 +35,8 @@ namespace abut::app
     std::pair<double, double> report_pairs() const;
     void report_friction() const;
     void report_contact() const;
+    /** Obstacles that forces move. */
+    void report_driven() const;
     std::optional<double> relative_error() const;
     /** What single ranks have and had to say. */
     void report_shares() const;
