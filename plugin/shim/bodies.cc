@@ -2,6 +2,7 @@
 #include "bodies.h"
 
 #include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/tria.h>
 
@@ -59,16 +60,28 @@ namespace abut::shim
     space.body.resize(owned.n_elements());
     space.point.resize(owned.n_elements());
 
+    // Of linear elements the mapped vertices are all that is needed.
+    const bool is_linear =
+        fe.degree == 1 && fe.n_base_elements() == 1
+        && dynamic_cast<const dealii::FE_Q<dim> *>(&fe.base_element(0))
+               != nullptr;
     dealii::FEValues<dim> values(
         mapping, fe, dealii::Quadrature<dim>(fe.get_unit_support_points()),
         dealii::update_quadrature_points);
+    const auto place = [&](const auto &vertices, const unsigned int i)
+    {
+      return is_linear ? vertices[fe.system_to_component_index(i).second]
+                       : values.quadrature_point(i);
+    };
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
     // An unknown of this rank may lie on ghost cells only.
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       if (cell->is_artificial())
         continue;
-      values.reinit(cell);
+      if (!is_linear)
+        values.reinit(cell);
+      const auto vertices = mapping.get_vertices(cell);
       cell->get_dof_indices(dofs);
       const unsigned int body = bodies.of(cell);
       for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -78,8 +91,9 @@ namespace abut::shim
         const auto k = owned.index_within_set(dofs[i]);
         space.component[k] = fe.system_to_component_index(i).first;
         space.body[k] = static_cast<int>(body);
+        const dealii::Point<dim> point = place(vertices, i);
         for (unsigned int d = 0; d < dim; ++d)
-          space.point[k][d] = values.quadrature_point(i)[d];
+          space.point[k][d] = point[d];
       }
     }
     return space;
