@@ -16,6 +16,7 @@
  *
  *     abut_multigrid_create(context, &hierarchy, &mg);
  *     abut_multigrid_set_matrix(mg, &matrix);
+ *     abut_multigrid_set_terms(mg, &terms);   // if something is eliminated
  *     abut_multigrid_hold(mg, held, NULL);    // whenever the set has changed
  *     abut_multigrid_cycle(mg, r, x);         // x is about A^-1 r
  *
@@ -97,6 +98,14 @@ extern "C"
   /** Take a matrix, or another one. Call hold() next. O(entries). */
   ABUT_API abut_status abut_multigrid_set_matrix(
       abut_multigrid *multigrid, const abut_multigrid_matrix *matrix);
+
+  /** Take what is added to the matrix from the next hold() on, in a few of its
+   * rows, such as by unknowns that are eliminated; NULL: nothing. Pattern and
+   * numbers are symmetric, and the sum must be positive definite on what is
+   * free. Stays when the matrix changes. O(rows + entries), and hold() then
+   * costs what is near these rows. */
+  ABUT_API abut_status abut_multigrid_set_terms(
+      abut_multigrid *multigrid, const abut_multigrid_matrix *terms);
 
   /** Tell which unknowns are held ([rows], nonzero; NULL: none) and what is
    * added to the diagonal ([rows], >= 0; NULL: nothing). Costs what is near

@@ -2,6 +2,7 @@
 #include "bodies.h"
 
 #include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/tria.h>
 
@@ -61,6 +62,11 @@ namespace abut::shim
 
     // Other fields than the displacement may have no support points.
     const dealii::FiniteElement<dim> &element = fe.base_element(0);
+    // Of linear elements the mapped vertices are all that is needed.
+    const bool is_linear =
+        fe.degree == 1 && fe.n_base_elements() == 1
+        && dynamic_cast<const dealii::FE_Q<dim> *>(&fe.base_element(0))
+               != nullptr;
     dealii::FEValues<dim> values(
         mapping, element,
         dealii::Quadrature<dim>(element.get_unit_support_points()),
@@ -71,9 +77,11 @@ namespace abut::shim
     {
       if (cell->is_artificial())
         continue;
-      values.reinit(
-          static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
-              cell));
+      if (!is_linear)
+        values.reinit(
+            static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+                cell));
+      const auto vertices = mapping.get_vertices(cell);
       cell->get_dof_indices(dofs);
       const unsigned int body = bodies.of(cell);
       for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -88,8 +96,10 @@ namespace abut::shim
         space.body[k] = static_cast<int>(body);
         const unsigned int node =
             is_displacement ? fe.system_to_base_index(i).second : 0;
+        const dealii::Point<dim> point =
+            is_linear ? vertices[node] : values.quadrature_point(node);
         for (unsigned int d = 0; d < dim; ++d)
-          space.point[k][d] = values.quadrature_point(node)[d];
+          space.point[k][d] = point[d];
       }
     }
     return space;

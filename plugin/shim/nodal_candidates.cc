@@ -109,6 +109,7 @@ namespace abut::shim
     {
       la::Vector result(dof_handler.locally_owned_dofs(),
                         dof_handler.get_communicator());
+      const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
       for (std::size_t i = 0; i < collection.weights.size(); ++i)
       {
         if (std::isnan(collection.weights[i]))
@@ -116,7 +117,10 @@ namespace abut::shim
         const global_dof_index dof = collection.relevant.nth_index_in_set(i);
         const double weight = collection.weights[i];
         const auto *parents = constraints.get_constraint_entries(dof);
-        if (parents == nullptr || parents->empty())
+        const bool is_own = parents == nullptr || parents->empty();
+        if (is_own && owned.is_element(dof))
+          la::data(result)[owned.index_within_set(dof)] += weight;
+        else if (is_own)
           result(dof) += weight;
         else
           for (const auto &parent : *parents)
@@ -155,7 +159,9 @@ namespace abut::shim
       if (std::isnan(collection.weights[i]) || !owned.is_element(dof))
         continue;
       if (!constraints.is_constrained(dof))
-        candidates.free.push_back({dof, collection.points[i], weights(dof)});
+        candidates.free.push_back(
+            {dof, collection.points[i],
+             la::data(weights)[owned.index_within_set(dof)]});
       else if (constraints.get_constraint_entries(dof)->empty())
         candidates.prescribed.push_back(
             {dof, collection.points[i], collection.weights[i]});

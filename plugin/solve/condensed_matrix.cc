@@ -169,29 +169,41 @@ namespace abut::solve
     }
   }
 
+  template <typename Visit>
+  void CondensedMatrix::for_each_spring(const Visit &visit) const
+  {
+    if (!has_blocks())
+      for (int i = 0; i < rows_->n_rows(); ++i)
+        if (condensate_.stiffness[i] != 0.)
+          visit_spring(i, i, condensate_.stiffness[i], visit);
+    const RowBlocks &blocks = condensate_.blocks;
+    for (int block = 0; has_blocks() && block < blocks.n_blocks(); ++block)
+      for (int r = 0, k = blocks.size(block); r < k; ++r)
+        for (int c = 0; c < k; ++c)
+        {
+          const double spring =
+              condensate_.spring[blocks.at[block] + r * k + c];
+          if (spring != 0.)
+            visit_spring(blocks.first[block] + r, blocks.first[block] + c,
+                         spring, visit);
+        }
+  }
+
   la::Matrix CondensedMatrix::assemble_springs() const
   {
-    return la::assemble(
-        rows_->owned(), rows_->ghosts(), rows_->communicator(),
-        [&](const auto &visit)
-        {
-          if (!has_blocks())
-            for (int i = 0; i < rows_->n_rows(); ++i)
-              if (condensate_.stiffness[i] != 0.)
-                visit_spring(i, i, condensate_.stiffness[i], visit);
-          const RowBlocks &blocks = condensate_.blocks;
-          for (int block = 0; has_blocks() && block < blocks.n_blocks();
-               ++block)
-            for (int r = 0, k = blocks.size(block); r < k; ++r)
-              for (int c = 0; c < k; ++c)
-              {
-                const double spring =
-                    condensate_.spring[blocks.at[block] + r * k + c];
-                if (spring != 0.)
-                  visit_spring(blocks.first[block] + r, blocks.first[block] + c,
-                               spring, visit);
-              }
-        });
+    return la::assemble(rows_->owned(), rows_->ghosts(), rows_->communicator(),
+                        [&](const auto &visit) { for_each_spring(visit); });
+  }
+
+  void CondensedMatrix::for_each_term(const VisitLine &visit) const
+  {
+    if (has_springs_)
+      for_each_spring(visit);
+    if (has_springs_ && has_pivots_)
+      for_each_elimination_term(la::sum(*stiffness_, assemble_springs()),
+                                *rows_, condensate_, visit);
+    else if (has_pivots_)
+      for_each_elimination_term(*stiffness_, *rows_, condensate_, visit);
   }
 
   la::Matrix CondensedMatrix::eliminate(const la::Matrix &whole) const

@@ -2,6 +2,7 @@
 #ifndef ABUT_SOLVE_CONDENSED_MATRIX_H
 #define ABUT_SOLVE_CONDENSED_MATRIX_H
 
+#include "elimination.h"
 #include "pivots.h"
 
 namespace abut::solve
@@ -68,7 +69,13 @@ namespace abut::solve
      * which is K. Collective. */
     la::Matrix assemble() const;
 
+    /** What the matrix has beyond K line by line, see
+     * for_each_elimination_term(). Rows and columns of pivots, which sum up to
+     * 0, are among them. Collective. */
+    void for_each_term(const VisitLine &visit) const;
+
   private:
+    template <typename Visit> void for_each_spring(const Visit &visit) const;
     la::Matrix assemble_springs() const;
     la::Matrix eliminate(const la::Matrix &whole) const;
     /** Call function(row, first row, rows, first number) for each pivot of a

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace abut::solve
 {
@@ -23,24 +24,46 @@ namespace abut::solve
     constexpr double stiff = 20.;
     constexpr double filtered = 5.;
 
-    /** Whether x.A y = y.A x for two vectors without structure. */
+    /** Numbers in [-1, 1) without structure, by the number of an unknown. */
+    double noise(std::uint64_t number)
+    {
+      number = (number + 1) * 0x9e3779b97f4a7c15ull;
+      number = (number ^ (number >> 31)) * 0xbf58476d1ce4e5b9ull;
+      return static_cast<double>(number >> 11) * 0x1p-52 - 1.;
+    }
+
+    /** Whether x.A y = y.A x for two vectors without structure, in one pass
+     * over the rows. */
     bool is_symmetric(const la::Matrix &matrix)
     {
-      la::Vector x(matrix.locally_owned_range_indices(),
-                   matrix.get_mpi_communicator());
-      la::Vector y(x), image(x);
-      const auto first = matrix.local_range().first;
+      const MPI_Comm communicator = matrix.get_mpi_communicator();
+      la::Vector x(matrix.locally_owned_range_indices(), communicator), y(x);
+      const std::uint64_t first = matrix.local_range().first;
       for (int i = 0; i < la::n_owned(x); ++i)
       {
-        la::data(x)[i] = std::sin(12.9898 * (first + i) + 1.);
-        la::data(y)[i] = std::sin(78.233 * (first + i) + 2.);
+        la::data(x)[i] = noise(2 * (first + i));
+        la::data(y)[i] = noise(2 * (first + i) + 1);
       }
-      matrix.vmult(image, y);
-      const double right = x * image;
-      const double size = x.l2_norm() * image.l2_norm();
-      matrix.vmult(image, x);
-      const double left = y * image;
-      return std::abs(left - right) <= 1e-9 * size;
+      const std::vector<double> all_x = la::gather(matrix, x);
+      const std::vector<double> all_y = la::gather(matrix, y);
+      const la::LocalRows rows = la::local_rows(matrix);
+      // Both products, and the squares of x and A y.
+      double sums[4] = {0., 0., 0., 0.};
+      for (int i = 0; i < rows.n_rows; ++i)
+      {
+        double by_x = 0., by_y = 0.;
+        for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        {
+          by_x += rows.value[k] * all_x[rows.column[k]];
+          by_y += rows.value[k] * all_y[rows.column[k]];
+        }
+        sums[0] += all_x[i] * by_y;
+        sums[1] += all_y[i] * by_x;
+        sums[2] += all_x[i] * all_x[i];
+        sums[3] += by_y * by_y;
+      }
+      MPI::sum(sums, communicator, sums);
+      return std::abs(sums[0] - sums[1]) <= 1e-9 * std::sqrt(sums[2] * sums[3]);
     }
   } // namespace
 
@@ -94,6 +117,7 @@ namespace abut::solve
   void CondensedSolver::set_near_null_space(const NearNullSpace &space)
   {
     space_ = space;
+    geometric_.reset();
   }
 
   void CondensedSolver::reinit(const la::Matrix &stiffness,
@@ -115,7 +139,8 @@ namespace abut::solve
     stiffness_ = &stiffness;
     // Multigrid looks at the matrix that it was built on, which must be an own
     // copy to last.
-    if (!keeper_.is_built() || is_direct() || assembled_ == nullptr
+    if (!keeper_.is_built() || is_direct()
+        || (assembled_ == nullptr && geometric_ == nullptr)
         || built_.pivot.size() != static_cast<std::size_t>(rows.n_rows()))
       reinit(stiffness, rows, row_stiffness);
     else
@@ -127,6 +152,7 @@ namespace abut::solve
                              const std::vector<double> &row_stiffness)
   {
     stiffness_ = &stiffness;
+    has_new_matrix_ = true;
     rows_ = &rows;
     diagonal_ = la::diagonal(la::local_rows(stiffness));
     row_stiffness_ = row_stiffness;
@@ -208,18 +234,53 @@ namespace abut::solve
     return result;
   }
 
+  std::vector<std::uint8_t> CondensedSolver::held_by_pivots() const
+  {
+    std::vector<std::uint8_t> held(diagonal_.size(), 0);
+    for (const std::int64_t pivot : built_.pivot)
+      if (pivot != Condensate::none)
+        held[rows_->column(pivot)] = 1;
+    return held;
+  }
+
   std::unique_ptr<Multigrid>
   CondensedSolver::make_cycle(const la::Matrix &system) const
   {
     if (!choice_.is_geometric())
       return make_multigrid(system, parameters_, space_, matrix_.has_blocks());
-    std::vector<std::uint8_t> held(diagonal_.size(), 0);
-    for (const std::int64_t pivot : built_.pivot)
-      if (pivot != Condensate::none)
-        held[rows_->column(pivot)] = 1;
     auto result = std::make_unique<GeometricMultigrid>(system, *space_.meshes);
-    result->hold(held, {});
+    result->hold(held_by_pivots(), {});
     return result;
+  }
+
+  bool CondensedSolver::has_stiff_springs() const
+  {
+    double stiffest = 0.;
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      stiffest =
+          std::max(stiffest, built_.stiffness[i]
+                                 / (rows_->weight(i) * row_stiffness_[i]));
+    return MPI::max(stiffest, rows_->communicator()) > stiff;
+  }
+
+  void CondensedSolver::build_geometric()
+  {
+    if (geometric_ == nullptr)
+      geometric_ =
+          std::make_unique<GeometricMultigrid>(*stiffness_, *space_.meshes);
+    else if (has_new_matrix_)
+      geometric_->set_matrix(*stiffness_);
+    has_new_matrix_ = false;
+    CondensedMatrix condensed;
+    condensed.reinit(*stiffness_, *rows_);
+    condensed.set(built_);
+    LocalMatrix terms(static_cast<int>(diagonal_.size()));
+    condensed.for_each_term(
+        [&](const auto row, const auto &columns, const auto &values)
+        { terms.add(row, columns, values); });
+    terms.close();
+    geometric_->set_terms(terms);
+    geometric_->hold(held_by_pivots(), {});
   }
 
   void CondensedSolver::build()
@@ -229,10 +290,20 @@ namespace abut::solve
     softened_.reset();
     direct_.reset();
     assembled_.reset();
-    built_ = matrix_.condensate();
-    if (matrix_.has_blocks() && !is_direct() && !matrix_.is_plain())
+    const bool has_model =
+        matrix_.has_blocks() && !is_direct() && !matrix_.is_plain();
+    built_ = has_model ? without_friction_forces() : matrix_.condensate();
+    keeper_.note_built();
+    const bool is_filtered =
+        !is_direct() && parameters_.contact_filter && has_stiff_springs();
+    if (choice_.is_geometric() && !is_filtered)
     {
-      built_ = without_friction_forces();
+      build_geometric();
+      return;
+    }
+    geometric_.reset();
+    if (has_model)
+    {
       CondensedMatrix symmetric;
       symmetric.reinit(*stiffness_, *rows_);
       symmetric.set(built_);
@@ -241,23 +312,19 @@ namespace abut::solve
     else if (!matrix_.is_plain())
       assembled_ = std::make_unique<la::Matrix>(matrix_.assemble());
     const la::Matrix &system = matrix_.is_plain() ? *stiffness_ : *assembled_;
-    keeper_.note_built();
     if (is_direct())
-    {
       direct_ = std::make_unique<DirectSolver>(system);
-      return;
-    }
+    else if (is_filtered)
+      build_filter();
+    else
+      multigrid_ = make_cycle(system);
+  }
+
+  void CondensedSolver::build_filter()
+  {
+    const la::Matrix &system = matrix_.is_plain() ? *stiffness_ : *assembled_;
     const auto relative = [&](const int i)
     { return built_.stiffness[i] / (rows_->weight(i) * row_stiffness_[i]); };
-    double stiffest = 0.;
-    for (int i = 0; i < rows_->n_rows(); ++i)
-      stiffest = std::max(stiffest, relative(i));
-    if (!parameters_.contact_filter
-        || MPI::max(stiffest, rows_->communicator()) <= stiff)
-    {
-      multigrid_ = make_cycle(system);
-      return;
-    }
     std::vector<std::uint8_t> wanted(rows_->n_rows());
     Condensate soft = built_;
     for (int i = 0; i < rows_->n_rows(); ++i)
@@ -398,6 +465,8 @@ namespace abut::solve
   {
     if (filter_)
       filter_->vmult(dst, src);
+    else if (geometric_)
+      geometric_->vmult(dst, src);
     else
       multigrid_->vmult(dst, src);
     // A kept preconditioner may act on unknowns that are pivots now.

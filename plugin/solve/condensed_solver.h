@@ -102,8 +102,14 @@ namespace abut::solve
     }
     void build();
     std::string method() const;
+    bool has_stiff_springs() const;
+    void build_filter();
+    /** Bring the hierarchy to the present matrix, terms and pivots. */
+    void build_geometric();
     /** A multigrid cycle for a matrix with the present pivots. */
     std::unique_ptr<Multigrid> make_cycle(const la::Matrix &system) const;
+    /** [owned] unknowns that are pivots. */
+    std::vector<std::uint8_t> held_by_pivots() const;
     /** What a symmetric preconditioner is built for. */
     Condensate without_friction_forces() const;
     bool iterate(const la::Vector &rhs, unsigned int max_iterations,
@@ -132,6 +138,10 @@ namespace abut::solve
     std::vector<double> friction_;
     PreconditionerKeeper keeper_;
     std::unique_ptr<Multigrid> multigrid_;
+    /** In place of it: K, and apart from it what contact adds to K, so that a
+     * new set costs what is near it. */
+    std::unique_ptr<GeometricMultigrid> geometric_;
+    bool has_new_matrix_ = true; ///< than the one in it
     std::unique_ptr<ContactFilter> filter_;
     std::unique_ptr<DirectSolver> direct_;
   };

@@ -38,33 +38,39 @@ namespace abut::solve
     {
     public:
       explicit Columns(const la::Matrix &matrix)
+          : first_(matrix.local_range().first),
+            n_owned_(la::local_rows(matrix).n_rows)
       {
         const int n = la::local_rows(matrix).n_columns;
-        for (int k = 0; k < n; ++k)
+        for (int k = n_owned_; k < n; ++k)
           add(la::global_column(matrix, k));
       }
 
       int add(const global_dof_index global)
       {
-        const auto inserted =
-            number_.try_emplace(global, static_cast<int>(global_.size()));
+        if (global >= first_ && global - first_ < n_owned_)
+          return static_cast<int>(global - first_);
+        const auto inserted = number_.try_emplace(global, size());
         if (inserted.second)
-          global_.push_back(global);
+          others_.push_back(global);
         return inserted.first->second;
       }
 
       int size() const
       {
-        return static_cast<int>(global_.size());
+        return static_cast<int>(n_owned_ + others_.size());
       }
 
       global_dof_index global(const int column) const
       {
-        return global_[column];
+        return static_cast<global_dof_index>(column) < n_owned_
+                   ? first_ + column
+                   : others_[column - n_owned_];
       }
 
     private:
-      std::vector<global_dof_index> global_;
+      const global_dof_index first_, n_owned_;
+      std::vector<global_dof_index> others_;
       std::unordered_map<global_dof_index, int> number_;
     };
 
@@ -222,22 +228,44 @@ namespace abut::solve
         }
     }
 
-    /** Which entry of which pivot's line touches an unknown. */
-    std::vector<std::vector<std::pair<int, double>>>
-    transpose(const std::vector<SparseLine> &lines, const int n_owned,
-              const int n_columns)
+    /** Which entry of which pivot's line touches an unknown, by unknowns that
+     * are touched. */
+    std::map<int, std::vector<std::pair<int, double>>>
+    users_of(const std::vector<SparseLine> &lines, const int n_owned)
     {
-      std::vector<std::vector<std::pair<int, double>>> result(n_columns);
+      std::map<int, std::vector<std::pair<int, double>>> result;
       for (int q = 0; q < n_owned; ++q)
         for (std::size_t k = 0; k < lines[q].column.size(); ++k)
           result[lines[q].column[k]].emplace_back(q, lines[q].value[k]);
       return result;
     }
+
+    /** Rows with entries for pivots, whose lines are @p z: with a symmetric
+     * pattern, of this rank's pivots the columns of their rows. */
+    std::vector<int> rows_of_pivots(const la::LocalRows &t,
+                                    const std::vector<SparseLine> &z)
+    {
+      std::vector<std::uint8_t> is_one(t.n_rows, 0);
+      for (int i = 0; i < t.n_rows; ++i)
+        for (int k = t.start[i]; k < t.start[i + 1] && !z[i].empty(); ++k)
+          if (t.column[k] < t.n_rows)
+            is_one[t.column[k]] = 1;
+      for (int i = 0; i < t.n_rows && t.n_columns > t.n_rows; ++i)
+        for (int k = t.start[i]; k < t.start[i + 1]; ++k)
+          if (t.column[k] >= t.n_rows && !z[t.column[k]].empty())
+            is_one[i] = 1;
+      std::vector<int> result;
+      for (int i = 0; i < t.n_rows; ++i)
+        if (is_one[i])
+          result.push_back(i);
+      return result;
+    }
   } // namespace
 
-  la::Matrix elimination_terms(const la::Matrix &matrix,
-                               const PointOperator &rows,
-                               const Condensate &condensate)
+  void for_each_elimination_term(const la::Matrix &matrix,
+                                 const PointOperator &rows,
+                                 const Condensate &condensate,
+                                 const VisitLine &visit)
   {
     Columns columns(matrix);
     const bool has_blocks = !condensate.blocks.empty();
@@ -252,13 +280,21 @@ namespace abut::solve
 
     const la::LocalRows t = la::local_rows(matrix);
     LineSum sum(columns.size());
-    std::vector<std::pair<int, SparseLine>> result;
-    std::vector<SparseLine> h(t.n_rows);
-    for (int i = 0; i < t.n_rows; ++i)
+    std::vector<global_dof_index> places;
+    const auto pass_on = [&](const int row, const SparseLine &line)
+    {
+      places.clear();
+      for (const int column : line.column)
+        places.push_back(columns.global(column));
+      if (!line.empty())
+        visit(columns.global(row), places, line.value);
+    };
+    std::map<int, SparseLine> h;
+    for (const int i : rows_of_pivots(t, z))
     {
       for (int k = t.start[i]; k < t.start[i + 1]; ++k)
         sum.add(z[t.column[k]], t.value[k]);
-      SparseLine line = sum.take();
+      const SparseLine line = sum.take();
       if (!z[i].empty())
       {
         sum.add(line, 1.);
@@ -266,30 +302,38 @@ namespace abut::solve
           sum.add(t.column[k], t.value[k]);
         h[i] = sum.take();
       }
-      if (!line.empty())
-        result.emplace_back(i, std::move(line));
+      pass_on(i, line);
     }
-    const auto users = transpose(has_blocks ? y : z, t.n_rows, columns.size());
-    for (int j = 0; j < columns.size(); ++j)
+    for (const auto &[j, entries] : users_of(has_blocks ? y : z, t.n_rows))
     {
-      for (const auto &[q, value] : users[j])
-        sum.add(h[q], value);
-      SparseLine line = sum.take();
-      if (!line.empty())
-        result.emplace_back(j, std::move(line));
+      for (const auto &[q, value] : entries)
+        if (const auto line = h.find(q); line != h.end())
+          sum.add(line->second, value);
+      pass_on(j, sum.take());
     }
+  }
 
-    std::vector<global_dof_index> places;
+  la::Matrix elimination_terms(const la::Matrix &matrix,
+                               const PointOperator &rows,
+                               const Condensate &condensate)
+  {
+    struct Term
+    {
+      global_dof_index row;
+      std::vector<global_dof_index> columns;
+      std::vector<double> values;
+    };
+    std::vector<Term> terms;
+    for_each_elimination_term(
+        matrix, rows, condensate,
+        [&](const auto row, const auto &columns, const auto &values) {
+          terms.push_back({row, columns, values});
+        });
     return la::assemble(rows.owned(), rows.ghosts(), rows.communicator(),
                         [&](const auto &visit)
                         {
-                          for (const auto &[row, line] : result)
-                          {
-                            places.clear();
-                            for (const int column : line.column)
-                              places.push_back(columns.global(column));
-                            visit(columns.global(row), places, line.value);
-                          }
+                          for (const Term &term : terms)
+                            visit(term.row, term.columns, term.values);
                         });
   }
 } // namespace abut::solve

@@ -4,8 +4,16 @@
 
 #include "pivots.h"
 
+#include <functional>
+
 namespace abut::solve
 {
+  /** Takes a part of a row of a matrix: its number, columns and values. */
+  using VisitLine =
+      std::function<void(dealii::types::global_dof_index,
+                         const std::vector<dealii::types::global_dof_index> &,
+                         const std::vector<double> &)>;
+
   /** T Z + Y^T (T + T Z): what (I + Y)^T T (I + Z) has beyond T. Z has lines
    * for pivots alone,
    *     Z_qq = -1,  Z_qj = -B_ij / B_iq,    q the pivot of row i,
@@ -16,6 +24,13 @@ namespace abut::solve
   la::Matrix elimination_terms(const la::Matrix &matrix,
                                const PointOperator &rows,
                                const Condensate &condensate);
+
+  /** The same line by line, of which some may be parts of one row, or of rows
+   * of other ranks. Collective. */
+  void for_each_elimination_term(const la::Matrix &matrix,
+                                 const PointOperator &rows,
+                                 const Condensate &condensate,
+                                 const VisitLine &visit);
 } // namespace abut::solve
 
 #endif

@@ -29,6 +29,9 @@ namespace abut::solve
      * surface's own stiffness. */
     constexpr double no_spring = 1e-9;
 
+    /** Rigid motions of a body in space. */
+    constexpr unsigned int most_modes = 6;
+
     /** Rigid motions of all bodies at once; each body turns about its centre,
      * with displacements of about 1 at its rim. */
     class Motions
@@ -67,8 +70,12 @@ namespace abut::solve
        * follows others. */
       double value(const unsigned int mode, const std::size_t i) const
       {
-        if (!is_coupled_[i])
-          return 0.;
+        return is_coupled_[i] ? displacement(mode, i) : 0.;
+      }
+
+      /** The same wherever it is. */
+      double displacement(const unsigned int mode, const std::size_t i) const
+      {
         const unsigned int component = space_.component[i];
         if (component >= dim_)
           return 0.; // of another field
@@ -136,6 +143,39 @@ namespace abut::solve
           result[k].push_back(eigenvectors(i, k));
       return result;
     }
+    /** Whether prescribed values alone stop all motions of all bodies, and not
+     * by nodes that are next to each other only: then stiffness need not be
+     * asked. Collective. */
+    bool supports_hold(const Motions &motions, const NearNullSpace &space,
+                       const MPI_Comm communicator)
+    {
+      constexpr double well_held = 1e-4;
+      const unsigned int n = motions.n_modes();
+      std::vector<double> sums(space.n_bodies * n * n, 0.);
+      for (std::size_t i = 0; i < space.prescribed.size(); ++i)
+      {
+        if (space.prescribed[i] == 0)
+          continue;
+        double *const sum = &sums[motions.body(i) * n * n];
+        for (unsigned int m = 0; m < n; ++m)
+          for (unsigned int k = 0; k < n; ++k)
+            sum[m * n + k] +=
+                motions.displacement(m, i) * motions.displacement(k, i);
+      }
+      MPI::sum(sums, communicator, sums);
+      for (unsigned int b = 0; b < space.n_bodies; ++b)
+      {
+        double *const sum = &sums[b * n * n];
+        double trace = 0.;
+        for (unsigned int m = 0; m < n; ++m)
+          trace += sum[m * n + m];
+        for (unsigned int k = 0; k < n * n && trace > 0.; ++k)
+          sum[k] /= trace;
+        if (!null_space(n, sum, well_held).empty())
+          return false;
+      }
+      return true;
+    }
   } // namespace
 
   void FloatingBodies::reinit(const la::Matrix &stiffness,
@@ -150,28 +190,44 @@ namespace abut::solve
     const Motions motions(stiffness, space);
     const MPI_Comm communicator = stiffness.get_mpi_communicator();
     const unsigned int n = n_modes_ = motions.n_modes();
+    if (supports_hold(motions, space, communicator))
+      return;
     const std::vector<double> diagonal =
         la::diagonal(la::local_rows(stiffness));
 
     // Per body: energies of pairs of modes, then their products.
     const std::size_t stride = 2 * n * n;
     std::vector<double> sums(space.n_bodies * stride, 0.);
-    la::Vector mode(rows.owned(), communicator), force(mode);
+    la::Vector mode(rows.owned(), communicator);
+    const la::LocalRows matrix = la::local_rows(stiffness);
+    // All modes of an unknown stand together, for one pass over the matrix.
+    std::vector<double> modes(matrix.n_columns * std::size_t(most_modes), 0.);
     for (unsigned int m = 0; m < n; ++m)
     {
       for (int i = 0; i < la::n_owned(mode); ++i)
         la::data(mode)[i] = motions.value(m, i);
-      stiffness.vmult(force, mode);
-      for (int i = 0; i < la::n_owned(mode); ++i)
+      const std::vector<double> all = la::gather(stiffness, mode);
+      for (std::size_t j = 0; j < all.size(); ++j)
+        modes[j * most_modes + m] = all[j];
+    }
+    for (int i = 0; i < matrix.n_rows; ++i)
+    {
+      double force[most_modes] = {};
+      for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
       {
-        double *const sum = &sums[motions.body(i) * stride];
+        const double *const x =
+            &modes[matrix.column[k] * std::size_t(most_modes)];
+        for (unsigned int m = 0; m < most_modes; ++m)
+          force[m] += matrix.value[k] * x[m];
+      }
+      const double *const own = &modes[i * std::size_t(most_modes)];
+      double *const sum = &sums[motions.body(i) * stride];
+      for (unsigned int m = 0; m < n; ++m)
         for (unsigned int k = 0; k < n; ++k)
         {
-          const double other = motions.value(k, i);
-          sum[m * n + k] += other * la::data(force)[i];
-          sum[n * n + m * n + k] += other * la::data(mode)[i] * diagonal[i];
+          sum[m * n + k] += own[k] * force[m];
+          sum[n * n + m * n + k] += own[k] * own[m] * diagonal[i];
         }
-      }
     }
     MPI::sum(sums, communicator, sums);
     for (unsigned int b = 0; b < space.n_bodies; ++b)

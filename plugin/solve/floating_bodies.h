@@ -20,8 +20,8 @@ namespace abut::solve
   {
   public:
     /** Find the motions that K leaves free: translations, and rotations if the
-     * positions of unknowns are known. Nothing is done for scalar fields. As
-     * many products with K as a body has motions. Collective. */
+     * positions of unknowns are known. Nothing is done for scalar fields. One
+     * pass over K, unless supports obviously hold all bodies. Collective. */
     void reinit(const la::Matrix &stiffness, const PointOperator &rows,
                 const NearNullSpace &space);
 

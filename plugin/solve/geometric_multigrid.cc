@@ -24,10 +24,24 @@ namespace abut::solve
     abut_multigrid *made = nullptr;
     check(abut_multigrid_create(context, &hierarchy, &made));
     multigrid_.reset(made);
+    set_matrix(matrix);
+  }
+
+  void GeometricMultigrid::set_matrix(const la::Matrix &matrix)
+  {
     const la::LocalRows rows = la::local_rows(matrix);
     const abut_multigrid_matrix copied = {sizeof(copied), rows.n_rows,
                                           rows.start, rows.column, rows.value};
-    check(abut_multigrid_set_matrix(made, &copied));
+    check(abut_multigrid_set_matrix(multigrid_.get(), &copied));
+  }
+
+  void GeometricMultigrid::set_terms(const LocalMatrix &terms)
+  {
+    const abut_multigrid_matrix copied = {
+        sizeof(copied), static_cast<std::int32_t>(terms.start.size()) - 1,
+        terms.start.data(), terms.column.data(), terms.value.data()};
+    check(abut_multigrid_set_terms(multigrid_.get(),
+                                   terms.column.empty() ? nullptr : &copied));
   }
 
   void GeometricMultigrid::check(const abut_status status) const

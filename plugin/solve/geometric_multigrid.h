@@ -2,6 +2,7 @@
 #ifndef ABUT_SOLVE_GEOMETRIC_MULTIGRID_H
 #define ABUT_SOLVE_GEOMETRIC_MULTIGRID_H
 
+#include "local_matrix.h"
 #include "multigrid.h"
 
 #include <abut/multigrid.h>
@@ -17,6 +18,13 @@ namespace abut::solve
   public:
     /** A copy of @p matrix is made; hold() comes next. */
     GeometricMultigrid(const la::Matrix &matrix, const MeshHierarchy &meshes);
+
+    /** Another matrix on the same meshes, copied; hold() comes next. */
+    void set_matrix(const la::Matrix &matrix);
+
+    /** What is added to the matrix in a few of its rows from the next hold()
+     * on, instead of what was; copied. */
+    void set_terms(const LocalMatrix &terms);
 
     /** [owned] nonzero where an unknown is held, and what is added to the
      * diagonal; empty: nothing. Costs what is near the changes. */

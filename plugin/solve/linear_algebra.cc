@@ -211,12 +211,16 @@ namespace abut::la
   {
     std::vector<double> result(rows.n_rows, 0.);
     for (int i = 0; i < rows.n_rows; ++i)
-      for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
-        if (rows.column[k] == i)
-        {
-          result[i] = rows.value[k];
-          break;
-        }
+    {
+      const int *const begin = rows.column + rows.start[i];
+      const int *const end = rows.column + rows.start[i + 1];
+      // Epetra sorts rows unless it is told not to.
+      const int *at = std::lower_bound(begin, end, i);
+      if (at == end || *at != i)
+        at = std::find(begin, end, i);
+      if (at != end)
+        result[i] = rows.value[at - rows.column];
+    }
     return result;
   }
 } // namespace abut::la

@@ -30,6 +30,8 @@ namespace abut::solve
     /** [owned] where each unknown sits, from which rotations are known;
      * planes have z = 0. Empty: only translations are known. */
     std::vector<dealii::Point<3>> point;
+    /** [owned] nonzero where the value is prescribed; empty: not known. */
+    std::vector<std::uint8_t> prescribed;
     /** [n_bodies] for messages; empty: body 1, body 2, ... */
     std::vector<std::string> names;
     /** The coarser meshes, for geometric multigrid; null: not known. */

@@ -4,6 +4,7 @@
 #include "grid.h"
 #include "multigrid/multigrid.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -235,6 +236,122 @@ test_what_changed_is_made_anew_and_no_more(void **state)
   grid_close(&g);
 }
 
+/* A matrix in two parts: of couplings between some of the nodes a part is in
+ * `more`, all else in `less`. */
+typedef struct halves
+{
+  grid less;
+  int32_t *start, *column;
+  double *value, *rest;
+  abut_multigrid_matrix more;
+} halves;
+
+static void
+halves_open(halves *h, const grid *g, double part)
+{
+  const size_t m = (size_t)g->start[g->n];
+  h->less = *g;
+  h->start = calloc((size_t)g->n + 1, sizeof(int32_t));
+  h->column = calloc(m, sizeof(int32_t));
+  h->value = calloc(m, sizeof(double));
+  h->rest = calloc(m, sizeof(double));
+  for (int32_t i = 0; i < g->n; ++i)
+  {
+    h->start[i + 1] = h->start[i];
+    for (int32_t e = g->start[i]; e < g->start[i + 1]; ++e)
+    {
+      const int32_t j = g->column[e];
+      h->rest[e] = g->value[e];
+      if (i / g->block % 7 > 2 || j / g->block % 7 > 2)
+        continue;
+      h->rest[e] -= part * g->value[e];
+      h->column[h->start[i + 1]] = j;
+      h->value[h->start[i + 1]++] = part * g->value[e];
+    }
+  }
+  h->less.matrix.value = h->rest;
+  h->more = (abut_multigrid_matrix){sizeof(h->more), g->n, h->start, h->column,
+                                    h->value};
+}
+
+static void
+halves_close(halves *h)
+{
+  free(h->start);
+  free(h->column);
+  free(h->value);
+  free(h->rest);
+}
+
+static void
+assert_same_cycle(const grid *g, abut_multigrid *a, abut_multigrid *b)
+{
+  double *r = calloc(3 * (size_t)g->n, sizeof(double));
+  uint64_t seed = 31;
+  for (int32_t i = 0; i < g->n; ++i)
+    r[i] = fixture_random(&seed) - 0.5;
+  assert_ok(abut_multigrid_cycle(a, r, r + g->n));
+  assert_ok(abut_multigrid_cycle(b, r, r + 2 * g->n));
+  double size = 0, difference = 0;
+  for (int32_t i = 0; i < g->n; ++i)
+  {
+    size = fmax(size, fabs(r[g->n + i]));
+    difference = fmax(difference, fabs(r[g->n + i] - r[2 * g->n + i]));
+  }
+  assert_true(difference < 1e-4 * size);
+  free(r);
+}
+
+/* What is added is as good as in the matrix, whatever is held, and goes without
+ * a trace. */
+static void
+test_terms_are_part_of_the_matrix(void **state)
+{
+  (void)state;
+  for (int32_t dim = 2; dim < 4; ++dim)
+  {
+    grid g;
+    grid_open(&g, dim, dim, dim == 2 ? 5 : 3, 1);
+    halves h;
+    halves_open(&h, &g, 0.4);
+    abut_context *context = fixture_context();
+    abut_multigrid *whole = open_multigrid(context, &g);
+    abut_multigrid *parts = open_multigrid(context, &h.less);
+    assert_ok(abut_multigrid_set_terms(parts, &h.more));
+    assert_ok(abut_multigrid_hold(whole, NULL, NULL));
+    assert_ok(abut_multigrid_hold(parts, NULL, NULL));
+    assert_same_cycle(&g, whole, parts);
+
+    uint8_t *held = make_set(&g, MANY, 41);
+    assert_ok(abut_multigrid_hold(parts, held, NULL));
+    assert_in_range(grid_iterations(&g, parts, held, 1e-10), 5, 14);
+    abut_multigrid *fresh = open_multigrid(context, &h.less);
+    assert_ok(abut_multigrid_set_terms(fresh, &h.more));
+    assert_ok(abut_multigrid_hold(fresh, held, NULL));
+    assert_same_levels(parts, fresh);
+    assert_same_cycle(&g, parts, fresh);
+
+    assert_ok(abut_multigrid_set_terms(parts, NULL));
+    assert_ok(abut_multigrid_hold(parts, held, NULL));
+    abut_multigrid *less = open_multigrid(context, &h.less);
+    assert_ok(abut_multigrid_hold(less, held, NULL));
+    assert_same_levels(parts, less);
+    assert_same_cycle(&g, parts, less);
+    assert_ok(abut_multigrid_set_matrix(parts, &g.matrix));
+    assert_ok(abut_multigrid_hold(parts, NULL, NULL));
+    assert_same_levels(parts, whole);
+
+    free(held);
+    assert_ok(abut_multigrid_destroy(&whole));
+    assert_ok(abut_multigrid_destroy(&parts));
+    assert_ok(abut_multigrid_destroy(&fresh));
+    assert_ok(abut_multigrid_destroy(&less));
+    assert_ok(abut_context_destroy(&context));
+    halves_close(&h);
+    grid_close(&g);
+  }
+}
+
 static void
 test_one_mesh_is_solved(void **state)
 {
@@ -376,6 +493,7 @@ main(void)
       cmocka_unit_test(test_cycle_is_symmetric_and_leaves_held),
       cmocka_unit_test(test_coarse_matrix_is_that_of_galerkin),
       cmocka_unit_test(test_what_changed_is_made_anew_and_no_more),
+      cmocka_unit_test(test_terms_are_part_of_the_matrix),
       cmocka_unit_test(test_one_mesh_is_solved),
       cmocka_unit_test(test_unknowns_in_any_order),
       cmocka_unit_test(test_mistakes_are_told),

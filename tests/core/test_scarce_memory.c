@@ -529,6 +529,7 @@ multigrids(world *w)
   grid_open(&w->grid, 2, 1, 3, 1);
   TRY(abut_multigrid_create(w->context, &w->grid.hierarchy, &w->multigrid));
   TRY(abut_multigrid_set_matrix(w->multigrid, &w->grid.matrix));
+  TRY(abut_multigrid_set_terms(w->multigrid, &w->grid.matrix));
   uint8_t held[81] = {0};
   double r[81], x[81];
   for (int32_t i = 0; i < 81; ++i)

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "refine_mesh.h"
 
+#include "vertex_transfer.h"
+
 #include <deal.II/distributed/solution_transfer.h>
+
+#include <memory>
 
 namespace abut::app
 {
@@ -14,17 +18,26 @@ namespace abut::app
   {
     dealii::parallel::distributed::SolutionTransfer<dim, la::Vector> transfer(
         dof_handler);
+    std::unique_ptr<VertexTransfer<dim>> by_vertices;
     {
       SectionTimes::Scope scope(times, "mesh");
-      std::vector<const la::Vector *> old;
-      for (const la::Vector &field : fields)
-        old.push_back(&field);
       mesh.prepare_coarsening_and_refinement();
-      transfer.prepare_for_coarsening_and_refinement(old);
+      if (VertexTransfer<dim>::is_possible(dof_handler))
+        by_vertices =
+            std::make_unique<VertexTransfer<dim>>(dof_handler, fields);
+      else
+      {
+        std::vector<const la::Vector *> old;
+        for (const la::Vector &field : fields)
+          old.push_back(&field);
+        transfer.prepare_for_coarsening_and_refinement(old);
+      }
       mesh.execute_coarsening_and_refinement();
     }
     setup();
     SectionTimes::Scope scope(times, "transfer");
+    if (by_vertices)
+      return by_vertices->interpolate();
     std::vector<la::Vector> result(fields.size());
     std::vector<la::Vector *> destination;
     for (la::Vector &field : result)

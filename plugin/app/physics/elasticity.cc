@@ -4,6 +4,7 @@
 #include "app/input/collective.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
+#include "cell_sum.h"
 #include "stiffness_cache.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -164,21 +165,20 @@ namespace abut::app
       undeformed.copy_from(this->stiffness);
       return;
     }
-    this->stiffness = 0.;
+    CellSum<dim> sum(*this, this->stiffness);
     std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
     for (const auto &cell : this->dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
       {
         cell->get_dof_indices(dofs);
-        this->constraints.distribute_local_to_global(cache->matrix(cell), dofs,
-                                                     this->stiffness);
+        sum.add(cache->matrix(cell), dofs);
       }
-    this->stiffness.compress(dealii::VectorOperation::add);
+    sum.close();
   }
 
   template <int dim> void Elasticity<dim>::assemble_tangent(const la::Vector &u)
   {
-    this->stiffness = 0.;
+    CellSum<dim> sum(*this, this->stiffness);
     dealii::FullMatrix<double> tangent(this->fe.n_dofs_per_cell());
     for_each_state(*this, this->ghosted_field(u),
                    [&](const auto &cell, const auto &points, const auto &state,
@@ -186,10 +186,9 @@ namespace abut::app
                    {
                      materials->at(cell->material_id())
                          ->cell_tangent(points, this->fe, state, tangent);
-                     this->constraints.distribute_local_to_global(
-                         tangent, dofs, this->stiffness);
+                     sum.add(tangent, dofs);
                    });
-    this->stiffness.compress(dealii::VectorOperation::add);
+    sum.close();
   }
 
   template <int dim>

@@ -4,6 +4,7 @@
 #include "app/input/collective.h"
 #include "app/input/expression.h"
 #include "app/input/input_error.h"
+#include "cell_sum.h"
 #include "error_norms.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -201,7 +202,7 @@ namespace abut::app
 
   template <int dim> void Membrane<dim>::assemble(const MembraneData<dim> &data)
   {
-    this->stiffness = 0.;
+    CellSum<dim> sum(*this, this->stiffness);
     la::Vector open = this->open_load();
     std::vector<dealii::types::global_dof_index> dofs(
         this->fe.n_dofs_per_cell());
@@ -215,15 +216,15 @@ namespace abut::app
           continue;
         cell->get_dof_indices(dofs);
         system.compute(cell);
-        this->constraints.distribute_local_to_global(
-            system.matrix, system.load, dofs, this->stiffness, open);
+        sum.add(system.matrix, system.load, dofs, open);
         if (flux.compute(cell))
           this->constraints.distribute_local_to_global(flux.load, dofs, open);
       }
     };
     collective(this->communicator, add);
-    this->stiffness.compress(dealii::VectorOperation::add);
+    sum.close();
     la::Vector closed = this->close_load(open);
+    closed += sum.loads();
     this->load.swap(closed);
     assembled = data;
   }
@@ -249,7 +250,7 @@ namespace abut::app
   template <int dim>
   void Membrane<dim>::assemble_stiffness(const MembraneData<dim> &data)
   {
-    this->stiffness = 0.;
+    CellSum<dim> sum(*this, this->stiffness);
     std::vector<dealii::types::global_dof_index> dofs(
         this->fe.n_dofs_per_cell());
     const auto add = [&]
@@ -261,12 +262,11 @@ namespace abut::app
           continue;
         cell->get_dof_indices(dofs);
         system.compute(cell);
-        this->constraints.distribute_local_to_global(system.matrix, dofs,
-                                                     this->stiffness);
+        sum.add(system.matrix, dofs);
       }
     };
     collective(this->communicator, add);
-    this->stiffness.compress(dealii::VectorOperation::add);
+    sum.close();
     assembled = data;
   }
 

@@ -20,24 +20,50 @@ is_free(const abut_multigrid *mg, const abut_multigrid_level *level, int32_t i)
   return result;
 }
 
+/* Rows number q of `rows`, the matrix's for 0 and those added to it for 1, that
+ * node i has; NULL: none. */
+static const abut_node_rows *
+rows_of(const abut_multigrid_level *level, int32_t part, int32_t i, int32_t *q)
+{
+  *q = i;
+  if (part == 0)
+    return &level->matrix;
+  if (level->terms.n == 0 || level->terms.at[i] < 0)
+    return NULL;
+  *q = level->terms.at[i];
+  return &level->terms.rows;
+}
+
+/* Append the free nodes of a row that are not in the list. */
+static int32_t
+append(const abut_multigrid *mg, const abut_multigrid_level *level,
+       const abut_node_rows *rows, int32_t q, int32_t *list, int32_t n,
+       uint8_t *seen)
+{
+  for (int64_t e = rows->start[q]; e < rows->start[q + 1]; ++e)
+  {
+    const int32_t j = rows->node[e];
+    if (seen[j] || !is_free(mg, level, j))
+      continue;
+    seen[j] = 1;
+    list[n++] = j;
+  }
+  return n;
+}
+
 /* Append the free neighbours of the nodes in the list that are not in it. */
 static int32_t
 walk(const abut_multigrid *mg, const abut_multigrid_level *level, int32_t *list,
      int32_t n_done, int32_t n, uint8_t *seen)
 {
   for (; n_done < n; ++n_done)
-  {
-    const int32_t i = list[n_done];
-    for (int64_t e = level->matrix.start[i]; e < level->matrix.start[i + 1];
-         ++e)
+    for (int32_t part = 0; part < 2; ++part)
     {
-      const int32_t j = level->matrix.node[e];
-      if (seen[j] || !is_free(mg, level, j))
-        continue;
-      seen[j] = 1;
-      list[n++] = j;
+      int32_t q = 0;
+      const abut_node_rows *rows = rows_of(level, part, list[n_done], &q);
+      if (rows != NULL)
+        n = append(mg, level, rows, q, list, n, seen);
     }
-  }
   return n;
 }
 
@@ -66,6 +92,26 @@ order(const abut_multigrid *mg, const abut_multigrid_level *level,
   return n;
 }
 
+/* Let a row of the factor begin where a part of the matrix does. */
+static void
+reach(abut_multigrid *mg, const abut_multigrid_level *level, int32_t part,
+      int32_t row)
+{
+  abut_envelope *f = &mg->factor;
+  const int32_t b = mg->block;
+  int32_t q = 0;
+  const abut_node_rows *rows = rows_of(level, part, f->source[row] / b, &q);
+  if (rows == NULL)
+    return;
+  for (int64_t e = rows->start[q]; e < rows->start[q + 1]; ++e)
+    for (int32_t c = 0; c < b; ++c)
+    {
+      const int32_t column = f->place[rows->node[e] * b + c];
+      if (column >= 0 && column < f->first[row])
+        f->first[row] = column;
+    }
+}
+
 /* Rows of the factor for the nodes of the list, and where they begin. */
 static void
 make_rows(abut_multigrid *mg, const abut_multigrid_level *level,
@@ -85,39 +131,40 @@ make_rows(abut_multigrid *mg, const abut_multigrid_level *level,
     }
   for (int32_t row = 0; row < f->n; ++row)
   {
-    const int32_t i = f->source[row] / b;
-    int32_t first = row;
-    for (int64_t e = level->matrix.start[i]; e < level->matrix.start[i + 1];
-         ++e)
-      for (int32_t c = 0; c < b; ++c)
-      {
-        const int32_t column = f->place[level->matrix.node[e] * b + c];
-        if (column >= 0 && column < first)
-          first = column;
-      }
-    f->first[row] = first;
-    f->start[row + 1] = f->start[row] + row - first + 1;
+    f->first[row] = row;
+    for (int32_t part = 0; part < 2; ++part)
+      reach(mg, level, part, row);
+    f->start[row + 1] = f->start[row] + row - f->first[row] + 1;
   }
+}
+
+/* Add the numbers of a part of the matrix to a row of the factor. */
+static void
+add_numbers(abut_multigrid *mg, const abut_multigrid_level *level, int32_t part,
+            int32_t row)
+{
+  abut_envelope *f = &mg->factor;
+  const int32_t b = mg->block, r = f->source[row] % b;
+  int32_t q = 0;
+  const abut_node_rows *rows = rows_of(level, part, f->source[row] / b, &q);
+  if (rows == NULL)
+    return;
+  for (int64_t e = rows->start[q]; e < rows->start[q + 1]; ++e)
+    for (int32_t c = 0; c < b; ++c)
+    {
+      const int32_t column = f->place[rows->node[e] * b + c];
+      if (column >= 0 && column <= row)
+        f->value[f->start[row] + column - f->first[row]] +=
+            (double)rows->weight[(e * b + r) * b + c];
+    }
 }
 
 static void
 fill(abut_multigrid *mg, const abut_multigrid_level *level)
 {
-  abut_envelope *f = &mg->factor;
-  const int32_t b = mg->block;
-  for (int32_t row = 0; row < f->n; ++row)
-  {
-    const int32_t i = f->source[row] / b, r = f->source[row] % b;
-    for (int64_t e = level->matrix.start[i]; e < level->matrix.start[i + 1];
-         ++e)
-      for (int32_t c = 0; c < b; ++c)
-      {
-        const int32_t column = f->place[level->matrix.node[e] * b + c];
-        if (column >= 0 && column <= row)
-          f->value[f->start[row] + column - f->first[row]] =
-              (double)level->matrix.weight[(e * b + r) * b + c];
-      }
-  }
+  for (int32_t row = 0; row < mg->factor.n; ++row)
+    for (int32_t part = 0; part < 2; ++part)
+      add_numbers(mg, level, part, row);
 }
 
 /* Row by row; rows of functions that are left out become 0. */

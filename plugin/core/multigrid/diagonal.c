@@ -41,6 +41,19 @@ invert(const float *block, const uint8_t *held, int32_t b, float *inverse)
     inverse[k] = used[k / b] && used[k % b] ? (float)a[k] : 0;
 }
 
+/* The diagonal block of node i with what is added to it. */
+static void
+diagonal_block(const abut_multigrid_level *level, int32_t b, int32_t i,
+               float *block)
+{
+  const int32_t q = level->terms.n > 0 ? level->terms.at[i] : -1;
+  const int64_t own = level->diagonal[i];
+  const int64_t more = q < 0 ? -1 : level->terms.diagonal[q];
+  for (int32_t k = 0; k < b * b; ++k)
+    block[k] = (own < 0 ? 0 : level->matrix.weight[own * b * b + k])
+               + (more < 0 ? 0 : level->terms.rows.weight[more * b * b + k]);
+}
+
 void
 abut_multigrid_invert(abut_multigrid *mg, int32_t l)
 {
@@ -50,11 +63,8 @@ abut_multigrid_invert(abut_multigrid *mg, int32_t l)
   {
     if (!level->dirty[i])
       continue;
-    static const float nothing[ABUT_MULTIGRID_BLOCK];
-    const float *block =
-        level->diagonal[i] < 0
-            ? nothing
-            : level->matrix.weight + level->diagonal[i] * b * b;
+    float block[ABUT_MULTIGRID_BLOCK];
+    diagonal_block(level, b, i, block);
     uint8_t *held = level->held + (int64_t)i * b;
     for (int32_t c = 0; c < b && l > 0; ++c)
       held[c] = level->fixed[(int64_t)i * b + c] || !(block[c * b + c] > 0);

@@ -2,31 +2,42 @@
 /* The host's rows as blocks of nodes. */
 #include "multigrid/multigrid.h"
 
-static const char call[] = "abut_multigrid_set_matrix";
+static const char set_matrix_call[] = "abut_multigrid_set_matrix";
 
-/* Node and component of each row of the host: node * block + component. */
-static int32_t *
-inverse_numbers(abut_multigrid *mg, abut_pool *work)
+bool
+abut_multigrid_number(abut_multigrid *mg, abut_pool *work,
+                      abut_host_numbers *host)
 {
-  const int64_t n = (int64_t)mg->level[0].n * mg->block;
-  int32_t *own = abut_pool_take(work, n, sizeof(int32_t));
-  for (int64_t u = 0; u < n && own != NULL; ++u)
-    own[mg->unknown[u]] = (int32_t)u;
-  return own;
+  const int32_t n = mg->level[0].n, b = mg->block;
+  host->node = abut_pool_take(work, (int64_t)n * b, sizeof(int32_t));
+  host->component = abut_pool_take(work, (int64_t)n * b, 1);
+  if (work->failed)
+    return false;
+  for (int32_t i = 0; i < n; ++i)
+    for (int32_t c = 0; c < b; ++c)
+    {
+      host->node[mg->unknown[i * b + c]] = i;
+      host->component[mg->unknown[i * b + c]] = (uint8_t)c;
+    }
+  return true;
 }
 
-/* Blocks of the row of node i; where `column` is given, write their nodes. */
-static int32_t
-collect(abut_multigrid *mg, const abut_multigrid_matrix *a, const int32_t *own,
-        int32_t i, int32_t *columns)
+int32_t
+abut_multigrid_collect(abut_multigrid *mg, const abut_multigrid_matrix *a,
+                       const abut_host_numbers *host, int32_t i,
+                       int32_t *columns)
 {
   int32_t n = 0;
   for (int32_t c = 0; c < mg->block; ++c)
   {
     const int32_t row = mg->unknown[i * mg->block + c];
+    int32_t last = -1; /* components of a node mostly stand side by side */
     for (int32_t e = a->start[row]; e < a->start[row + 1]; ++e)
     {
-      const int32_t node = own[a->column[e]] / mg->block;
+      const int32_t node = host->node[a->column[e]];
+      if (node == last)
+        continue;
+      last = node;
       if (mg->place[node] == i)
         continue;
       mg->place[node] = i;
@@ -38,16 +49,16 @@ collect(abut_multigrid *mg, const abut_multigrid_matrix *a, const int32_t *own,
   return n;
 }
 
-static void
-clear(abut_multigrid *mg)
+void
+abut_multigrid_clear_places(abut_multigrid *mg, int32_t n)
 {
-  for (int32_t i = 0; i < mg->level[0].n; ++i)
+  for (int32_t i = 0; i < n; ++i)
     mg->place[i] = -1;
 }
 
 static void
 make_pattern(abut_multigrid *mg, const abut_multigrid_matrix *a,
-             const int32_t *own)
+             const abut_host_numbers *host)
 {
   abut_multigrid_level *level = &mg->level[0];
   abut_node_rows *rows = &level->matrix;
@@ -56,23 +67,41 @@ make_pattern(abut_multigrid *mg, const abut_multigrid_matrix *a,
   level->diagonal = abut_pool_take(&mg->matrices, n, sizeof(int64_t));
   if (mg->matrices.failed)
     return;
-  clear(mg);
+  abut_multigrid_clear_places(mg, n);
   for (int32_t i = 0; i < n; ++i)
-    rows->start[i + 1] = rows->start[i] + collect(mg, a, own, i, NULL);
+    rows->start[i + 1] =
+        rows->start[i] + abut_multigrid_collect(mg, a, host, i, NULL);
   rows->node = abut_pool_take(&mg->matrices, rows->start[n], sizeof(int32_t));
   rows->weight = abut_pool_take(
-      &mg->matrices, rows->start[n] * mg->block * mg->block, sizeof(float));
+      &mg->matrices, rows->start[n] * mg->block * mg->block + 1, sizeof(float));
   if (mg->matrices.failed)
     return;
-  clear(mg);
+  abut_multigrid_clear_places(mg, n);
   for (int32_t i = 0; i < n; ++i)
-    collect(mg, a, own, i, rows->node + rows->start[i]);
+    abut_multigrid_collect(mg, a, host, i, rows->node + rows->start[i]);
+}
+
+void
+abut_multigrid_add_row(abut_multigrid *mg, const abut_multigrid_matrix *a,
+                       const abut_host_numbers *host, int32_t i, float *blocks)
+{
+  const int32_t b = mg->block;
+  for (int32_t c = 0; c < b; ++c)
+  {
+    const int32_t row = mg->unknown[i * b + c];
+    for (int32_t e = a->start[row]; e < a->start[row + 1]; ++e)
+    {
+      const int32_t column = a->column[e];
+      const int64_t at = mg->place[host->node[column]];
+      blocks[(at * b + c) * b + host->component[column]] += (float)a->value[e];
+    }
+  }
 }
 
 /* The numbers of the row of node i. */
 static void
-fill_row(abut_multigrid *mg, const abut_multigrid_matrix *a, const int32_t *own,
-         int32_t i)
+fill_row(abut_multigrid *mg, const abut_multigrid_matrix *a,
+         const abut_host_numbers *host, int32_t i)
 {
   abut_multigrid_level *level = &mg->level[0];
   const int32_t b = mg->block;
@@ -84,20 +113,12 @@ fill_row(abut_multigrid *mg, const abut_multigrid_matrix *a, const int32_t *own,
     if (level->matrix.node[e] == i)
       level->diagonal[i] = e;
   }
-  for (int32_t c = 0; c < b; ++c)
-  {
-    const int32_t row = mg->unknown[i * b + c];
-    for (int32_t e = a->start[row]; e < a->start[row + 1]; ++e)
-    {
-      const int32_t column = own[a->column[e]];
-      const int64_t at = first + mg->place[column / b];
-      level->matrix.weight[(at * b + c) * b + column % b] = (float)a->value[e];
-    }
-  }
+  abut_multigrid_add_row(mg, a, host, i, level->matrix.weight + first * b * b);
 }
 
-static abut_status
-check(abut_multigrid *mg, const abut_multigrid_matrix *a)
+abut_status
+abut_multigrid_check(abut_multigrid *mg, const abut_multigrid_matrix *a,
+                     const char *call)
 {
   if (a->n != mg->level[0].n * mg->block || a->start == NULL || a->start[0] != 0
       || a->column == NULL || a->value == NULL)
@@ -121,21 +142,23 @@ check(abut_multigrid *mg, const abut_multigrid_matrix *a)
 abut_status
 abut_multigrid_fill(abut_multigrid *mg, const abut_multigrid_matrix *matrix)
 {
-  abut_status status = check(mg, matrix);
+  abut_status status = abut_multigrid_check(mg, matrix, set_matrix_call);
   if (status != ABUT_SUCCESS)
     return status;
   abut_pool work = {mg->context, {NULL, 0, 0}, 0, false};
-  const int32_t *own = inverse_numbers(mg, &work);
-  if (own == NULL)
+  abut_host_numbers host;
+  if (!abut_multigrid_number(mg, &work, &host))
   {
     abut_pool_release(&work);
-    return abut_fail(mg->context, ABUT_OUT_OF_MEMORY, call, "no memory");
+    return abut_fail(mg->context, ABUT_OUT_OF_MEMORY, set_matrix_call,
+                     "no memory");
   }
-  make_pattern(mg, matrix, own);
+  make_pattern(mg, matrix, &host);
   for (int32_t i = 0; i < mg->level[0].n && !mg->matrices.failed; ++i)
-    fill_row(mg, matrix, own, i);
+    fill_row(mg, matrix, &host, i);
   abut_pool_release(&work);
-  return mg->matrices.failed ? abut_fail(mg->context, ABUT_OUT_OF_MEMORY, call,
-                                         "no memory for the blocks")
-                             : ABUT_SUCCESS;
+  return mg->matrices.failed
+             ? abut_fail(mg->context, ABUT_OUT_OF_MEMORY, set_matrix_call,
+                         "no memory for the blocks")
+             : ABUT_SUCCESS;
 }

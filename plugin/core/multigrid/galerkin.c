@@ -2,144 +2,287 @@
 /* Coarse matrices P^T A P without what is held, row by row, so that only rows
  * near a change are made anew. A row is summed up from nothing in the same
  * order each time: making it anew gives the same to the last bit as making
- * all. */
+ * all. First come the rows of all children over columns of the fine mesh, then
+ * these columns go to their parents: each is met once for each parent, not once
+ * for each parent and child. */
 #include "multigrid/multigrid.h"
 
 #include <string.h>
 
-/* Visit the columns of coarse row k that no visit has met yet; returns how
- * many. Writes them where there is room for them. */
+/* Rows of a level: those of its matrix, or what is added to it in some. */
+typedef struct row_set
+{
+  const abut_node_rows *rows;
+  const int32_t *at; /* number of a node's row, -1: none; NULL: all have one */
+} row_set;
+
+static row_set
+matrix_of(const abut_multigrid_level *level)
+{
+  return (row_set){&level->matrix, NULL};
+}
+
+static row_set
+terms_of(const abut_multigrid_level *level)
+{
+  return (row_set){&level->terms.rows, level->terms.at};
+}
+
+ABUT_INLINE int32_t
+row_of(const row_set *set, int32_t node)
+{
+  return set->at == NULL ? node : set->at[node];
+}
+
+/* Make the list of the fine columns of coarse row k; returns how many. */
 static int32_t
-collect(const abut_multigrid_level *fine, int32_t k, int32_t *place,
-        int32_t *columns)
+list_columns(abut_multigrid *mg, const abut_multigrid_level *fine,
+             const row_set *set, int32_t k)
 {
   int32_t n = 0;
   for (int64_t f = fine->children.start[k]; f < fine->children.start[k + 1];
        ++f)
   {
-    const int32_t i = fine->children.node[f];
-    for (int64_t e = fine->matrix.start[i]; e < fine->matrix.start[i + 1]; ++e)
+    const int32_t q = row_of(set, fine->children.node[f]);
+    for (int64_t e = q < 0 ? 0 : set->rows->start[q];
+         q >= 0 && e < set->rows->start[q + 1]; ++e)
     {
-      const int32_t j = fine->matrix.node[e];
-      for (int64_t g = fine->parents.start[j]; g < fine->parents.start[j + 1];
-           ++g)
-      {
-        const int32_t column = fine->parents.node[g];
-        if (place[column] == k)
-          continue;
-        place[column] = k;
-        if (columns != NULL)
-          columns[n] = column;
-        ++n;
-      }
+      const int32_t j = set->rows->node[e];
+      if (mg->fine_place[j] >= 0)
+        continue;
+      mg->fine_place[j] = n;
+      mg->list[n++] = j;
     }
   }
+  for (int32_t p = 0; p < n; ++p)
+    mg->fine_place[mg->list[p]] = -1;
   return n;
 }
 
-static void
-clear(abut_multigrid *mg, int32_t n)
+/* Append their parents to the columns, of which there are n. */
+static abut_status
+append_parents(abut_multigrid *mg, const abut_multigrid_level *fine, int32_t k,
+               int32_t n_fine, abut_array *columns, int64_t *n)
 {
-  for (int32_t i = 0; i < n; ++i)
-    mg->place[i] = -1;
+  for (int32_t p = 0; p < n_fine; ++p)
+  {
+    const int32_t j = mg->list[p];
+    const int64_t most = fine->parents.start[j + 1] - fine->parents.start[j];
+    if (abut_array_reserve(mg->context, columns, *n, *n + most) != ABUT_SUCCESS)
+      return ABUT_OUT_OF_MEMORY;
+    int32_t *column = columns->data;
+    for (int64_t g = fine->parents.start[j]; g < fine->parents.start[j + 1];
+         ++g)
+    {
+      if (mg->place[fine->parents.node[g]] == k)
+        continue;
+      mg->place[fine->parents.node[g]] = k;
+      column[(*n)++] = fine->parents.node[g];
+    }
+  }
+  return ABUT_SUCCESS;
+}
+
+/* Pattern of n rows of level l + 1 with numbers `row`, NULL: all; where their
+ * diagonal blocks stand; work for abut_galerkin_rows(). */
+static void
+make_pattern(abut_multigrid *mg, int32_t l, const row_set *set, int32_t n,
+             const int32_t *row, abut_pool *pool, abut_node_rows *rows,
+             int64_t *diagonal, float **sum)
+{
+  const abut_multigrid_level *fine = &mg->level[l];
+  const int32_t size = mg->block * mg->block;
+  abut_array columns = {NULL, 0, sizeof(int32_t)};
+  int64_t n_columns = 0;
+  int32_t most = 0;
+  abut_status status = pool->failed ? ABUT_OUT_OF_MEMORY : ABUT_SUCCESS;
+  abut_multigrid_clear_places(mg, mg->level[l + 1].n);
+  for (int32_t q = 0; q < n && status == ABUT_SUCCESS; ++q)
+  {
+    const int32_t k = row == NULL ? q : row[q];
+    const int32_t n_fine = list_columns(mg, fine, set, k);
+    most = most > n_fine ? most : n_fine;
+    status = append_parents(mg, fine, k, n_fine, &columns, &n_columns);
+    rows->start[q + 1] = n_columns;
+    diagonal[q] = -1;
+    for (int64_t e = rows->start[q]; e < n_columns; ++e)
+      if (((const int32_t *)columns.data)[e] == k)
+        diagonal[q] = e;
+  }
+  pool->failed |= status != ABUT_SUCCESS;
+  rows->node = abut_pool_take(pool, n_columns, sizeof(int32_t));
+  rows->weight = abut_pool_take(pool, n_columns * size + 1, sizeof(float));
+  *sum = abut_pool_take(pool, (int64_t)most * size, sizeof(float));
+  if (!pool->failed && n_columns > 0)
+    memcpy(rows->node, columns.data, (size_t)n_columns * sizeof(int32_t));
+  abut_array_release(mg->context, &columns);
 }
 
 void
 abut_galerkin_pattern(abut_multigrid *mg, int32_t l)
 {
-  const abut_multigrid_level *fine = &mg->level[l];
   abut_multigrid_level *coarse = &mg->level[l + 1];
-  abut_node_rows *rows = &coarse->matrix;
-  rows->start =
-      abut_pool_take(&mg->matrices, (int64_t)coarse->n + 1, sizeof(int64_t));
-  if (mg->matrices.failed)
-    return;
-  clear(mg, coarse->n);
-  for (int32_t k = 0; k < coarse->n; ++k)
-    rows->start[k + 1] = rows->start[k] + collect(fine, k, mg->place, NULL);
-  const int64_t n = rows->start[coarse->n];
-  rows->node = abut_pool_take(&mg->matrices, n, sizeof(int32_t));
-  rows->weight =
-      abut_pool_take(&mg->matrices, n * mg->block * mg->block, sizeof(float));
-  coarse->diagonal = abut_pool_take(&mg->matrices, coarse->n, sizeof(int64_t));
-  if (mg->matrices.failed)
-    return;
-  clear(mg, coarse->n);
-  for (int32_t k = 0; k < coarse->n; ++k)
+  abut_pool *pool = &mg->matrices;
+  coarse->matrix.start =
+      abut_pool_take(pool, (int64_t)coarse->n + 1, sizeof(int64_t));
+  coarse->diagonal = abut_pool_take(pool, coarse->n, sizeof(int64_t));
+  const row_set set = matrix_of(&mg->level[l]);
+  make_pattern(mg, l, &set, coarse->n, NULL, pool, &coarse->matrix,
+               coarse->diagonal, &coarse->sum);
+}
+
+/* Number the coarse nodes with children that have terms. */
+static void
+number_terms(abut_multigrid *mg, const abut_multigrid_level *fine,
+             abut_multigrid_level *coarse)
+{
+  abut_node_terms *terms = &coarse->terms;
+  terms->at = abut_pool_take(&mg->terms, coarse->n, sizeof(int32_t));
+  for (int32_t q = 0; q < fine->terms.n && terms->at != NULL; ++q)
   {
-    collect(fine, k, mg->place, rows->node + rows->start[k]);
-    coarse->diagonal[k] = -1;
-    for (int64_t e = rows->start[k]; e < rows->start[k + 1]; ++e)
-      if (rows->node[e] == k)
-        coarse->diagonal[k] = e;
+    const int32_t i = fine->terms.row[q];
+    for (int64_t e = fine->parents.start[i]; e < fine->parents.start[i + 1];
+         ++e)
+      terms->at[fine->parents.node[e]] = 1;
   }
+  terms->n = 0;
+  for (int32_t k = 0; k < coarse->n && terms->at != NULL; ++k)
+    terms->at[k] = terms->at[k] ? terms->n++ : -1;
+  terms->row = abut_pool_take(&mg->terms, terms->n, sizeof(int32_t));
+  terms->diagonal = abut_pool_take(&mg->terms, terms->n, sizeof(int64_t));
+  terms->rows.start =
+      abut_pool_take(&mg->terms, (int64_t)terms->n + 1, sizeof(int64_t));
+  for (int32_t k = 0; k < coarse->n && !mg->terms.failed; ++k)
+    if (terms->at[k] >= 0)
+      terms->row[terms->at[k]] = k;
 }
 
-/* a = weight times a block of the fine matrix, without what is held. */
-ABUT_INLINE void
-free_part(const float *block, const uint8_t *row, const uint8_t *column,
-          const int32_t b, float weight, float *a)
+void
+abut_terms_pattern(abut_multigrid *mg, int32_t l)
 {
+  const abut_multigrid_level *fine = &mg->level[l];
+  abut_node_terms *terms = &mg->level[l + 1].terms;
+  number_terms(mg, fine, &mg->level[l + 1]);
+  const row_set set = terms_of(fine);
+  make_pattern(mg, l, &set, terms->n, terms->row, &mg->terms, &terms->rows,
+               terms->diagonal, &terms->sum);
+}
+
+/* Add the row of child i over fine columns, of which there are n; returns how
+ * many there are now. Rows that are held are left out. */
+ABUT_INLINE int32_t
+add_child(abut_multigrid *mg, const abut_multigrid_level *fine,
+          const abut_node_rows *rows, const int32_t b, int32_t q, int32_t i,
+          float weight, int32_t n, float *sum)
+{
+  float factor[3];
   for (int32_t r = 0; r < b; ++r)
-    for (int32_t c = 0; c < b; ++c)
-      a[r * b + c] = row[r] || column[c] ? 0 : weight * block[r * b + c];
+    factor[r] = fine->held[(int64_t)i * b + r] ? 0 : weight;
+  for (int64_t e = rows->start[q]; e < rows->start[q + 1]; ++e)
+  {
+    const int32_t j = rows->node[e];
+    int32_t p = mg->fine_place[j];
+    if (p < 0)
+    {
+      p = mg->fine_place[j] = n;
+      mg->list[n++] = j;
+      for (int32_t r = 0; r < b * b; ++r)
+        sum[(int64_t)p * b * b + r] = 0;
+    }
+    float *to = sum + (int64_t)p * b * b;
+    const float *block = rows->weight + e * b * b;
+    for (int32_t r = 0; r < b; ++r)
+      for (int32_t c = 0; c < b; ++c)
+        to[r * b + c] += factor[r] * block[r * b + c];
+  }
+  return n;
 }
 
-/* Add what fine node i has for the coarse row whose columns stand at places. */
+/* Hand the fine columns on to their parents, without those that are held. */
 ABUT_INLINE void
-add_child(const abut_multigrid_level *fine, const int32_t b, int32_t i,
-          float weight, const int32_t *place, float *row)
+add_to_parents(abut_multigrid *mg, const abut_multigrid_level *fine,
+               const int32_t b, int32_t n, float *sum, float *row)
 {
-  for (int64_t e = fine->matrix.start[i]; e < fine->matrix.start[i + 1]; ++e)
+  for (int32_t p = 0; p < n; ++p)
   {
-    const int32_t j = fine->matrix.node[e];
-    float a[ABUT_MULTIGRID_BLOCK];
-    free_part(fine->matrix.weight + e * b * b, fine->held + (int64_t)i * b,
-              fine->held + (int64_t)j * b, b, weight, a);
+    const int32_t j = mg->list[p];
+    float *from = sum + (int64_t)p * b * b;
+    mg->fine_place[j] = -1;
+    for (int32_t c = 0; c < b; ++c)
+      for (int32_t r = 0; r < b && fine->held[(int64_t)j * b + c]; ++r)
+        from[r * b + c] = 0;
     for (int64_t g = fine->parents.start[j]; g < fine->parents.start[j + 1];
          ++g)
     {
-      float *sum = row + (int64_t)place[fine->parents.node[g]] * b * b;
+      float *to = row + (int64_t)mg->place[fine->parents.node[g]] * b * b;
+      const float weight = fine->parents.weight[g];
       for (int32_t r = 0; r < b * b; ++r)
-        sum[r] += fine->parents.weight[g] * a[r];
+        to[r] += weight * from[r];
     }
   }
 }
 
-/* Cut off what is fixed on the coarse level. */
+/* Cut off what is fixed on the coarse level from the row of node k, number q
+ * of `rows`. */
 ABUT_INLINE void
-cut_fixed(const abut_multigrid_level *coarse, const int32_t b, int32_t k,
-          float *row)
+cut_fixed(const abut_multigrid_level *coarse, const abut_node_rows *rows,
+          const int32_t b, int32_t q, int32_t k)
 {
-  const int64_t first = coarse->matrix.start[k];
-  for (int64_t e = first; e < coarse->matrix.start[k + 1]; ++e)
-    free_part(row + (e - first) * b * b, coarse->fixed + (int64_t)k * b,
-              coarse->fixed + (int64_t)coarse->matrix.node[e] * b, b, 1,
-              row + (e - first) * b * b);
+  const uint8_t *own = coarse->fixed + (int64_t)k * b;
+  for (int64_t e = rows->start[q]; e < rows->start[q + 1]; ++e)
+  {
+    const uint8_t *other = coarse->fixed + (int64_t)rows->node[e] * b;
+    for (int32_t r = 0; r < b; ++r)
+      for (int32_t c = 0; c < b; ++c)
+        if (own[r] || other[c])
+          rows->weight[(e * b + r) * b + c] = 0;
+  }
+}
+
+/* Row number q of `rows`, that of coarse node k. */
+ABUT_INLINE void
+make_row(abut_multigrid *mg, const int32_t b, int32_t l, const row_set *set,
+         const abut_node_rows *rows, int32_t q, int32_t k, float *sum)
+{
+  const abut_multigrid_level *fine = &mg->level[l];
+  int32_t n = 0;
+  for (int64_t f = fine->children.start[k]; f < fine->children.start[k + 1];
+       ++f)
+  {
+    const int32_t i = fine->children.node[f], from = row_of(set, i);
+    if (from >= 0)
+      n = add_child(mg, fine, set->rows, b, from, i, fine->children.weight[f],
+                    n, sum);
+  }
+  const int64_t first = rows->start[q], end = rows->start[q + 1];
+  for (int64_t e = first; e < end; ++e)
+    mg->place[rows->node[e]] = (int32_t)(e - first);
+  float *row = rows->weight + first * b * b;
+  memset(row, 0, (size_t)(end - first) * (size_t)(b * b) * sizeof(float));
+  add_to_parents(mg, fine, b, n, sum, row);
+  cut_fixed(&mg->level[l + 1], rows, b, q, k);
 }
 
 ABUT_INLINE void
 make_rows(abut_multigrid *mg, const int32_t b, int32_t l)
 {
-  const abut_multigrid_level *fine = &mg->level[l];
-  abut_multigrid_level *coarse = &mg->level[l + 1];
+  const row_set set = matrix_of(&mg->level[l]);
+  const abut_multigrid_level *coarse = &mg->level[l + 1];
   for (int32_t k = 0; k < coarse->n; ++k)
-  {
-    if (!coarse->dirty[k])
-      continue;
-    const int64_t first = coarse->matrix.start[k];
-    const int32_t n = (int32_t)(coarse->matrix.start[k + 1] - first);
-    float *row = coarse->matrix.weight + first * b * b;
-    memset(row, 0, (size_t)n * (size_t)(b * b) * sizeof(float));
-    for (int32_t e = 0; e < n; ++e)
-      mg->place[coarse->matrix.node[first + e]] = e;
-    for (int64_t f = fine->children.start[k]; f < fine->children.start[k + 1];
-         ++f)
-      add_child(fine, b, fine->children.node[f], fine->children.weight[f],
-                mg->place, row);
-    cut_fixed(coarse, b, k, row);
-    mg->n_renewed += 1;
-  }
+    if (coarse->dirty[k])
+    {
+      make_row(mg, b, l, &set, &coarse->matrix, k, k, coarse->sum);
+      mg->n_renewed += 1;
+    }
+}
+
+ABUT_INLINE void
+make_terms(abut_multigrid *mg, const int32_t b, int32_t l)
+{
+  const row_set set = terms_of(&mg->level[l]);
+  const abut_node_terms *terms = &mg->level[l + 1].terms;
+  for (int32_t q = 0; q < terms->n; ++q)
+    make_row(mg, b, l, &set, &terms->rows, q, terms->row[q], terms->sum);
 }
 
 void
@@ -151,4 +294,15 @@ abut_galerkin_rows(abut_multigrid *mg, int32_t l)
     make_rows(mg, 2, l);
   else
     make_rows(mg, 3, l);
+}
+
+void
+abut_terms_rows(abut_multigrid *mg, int32_t l)
+{
+  if (mg->block == 1)
+    make_terms(mg, 1, l);
+  else if (mg->block == 2)
+    make_terms(mg, 2, l);
+  else
+    make_terms(mg, 3, l);
 }

@@ -113,9 +113,9 @@ take_mesh(abut_multigrid *mg, const abut_multigrid_mesh *mesh, int32_t l)
   level->held = abut_pool_take(pool, n, 1);
   level->dirty = abut_pool_take(pool, mesh->n_nodes, 1);
   level->inverse = abut_pool_take(pool, n * b, sizeof(float));
-  level->x = abut_pool_take(pool, n, sizeof(float));
-  level->r = abut_pool_take(pool, n, sizeof(float));
-  level->z = abut_pool_take(pool, n, sizeof(float));
+  level->x = abut_pool_take(pool, n + 1, sizeof(float));
+  level->r = abut_pool_take(pool, n + 1, sizeof(float));
+  level->z = abut_pool_take(pool, n + 1, sizeof(float));
   if (!pool->failed && mesh->fixed != NULL)
     for (int64_t u = 0; u < n; ++u)
       level->fixed[u] = mesh->fixed[u] != 0;
@@ -161,9 +161,14 @@ build(abut_multigrid *mg, const abut_multigrid_hierarchy *h)
   mg->held = abut_pool_take(&mg->structure, n, 1);
   mg->added = abut_pool_take(&mg->structure, n, sizeof(double));
   mg->plain = abut_pool_take(&mg->structure, n, sizeof(float));
+  mg->moved = abut_pool_take(&mg->structure, h->mesh[0].n_nodes, 1);
   mg->place = abut_pool_take(&mg->structure, most, sizeof(int32_t));
+  mg->fine_place = abut_pool_take(&mg->structure, most, sizeof(int32_t));
+  mg->list = abut_pool_take(&mg->structure, most, sizeof(int32_t));
   if (mg->structure.failed)
     return abut_fail(mg->context, ABUT_OUT_OF_MEMORY, create_call, "no memory");
+  for (int32_t i = 0; i < most; ++i)
+    mg->fine_place[i] = -1;
   return take_unknowns(mg, h->unknown)
              ? ABUT_SUCCESS
              : abut_fail(mg->context, ABUT_INVALID_ARGUMENT, create_call,
@@ -194,7 +199,8 @@ abut_multigrid_create(abut_context *context,
   mg->context = context;
   mg->block = taken.block;
   mg->n_levels = taken.n_meshes;
-  mg->structure.context = mg->matrices.context = mg->coarsest.context = context;
+  mg->structure.context = mg->matrices.context = context;
+  mg->terms.context = mg->coarsest.context = context;
   status = build(mg, &taken);
   if (status == ABUT_SUCCESS)
     *multigrid = mg;
@@ -213,6 +219,7 @@ abut_multigrid_destroy(abut_multigrid **multigrid)
   abut_multigrid *mg = *multigrid;
   abut_pool_release(&mg->structure);
   abut_pool_release(&mg->matrices);
+  abut_pool_release(&mg->terms);
   abut_pool_release(&mg->coarsest);
   abut_object_destroy(mg->context, mg, sizeof(*mg));
   *multigrid = NULL;
@@ -294,10 +301,13 @@ mark_finest(abut_multigrid *mg, const uint8_t *held, const double *added,
   abut_multigrid_level *level = &mg->level[0];
   memset(level->dirty, all, (size_t)level->n);
   for (int32_t i = 0; i < level->n; ++i)
+  {
     if (take_node(mg, i, held, added) && !all)
       for (int64_t e = level->matrix.start[i]; e < level->matrix.start[i + 1];
            ++e)
         level->dirty[level->matrix.node[e]] = 1;
+    level->dirty[i] |= mg->moved[i];
+  }
 }
 
 /* Mark the rows of level l + 1 that depend on those marked on level l. */
@@ -353,15 +363,26 @@ abut_multigrid_hold(abut_multigrid *mg, const uint8_t *held,
   const bool first = !mg->is_ready;
   mg->is_ready = false;
   mg->n_renewed = 0;
-  if (first)
+  const bool has_terms = mg->level[0].terms.n > 0;
+  const bool is_prepared = !has_terms && (first || mg->had_terms);
+  if (is_prepared)
     prepare_finest(mg);
-  mark_finest(mg, held, added, first);
+  mg->had_terms = has_terms;
+  mark_finest(mg, held, added, first && !is_prepared);
+  memset(mg->moved, 0, (size_t)mg->level[0].n);
   abut_multigrid_invert(mg, 0);
+  if (first)
+    memset(mg->level[0].dirty, 1, (size_t)mg->level[0].n);
+  /* What is eliminated has no stiffness left, and must be held here. */
+  if (has_terms)
+    abut_multigrid_bound(mg, 0, POWER_STEPS);
   for (int32_t l = 0; l + 1 < mg->n_levels; ++l)
   {
     if (!mark_coarse(mg, l))
       continue;
     abut_galerkin_rows(mg, l);
+    if (has_terms)
+      abut_terms_rows(mg, l);
     abut_multigrid_invert(mg, l + 1);
     if (l + 2 < mg->n_levels)
       abut_multigrid_bound(mg, l + 1, POWER_STEPS);
@@ -428,6 +449,9 @@ abut_multigrid_describe_sized(const abut_multigrid *mg,
     const abut_multigrid_level *level = &mg->level[l];
     if (mg->has_matrix)
       made.n_entries += level->matrix.start[level->n] * mg->block * mg->block;
+    if (level->terms.n > 0)
+      made.n_entries +=
+          level->terms.rows.start[level->terms.n] * mg->block * mg->block;
     made.largest[l] = level->largest;
   }
   return report == NULL ? abut_fail(mg->context, ABUT_INVALID_ARGUMENT,

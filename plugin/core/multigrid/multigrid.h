@@ -38,8 +38,19 @@ typedef struct abut_node_rows
 {
   int64_t *start;
   int32_t *node;
-  float *weight; /* [start[n]], or blocks of a matrix */
+  float *weight; /* [start[n]], or blocks of a matrix and one number more */
 } abut_node_rows;
+
+/* Blocks that are added to a matrix in few of its rows. */
+typedef struct abut_node_terms
+{
+  int32_t n;           /* rows that have any */
+  int32_t *at;         /* [nodes] row of a node here, -1: none; NULL: n = 0 */
+  int32_t *row;        /* [n] node of a row, ascending */
+  abut_node_rows rows; /* [n] by these numbers, over all nodes */
+  int64_t *diagonal;   /* [n] place of the diagonal block, -1: none */
+  float *sum;          /* work: blocks of a coarse row over fine columns */
+} abut_node_terms;
 
 typedef struct abut_multigrid_level
 {
@@ -50,11 +61,13 @@ typedef struct abut_multigrid_level
 
   abut_node_rows matrix; /* blocks; of coarse levels the truncated ones */
   int64_t *diagonal;     /* [n] place of the diagonal block, -1: none */
+  float *sum;            /* work, as that of the terms */
+  abut_node_terms terms; /* what is added to the matrix */
   uint8_t *held;         /* [n * block] fixed, held or without stiffness */
   uint8_t *dirty;        /* [n] rows that differ from those at the last hold */
   float *inverse;        /* [n] blocks: inverse of the diagonal block, 0 in rows
                             and columns that are held */
-  float *x, *r, *z;      /* [n * block] of a cycle */
+  float *x, *r, *z;      /* [n * block + 1] of a cycle */
   double largest;        /* bound of the eigenvalues of inverse * matrix */
 } abut_multigrid_level;
 
@@ -76,16 +89,52 @@ struct abut_multigrid
   abut_context *context;
   int32_t block, n_levels;
   int32_t *unknown; /* [n * block] row of the host */
-  abut_pool structure, matrices, coarsest;
+  abut_pool structure, matrices, terms, coarsest;
   abut_multigrid_level level[ABUT_MULTIGRID_MESHES];
   abut_envelope factor;
   uint8_t *held;  /* [n * block] by the last hold() */
   double *added;  /* [n * block] to the diagonal */
-  float *plain;   /* [n] diagonal blocks without what is added */
+  float *plain;   /* [n * block] diagonal without what is added */
+  uint8_t *moved; /* [n] nodes whose terms have changed since the last hold */
   int32_t *place; /* [max nodes] work: where a column stands, or -1 */
+  int32_t *fine_place; /* [max nodes] the same of a finer level, -1 at rest */
+  int32_t *list;       /* [max nodes] work: fine columns of a coarse row */
   int64_t n_renewed;
   bool has_matrix, is_ready;
+  bool had_terms; /* at the last hold */
 };
+
+/* Whether a matrix of the host can be read. */
+abut_status abut_multigrid_check(abut_multigrid *mg,
+                                 const abut_multigrid_matrix *matrix,
+                                 const char *call);
+
+/* What the rows of the host are. */
+typedef struct abut_host_numbers
+{
+  int32_t *node;      /* [rows] */
+  uint8_t *component; /* [rows] */
+} abut_host_numbers;
+
+/* False: no memory, and the pool has failed. */
+bool abut_multigrid_number(abut_multigrid *mg, abut_pool *work,
+                           abut_host_numbers *host);
+
+/* Nodes of the blocks in the host's rows of node i; returns how many, and
+ * writes them where there is room. Before the first call mg->place has -1. */
+int32_t abut_multigrid_collect(abut_multigrid *mg,
+                               const abut_multigrid_matrix *matrix,
+                               const abut_host_numbers *host, int32_t i,
+                               int32_t *columns);
+
+/* Add the numbers of these rows to blocks whose columns stand at places. */
+void abut_multigrid_add_row(abut_multigrid *mg,
+                            const abut_multigrid_matrix *matrix,
+                            const abut_host_numbers *host, int32_t i,
+                            float *row);
+
+/* mg->place is -1 for the first n nodes. */
+void abut_multigrid_clear_places(abut_multigrid *mg, int32_t n);
 
 /* Blocks of the finest level from the host's rows. */
 abut_status abut_multigrid_fill(abut_multigrid *mg,
@@ -96,6 +145,10 @@ void abut_galerkin_pattern(abut_multigrid *mg, int32_t l);
 
 /* Its rows that are marked dirty. */
 void abut_galerkin_rows(abut_multigrid *mg, int32_t l);
+
+/* The same of what is added: rows of level l + 1, all of them. */
+void abut_terms_pattern(abut_multigrid *mg, int32_t l);
+void abut_terms_rows(abut_multigrid *mg, int32_t l);
 
 /* Inverses of the diagonal blocks of nodes that are dirty. On coarse levels,
  * unknowns without stiffness become held. */

@@ -17,22 +17,57 @@
 static const float weight_1 = 1.02387287570313f;
 static const float weight_2 = 1.26408905371085f;
 
-/* t = row i of the matrix times v. */
+/* t += row number q times v, for blocks of 3: four products at once, the last
+ * of which is of what follows and not used. There is one number more behind all
+ * blocks and vectors for its sake. */
+ABUT_INLINE void
+add_row_times_3(const abut_node_rows *rows, int32_t q, const float *v, float *t)
+{
+  float sum[3][4] = {{0}};
+  const int64_t end = rows->start[q + 1];
+  for (int64_t e = rows->start[q]; e < end; ++e)
+  {
+    const float *a = rows->weight + e * 9;
+    const float *x = v + (int64_t)rows->node[e] * 3;
+    for (int32_t r = 0; r < 3; ++r)
+      for (int32_t c = 0; c < 4; ++c)
+        sum[r][c] += a[r * 3 + c] * x[c];
+  }
+  for (int32_t r = 0; r < 3; ++r)
+    t[r] += sum[r][0] + sum[r][1] + sum[r][2];
+}
+
+/* t += row number q times v. */
+ABUT_INLINE void
+add_row_times(const abut_node_rows *rows, const int32_t b, int32_t q,
+              const float *v, float *t)
+{
+  if (b == 3)
+  {
+    add_row_times_3(rows, q, v, t);
+    return;
+  }
+  const int64_t end = rows->start[q + 1];
+  for (int64_t e = rows->start[q]; e < end; ++e)
+  {
+    const float *a = rows->weight + e * b * b;
+    const float *x = v + (int64_t)rows->node[e] * b;
+    for (int32_t r = 0; r < b; ++r)
+      for (int32_t c = 0; c < b; ++c)
+        t[r] += a[r * b + c] * x[c];
+  }
+}
+
+/* t = row i of the matrix, with what is added to it, times v. */
 ABUT_INLINE void
 row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
           const float *v, float *t)
 {
   for (int32_t r = 0; r < b; ++r)
     t[r] = 0;
-  const int64_t end = level->matrix.start[i + 1];
-  for (int64_t e = level->matrix.start[i]; e < end; ++e)
-  {
-    const float *a = level->matrix.weight + e * b * b;
-    const float *x = v + (int64_t)level->matrix.node[e] * b;
-    for (int32_t r = 0; r < b; ++r)
-      for (int32_t c = 0; c < b; ++c)
-        t[r] += a[r * b + c] * x[c];
-  }
+  add_row_times(&level->matrix, b, i, v, t);
+  if (level->terms.n > 0 && level->terms.at[i] >= 0)
+    add_row_times(&level->terms.rows, b, level->terms.at[i], v, t);
 }
 
 /* s = factor * inverse of node i times t. */

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cell_sum.h"
+
+#include <algorithm>
+
+namespace abut::app
+{
+  template <int dim>
+  CellSum<dim>::CellSum(const DiscreteProblem<dim> &problem, la::Matrix &matrix)
+      : constraints_(problem.constraints),
+        matrix_(matrix),
+        first_(matrix.local_range().first),
+        load_(problem.vector()),
+        place_(problem.fe.n_dofs_per_cell(), 0)
+  {
+    matrix_ = 0.;
+    rows_ = la::local_rows(matrix_);
+    is_free_.assign(rows_.n_rows, 1);
+    for (const auto &line : constraints_.get_lines())
+      if (line.index >= first_ && line.index - first_ < is_free_.size())
+        is_free_[line.index - first_] = 0;
+  }
+
+  template <int dim> bool CellSum<dim>::is_plain(const Dofs &dofs) const
+  {
+    return std::all_of(dofs.begin(), dofs.end(),
+                       [&](const auto dof)
+                       {
+                         return dof >= first_ && dof - first_ < is_free_.size()
+                                && is_free_[dof - first_];
+                       });
+  }
+
+  /** Place of an entry, which is at @p guess if columns stand side by side. */
+  template <int dim>
+  int CellSum<dim>::find(const int row, const int column, const int guess) const
+  {
+    const int begin = rows_.start[row], end = rows_.start[row + 1];
+    if (guess >= begin && guess < end && rows_.column[guess] == column)
+      return guess;
+    const int *const sorted =
+        std::lower_bound(rows_.column + begin, rows_.column + end, column);
+    if (sorted != rows_.column + end && *sorted == column)
+      return static_cast<int>(sorted - rows_.column);
+    const int *const any =
+        std::find(rows_.column + begin, rows_.column + end, column);
+    AssertThrow(any != rows_.column + end,
+                dealii::ExcMessage("The pattern of the matrix lacks entries "
+                                   "of a cell."));
+    return static_cast<int>(any - rows_.column);
+  }
+
+  template <int dim>
+  void CellSum<dim>::add_plain(const dealii::FullMatrix<double> &matrix,
+                               const Dofs &dofs)
+  {
+    const std::size_t n = dofs.size();
+    int offset = 0;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const int row = static_cast<int>(dofs[i] - first_);
+      // Rows of one node have the same columns.
+      const int shift = rows_.start[row] - offset;
+      offset = rows_.start[row];
+      for (std::size_t j = 0; j < n; ++j)
+      {
+        const int column = static_cast<int>(dofs[j] - first_);
+        const int guess = place_[j] + shift;
+        int place = guess;
+        if (guess < rows_.start[row] || guess >= rows_.start[row + 1]
+            || rows_.column[guess] != column)
+          place = find(row, column, j > 0 ? place_[j - 1] + 1 : -1);
+        place_[j] = place;
+        rows_.value[place] += matrix(i, j);
+      }
+    }
+  }
+
+  template <int dim>
+  void CellSum<dim>::add(const dealii::FullMatrix<double> &matrix,
+                         const Dofs &dofs)
+  {
+    if (is_plain(dofs))
+      add_plain(matrix, dofs);
+    else
+      constraints_.distribute_local_to_global(matrix, dofs, matrix_);
+  }
+
+  template <int dim>
+  void CellSum<dim>::add(const dealii::FullMatrix<double> &matrix,
+                         const dealii::Vector<double> &load, const Dofs &dofs,
+                         la::Vector &open)
+  {
+    if (!is_plain(dofs))
+    {
+      constraints_.distribute_local_to_global(matrix, load, dofs, matrix_,
+                                              open);
+      return;
+    }
+    add_plain(matrix, dofs);
+    double *const values = la::data(load_);
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      values[dofs[i] - first_] += load(i);
+  }
+
+  template <int dim> void CellSum<dim>::close()
+  {
+    matrix_.compress(dealii::VectorOperation::add);
+  }
+
+  template class CellSum<2>;
+  template class CellSum<3>;
+} // namespace abut::app
