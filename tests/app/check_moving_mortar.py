@@ -6,7 +6,7 @@ import statistics
 
 from block_scene import block, pair, section, solid
 from program import Program, set_words
-from sliding_scenes import newton, slide, turn, turned
+from sliding_scenes import newton, press_and_slide, slide, turn, turned
 
 p = Program()
 FINE = ["Load steps/Newton tolerance=1e-12",
@@ -134,6 +134,23 @@ def check_slide(*words, steps=22):
 
 check_slide()
 check_slide(STANDARD)
+
+
+# Linearisations of a load step, in the mean: no more than those of a prototype
+# that differentiates the same (the hard ones: with one linearisation for each
+# change of the contact set).
+def check_counts(steps, most, **scene):
+    solved(press_and_slide(p, steps, **scene), "Load steps/Newton tolerance=1e-9")
+    n = [len(newton(p, step)) for step in range(1, 11 + steps)]
+    p.expect(len(p.table("levels.csv")) == 10 + steps
+             and statistics.mean(n) <= most,
+             f"{steps} steps {scene}: {n} linearisations")
+
+
+check_counts(22, 6.)
+check_counts(5, 6.)
+check_counts(8, 9.5, hard=True)
+check_counts(8, 9.5, hard=True, die_young=1)
 
 # Partners that stay are left behind: the run says that it finds no way on, and
 # what to take instead; of bodies that do not slide it would not.

@@ -352,18 +352,17 @@ def check_friction(ranks):
             killed(block, 9, expected, drag)
 
 
-def check_ironing():
+def check_ironing(name, stops, *settings):
     """A die that is drawn over a block with friction by mortar: what was
     opposite at the last step is found again. Newton's method begins the next
     one elsewhere, so that figures are those of its tolerance."""
-    shutil.copy(p.source / "prm/ironing-die.inp", p.folder)
-    ironing = p.write("ironing.prm", (p.source / "prm/ironing.prm").read_text()
-                      + EVERY)
-    short = ["Load steps/Steps=22", "Load steps/End time=1.1",
-             "Refinement/Level=0", "Output/Fields=false",
-             "Output/Pictures=false"]
+    shutil.copy(p.source / f"prm/{name}-die.inp", p.folder)
+    ironing = p.write(f"{name}.prm",
+                      (p.source / f"prm/{name}.prm").read_text() + EVERY)
+    short = ["Refinement/Level=0", "Output/Fields=false",
+             "Output/Pictures=false", *settings]
     expected = alone(ironing, short)
-    for number, how in ((10, signal.SIGTERM), (21, signal.SIGKILL)):
+    for number, how in stops:
         interrupt(ironing, number, how, short)
         result = run(ironing, "--resume", settings=short)
         p.expect(result.returncode == 0, f"{ironing}: {result.stderr}")
@@ -395,7 +394,10 @@ elif p.part == 1:
     check_large_motion()
     check_rolling()
     check_friction(1)
-    check_ironing()
+    check_ironing("ironing", ((10, signal.SIGTERM), (21, signal.SIGKILL)),
+                  "Load steps/Steps=22", "Load steps/End time=1.1")
+    check_ironing("ironing-3d", ((6, signal.SIGKILL),), "Load steps/Steps=8",
+                  "Load steps/End time=1.5")
     check_one_rank(membrane, cycles)
     check_target()
     check_files()

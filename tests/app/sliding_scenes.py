@@ -49,7 +49,8 @@ def turn(p, dimension):
 
 # A stiff die with an arc of radius 1 below is pressed into a block and slides on,
 # by 20 facets in 22 steps, without friction.
-def write_die(p, columns, rows, middle, width=1.2, radius=1., height=0.6):
+def write_die(p, columns, rows, middle, width=1.2, radius=1., height=0.6,
+              name="die.inp"):
     """Mesh of the die; its lowest point is at (middle, 1). Ids: 2 arc, 3 top."""
     half = math.asin(width / 2 / radius)
     nodes = []
@@ -76,7 +77,7 @@ def write_die(p, columns, rows, middle, width=1.2, radius=1., height=0.6):
     lines += [f"{n + 1} {x!r} {y!r} 0" for n, (x, y) in enumerate(nodes)]
     lines += [f"{n + 1} {' '.join(map(str, item))}"
               for n, item in enumerate(items)]
-    return p.write("die.inp", "\n".join(lines) + "\n")
+    return p.write(name, "\n".join(lines) + "\n")
 
 
 def dies(columns, rows, width, mesh, young, way, *more):
@@ -104,7 +105,8 @@ def slide(p, columns, rows, die_columns, die_rows, steps, length=2., width=4):
 def press_and_slide(p, n, hard=False, die_young=10):
     columns, radius, height, depth, length = (
         11, 0.6, 1.2, 0.35, 0.7) if hard else (12, 1., 0.6, 0.15, 2.)
-    die = write_die(p, columns, 5, 2. - length / 2, radius=radius, height=height)
+    die = write_die(p, columns, 5, 2. - length / 2, radius=radius, height=height,
+                    name="pressed-die.inp")
     way = (f"if(t > 10, {length}*(t - 10)/{n}, 0), -{depth}*min(t/10, 1)")
     return p.write("press-and-slide.prm", dies(
         40, 10, 4, die, die_young, way,

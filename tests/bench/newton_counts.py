@@ -35,7 +35,8 @@ class Folder:
 
 
 def counts(abut, folder, n, scene, words):
-    """Linearisations by load step that was accepted, or why it ended."""
+    """Linearisations by load step, with those of attempts that were given up,
+    or why it ended."""
     name = press_and_slide(folder, n, **scene)
     run = subprocess.run(
         [abut, "run", name, "--output", "out", "--quiet",
@@ -45,7 +46,9 @@ def counts(abut, folder, n, scene, words):
     if run.returncode != 0:
         return "; ".join(line[:60] for line in run.stderr.splitlines()
                          if line.startswith("abut: "))
-    return [len(newton(folder, step)) for step in range(1, 11 + n)]
+    with open(folder.folder / "out/levels.csv", encoding="utf-8") as file:
+        n_steps = len(file.readlines()) - 1
+    return [len(newton(folder, step)) for step in range(1, 1 + n_steps)]
 
 
 def main():
@@ -63,7 +66,7 @@ def main():
                                        words + friction)
                         text = found if isinstance(found, str) else (
                             f"{statistics.mean(found):.1f}, at the most "
-                            f"{max(found)}")
+                            f"{max(found)}, in {len(found)} load steps")
                         print(f"{scene}; {way}; mu = {mu}; {n} steps: {text}",
                               flush=True)
 
