@@ -72,6 +72,12 @@ duality("saddle point", "rigid-plate.prm",
          "Method/Enforcement": "lagrange"}, "y")
 duality("mortar", "rigid-plate.prm",
         {**DISC, "Method/Discretisation": "dual mortar"}, "y")
+if not p.short:
+    duality("nitsche", "rigid-plate.prm",
+            {**DISC, "Method/Enforcement": "nitsche"}, "y")
+    duality("quadrature points", "rigid-plate.prm",
+            {**DISC, "Method/Enforcement": "augmented lagrangian",
+             "Method/Discretisation": "quadrature point"}, "y")
 duality("with friction, aside", "rigid-plate.prm",
         {**DISC, "Obstacle 1/Motion": "0.001*t, -0.02*t",
          "Pair 1/Friction": "0.3"}, "x, y")

@@ -5,6 +5,7 @@
 #include "app/input/short_number.h"
 
 #include <abut/dealii/coded.h>
+#include <abut/facet.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,9 @@ namespace abut::app
 
     /** Steps towards a surface, each as long as the distance there. */
     constexpr unsigned int most_approaches = 200;
+
+    /** Where obstacles can be, with something to spare. */
+    constexpr double farthest = 1e-3 * ABUT_FACET_LIMIT;
 
     /** Larger ones lead out of the numbers in a step. */
     constexpr double largest_velocity = 1e30;
@@ -469,6 +473,9 @@ namespace abut::app
       }
     }
     is_new_step = false;
+    is_out = false;
+    if (is_far(place))
+      place = u;
     balance.begin(place, stiffness_of_inertia(), tolerance);
   }
 
@@ -507,16 +514,29 @@ namespace abut::app
           stage == Stage::step && parameters.time.scheme.projects != 0
               ? std::max(error_of_step, balance.error())
               : balance.error();
-    place = balance.place();
-    return answer;
+    return go_to(answer);
   }
 
   template <int dim> ForceBalance::Answer DrivenObstacles<dim>::refuse()
   {
     ++n_tried;
-    const ForceBalance::Answer answer = balance.refuse();
-    place = balance.place();
-    return answer;
+    return go_to(balance.refuse());
+  }
+
+  template <int dim> bool DrivenObstacles<dim>::is_far(const Values &at)
+  {
+    return std::any_of(at.begin(), at.end(),
+                       [](const double x)
+                       { return !(std::abs(x) < farthest); });
+  }
+
+  template <int dim>
+  ForceBalance::Answer
+  DrivenObstacles<dim>::go_to(const ForceBalance::Answer answer)
+  {
+    is_out = is_far(balance.place());
+    place = is_out ? u : balance.place();
+    return is_out ? ForceBalance::Answer::stuck : answer;
   }
 
   template <int dim>
@@ -536,6 +556,11 @@ namespace abut::app
               + parameters.obstacles[c.obstacle].parameter("Free directions")
               + ".");
     }
+    if (is_out)
+      return "Forces drive "
+             + parameters.obstacles[coordinates.front().obstacle].section
+             + " out of all bounds: look for forces that are no match for the "
+               "stiffness of the bodies or the mass of the obstacle.";
     return "No place was found for "
            + parameters.obstacles[coordinates.front().obstacle].section
            + " where the forces on it are in balance: after "

@@ -162,6 +162,10 @@ namespace abut::app
     Values way_to_contact(const Values &place, const Values &touching,
                           const Clearance &clearance);
     Vector vector_of(std::size_t obstacle, const Values &values) const;
+    /** Whether a place is out of the range of numbers. */
+    static bool is_far(const Values &at);
+    /** Take over where the balance wants to be, if that can be. */
+    ForceBalance::Answer go_to(ForceBalance::Answer answer);
     std::string name(std::size_t coordinate) const;
 
     const SolidParameters &parameters;
@@ -174,7 +178,7 @@ namespace abut::app
     ForceBalance balance;
     Stage stage = Stage::statics;
     double dt = 0., present_time = 0., time_reached = 0.;
-    bool is_new_step = true;
+    bool is_new_step = true, is_out = false;
     unsigned int n_ways = 0;
 
     // At the last commit, and forces there.
