@@ -240,23 +240,18 @@ namespace abut::solve
       return result;
     }
 
-    /** Rows with entries for pivots, whose lines are @p z: with a symmetric
-     * pattern, of this rank's pivots the columns of their rows. */
+    /** Rows with entries for pivots, whose lines are @p z. The pattern need not
+     * be symmetric: what partners of moving points add to a tangent is not. */
     std::vector<int> rows_of_pivots(const la::LocalRows &t,
                                     const std::vector<SparseLine> &z)
     {
-      std::vector<std::uint8_t> is_one(t.n_rows, 0);
-      for (int i = 0; i < t.n_rows; ++i)
-        for (int k = t.start[i]; k < t.start[i + 1] && !z[i].empty(); ++k)
-          if (t.column[k] < t.n_rows)
-            is_one[t.column[k]] = 1;
-      for (int i = 0; i < t.n_rows && t.n_columns > t.n_rows; ++i)
-        for (int k = t.start[i]; k < t.start[i + 1]; ++k)
-          if (t.column[k] >= t.n_rows && !z[t.column[k]].empty())
-            is_one[i] = 1;
+      std::vector<std::uint8_t> is_pivot(t.n_columns, 0);
+      for (int c = 0; c < t.n_columns; ++c)
+        is_pivot[c] = !z[c].empty();
       std::vector<int> result;
       for (int i = 0; i < t.n_rows; ++i)
-        if (is_one[i])
+        if (std::any_of(t.column + t.start[i], t.column + t.start[i + 1],
+                        [&](const int c) { return is_pivot[c] != 0; }))
           result.push_back(i);
       return result;
     }
