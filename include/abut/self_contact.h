@@ -58,11 +58,11 @@ extern "C"
   /** Put each facet of a surface on a side, at the present positions.
    *
    * Pairs of facets within reach with opposed normals and no common node, not
-   * through the body, are taken in the order of their distance; then facets
-   * with a common node in the order of their numbers; each takes effect unless
-   * those before have settled the matter. Of the parts that this leaves apart,
-   * the facet with the smallest number is secondary. The result depends on
-   * numbers and positions only.
+   * through the body, are taken in the order of their distance, what is beside
+   * their normals counted twice; then facets with a common node in the order of
+   * their numbers; each takes effect unless those before have settled the
+   * matter. Of the parts that this leaves apart, the facet with the smallest
+   * number is secondary. The result depends on numbers and positions only.
    *
    * @param surface with numbers of nodes, or distinct nodes
    * @param side [n_facets] out: 0 secondary, 1 primary

@@ -142,8 +142,8 @@ namespace abut
 
     template <int dim>
     void judge_sliding(const PairResult<dim> &pair, const PairCheck &check,
-                       const bool is_obstacle, const Scale &scale,
-                       Findings &findings)
+                       const bool is_obstacle, const bool touches_itself,
+                       const Scale &scale, Findings &findings)
     {
       const double facet =
           check.size_ratio > 0.
@@ -152,13 +152,16 @@ namespace abut
       // Surfaces that slide by their own length do not meet any more.
       const double length = std::pow(pair.covered_area, 1. / (dim - 1));
       if (!is_obstacle && pair.slip > facet)
-        findings.add(ABUT_FAILURE_SLIDING, pair.slip > length,
-                     pair.name + ": the surfaces slide on each other by "
-                         + number(pair.slip) + ", more than a facet, "
-                         + number(facet)
-                         + ", but contact is that of the places before: its "
-                           "pressure sits where it was. With Method/Sliding = "
-                           "large it follows.");
+        findings.add(
+            ABUT_FAILURE_SLIDING, pair.slip > length,
+            pair.name + ": the surfaces slide on each other by "
+                + number(pair.slip) + ", more than a facet, " + number(facet)
+                + ", but contact is that of the places before: its "
+                  "pressure sits where it was. With "
+                + (touches_itself ? "boundary ids and a pair of their own for "
+                                    "the two parts, and "
+                                  : "")
+                + "Method/Sliding = large it follows.");
       if (is_obstacle && scale.is_more(pair.gap_error, visible_gap_error))
         findings.add(
             ABUT_FAILURE_SLIDING, scale.is_more(pair.gap_error, useless),
@@ -455,7 +458,9 @@ namespace abut
       const bool follows = i.method.sliding == Sliding::large
                            && !i.pairs[p].tied && !is_obstacle;
       if (!follows)
-        judge_sliding(pairs[p], checks[p], is_obstacle, scale, findings);
+        judge_sliding(pairs[p], checks[p], is_obstacle,
+                      i.pairs[p].secondary == i.pairs[p].primary, scale,
+                      findings);
       judge_turn(pairs[p], allow_large_strain, findings);
       judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
                    findings);

@@ -55,15 +55,17 @@ namespace abut::shim
                const MPI_Comm communicator)
     {
       using Item =
-          std::tuple<std::string, dealii::Point<dim>, double, bool, bool>;
+          std::tuple<std::string, dealii::Point<dim>, double, bool, bool, bool>;
       std::vector<Item> items;
       for (const auto &found : mine)
         items.emplace_back(found.pair, found.point, found.depth,
-                           found.on_primary, found.same_way);
+                           found.on_primary, found.same_way, found.same_side);
       std::vector<Penetration<dim>> result;
       for (const auto &some : MPI::all_gather(communicator, items))
-        for (const auto &[pair, point, depth, on_primary, same_way] : some)
-          result.push_back({pair, point, depth, on_primary, same_way});
+        for (const auto &[pair, point, depth, on_primary, same_way, same_side] :
+             some)
+          result.push_back(
+              {pair, point, depth, on_primary, same_way, same_side});
       return result;
     }
 
@@ -188,6 +190,28 @@ namespace abut::shim
   }
 
   template <int dim>
+  void SurfacePairRows<dim>::check_same_sides(
+      Pair &pair, const std::vector<dealii::Point<dim>> &present,
+      const double reach, const double tolerance,
+      std::vector<Penetration<dim>> &missed)
+  {
+    // An interference is between flanks that are opposite to each other.
+    const double allowed = std::max(0., pair.data.gap);
+    for (const SurfaceSide<dim> *side : {&pair.secondary, &pair.primary})
+    {
+      // Another skin of the body is deeper.
+      const double thickness =
+          pair.thickness > 0. ? pair.thickness : 2. * side->everywhere.largest;
+      for (const Inside &inside :
+           penetrating_nodes(context_, *side, *side, settings_.search, reach,
+                             tolerance + allowed, thickness))
+        if (is_owned(side->node[inside.node]))
+          missed.push_back({pair.data.name, present[side->node[inside.node]],
+                            inside.depth - allowed, false, false, true});
+    }
+  }
+
+  template <int dim>
   void SurfacePairRows<dim>::check_passage_of_obstacle(
       const std::size_t p, const std::uint8_t *held,
       const std::vector<dealii::Point<dim>> &present, const double tolerance,
@@ -303,9 +327,10 @@ namespace abut::shim
         }
         const DisplacedSides<dim> sides(context_, pair.secondary, pair.primary,
                                         reference, present);
-        check_surfaces(pair, marks, present,
-                       std::max(pair.data.reach, 1.5 * motions[p]), tolerance,
-                       missed);
+        const double reach = std::max(pair.data.reach, 1.5 * motions[p]);
+        check_surfaces(pair, marks, present, reach, tolerance, missed);
+        if (SelfContact<dim>::is_split(pair.data))
+          check_same_sides(pair, present, reach, tolerance, missed);
         if (missed.size() == before)
           check_passage(p, marks, present, motions[p], tolerance, missed);
       }
@@ -331,6 +356,9 @@ namespace abut::shim
   template void SurfacePairRows<dim>::check_surfaces(                          \
       Pair &, const std::uint8_t *, const std::vector<dealii::Point<dim>> &,   \
       double, double, std::vector<Penetration<dim>> &);                        \
+  template void SurfacePairRows<dim>::check_same_sides(                        \
+      Pair &, const std::vector<dealii::Point<dim>> &, double, double,         \
+      std::vector<Penetration<dim>> &);                                        \
   template void SurfacePairRows<dim>::check_passage_of_obstacle(               \
       std::size_t, const std::uint8_t *,                                       \
       const std::vector<dealii::Point<dim>> &, double,                         \

@@ -386,6 +386,12 @@ namespace abut::shim
                         const std::vector<dealii::Point<dim>> &present,
                         double reach, double tolerance,
                         std::vector<Penetration<dim>> &missed);
+    /** Of a surface that touches itself: parts on the same of its two sides,
+     * as far as this rank knows them. */
+    void check_same_sides(Pair &pair,
+                          const std::vector<dealii::Point<dim>> &present,
+                          double reach, double tolerance,
+                          std::vector<Penetration<dim>> &missed);
     /** Look for what has come through the other side of pair @p p since points
      * were made, and is not inside of it any more: of bodies (where the sides
      * are at @p present) or of the obstacle. */

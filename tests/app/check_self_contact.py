@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A surface that touches itself gives what the same mesh gives when its two
 parts have boundary ids of their own, on any number of ranks."""
+import math
+
+from block_scene import section, solid
 from program import Program, set_words
 
 p = Program()
@@ -88,6 +91,71 @@ for settings in ({"Method/Discretisation": "dual mortar"},
                 f"blocks, {settings}: {key}")
     p.close(summary["point_1"][0], 0.3 / (1 - 0.3) * 0.01, 1e-9,
             f"blocks, {settings}: widening")
+
+# A soft ring is pressed flat between two planes until its inside meets. All of that
+# is one surface: what is opposite sees each other, however many facets there are
+# around. What is pressed inside is below what the planes press with.
+def plane(number, y, normal, motion):
+    return section(f"Obstacle {number}", "Kind = plane", f"Point = 0, {y}",
+                   f"Normal = 0, {normal}", *motion)
+
+
+for cells in (24, 28):
+    p.write("ring.prm", solid(
+        2, section("Body 1", section(
+            "Mesh", "Generator = hyper_shell",
+            f"Arguments = 0, 0 : 0.7 : 1 : {cells} : true"),
+            "Material = neo-hooke", "Young modulus = 1", "Poisson ratio = 0.3"),
+        section("Pair 1", "Secondary = 1: 0", "Primary = 1: 0", "Reach = 1.5"),
+        plane(1, -1, 1, []), plane(2, 1, -1, ["Motion = 0, -1.5*t"]),
+        *[section(f"Pair {n + 1}", "Secondary = 1: 1", f"Obstacle = {n}",
+                  "Friction = 0.3") for n in (1, 2)],
+        section("Load steps", "Steps = 19", "End time = 0.95"),
+        section("Refinement", "Level = 1"), bodies=1, obstacles=2
+        ).replace("Pairs = 1", "Pairs = 3"))
+    summary, _ = solve(p.folder / "ring.prm", {})
+    inside, below, above = (abs(summary[f"pair_{n}_force"][1])
+                            for n in (1, 2, 3))
+    p.expect(0.01 * below < inside < below,
+             f"ring of {cells} cells: {inside} inside, {below} below")
+    p.close(above, below, 1e-6, f"ring of {cells} cells: above and below")
+
+# Three flanks that face each other cannot be on two sides: where two that are on
+# the same one meet, it is told. A triangular hole is closed from all sides.
+N, H = 6, math.sqrt(3) / 2
+
+
+def flanks(size):
+    corners = [(0, 0), (1, 0), (0.5, H)]
+    for k, (x, y) in enumerate(corners):
+        for i in range(N):
+            t, (v, w) = i / N, corners[(k + 1) % 3]
+            yield (0.5 + size * ((1 - t) * x + t * v - 0.5),
+                   H / 3 + size * ((1 - t) * y + t * w - H / 3))
+
+
+points = [point for size in (1, 1.25, 1.5, 2) for point in flanks(size)]
+rows = [[3 * N * ring + i + 1 for i in (*range(3 * N), 0)] for ring in range(4)]
+quads = [(a[i], b[i], b[i + 1], a[i + 1])
+         for a, b in zip(rows, rows[1:]) for i in range(3 * N)]
+p.write("hole.inp", "\n".join(
+    [f"{len(points)} {len(quads)} 0 0 0"]
+    + [f"{i + 1} {x!r} {y!r} 0" for i, (x, y) in enumerate(points)]
+    + [f"{i + 1} 0 quad " + " ".join(map(str, quad))
+       for i, quad in enumerate(quads)]) + "\n")
+inside = f"(x - 0.5)^2 + (y - {H / 3!r})^2"
+p.write("hole.prm", solid(
+    2, section("Body 1", section(
+        "Mesh", "File = hole.inp",
+        f"Boundary ids = 1: {inside} < 0.36; 2: {inside} >= 0.36"),
+        "Material = neo-hooke", "Young modulus = 1", "Poisson ratio = 0.3",
+        f"Support = 2: -0.75*t*(x - 0.5), -0.75*t*(y - {H / 3!r})"),
+    section("Pair 1", "Secondary = 1: 1", "Primary = 1: 1", "Reach = 1"),
+    section("Load steps", "Steps = 4", "Smallest step = 0.1"),
+    section("Refinement", "Level = 1"), bodies=1))
+result = p.call("run", "hole.prm", "--output", "out", "--quiet")
+p.expect(result.returncode == 3 and "ABUT-F24" in result.stderr
+         and "same one have met" in result.stderr, f"hole: {result.stderr}")
 
 # Friction: what two surfaces of their own have, and in the blocks, whose upper
 # one is moved aside until all of it slides, mu times the pressure.

@@ -289,6 +289,42 @@ test_conflict(void **state)
   scene_free(&m);
 }
 
+/* The inside of a ring: facets that are opposite see each other, though those
+ * beside them are nearer. Of an odd number the one or the other is opposite. */
+static void
+test_ring(void **state)
+{
+  (void)state;
+  enum
+  {
+    MOST = 25
+  };
+  for (int32_t n = MOST - 3; n <= MOST; ++n)
+  {
+    double corner[MOST][2];
+    int32_t cells[MOST];
+    uint8_t side[MOST];
+    for (int32_t i = 0; i < n; ++i)
+    {
+      /* Clockwise: the hole is outside of the body. */
+      const double angle = -2. * acos(-1.) * (i + 0.3) / n;
+      corner[i][0] = 0.7 * cos(angle);
+      corner[i][1] = 0.7 * sin(angle);
+      cells[i] = 1;
+    }
+    abut_split_options o = abut_split_defaults();
+    o.reach = 1.5;
+    scene_mesh m = polyline(n, corner, cells, true);
+    const abut_split_report report = split_mesh(&m, &o, side);
+    assert_true(report.n_pairs >= n / 2);
+    int seen = 0;
+    for (int32_t i = 0; i < n; ++i)
+      seen += side[i] != side[(i + n / 2) % n];
+    assert_true(seen >= n - n % 2);
+    scene_free(&m);
+  }
+}
+
 /* Wrong arguments change nothing. */
 static void
 test_arguments(void **state)
@@ -328,6 +364,7 @@ main(void)
       cmocka_unit_test_setup_teardown(test_thin, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_folds, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_conflict, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_ring, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_arguments, set_up, tear_down)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

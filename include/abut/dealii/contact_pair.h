@@ -218,6 +218,9 @@ namespace abut
     bool same_way = false;    /**< the outward normals of surface and obstacle
                                    point the same way there: nothing can touch
                                    from this side */
+    bool same_side = false;   /**< of a surface that touches itself: both
+                                   parts were put on the same of its two sides,
+                                   which do not see each other */
   };
 
   /** Contact pairs that cannot be solved as they are: the message names the

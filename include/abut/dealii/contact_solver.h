@@ -593,17 +593,26 @@ namespace abut
     bool stop_missing(const std::vector<Penetration<dim>> &missed)
     {
       double depth = 0.;
-      std::size_t n_same_way = 0;
+      std::size_t n_same_way = 0, n_same_side = 0;
       for (const Penetration<dim> &node : missed)
       {
         depth = std::max(depth, node.depth);
         n_same_way += node.same_way;
+        n_same_side += node.same_side;
       }
       const std::string seen =
           "Nodes keep on penetrating without a constraint after "
           + std::to_string(result_.n_searches) + " searches, "
           + std::to_string(missed.size()) + " of them by up to "
           + short_number(depth);
+      if (2 * n_same_side > missed.size())
+        return stop(NewtonReason::missed_nodes,
+                    seen
+                        + ": a surface that touches itself has two sides only, "
+                          "and parts that were put on the same one have met, "
+                          "as where three flanks close. Give parts that touch "
+                          "each other boundary ids and pairs of their own.",
+                    ABUT_FAILURE_NO_PARTNER);
       if (2 * n_same_way <= missed.size())
         return stop(NewtonReason::missed_nodes,
                     seen
