@@ -254,8 +254,11 @@ namespace abut::app
     // what solvers promise is a part of all forces that there are.
     if (model.has_inertia())
       imbalance = std::min(imbalance, state.contact.imbalance(residual));
+    const SolvedBy by = {!model.problem().is_linear(),
+                         state.present.linear.method.compare(0, 6, "direct")
+                             == 0};
     return diagnose_balance(report, imbalance, state.contact.progress().penalty,
-                            why);
+                            by, why);
   }
 
   template <int dim>

@@ -100,23 +100,32 @@ namespace abut::app
   }
 
   bool diagnose_balance(Report &report, const double imbalance,
-                        const double penalty, std::string &failure)
+                        const double penalty, const SolvedBy &by,
+                        std::string &failure)
   {
     report.set("imbalance", imbalance);
     if (imbalance <= visible_imbalance)
       return true;
-    const std::string text = coded(
-        penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER,
-        "Forces are out of balance by " + short_number(imbalance, 2)
-            + " of the contact forces: the linear system was not solved to its "
-              "tolerance. "
-            + (penalty > 0. ? "The penalty of " + short_number(penalty, 2)
-                                  + " times the local stiffness leaves too few "
-                                    "digits: use a smaller Method/Penalty, or "
-                                    "augmented lagrangian or lagrange."
-                            : std::string("Try Solver/Linear solver = direct "
-                                          "or a smaller Method/Final linear "
-                                          "tolerance.")));
+    const std::string seen = "Forces are out of balance by "
+                             + short_number(imbalance, 2)
+                             + " of the contact forces: ";
+    const std::string digits = "a smaller Method/Final linear tolerance";
+    std::string why;
+    if (penalty > 0.)
+      why = "the linear system was not solved to its tolerance. The penalty of "
+            + short_number(penalty, 2)
+            + " times the local stiffness leaves too few digits: use a smaller "
+              "Method/Penalty, or augmented lagrangian or lagrange.";
+    else if (by.newton)
+      why = "Newton's method has ended at its tolerance, which other forces "
+            "than these set. Try a smaller Load steps/Newton tolerance"
+            + (by.factors ? "." : " and " + digits + ".");
+    else
+      why = "the linear system was not solved to its tolerance. Try " + digits
+            + (by.factors ? "." : " or Solver/Linear solver = direct.");
+    const std::string text =
+        coded(penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER,
+              seen + why);
     if (!(imbalance <= useless_imbalance))
     {
       failure = text;

@@ -34,11 +34,19 @@ namespace abut::app
    * @param is_cold it started from nothing, and need not have */
   void diagnose_iteration(Report &report, const abut_progress &progress,
                           bool is_cold);
+
+  /** How an answer was found. */
+  struct SolvedBy
+  {
+    bool newton = false;  ///< the problem is not its own linearisation
+    bool factors = false; ///< linear systems were factorised
+  };
+
   /** Of the balance of forces, see ContactAssembler::imbalance(): whether the
    * answer may be used; @p failure is then what to say.
    * @param penalty of the law, 0 if none */
   bool diagnose_balance(Report &report, double imbalance, double penalty,
-                        std::string &failure);
+                        const SolvedBy &by, std::string &failure);
 
   /** Of what is stored and what the forces do, see find_works(), in linear
    * statics without friction: a finding if they contradict each other.
