@@ -327,6 +327,29 @@ def check_passage(p):
     result = p.call("run", name, "--output", "out", "--quiet")
     p.expect(result.returncode == 0 and "ABUT" not in result.stderr,
              f"nothing is met: {result.stderr}")
+    check_wave(p, text.replace("STEP", "0.2"))
+
+
+def check_wave(p, text):
+    """A hump of the ground that runs through the bar within a step, to be far
+    away at the end of it; and one that runs along below it. Points of contact
+    that reach the ground from the start are no excuse."""
+    for height, reach, code in ((0.3, 0, 3), (0.05, 0, 0), (0.3, 1, 3),
+                                (0.05, 1, 0)):
+        name = p.write("wave.prm", text.replace("Kind = box", "Kind = height")
+                       .replace("  set Centre = 0.5, 0\n", "")
+                       .replace("  set Size = 2, 0.1\n", ""))
+        result = p.call(
+            "run", name, "--output", "out", "--quiet",
+            "--set", "Body 1/Initial velocity=0, 0",
+            "--set", "Obstacle 1/Motion=",
+            "--set", f"Pair 1/Reach={reach}",
+            "--set", "Obstacle 1/Expression=0.4 + "
+            f"{height}*exp(-((x - 30*t + 1)/0.1)^2)")
+        p.expect(result.returncode == code
+                 and ("ABUT-F24" in result.stderr) == (code == 3),
+                 f"a wave of {height}, reach {reach}: exit code "
+                 f"{result.returncode}, {result.stderr}")
 
 
 def main():
