@@ -352,9 +352,26 @@ def check_wave(p, text):
                  f"{result.returncode}, {result.stderr}")
 
 
+def check_incline(p):
+    """An elastic block slides down an incline of 3 : 4 with mu = 0.3, from
+    rest: g (sin - mu cos) in the mean of 20 of its periods of shear, 4 H
+    sqrt(density / G), once it has begun to slide."""
+    length = 20 * 4 * math.sqrt(1 / 5000)
+    for scheme in p.some(("hht", "trapezoid"), 1):
+        _, rows = p.solve_with("sliding-block.prm", {
+            "Solid/Gravity": "6, -8", "Body 1/Initial velocity": "",
+            "Time/Scheme": scheme, "Time/End": "2", "Output/Fields": "false"})
+        begin = min(rows, key=lambda row: abs(row["time"] - (2 - length)))
+        mean = ((rows[-1]["momentum_x"] - begin["momentum_x"]) / 2
+                / (rows[-1]["time"] - begin["time"]))
+        p.close(mean, 6 - 0.3 * 8, 1e-3, f"{scheme}: down an incline")
+        print(f"{scheme}: {mean / 3.6 - 1:+.1e} of the acceleration")
+
+
 def main():
     p = Program()
     check_passage(p)
+    check_incline(p)
     print("| seed | scene | scheme | gain | loss | momentum | depth |")
     print("|---|---|---|---|---|---|---|")
     # Parts: 1 in 2D, 2 in 3D; in short two seeds, one of each.
