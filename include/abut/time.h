@@ -47,7 +47,8 @@
  * Sources: Newmark (1959); Hilber, Hughes, Taylor (1977); Chung, Hulbert
  * (1993); Deuflhard, Krause, Ertel (2008) for the projection; Khenous, Laborde,
  * Renard (2008) for the modified mass; Paoli, Schatzman (2002) for the explicit
- * projection; Moreau (1988) for impulses.
+ * projection; Moreau (1988) for impulses; Laursen, Chawla (1997) for springs
+ * that keep the energy.
  */
 
 #include <abut/context.h>
@@ -72,7 +73,8 @@ extern "C"
     size_t struct_size; /**< sizeof(abut_time_options) */
     /** A word: `hht` (default), `trapezoid`, `midpoint`, `newmark`,
      * `generalised alpha`, `contact stabilised`, `central difference`,
-     * `central difference with projection`, `velocity level`. */
+     * `central difference with projection`, `velocity level`,
+     * `energy momentum`. */
     const char *name;
     double alpha;        /**< of hht, in [-1/3, 0]; default -0.1 */
     double rho_infinity; /**< of generalised alpha: what is left in a step of
@@ -106,6 +108,9 @@ extern "C"
     int32_t impulses; /**< contact acts in the step by velocities: closed points
                            have v_new >= -restitution v_old along the normal */
     int32_t mass;     /**< abut_time_mass that it is made for */
+    /** Contact is that of springs, whose force in a step is abut_time_spring():
+     * the step loses what they store. */
+    int32_t keeps_springs;
   } abut_time_scheme;
 
   /** Name number @p index >= 0 of the schemes; NULL behind the last. The first
@@ -219,6 +224,20 @@ extern "C"
                                             const double *mass,
                                             const double *stiffness_times_x,
                                             double *x);
+
+  /** Force of a spring of contact over a step of a scheme that keeps_springs,
+   * and its derivative by the gap at the end. With the energy psi(g) = 1/2
+   * stiffness g^2 of a gap g < 0, and 0 of one that is open, the force is
+   *
+   *     (psi(before) - psi(after)) / (after - before),
+   *
+   * so that its work on the way between them is what the spring gives, to
+   * round-off. It is continuous with its derivative, which is <= 0, and convex
+   * in @p after. INVALID_ARGUMENT unless @p stiffness >= 0 and all are finite.
+   */
+  ABUT_API abut_status abut_time_spring(double stiffness, double before,
+                                        double after, double *force,
+                                        double *derivative);
 
   /** Motion, and the length of the step from it; arrays of n entries, owned by
    * the caller. */

@@ -77,9 +77,11 @@ namespace abut
       }
 
       void add(const abut_failure failure, const bool is_error,
-               const std::string &text)
+               const std::string &text, const double between_nodes = 0.,
+               const std::size_t pair = 0)
       {
-        result_.findings.push_back({failure, is_error, coded(failure, text)});
+        result_.findings.push_back(
+            {failure, is_error, coded(failure, text), between_nodes, pair});
       }
 
     private:
@@ -258,12 +260,16 @@ namespace abut
     }
 
     template <int dim>
-    void judge_between(const PairResult<dim> &pair, const bool is_obstacle,
-                       const double peak, const double size, const Scale &scale,
+    void judge_between(const PairResult<dim> &pair, const std::size_t place,
+                       const bool is_obstacle, const double peak,
+                       const double size, const Scale &scale,
                        Findings &findings)
     {
       // Rows that are soft are told of by themselves.
       const double between = pair.between_rows - std::max(0., pair.penetration);
+      // What a round side does to facets that are small beside its radius.
+      const auto if_flat = [&](const double depth)
+      { return pair.between_rows <= missed_part * size ? depth : 0.; };
       if (!is_obstacle)
       {
         if (scale.is_more(between, useless))
@@ -273,7 +279,8 @@ namespace abut
                              "secondary, between its constraints, by up to "
                            + scale.compared(pair.between_rows)
                            + ": exchange the two sides, or refine the "
-                             "secondary.");
+                             "secondary.",
+                       if_flat(between), place);
         return;
       }
       const bool missed = pair.missed_depth > missed_part * size
@@ -293,7 +300,9 @@ namespace abut
                                          + " have no contact at all"
                                    : std::string())
                          + ": refine the surface there. Smaller load steps "
-                           "do not help.");
+                           "do not help.",
+                     if_flat(hidden ? std::min(peak, between) : between),
+                     place);
     }
 
     void judge_width(const std::string &pair, const double width,
@@ -466,8 +475,10 @@ namespace abut
                    findings);
       const auto &narrow = i.surfaces->narrow(p);
       judge_between(
-          pairs[p], is_obstacle, Deepest(unseen, p, i.communicator).peak,
+          pairs[p], p, is_obstacle, Deepest(unseen, p, i.communicator).peak,
           std::min(checks[p].facet_size, narrow.width), scale, findings);
+      result.touches.push_back(pairs[p].secondary_force.norm() > 0.
+                               || pairs[p].between_rows > 0.);
       judge_width(pairs[p].name, narrow.width, narrow.facet, findings);
       if (!is_obstacle)
         judge_corners(pairs[p], checks[p], i.surfaces->held_in_the_mean(p),

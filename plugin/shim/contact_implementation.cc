@@ -286,7 +286,7 @@ namespace abut
     {
       check_committed("Points of Sliding::step are made where bodies were at");
       surfaces->set_place(committed);
-      surfaces->set_committed_poses(committed_poses);
+      surfaces->set_committed_poses(committed_poses, committed_times);
     }
     try
     {
@@ -364,7 +364,7 @@ namespace abut
     if (!has_friction)
       return;
     check_committed("Slips with friction are measured from");
-    surfaces->set_committed_poses(committed_poses);
+    surfaces->set_committed_poses(committed_poses, committed_times);
     slip_reference = source->slip_reference(committed);
   }
 

@@ -244,6 +244,7 @@ namespace abut
     bool has_friction = false; ///< some pair has, on all ranks
     la::Vector committed;      ///< displacement of the last commit(); empty: 0
     std::vector<RigidPose<dim>> committed_poses; ///< of obstacles; empty: first
+    std::vector<double> committed_times;         ///< of obstacles, likewise
     bool committed_is_lost = false;              ///< of another mesh or run
     std::vector<double> slip_reference;          ///< [rows] slip then; empty: 0
     /** [rows] place of a row's own derivatives in those of the request. */

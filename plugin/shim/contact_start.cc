@@ -149,9 +149,14 @@ namespace abut
   template <int dim> void ContactAssembler<dim>::Implementation::note_poses()
   {
     committed_poses.clear();
+    committed_times.clear();
     for (const ContactPair<dim> &pair : pairs)
+    {
       committed_poses.push_back(
           pair.obstacle == nullptr ? RigidPose<dim>() : pair.obstacle->pose());
+      committed_times.push_back(
+          pair.obstacle == nullptr ? 0. : pair.obstacle->time());
+    }
   }
 
   template <int dim>

@@ -256,10 +256,88 @@ namespace abut::shim
     return result;
   }
 
+  namespace
+  {
+    /** An obstacle at other times than the present one, until the end. */
+    template <int dim> class Replay
+    {
+    public:
+      Replay(const std::shared_ptr<const RigidObstacle<dim>> &obstacle,
+             const double begin, const RigidPose<dim> &then)
+          : obstacle(*std::const_pointer_cast<RigidObstacle<dim>>(obstacle)),
+            begin(begin),
+            end(this->obstacle.time()),
+            now(this->obstacle.pose()),
+            beside_then(then.translation - motion_at(begin).translation),
+            beside_now(now.translation - motion_at(end).translation)
+      {
+      }
+
+      ~Replay()
+      {
+        obstacle.set_time(end);
+        obstacle.set_pose(now);
+      }
+
+      Replay(const Replay &) = delete;
+      Replay &operator=(const Replay &) = delete;
+
+      void go_to(const double part)
+      {
+        RigidPose<dim> pose = motion_at(begin + part * (end - begin));
+        pose.translation += (1. - part) * beside_then + part * beside_now;
+        obstacle.set_pose(pose);
+      }
+
+    private:
+      RigidPose<dim> motion_at(const double time) const
+      {
+        // Without a motion it stays where it is put.
+        obstacle.set_pose(now);
+        obstacle.set_time(time);
+        return obstacle.pose();
+      }
+
+      RigidObstacle<dim> &obstacle;
+      const double begin, end;
+      const RigidPose<dim> now;
+      /** What forces have added to the motion. */
+      const dealii::Tensor<1, dim> beside_then, beside_now;
+    };
+  } // namespace
+
+  template <int dim>
+  std::vector<double>
+  deepest_between(const std::shared_ptr<const RigidObstacle<dim>> &obstacle,
+                  const double begin, const RigidPose<dim> &then,
+                  const std::vector<dealii::Point<dim>> &from,
+                  const std::vector<dealii::Point<dim>> &to)
+  {
+    constexpr int n_parts = 32;
+    std::vector<double> result(from.size(), 0.), distance;
+    std::vector<dealii::Point<dim>> points(from.size());
+    Replay<dim> replay(obstacle, begin, then);
+    for (int k = 1; k < n_parts; ++k)
+    {
+      const double part = double(k) / n_parts;
+      replay.go_to(part);
+      for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = from[i] + part * (to[i] - from[i]);
+      obstacle->distance(points, distance);
+      for (std::size_t i = 0; i < points.size(); ++i)
+        result[i] = std::max(result[i], -distance[i]);
+    }
+    return result;
+  }
+
 #define ABUT_INSTANTIATE(dim)                                                  \
   template std::vector<double> deepest_on_the_way(                             \
       const RigidObstacle<dim> &, const std::vector<dealii::Point<dim>> &,     \
       const std::vector<dealii::Point<dim>> &, const std::vector<double> &);   \
+  template std::vector<double> deepest_between(                                \
+      const std::shared_ptr<const RigidObstacle<dim>> &, double,               \
+      const RigidPose<dim> &, const std::vector<dealii::Point<dim>> &,         \
+      const std::vector<dealii::Point<dim>> &);                                \
   template std::vector<Passage> passing_nodes(                                 \
       abut_context *, const ContactSurface<dim> &, const SurfaceSide<dim> &,   \
       const SurfaceSide<dim> &, const std::vector<dealii::Point<dim>> &,       \

@@ -4,10 +4,13 @@
 
 #include "surface_side.h"
 
+#include <memory>
+
 namespace abut
 {
   template <int dim> class RigidObstacle;
-}
+  template <int dim> struct RigidPose;
+} // namespace abut
 
 namespace abut::shim
 {
@@ -45,6 +48,17 @@ namespace abut::shim
                      const std::vector<dealii::Point<dim>> &from,
                      const std::vector<dealii::Point<dim>> &to,
                      const std::vector<double> &end);
+
+  /** How deep points are at the most, [points] length >= 0, between the ends of
+   * their straight ways in an obstacle that changes with time: from @p begin,
+   * where it was at @p then, to the present. It is looked at at 31 times; at
+   * the end it is as it was. */
+  template <int dim>
+  std::vector<double>
+  deepest_between(const std::shared_ptr<const RigidObstacle<dim>> &obstacle,
+                  double begin, const RigidPose<dim> &then,
+                  const std::vector<dealii::Point<dim>> &from,
+                  const std::vector<dealii::Point<dim>> &to);
 } // namespace abut::shim
 
 #endif

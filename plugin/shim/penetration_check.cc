@@ -241,6 +241,40 @@ namespace abut::shim
   }
 
   template <int dim>
+  void SurfacePairRows<dim>::check_passage_of_formula(
+      const std::size_t p, const std::uint8_t *held,
+      const std::vector<dealii::Point<dim>> &present, const double tolerance,
+      std::vector<Penetration<dim>> &missed) const
+  {
+    // What has a row is kept out at the end of the step: between, the rest is
+    // that of a step in time, unless it is seen beside a facet.
+    constexpr double visible = 0.05;
+    const Pair &pair = pairs_[p];
+    const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
+    if (obstacle.view().kind != ABUT_OBSTACLE_FUNCTION
+        || p >= committed_times_.size()
+        || committed_times_[p] == obstacle.time())
+      return;
+    std::vector<dealii::Point<dim>> from, to;
+    std::vector<double> bearable;
+    for (const Node node : pair.secondary.node)
+      if (is_owned(node))
+      {
+        from.push_back(present_[node]);
+        to.push_back(present[node]);
+        bearable.push_back(held[node] == 0
+                               ? tolerance
+                               : visible * pair.secondary.everywhere.median);
+      }
+    const std::vector<double> depth = deepest_between(
+        pair.data.obstacle, committed_times_[p], committed_poses_[p], from, to);
+    for (std::size_t i = 0; i < to.size(); ++i)
+      if (depth[i] - pair.data.gap > bearable[i])
+        missed.push_back(
+            {pair.data.name, to[i], depth[i] - pair.data.gap, false, false});
+  }
+
+  template <int dim>
   void SurfacePairRows<dim>::check_passage(
       const std::size_t p, const std::uint8_t *held,
       const std::vector<dealii::Point<dim>> &present, const double motion,
@@ -252,6 +286,7 @@ namespace abut::shim
     if (pair.data.obstacle)
     {
       check_passage_of_obstacle(p, held, present, tolerance, missed);
+      check_passage_of_formula(p, held, present, tolerance, missed);
       return;
     }
     // What goes no farther than this had a row from the start.
@@ -360,6 +395,10 @@ namespace abut::shim
       Pair &, const std::vector<dealii::Point<dim>> &, double, double,         \
       std::vector<Penetration<dim>> &);                                        \
   template void SurfacePairRows<dim>::check_passage_of_obstacle(               \
+      std::size_t, const std::uint8_t *,                                       \
+      const std::vector<dealii::Point<dim>> &, double,                         \
+      std::vector<Penetration<dim>> &) const;                                  \
+  template void SurfacePairRows<dim>::check_passage_of_formula(                \
       std::size_t, const std::uint8_t *,                                       \
       const std::vector<dealii::Point<dim>> &, double,                         \
       std::vector<Penetration<dim>> &) const;                                  \

@@ -277,6 +277,7 @@ namespace abut
     std::unique_ptr<HostFunction<dim>> function;
     shim::Handle<abut_obstacle> obstacle;
     std::function<RigidPose<dim>(double)> motion;
+    double time = 0.;
     std::optional<abut_obstacle_shape> shape;
   };
 
@@ -351,8 +352,14 @@ namespace abut
   {
     if (implementation->function != nullptr)
       implementation->function->set_time(time);
+    implementation->time = time;
     if (implementation->motion)
       set_pose(implementation->motion(time));
+  }
+
+  template <int dim> double RigidObstacle<dim>::time() const
+  {
+    return implementation->time;
   }
 
   template <int dim>

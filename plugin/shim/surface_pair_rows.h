@@ -168,11 +168,13 @@ namespace abut::shim
       return size;
     }
 
-    /** Where the obstacles of all pairs were at the last commit(); empty: at
-     * the first step. */
-    void set_committed_poses(const std::vector<RigidPose<dim>> &poses)
+    /** Where the obstacles of all pairs were at the last commit(), and their
+     * times; empty: at the first step. */
+    void set_committed_poses(const std::vector<RigidPose<dim>> &poses,
+                             const std::vector<double> &times)
     {
       committed_poses_ = poses;
+      committed_times_ = times;
     }
 
     /** Where the bodies were at the last commit() (owned; empty: nothing has
@@ -399,6 +401,13 @@ namespace abut::shim
                        const std::vector<dealii::Point<dim>> &present,
                        double motion, double tolerance,
                        std::vector<Penetration<dim>> &missed) const;
+    /** The same for an obstacle whose formula changes in time: it is looked at
+     * in between. */
+    void
+    check_passage_of_formula(std::size_t p, const std::uint8_t *held,
+                             const std::vector<dealii::Point<dim>> &present,
+                             double tolerance,
+                             std::vector<Penetration<dim>> &missed) const;
     void
     check_passage_of_obstacle(std::size_t p, const std::uint8_t *held,
                               const std::vector<dealii::Point<dim>> &present,
@@ -545,6 +554,7 @@ namespace abut::shim
     abut_points *points_ = nullptr; ///< of the last find()
     abut_points_view view_ = {};
     std::vector<RigidPose<dim>> committed_poses_; ///< [pairs], or empty
+    std::vector<double> committed_times_;         ///< [pairs], or empty
     /** [pairs] that PairResult::slip is measured from. */
     std::vector<RigidPose<dim>> slip_poses_;
     /** By the number of the row, and the displacements that they were found at;

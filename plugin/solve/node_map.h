@@ -12,8 +12,8 @@ namespace abut::solve
   /** What the unknowns of nodes are: unknown k of node l is a sum of factors
    * times free unknowns of the matrix, and a constant. Supports, hanging nodes
    * and prescribed values are put in here, once per node, and nowhere else.
-   * Which unknowns these are is not asked: an obstacle that forces drive is one
-   * more node whose translations are numbered after those of the mesh. */
+   * Which unknowns these are is not asked. Rigid obstacles have none: where
+   * forces put them is found outside of the contact problem. */
   class NodeMap
   {
   public:

@@ -103,6 +103,23 @@ ball = kind("sphere", Radius=0.1, Centre="0.5, 1.1", Motion="0, -0.005*t")
 expect(run(plate, *ball), 0, "ABUT-F37", "only 0.2 wide")
 expect(run(plate, *ball, "Refinement/Level=5"), 0, without=("ABUT-F37",))
 
+# A large one that comes down between two nodes of facets 0.25 wide: they are
+# 0.25^2 / (8 R) = 7.8e-4 outside of it when it touches first, a twentieth of
+# what it does in the end; and of no use as an answer.
+ball = kind("sphere", Radius=10, Centre="0.375, 11", Motion="0, -0.02*t")
+ball.append("Load steps/Steps=40")
+expect(run(plate, *ball), 0, without=("ABUT-F37",))
+expect(run(plate, *ball, "Load steps/End time=0.03", "Load steps/Steps=3"), 3,
+       "ABUT-F37", "no node knows", without=("only begun", "In no step"))
+# In time the same: pressed, light all the time, and only just begun.
+moved = ["Body 1/Density=1e-3", "Time/Scheme=hht", "Load steps/Steps=1",
+         "Time/Step=0.025"]
+ball = [word for word in ball if "Steps" not in word] + moved
+expect(run(plate, *ball), 0, without=("ABUT-F37",))
+light = ["Obstacle 1/Motion=0, -3e-4*sin(pi*t)"]
+expect(run(plate, *ball, *light), 3, "ABUT-F37", "In no step")
+expect(run(plate, *ball, "Time/End=0.025"), 0, "ABUT-F37", "only begun")
+
 # A needle that is in the block through a facet: no place of it is deep.
 expect(run(plate, *kind("box", Centre="0.625, 1.1", Size="0.01, 1")), 3,
        "ABUT-F37", "no contact at all")

@@ -168,6 +168,13 @@ if not p.short:
              "energy of the ball")
     p.close(summary["obstacle_1_velocity"][1] + 1, 1, 1e-5, "at rest above")
 
+# On coarse meshes nodes are less deep than the ball is between them when it
+# touches first and last, which is no failure.
+summary, rows = run("falling-ball.prm", {"Refinement/Level": "4",
+                                         "Time/Step": "0.04"})
+highest = max(row["obstacle_1_displacement_y"] for row in rows[-20:])
+p.expect(abs(highest) < 1e-2 * 1.8533e-3, f"comes back to {highest}")
+
 # What cannot be.
 PLATE = {"Obstacle 1/Motion": "", "Obstacle 1/Free directions": "y",
          "Obstacle 1/Force": "0, -20"}
@@ -190,7 +197,10 @@ refused("hertz-axisymmetric.prm",
         "Obstacle 1/Free directions", "along it")
 refused("struck-bar.prm", {"Obstacle 1/Initial velocity": "0, 1"},
         "Obstacle 1/Initial velocity", "does not name it")
+refused("struck-bar.prm", {"Obstacle 1/Mass": "0"},
+        "Obstacle 1/Initial velocity", "Obstacle 1/Mass is 0")
 refused("struck-bar.prm", {"Obstacle 1/Mass": "0",
+                           "Obstacle 1/Initial velocity": "",
                            "Time/Scheme": "contact stabilised"},
         "Obstacle 1/Mass", "give the obstacle a mass")
 refused("rigid-plate.prm", {**PLATE, "Obstacle 1/Force": "0, 20",

@@ -327,11 +327,51 @@ def check_passage(p):
     result = p.call("run", name, "--output", "out", "--quiet")
     p.expect(result.returncode == 0 and "ABUT" not in result.stderr,
              f"nothing is met: {result.stderr}")
+    check_wave(p, text.replace("STEP", "0.2"))
+
+
+def check_wave(p, text):
+    """A hump of the ground that runs through the bar within a step, to be far
+    away at the end of it; and one that runs along below it. Points of contact
+    that reach the ground from the start are no excuse."""
+    for height, reach, code in ((0.3, 0, 3), (0.05, 0, 0), (0.3, 1, 3),
+                                (0.05, 1, 0)):
+        name = p.write("wave.prm", text.replace("Kind = box", "Kind = height")
+                       .replace("  set Centre = 0.5, 0\n", "")
+                       .replace("  set Size = 2, 0.1\n", ""))
+        result = p.call(
+            "run", name, "--output", "out", "--quiet",
+            "--set", "Body 1/Initial velocity=0, 0",
+            "--set", "Obstacle 1/Motion=",
+            "--set", f"Pair 1/Reach={reach}",
+            "--set", "Obstacle 1/Expression=0.4 + "
+            f"{height}*exp(-((x - 30*t + 1)/0.1)^2)")
+        p.expect(result.returncode == code
+                 and ("ABUT-F24" in result.stderr) == (code == 3),
+                 f"a wave of {height}, reach {reach}: exit code "
+                 f"{result.returncode}, {result.stderr}")
+
+
+def check_incline(p):
+    """An elastic block slides down an incline of 3 : 4 with mu = 0.3, from
+    rest: g (sin - mu cos) in the mean of 20 of its periods of shear, 4 H
+    sqrt(density / G), once it has begun to slide."""
+    length = 20 * 4 * math.sqrt(1 / 5000)
+    for scheme in p.some(("hht", "trapezoid"), 1):
+        _, rows = p.solve_with("sliding-block.prm", {
+            "Solid/Gravity": "6, -8", "Body 1/Initial velocity": "",
+            "Time/Scheme": scheme, "Time/End": "2", "Output/Fields": "false"})
+        begin = min(rows, key=lambda row: abs(row["time"] - (2 - length)))
+        mean = ((rows[-1]["momentum_x"] - begin["momentum_x"]) / 2
+                / (rows[-1]["time"] - begin["time"]))
+        p.close(mean, 6 - 0.3 * 8, 1e-3, f"{scheme}: down an incline")
+        print(f"{scheme}: {mean / 3.6 - 1:+.1e} of the acceleration")
 
 
 def main():
     p = Program()
     check_passage(p)
+    check_incline(p)
     print("| seed | scene | scheme | gain | loss | momentum | depth |")
     print("|---|---|---|---|---|---|---|")
     # Parts: 1 in 2D, 2 in 3D; in short two seeds, one of each.

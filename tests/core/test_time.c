@@ -417,7 +417,7 @@ schemes_are_of_second_order(void **unused)
     const double order = scheme.beta == 0 ? 1 : 2;
     assert_close(rate, order, 0.06);
   }
-  assert_int_equal(n, 9);
+  assert_int_equal(n, 10);
 }
 
 /* One step of the contact problem of a single mass with friction, unknown is
@@ -627,6 +627,46 @@ arguments_are_checked(void **unused)
                    ABUT_INVALID_ARGUMENT);
 }
 
+/* Of gaps before and after a step: the force times the way is what the spring
+ * gives, however short the way; the derivative is that of differences. */
+static void
+springs_give_what_they_store(void **unused)
+{
+  (void)unused;
+  const double places[] = {-2, -1, -1 + 1e-9, -1e-3, 0, 1e-12, 1e-3, 1, 3},
+               stiffness = 7, small = 1e-6;
+  const size_t n = sizeof(places) / sizeof(places[0]);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t k = 0; k < n; ++k)
+    {
+      const double before = places[i], after = places[k];
+      const double in = before < 0 ? before : 0, out = after < 0 ? after : 0;
+      double force, slope, higher, lower, unused_slope;
+      assert_ok(abut_time_spring(stiffness, before, after, &force, &slope));
+      assert_close(force * (after - before) + 1,
+                   1 + stiffness / 2 * (in * in - out * out), 1e-14);
+      assert_true(force >= 0 && force <= stiffness * fmax(-in, -out));
+      assert_true(slope <= 0 && slope >= -stiffness / 2 * (1 + 1e-12));
+      assert_ok(abut_time_spring(stiffness, before, after + small, &higher,
+                                 &unused_slope));
+      assert_ok(abut_time_spring(stiffness, before, after - small, &lower,
+                                 &unused_slope));
+      /* At the surface the slope turns within the way of one that starts
+       * there: 0 and -1/2. */
+      if (fabs(before) > 1e-3 || fabs(after) > 1e-3)
+        assert_close(1 + (higher - lower) / (2 * small), 1 + slope, 1e-5);
+    }
+  double force = 0, slope = 0;
+  assert_ok(abut_time_spring(4, -0.5, -0.5, &force, &slope));
+  assert_close(force, 2, 1e-15);
+  assert_int_equal(abut_time_spring(-1, 0, 0, &force, &slope),
+                   ABUT_INVALID_ARGUMENT);
+  assert_int_equal(abut_time_spring(1, NAN, 0, &force, &slope),
+                   ABUT_INVALID_ARGUMENT);
+  assert_int_equal(abut_time_spring(1, 0, 0, NULL, &slope),
+                   ABUT_INVALID_ARGUMENT);
+}
+
 int
 main(void)
 {
@@ -639,6 +679,7 @@ main(void)
       cmocka_unit_test(losses_are_told),
       cmocka_unit_test(schemes_are_of_second_order),
       cmocka_unit_test(mass_on_a_spring_comes_to_rest),
+      cmocka_unit_test(springs_give_what_they_store),
       cmocka_unit_test(arguments_are_checked),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

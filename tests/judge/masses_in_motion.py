@@ -129,6 +129,11 @@ class MassesInMotionJudge:
             gain = max(gain, row["energy_balance"] - least)
         self.check("gain of energy", gain, "gain",
                    (5 if explicit else 1) * self.energy)
+        if self.scheme == "energy momentum":
+            first = self.rows[0]["energy_balance"]
+            self.check("energy that is kept", max(
+                abs(r["energy_balance"] - first) for r in self.rows),
+                "kept", self.energy)
 
     def momentum(self):
         """What contact and loads give in each step, of masses that nothing

@@ -50,6 +50,9 @@ THRESHOLDS = {
     "gain": Threshold(
         2e-3, "of the energy at the start or the work done: what implicit "
         "schemes with modified mass may gain"),
+    "kept": Threshold(
+        1e-10, "of the energy at the start or the work done: what is kept to "
+        "round-off by definition of the scheme"),
     "large gain": Threshold(
         1e-2, "of the energy at the start or the work done: what schemes may "
         "gain at large strain before it is told"),

@@ -9,6 +9,7 @@
 #include <abut/failure.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,14 @@ namespace abut
     bool is_error = false;
     std::string text; /**< with the code in front: what was measured, and what
                            to do */
+    /** Where the other side comes between nodes by less than a twentieth of a
+     * facet, and of the obstacle: that depth, length, which is too much beside
+     * what bodies are deformed by; else 0. It is what a surface that is fine
+     * enough shows while it touches for the first or the last time: in a row of
+     * load or time steps it is the largest deformation of the pair's contact
+     * that tells whether it matters. */
+    double between_nodes = 0.;
+    std::size_t pair = 0; /**< its number, from 0 */
   };
 
   /** What ContactAssembler::examine() has measured. The same on all ranks. */
@@ -43,6 +52,8 @@ namespace abut
      * contact, length. */
     double missed_depth = 0.;
     std::vector<ContactFinding> findings; /**< errors and warnings */
+    /** By pair: whether it has forces, or its sides are in each other. */
+    std::vector<bool> touches;
 
     /** Whether there is no error among the findings. */
     bool is_usable() const

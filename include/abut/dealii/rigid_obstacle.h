@@ -119,6 +119,9 @@ namespace abut
      * Infinite for planes, cones, holes, functions and surfaces of facets. */
     virtual double width(const dealii::Tensor<1, dim> &normal) const;
 
+    /** The time of the last set_time(), 0 before. */
+    virtual double time() const;
+
   private:
     class Implementation;
     std::unique_ptr<Implementation> implementation;

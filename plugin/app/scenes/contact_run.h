@@ -5,6 +5,7 @@
 #include "app/report/step_table.h"
 #include "app/restart/saved_mesh.h"
 #include "contact_model.h"
+#include "light_touches.h"
 
 #include <abut/dealii/contact_solver.h>
 
@@ -148,6 +149,7 @@ namespace abut::app
     std::string told;               ///< of these, the last one
     std::string missed_target;      ///< why, or empty
     ContactExamination examination; ///< of the last load step
+    LightTouches light_touches;     ///< of all of them
     StepTable steps;
     double counted_before = 0.;
 

@@ -131,6 +131,8 @@ namespace abut::app
                      findings.end());
     for (const ContactFinding &found : model.examine_materials())
       findings.push_back(found);
+    light_touches.sort(examination, state.load_steps.is_finished(),
+                       !model.has_inertia());
     report.set("largest_strain", examination.strain);
     report.set("deformation", examination.deformation);
     report.set("missed_depth", examination.missed_depth);

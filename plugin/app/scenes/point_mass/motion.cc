@@ -376,6 +376,55 @@ namespace abut::app
     return "";
   }
 
+  /* Newton's method: forces are monotone and convex in the gap at the end, so
+   * that there is one answer, which a single mass always comes to. */
+  std::string Motion::step_on_springs(const double dt, std::vector<double> &x,
+                                      const std::vector<double> &before,
+                                      const std::vector<double> &after)
+  {
+    constexpr int most_steps = 100;
+    constexpr double small = 1e-12;
+    const std::size_t n = u.size();
+    const std::vector<double> matrix = step_matrix(dt, ABUT_TIME_STEP);
+    std::vector<double> y, springs(n), nothing;
+    for (int k = 0; k < most_steps; ++k)
+    {
+      std::vector<double> tangent = matrix,
+                          residual = residual_at(dt, x, before, after);
+      double length = length_scale;
+      for (const std::size_t mass : system.candidates)
+      {
+        const std::size_t i = height(mass);
+        double slope = 0;
+        shim::check(context.get(),
+                    abut_time_spring(plane.penalty, gap_of(u, mass),
+                                     gap_of(x, mass), &springs[i], &slope));
+        tangent[i * (n + 1)] -= slope;
+        residual[i] += springs[i];
+      }
+      nothing.clear();
+      const std::string failure = solve(tangent, residual, {}, y, nothing);
+      if (!failure.empty())
+        return failure;
+      double change = 0;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        x[i] += y[i];
+        change = std::max(change, std::abs(y[i]));
+        length = std::max(length, std::abs(x[i]));
+      }
+      if (change > small * length)
+        continue;
+      add_force(springs, 1.);
+      const abut_time_state now = state(dt);
+      shim::check(context.get(), abut_time_end(&now, x.data()));
+      return "";
+    }
+    return coded(ABUT_FAILURE_STEP_LIMIT,
+                 "the springs of the plane are not in balance after 100 steps "
+                 "of Newton's method");
+  }
+
   std::string Motion::explicit_step(const double dt,
                                     const std::vector<double> &place,
                                     const std::vector<double> &before,
@@ -434,8 +483,9 @@ namespace abut::app
       if (scheme.projects)
         failure = project(dt, x);
       if (failure.empty())
-        failure = scheme.beta > 0 ? implicit_step(dt, x, before, after)
-                                  : explicit_step(dt, x, before, after);
+        failure = scheme.keeps_springs ? step_on_springs(dt, x, before, after)
+                  : scheme.beta > 0    ? implicit_step(dt, x, before, after)
+                                       : explicit_step(dt, x, before, after);
     }
     finish(dt, old, before, after);
     return failure;

@@ -18,8 +18,7 @@ namespace abut::app
     double gap = 0;         /**< height of the masses over it at rest */
     double friction = 0;    /**< coefficient of Coulomb's law */
     double restitution = 0; /**< of schemes with impulses */
-    double penalty = 0;     /**< force per length, of explicit schemes without
-                                 projection */
+    double penalty = 0;     /**< force per length, of schemes with springs */
   };
 
   /** Masses on their way in time, by a scheme of the core. Contact in each step
@@ -104,6 +103,9 @@ namespace abut::app
     std::string implicit_step(double dt, std::vector<double> &x,
                               const std::vector<double> &before,
                               const std::vector<double> &after);
+    std::string step_on_springs(double dt, std::vector<double> &x,
+                                const std::vector<double> &before,
+                                const std::vector<double> &after);
     std::string explicit_step(double dt, const std::vector<double> &place,
                               const std::vector<double> &before,
                               const std::vector<double> &after);

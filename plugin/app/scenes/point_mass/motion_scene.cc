@@ -135,7 +135,8 @@ namespace abut::app
                         "Coulomb's coefficient, for `velocity level`. What is "
                         "larger is no other motion, and beyond round-off.");
       prm.declare_entry("Penalty", "1", NumberPattern::positive(),
-                        "Of `central difference`: stiffness of the springs "
+                        "Of `central difference` and `energy momentum`: "
+                        "stiffness of the springs "
                         "that stand for the plane, as a multiple of `Masses/"
                         "Spring`, or of a bar's Stiffness by the length of an "
                         "element.");
@@ -248,6 +249,9 @@ namespace abut::app
         throw InputError("Time/Mass", std::string(time.scheme.name)
                                           + " is explicit and needs a lumped "
                                             "mass.");
+      if (time.scheme.keeps_springs && mass_kind == ABUT_TIME_MASS_MODIFIED)
+        throw InputError("Time/Mass", "energy momentum keeps the energy of "
+                                      "nodes with mass: consistent or lumped.");
       if (time.scheme.impulses && mass_kind == ABUT_TIME_MASS_MODIFIED)
         throw InputError("Time/Mass",
                          "velocity level needs mass where bodies meet: lumped "
@@ -261,15 +265,18 @@ namespace abut::app
       time.parse(prm, row.is_bar);
       parse_mass(prm);
       plane.restitution = time.restitution;
-      if (time.scheme.beta == 0. && time.scheme.contact_in_step)
+      const bool is_explicit =
+          time.scheme.beta == 0. && time.scheme.contact_in_step != 0;
+      if (is_explicit || time.scheme.keeps_springs != 0)
       {
         plane.penalty =
             penalty_factor * (row.n > 1 ? row.spring : row.wall_spring);
         if (plane.penalty == 0.)
           throw InputError("Contact/Penalty",
-                           "central difference takes the stiffness of the "
-                           "plane from that of the row, which has none: use "
-                           "velocity level.");
+                           std::string(time.scheme.name)
+                               + " takes the stiffness of the plane from that "
+                                 "of the row, which has none: use velocity "
+                                 "level.");
       }
     }
 
@@ -307,8 +314,9 @@ namespace abut::app
               { return values("Dimension") != "1"; },
               "the masses do not move along the plane: set Dimension = 2."),
           effective_if("Contact/Penalty", Weight::data,
-                       scheme_is({"central difference"}),
-                       "only central difference has springs for the plane."),
+                       scheme_is({"central difference", "energy momentum"}),
+                       "only central difference and energy momentum have "
+                       "springs for the plane."),
           without_time("Motion/Initial displacement", "it is that at time 0."),
           without_time("Motion/Initial velocity", "it is that at time 0.")};
       for (const char *name : {"Length", "Stiffness", "Density", "Fixed end"})

@@ -152,9 +152,16 @@ namespace abut::app
           {"Obstacle */Initial velocity", Weight::data,
            [is_driven](const SceneValues &values, const std::string &path)
            {
-             return has_motion(values) ? is_driven(values, path)
-                                       : "nothing moves: Time/Scheme is none. "
-                                         "hht is the one to begin with.";
+             if (!has_motion(values))
+               return std::string("nothing moves: Time/Scheme is none. hht is "
+                                  "the one to begin with.");
+             const std::string why = is_driven(values, path),
+                               mass = section_of(path) + "/Mass";
+             return !why.empty() || values.number(mass) > 0.
+                        ? why
+                        : mass
+                              + " is 0: without inertia the obstacle is where "
+                                "forces are in equilibrium.";
            }},
           {"Obstacle */Gradient", Weight::data,
            [](const SceneValues &values, const std::string &path)

@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The energy of a bar that knocks for ever, by every scheme.
+
+Runs prm/dynamics-periodic-bar.prm over 100 periods with each scheme and half of
+its step, draws kinetic + strain + contact energy at the end of each period by
+the exact 1/8, and prints the table of doc/dynamics.md. Needs gnuplot.
+
+    tests/bench/knocking_bar_picture.py build/release/abut picture.svg
+"""
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SCENE = (pathlib.Path(__file__).resolve().parents[2]
+         / "prm/dynamics-periodic-bar.prm")
+PERIOD, PERIODS, EXACT = 3., 100, 1. / 8.
+# Explicit schemes are below their limit with half of the others' step.
+SCHEMES = {"hht": 0.02, "trapezoid": 0.02, "midpoint": 0.02,
+           "generalised alpha": 0.02, "contact stabilised": 0.02,
+           "velocity level": 0.02, "energy momentum": 0.02,
+           "central difference": 0.01,
+           "central difference with projection": 0.01}
+
+
+def run(abut, folder, scheme, step):
+    """Energies by the exact one at the ends of all steps, and force at 1.5."""
+    subprocess.run(
+        [abut, "run", SCENE, "--output", folder, "--quiet",
+         "--set", f"Time/Scheme={scheme}", "--set", f"Time/Step={step}",
+         "--set", f"Time/End={PERIOD * PERIODS}",
+         "--set", "Output/Pictures=false"], check=True,
+        stderr=subprocess.DEVNULL)
+    with open(folder / "levels.csv") as file:
+        rows = list(csv.DictReader(file))
+    energies = [sum(float(row[f"{kind}_energy"])
+                    for kind in ("kinetic", "strain", "contact")) / EXACT
+                for row in rows]
+    middle = min(rows, key=lambda row: abs(float(row["time"]) - 1.5))
+    return energies, float(middle["force_height"])
+
+
+def summary(energies):
+    """After the first step; largest above that; change in a period."""
+    first = energies[1]
+    return first, max(energies[1:]) - first, (energies[-1] - first) / PERIODS
+
+
+def main():
+    if len(sys.argv) != 3:
+        raise SystemExit(__doc__)
+    plots, data = [], []
+    print("| scheme | dt | after a step | largest above that | 10 periods | 100 "
+          "periods | in a period | with dt/2 | force at 1.5 |\n"
+          + "|---" * 9 + "|")
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name) / "out"
+        for scheme, step in SCHEMES.items():
+            energies, force = run(sys.argv[1], folder, scheme, step)
+            half, _ = run(sys.argv[1], folder, scheme, step / 2.)
+            first, above, change = summary(energies)
+            stride = (len(energies) - 1) // PERIODS
+            print(f"| {scheme} | {step} | {first:.4f} | {above:.1e} | "
+                  f"{energies[10 * stride]:.4f} | {energies[-1]:.4f} | "
+                  f"{100 * change:+.3f} % | {100 * summary(half)[2]:+.3f} % | "
+                  f"{force:.4f} |")
+            plots.append(f"'-' with lines lw 1.5 lc {len(plots) + 1} "
+                         f"dt {len(plots) // 8 + 1} title '{scheme}, {step}'")
+            data.append(list(enumerate(energies[::stride])))
+    script = ("set terminal svg size 640,480\n"
+              f"set output '{sys.argv[2]}'\n"
+              "set xlabel 'periods'\nset ylabel 'energy by 1/8'\n"
+              "set yrange [0.65:1.02]\nset key below maxcols 3\nplot "
+              + ", ".join(plots) + "\n")
+    for points in data:
+        script += "\n".join(f"{x:.9g} {y:.9g}" for x, y in points) + "\ne\n"
+    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+
+
+if __name__ == "__main__":
+    main()
