@@ -247,6 +247,15 @@ lifted = run(p.source / "prm/curved-obstacle.prm", "Membrane/Dirichlet=*: 1",
 p.expect(expect(lifted, 0, without=("Twice the",))["work_error"] == 0,
          "works of a membrane that nothing loads")
 
+# What is left of a displacement when the load has gone, by tolerances.
+for solver in ("direct", "iterative"):
+    unloaded = expect(run(plate, "Obstacle 1/Motion=0, -0.01*(1-t)",
+                          "Load steps/Steps=2", "Output/Points=",
+                          f"Solver/Linear solver={solver}"), 0,
+                      without=("Twice the",))
+    p.expect(unloaded["work_error"] == 0 and unloaded["contact_force"] == 0,
+             f"works of a plate that has left, {solver}")
+
 # A block that slides by half its length, four facets.
 slide = "Body 2/Support=3: 0.5*t, -0.01"
 summary = expect(run(blocks, slide), 0, "ABUT-F36", "slide")
