@@ -92,6 +92,8 @@ class PairFriction:
         solid = self.solid
         if self.cap:
             return "a cap is a force per area"
+        if self.constant is None and in_motion(solid.scene):
+            return "its coefficient is that of the beginning of the step"
         if solid.by_stress:
             return "nitsche's points are those of a rule, not nodes"
         if solid.degree > 1 or solid.plane == "axisymmetric":
