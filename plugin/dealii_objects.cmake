@@ -2,8 +2,12 @@
 
 # What is taken back of deal.II's own flags: debug information in release builds,
 # and unrolled loops, which cost a quarter of the time to compile and gain nothing.
+# With sanitizers names of functions and lines are wanted, and less to compile.
 set(ABUT_LESS_THAN_DEALII $<$<CONFIG:Release>:-g0> -fno-unroll-loops
     -fno-unroll-all-loops)
+if(ABUT_SANITIZE)
+  list(APPEND ABUT_LESS_THAN_DEALII -O1 -g1)
+endif()
 
 # Sources of each folder in groups that are compiled as one.
 function(abut_unity_groups target)

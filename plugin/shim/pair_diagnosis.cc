@@ -60,7 +60,14 @@ namespace abut::shim
         nearest(context, secondary, primary, search, facing, communicator);
     abut_failure failure = ABUT_FAILURE_NO_PARTNER;
     std::ostringstream text;
-    if (opposed.above < INFINITY && opposed.above <= opposed.below)
+    if (const double distance = std::min(opposed.above, opposed.below);
+        distance <= reach)
+      text << "the surfaces are near each other, the smallest distance is "
+           << distance
+           << ", but no part of one lies opposite the other: they meet at an "
+              "edge or a corner alone. Check the boundary ids and the position "
+              "of the bodies.";
+    else if (opposed.above < INFINITY && opposed.above <= opposed.below)
       text << "the surfaces are too far apart: the smallest distance is "
            << opposed.above << ", the reach is " << reach
            << ". Move the bodies together, or give the pair a larger reach.";

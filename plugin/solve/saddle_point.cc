@@ -7,6 +7,9 @@
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
+#include <algorithm>
+#include <functional>
+
 namespace abut::solve
 {
   using BlockVector = dealii::TrilinosWrappers::MPI::BlockVector;
@@ -15,7 +18,8 @@ namespace abut::solve
   struct SaddlePoint::System
   {
     std::vector<int> row; ///< number of each constraint's row
-    /** Multiplies the second equation, so that its residual is a force. */
+    /** Multiplies the second equation, so that its residual is a force; a
+     * direct solver gets its pressures divided by it, too. */
     std::vector<double> scale;
     std::vector<double> right; ///< h
     std::vector<double> schur; ///< 3 w / ((1 + gamma) s)
@@ -357,10 +361,16 @@ namespace abut::solve
           [&](const dealii::types::global_dof_index line, const int row,
               const double trial, const double test)
           {
+            // As stiffnesses and forces, in whatever units: of a matrix with
+            // other numbers in its lines no residual tells whether it is
+            // solved.
+            const double scale =
+                system.scale[line - n - system.first_constraint];
             for (auto e = rows_->begin(row); e < rows_->end(row); ++e)
             {
               const auto unknown = rows_->global_column(rows_->column(e));
-              const double b = rows_->weight(row) * rows_->coefficient(e);
+              const double b =
+                  scale * rows_->weight(row) * rows_->coefficient(e);
               visit(line, {unknown}, {-trial * b});
               visit(unknown, {line}, {-test * b});
             }
@@ -378,8 +388,9 @@ namespace abut::solve
     const MPI_Comm communicator = stiffness_->get_mpi_communicator();
     la::Vector right(owned, communicator), solution(owned, communicator);
     const int n_unknowns = la::n_owned(increment);
-    std::copy(system.right.begin(), system.right.end(),
-              la::data(right) + n_unknowns);
+    std::transform(system.right.begin(), system.right.end(),
+                   system.scale.begin(), la::data(right) + n_unknowns,
+                   std::multiplies<>());
     std::copy_n(la::data(system.force), n_unknowns, la::data(right));
 
     const DirectSolver solver(matrix);
@@ -397,8 +408,10 @@ namespace abut::solve
     check_direct_solution(before, after);
     const double *values = la::data(solution);
     std::copy(values, values + n_unknowns, la::data(increment));
-    multiplier.assign(values + n_unknowns,
-                      values + n_unknowns + system.row.size());
+    multiplier.resize(system.row.size());
+    std::transform(system.scale.begin(), system.scale.end(),
+                   values + n_unknowns, multiplier.begin(),
+                   std::multiplies<>());
   }
 
   void SaddlePoint::recover(const abut_request &request, const System &system,

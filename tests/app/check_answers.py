@@ -264,6 +264,29 @@ lifted = run(p.source / "prm/curved-obstacle.prm", "Membrane/Dirichlet=*: 1",
 p.expect(expect(lifted, 0, without=("Twice the",))["work_error"] == 0,
          "works of a membrane that nothing loads")
 
+# What is left of a displacement when the load has gone, by tolerances.
+for solver in ("direct", "iterative"):
+    unloaded = expect(run(plate, "Obstacle 1/Motion=0, -0.01*(1-t)",
+                          "Load steps/Steps=2", "Output/Points=",
+                          f"Solver/Linear solver={solver}"), 0,
+                      without=("Twice the",))
+    p.expect(unloaded["work_error"] == 0 and unloaded["contact_force"] == 0,
+             f"works of a plate that has left, {solver}")
+
+# A bar that touches at the end of a long step: round-off is no imbalance.
+expect(run(p.source / "prm/bar-impact.prm", "Time/Step=0.25", "Time/End=1"), 0,
+       without=("ABUT-F30",))
+
+# Blocks that touch at a corner alone, and one whose corners are all the same
+# numbers, or nearly.
+corner = "2, 2 : {} : {} : true"
+expect(run(blocks, "Body 2/Mesh/Arguments=" + corner.format("1, 1", "2, 2")), 2,
+       "ABUT-F24", "a corner alone")
+for far in (1e9, 1e12):
+    expect(run(blocks, "Body 2/Mesh/Arguments="
+               + corner.format(f"{far:.0f}, 1", f"{far:.0f}.01, 1.01")), 2,
+           "too few digits")
+
 # A block that slides by half its length, four facets.
 slide = "Body 2/Support=3: 0.5*t, -0.01"
 summary = expect(run(blocks, slide), 0, "ABUT-F36", "slide")

@@ -123,6 +123,27 @@ for d, plane, law, stretch, area in (
     p.close(summary["least_stretch"], stretch, 1e-10, f"{what}: stretch")
     p.expect(summary["least_volume"] > 0, f"{what}: volume")
 
+# A block whose side turns: a whole turn leads back to where it was, where the
+# displacement is no scale for its error; half a turn at once folds it, with
+# cells inside out at corners.
+angle = "(pi*t)"
+turned = p.write("turned.prm", "\n".join([
+    "set Scene = solid", "set Dimension = 2",
+    block(1, "4, 2 : 0, 0 : 2, 1 : true",
+          f"0: x*(cos{angle}-1)-y*sin{angle}, x*sin{angle}+y*(cos{angle}-1)",
+          more=("Material = neo-hooke",)),
+    section("Refinement", "Level = 1"),
+    section("Output", "Fields = false")]))
+summary = solved(turned, "Load steps/Steps=8", "Load steps/End time=2")
+p.expect(abs(summary["energy"]) < 1e-12 and summary["load_steps"] == 8,
+         f"a whole turn: energy {summary['energy']}, "
+         f"{summary['load_steps']} load steps")
+folded = run(turned, "Load steps/Steps=1")
+p.expect("inside out at a corner" in folded.stderr,
+         f"half a turn at once: {folded.stderr}")
+p.expect("inside out" not in run(turned, "Load steps/Steps=4").stderr,
+         "half a turn in steps")
+
 # Without contact: prescribed ends, in tension and in one load step.
 pulled = p.write("pulled.prm", "\n".join([
     "set Scene = solid", "set Dimension = 2",

@@ -227,6 +227,22 @@ test_empty(void **state)
               == 0.);
 }
 
+/* Unit segments that overlap by a little more, and less, than counts. */
+static void
+test_smallest_segment(void **state)
+{
+  (void)state;
+  const double normals[] = {0, 1, 0, 1}, s[] = {1, 0, 0, 0};
+  for (int i = 0; i < 2; ++i)
+  {
+    const double common = (i == 0 ? 1.5 : 0.5) * ABUT_CLIP_SMALLEST,
+                 m[] = {1 - common, 0.1, 2, 0.1};
+    abut_clip2 c;
+    assert_int_equal(abut_clip2_segments(s, m, normals, &c), i == 0);
+    assert_near(c.length, common, 1e-15);
+  }
+}
+
 /* Two concentric arcs' chords, normals through the centre: the ends of the
  * primary are seen from the centre at the angles they have. */
 static void
@@ -271,6 +287,7 @@ main(void)
       cmocka_unit_test(test_dart),
       cmocka_unit_test(test_quadratic),
       cmocka_unit_test(test_empty),
+      cmocka_unit_test(test_smallest_segment),
       cmocka_unit_test(test_interpolated_normals)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

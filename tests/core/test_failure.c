@@ -47,6 +47,10 @@ ends_of_strategies_name_what_was_measured(void **state)
       {ABUT_REASON_CONVERGED, "lagrange", 5, 1, 0, 0, ABUT_FAILURE_CYCLE},
       /* A limit is a limit, and no more, unless something else was seen. */
       {ABUT_REASON_STEP_LIMIT, "lagrange", 1, 0, 0, 0, ABUT_FAILURE_STEP_LIMIT},
+      {ABUT_REASON_STEP_LIMIT, "lagrange", 12, 0, 0, 0,
+       ABUT_FAILURE_STEP_LIMIT},
+      {ABUT_REASON_STEP_LIMIT, "lagrange", 13, 0, 0, 0,
+       ABUT_FAILURE_COLD_START},
       {ABUT_REASON_STEP_LIMIT, "lagrange", 50, 0, 0, 0,
        ABUT_FAILURE_COLD_START},
       {ABUT_REASON_STEP_LIMIT, "lagrange", 50, 3, 0, 0, ABUT_FAILURE_CYCLE},
@@ -65,6 +69,12 @@ ends_of_strategies_name_what_was_measured(void **state)
       {ABUT_REASON_STEP_LIMIT, "nitsche", 1, 0, 10, 0, ABUT_FAILURE_STEP_LIMIT},
       {ABUT_REASON_STEP_LIMIT, "nitsche", 60, 1, 0.1, 0, ABUT_FAILURE_NITSCHE},
       {ABUT_REASON_STEP_LIMIT, "nitsche", 60, 1, 10, 0, ABUT_FAILURE_CYCLE},
+      /* From 1 on nitsche may be stable; 0 is no penalty, and other laws have
+       * small ones. */
+      {ABUT_REASON_STEP_LIMIT, "nitsche", 9, 0, 1, 0, ABUT_FAILURE_STEP_LIMIT},
+      {ABUT_REASON_STEP_LIMIT, "nitsche", 9, 0, 0, 0, ABUT_FAILURE_STEP_LIMIT},
+      {ABUT_REASON_STEP_LIMIT, "penalty", 9, 0, 0.5, 0,
+       ABUT_FAILURE_STEP_LIMIT},
       {ABUT_REASON_NOT_FINITE, "penalty", 1, 0, 50, 0, ABUT_FAILURE_NOT_FINITE},
       {ABUT_REASON_UNHELD, "penalty", 1, 0, 50, 0, ABUT_FAILURE_FREE_SLIDING},
   };

@@ -321,6 +321,45 @@ bad_points(void **unused)
   assert_ok(abut_context_destroy(&context));
 }
 
+/* Without states to begin with, what presses tells who slips; before anything
+ * presses, all that has friction sticks. */
+static void
+first_states(void **unused)
+{
+  (void)unused;
+  static const struct
+  {
+    double coefficient, pressure;
+    uint8_t expected;
+  } cases[] = {{.5, 0, ABUT_STATE_CLOSED},
+               {.5, 1, ABUT_STATE_SLIP},
+               {0, 0, ABUT_STATE_SLIP}};
+  const double ones[2] = {1, 1}, gap[2] = {-.1, 10};
+  for (int i = 0; i < 3; ++i)
+  {
+    abut_context *context = fixture_context();
+    const abut_strategy_options options = exact_options();
+    given numbers = good;
+    numbers.coefficient[0] = cases[i].coefficient;
+    numbers.traction[0] = 0;
+    abut_strategy_friction friction = friction_of(&numbers);
+    friction.n = 1;
+    friction.cap = NULL;
+    const double pressure[2] = {cases[i].pressure, 0};
+    abut_strategy *s = NULL;
+    abut_request request;
+    assert_ok(abut_strategy_create(context, &options, &s));
+    assert_ok(abut_strategy_set_friction(s, &friction));
+    assert_ok(
+        abut_strategy_start(s, 2, NULL, ones, ones, NULL, gap, pressure, NULL));
+    assert_ok(abut_strategy_next(s, NULL, &request));
+    assert_int_equal(request.state[0], cases[i].expected);
+    assert_int_equal(request.state[1], cases[i].expected);
+    assert_ok(abut_strategy_destroy(&s));
+    assert_ok(abut_context_destroy(&context));
+  }
+}
+
 static void
 bad_rows(void **unused)
 {
@@ -467,6 +506,7 @@ main(void)
       cmocka_unit_test(a_law_of_the_users_own),
       cmocka_unit_test(bad_laws),
       cmocka_unit_test(bad_points),
+      cmocka_unit_test(first_states),
       cmocka_unit_test(bad_rows),
       cmocka_unit_test(laws_without_friction),
       cmocka_unit_test(node_in_a_corner),

@@ -238,6 +238,23 @@ equalities_have_no_interior(void **unused)
   }
 }
 
+static abut_status
+fail_to_solve(void *user, const abut_request *request)
+{
+  (void)user;
+  (void)request;
+  return ABUT_UNSUPPORTED;
+}
+
+static abut_status
+never_move(void *user, const abut_request *request, double *gap)
+{
+  (void)user;
+  (void)request;
+  (void)gap;
+  return ABUT_SUCCESS;
+}
+
 static void
 calls_have_an_order(void **unused)
 {
@@ -253,6 +270,12 @@ calls_have_an_order(void **unused)
   assert_int_equal(abut_strategy_progress(s.strategy, &progress),
                    ABUT_WRONG_ORDER);
   assert_int_equal(abut_strategy_run(s.strategy, &nobody, &reason),
+                   ABUT_INVALID_ARGUMENT);
+  const abut_host deaf = {sizeof(deaf), NULL, fail_to_solve, NULL, NULL},
+                  idle = {sizeof(idle), NULL, NULL, never_move, NULL};
+  assert_int_equal(abut_strategy_run(s.strategy, &deaf, &reason),
+                   ABUT_INVALID_ARGUMENT);
+  assert_int_equal(abut_strategy_run(s.strategy, &idle, &reason),
                    ABUT_INVALID_ARGUMENT);
   assert_int_equal(abut_strategy_run(s.strategy, NULL, &reason),
                    ABUT_INVALID_ARGUMENT);
@@ -618,23 +641,6 @@ changed_slopes_are_reported(void **unused)
   close_scene(&s);
 }
 
-static abut_status
-fail_to_solve(void *user, const abut_request *request)
-{
-  (void)user;
-  (void)request;
-  return ABUT_UNSUPPORTED;
-}
-
-static abut_status
-never_move(void *user, const abut_request *request, double *gap)
-{
-  (void)user;
-  (void)request;
-  (void)gap;
-  return ABUT_SUCCESS;
-}
-
 static void
 a_hosts_failure_is_passed_on(void **unused)
 {
@@ -746,6 +752,40 @@ flicker_stops(void **unused)
   close_scene(&s);
 }
 
+/* Rows that are wrong in every state: first all of them change, and when sets
+ * come back one by one. */
+static void
+rows_in_contact_are_counted(void **unused)
+{
+  (void)unused;
+  const abut_strategy_options options = exact_options();
+  fixture s = open_scene(&options);
+  abut_request request;
+  abut_progress progress;
+  const double ones[] = {1, 1}, start[] = {0, 0};
+  const uint8_t state[] = {ABUT_STATE_CLOSED, ABUT_STATE_OPEN};
+  assert_ok(abut_strategy_start(s.strategy, 2, NULL, ones, ones, NULL, start,
+                                NULL, state));
+  assert_ok(abut_strategy_next(s.strategy, NULL, &request));
+  int n_alone = 0;
+  for (int step = 0; step < 12; ++step)
+  {
+    const bool first = request.state[0] == ABUT_STATE_CLOSED,
+               second = request.state[1] == ABUT_STATE_CLOSED;
+    const double p[] = {first ? -1 : 0, second ? -1 : 0},
+                 gap[] = {first ? 0 : -1, second ? 0 : -1};
+    answer(&s, 2, p, gap, &request);
+    const int n_closed = (request.state[0] == ABUT_STATE_CLOSED)
+                         + (request.state[1] == ABUT_STATE_CLOSED);
+    assert_ok(abut_strategy_progress(s.strategy, &progress));
+    assert_int_equal(progress.n_active, n_closed);
+    n_alone += progress.n_changes == 1;
+    assert_int_equal(progress.fallback_steps, n_alone);
+  }
+  assert_true(n_alone > 4);
+  close_scene(&s);
+}
+
 /* Three rows, two of them closed, the deepest by 0.3: g = 1, -0.1, -0.3. */
 static void
 a_start_is_told_before_the_first_step(void **unused)
@@ -791,6 +831,7 @@ main(void)
       cmocka_unit_test(no_rows_need_one_tight_solve),
       cmocka_unit_test(closed_rows_are_judged_by_pressure),
       cmocka_unit_test(flicker_stops),
+      cmocka_unit_test(rows_in_contact_are_counted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

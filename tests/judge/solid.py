@@ -692,7 +692,8 @@ class SolidJudge:
         """Whether all that slips does so in one step, against what stays: then
         what is dissipated is the work of the last tractions on all slips."""
         moves = any(self.scene.get(f"Obstacle {pair.obstacle}/{name}", "")
-                    for name in ("Motion", "Free directions") for pair in self.pairs if pair.obstacle)
+                    for name in ("Motion", "Rotation angle", "Free directions")
+                    for pair in self.pairs if pair.obstacle)
         return (not moves and not in_motion(self.scene)
                 and self.summary["method"] == "lagrange"
                 and int(self.scene.get("Load steps/Steps", "1")) == 1

@@ -22,10 +22,11 @@
  * (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996), and the iteration ends
  * by the energy norm of its error: after a full step d the error is about
  *     |d|_K |r after| / |r before|,    |d|_K^2 = d . K d,
- * and has to be less than the tolerance times |u|_K, which means the same on
- * any mesh. Where d . K d is not positive, as in a material that softens or in
- * a snap through, energies say nothing: there it is the forces that are not
- * balanced which have to be less than the tolerance times the forces.
+ * and has to be less than the tolerance times the largest |u|_K on the way,
+ * which means the same on any mesh, and where u comes back to 0. Where d . K d
+ * is not positive, as in a material that softens or in a snap through, energies
+ * say nothing: there it is the forces that are not balanced which have to be
+ * less than the tolerance times the forces.
  *
  * Prescribed values that have changed since the last solve are not put into u
  * at once, which would fold the first layer of cells: they are a part of the
@@ -78,6 +79,7 @@ namespace abut
     NewtonResult solve(la::Vector &u)
     {
       result_ = NewtonResult();
+      largest_ = 0.;
       // Points that move are linear in nothing.
       linear_ = problem_.linear && !contact_.points_move();
       allocate(u);
@@ -403,7 +405,7 @@ namespace abut
       const Energy step = energy(tangent, step_), end = energy(tangent, trial_),
                    start = energy(tangent, u);
       scales.length = step.norm;
-      scales.energy = std::max(end.norm, start.norm);
+      scales.energy = largest_ = std::max({end.norm, start.norm, largest_});
       scales.force =
           std::max({scales.before, forces_.l2_norm(), end.force, start.force});
       scales.is_positive = step.is_positive;
@@ -644,6 +646,7 @@ namespace abut
     const SolverEvents events_;
     NewtonResult result_;
     bool linear_ = false; ///< the problem is its own linearisation
+    double largest_ = 0.; ///< energy norm of displacements since the start
     la::Vector residual_, increment_, step_, product_, forces_, trial_;
     la::Vector goal_;    ///< present displacement with prescribed values
     la::Vector change_;  ///< of the residual by prescribed values, linearised

@@ -22,6 +22,9 @@ namespace abut::app
     using Geometry = dealii::GeometryInfo<dim>;
     // What round-off makes of a corner with an angle of 180 degrees.
     constexpr double round_off = 1e-10;
+    // Sizes, as parts of the distance from the origin, that leave a cell five
+    // digits, and half of all.
+    constexpr double least_digits = 1e-11, few_digits = 1e-7;
     for (const auto &cell : triangulation.active_cell_iterators())
     {
       dealii::Point<dim> vertices[Geometry::vertices_per_cell];
@@ -29,15 +32,21 @@ namespace abut::app
       for (const unsigned int v : cell->vertex_indices())
         vertices[v] = cell->vertex(v);
       Geometry::alternating_form_at_vertices(vertices, forms);
-      const double measure = cell->measure();
-      bool is_good = measure > 0 && std::isfinite(measure);
+      const double measure = cell->measure(), size = cell->diameter(),
+                   distance = cell->center().norm();
+      bool is_good = measure > 0 && std::isfinite(measure)
+                     && size > least_digits * distance;
       for (const double form : forms)
         is_good = is_good && form > -round_off * measure;
       if (is_good)
         continue;
       std::ostringstream where;
       where << "cell " << cell->active_cell_index() << " of the mesh, around ("
-            << cell->center() << "), is folded or concave, or has no volume.";
+            << cell->center() << "), "
+            << (size > 0. && size < few_digits * distance
+                    ? "is so far from the origin, beside its size, that its "
+                      "corners have too few digits: move the mesh nearer."
+                    : "is folded or concave, or has no volume.");
       throw InputError(parameter, where.str());
     }
   }

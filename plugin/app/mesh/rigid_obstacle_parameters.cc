@@ -200,7 +200,7 @@ namespace abut::app
     for (const Entry &entry : entries())
       prm.declare_entry(entry.name, entry.default_value, Patterns::Anything(),
                         entry.documentation);
-    prm.declare_entry("Mass", "0", NumberPattern::from(0.),
+    prm.declare_entry("Mass", "0", NumberPattern::between(0., largest_value),
                       "Mass of the obstacle: it has the weight of "
                       "`Solid/Gravity`, and in time inertia along `Free "
                       "directions`. 0: in time, too, forces on it are in "

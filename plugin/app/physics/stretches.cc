@@ -44,9 +44,12 @@ namespace abut::app
         mapping, fe, dealii::QGauss<dim>(fe.degree + 1),
         dealii::update_values | dealii::update_gradients
             | dealii::update_quadrature_points);
+    dealii::FEValues<dim> corners(mapping, fe, dealii::QTrapezoid<dim>(),
+                                  dealii::update_gradients);
     const dealii::FEValuesExtractors::Vector field(0);
     std::vector<dealii::Tensor<1, dim>> u(points.n_quadrature_points);
     std::vector<dealii::Tensor<2, dim>> du(points.n_quadrature_points);
+    std::vector<dealii::Tensor<2, dim>> at_corners(corners.n_quadrature_points);
     Stretches result;
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
@@ -55,6 +58,15 @@ namespace abut::app
       points.reinit(cell);
       points[field].get_function_values(displacement, u);
       points[field].get_function_gradients(displacement, du);
+      corners.reinit(cell);
+      corners[field].get_function_gradients(displacement, at_corners);
+      for (dealii::Tensor<2, dim> &f : at_corners)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          f[d][d] += 1.;
+        result.least_at_corners =
+            std::min(result.least_at_corners, determinant(f));
+      }
       const Material<dim> &material = *materials.at(cell->material_id());
       for (const unsigned int q : points.quadrature_point_indices())
       {
@@ -71,6 +83,7 @@ namespace abut::app
     const MPI_Comm communicator = dof_handler.get_communicator();
     result.least = MPI::min(result.least, communicator);
     result.least_volume = MPI::min(result.least_volume, communicator);
+    result.least_at_corners = MPI::min(result.least_at_corners, communicator);
     const double excess = MPI::max(result.excess, communicator);
     // Of several materials that are as far beyond, the first.
     result.where = static_cast<dealii::types::material_id>(MPI::min(

@@ -19,6 +19,8 @@ namespace abut::app
     double least = 1.;
     /** Least volume of the same kind, det F. */
     double least_volume = 1.;
+    /** The same at corners of cells, which no integral sees. */
+    double least_at_corners = 1.;
     /** By how much the former is below the material's least_stretch(), at most;
      * not positive if it is nowhere. */
     double excess = -1.;
@@ -27,7 +29,8 @@ namespace abut::app
     double allowed = 0.;
   };
 
-  /** At the points of quadrature. @p displacement with ghosts. Collective. */
+  /** At the points of quadrature, and at corners. @p displacement with ghosts.
+   * Collective. */
   template <int dim>
   Stretches find_stretches(const dealii::Mapping<dim> &mapping,
                            const dealii::DoFHandler<dim> &dof_handler,

@@ -23,7 +23,7 @@ namespace abut::app
                      tolerance_of_works = 1e-6;
 
     /** Digits that the energy of a body loses that moves and is hardly
-     * deformed. */
+     * deformed, and what tolerances leave of that of one that is unloaded. */
     constexpr double round_off_of_works = 1e-12;
 
     /** Order below which an energy converges slowly: smooth data gives 2, the
@@ -146,7 +146,7 @@ namespace abut::app
     const double part = off == 0. ? 0. : off / std::abs(works.stored);
     const double least =
         tolerance_of_works * (works.size + length * works.force)
-        + round_off_of_works * works.apart;
+        + round_off_of_works * (works.apart + works.before);
     report.set("work_error", off > least ? part : 0.);
     if (part <= visible_work || off <= least)
       return {};

@@ -52,7 +52,7 @@ namespace abut::app
     const double of_loads = ContactModel<dim>::small_force();
     // Contact forces that are round-off of others say nothing of the balance.
     return motion
-               ? std::max(of_loads, 1e-8 * motion->bodies().cancelling_forces())
+               ? std::max(of_loads, 1e-6 * motion->bodies().cancelling_forces())
                : of_loads;
   }
 

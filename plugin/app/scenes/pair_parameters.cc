@@ -41,7 +41,9 @@ namespace abut::app
                       "each other.");
     prm.declare_entry("Friction", "0", Patterns::Anything(),
                       "Coefficient of Coulomb friction: a number or a formula "
-                      "of the undeformed place and t; 0: none.");
+                      "of the undeformed place (with `Method/Sliding = step`, "
+                      "as of what flies, of that at the beginning of the step) "
+                      "and t; 0: none.");
     prm.declare_entry("Largest friction", "", Patterns::Anything(),
                       "Bound of the traction along the surface, force per "
                       "area, a number or a formula like `Friction`; with a "

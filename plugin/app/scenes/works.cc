@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut::app
@@ -55,6 +56,8 @@ namespace abut::app
       works.contact = work(applied.contact, u, works.size);
       contact.swap(applied.contact);
     }
+    for (const ContactResult &result : run.results)
+      works.before = std::max(works.before, std::abs(result.energy));
     works.size = dealii::Utilities::MPI::sum(works.size, run.communicator);
     works.apart = dealii::Utilities::MPI::sum(works.apart, run.communicator);
     return works;

@@ -22,9 +22,10 @@ namespace abut::app
     double force = 0.;     ///< sum of the magnitudes of forces of contact
     double apart = 0.;     ///< if each unknown moved by itself
     double open_gaps = 0.; ///< by contact on gaps that are left at the end
+    double before = 0.;    ///< largest energy that earlier answers had
   };
 
-  /** Works at the present displacement of @p run, `open_gaps` excepted.
+  /** Works at the present displacement of @p run, without `open_gaps`.
    * @param contact gets the forces of contact at the nodes, owned. Collective.
    */
   template <int dim>

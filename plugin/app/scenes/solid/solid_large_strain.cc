@@ -42,11 +42,22 @@ namespace abut::app
                        elasticity.ghosted(run.u), data.materials);
     run.report.set("least_stretch", seen.least);
     run.report.set("least_volume", seen.least_volume);
+    std::vector<ContactFinding> findings;
+    if (seen.least_at_corners <= 0.)
+      findings.push_back(
+          {ABUT_FAILURE_LARGE_STRAIN, false,
+           coded(ABUT_FAILURE_LARGE_STRAIN,
+                 "A cell is turned inside out at a corner, to "
+                     + short_number(seen.least_at_corners, 3)
+                     + " of its volume there, which the points of quadrature "
+                       "do not see: the bodies may be folded into an "
+                       "equilibrium that no path leads to. Use smaller load "
+                       "steps, or refine the mesh there.")});
     if (seen.excess <= 0.)
-      return {};
+      return findings;
     const auto percent = [](const double part)
     { return short_number(100. * part, 3) + " %"; };
-    return {
+    findings.push_back(
         {ABUT_FAILURE_LARGE_STRAIN, true,
          coded(ABUT_FAILURE_LARGE_STRAIN,
                "Body " + std::to_string(seen.where + 1) + " is compressed to "
@@ -58,7 +69,8 @@ namespace abut::app
                      "Set "
                    + bodies[seen.where].parameter("Material")
                    + " = neo-hooke, or look at the units of loads and "
-                     "stiffness.")}};
+                     "stiffness.")});
+    return findings;
   }
 
   template double SolidModel<2>::part_of_flight() const;
