@@ -140,11 +140,11 @@ def slide(p, columns, rows, die_columns, die_rows, steps, length=2., width=4):
 THICKNESS = 0.15
 
 
-def over_the_end(p, dimension, secondary, steps=16, depth=0.08):
+def over_the_end(p, dimension, secondary, depth=0.08):
     flat = dimension == 2
     die = write_die(p, 12, 4, 1.3, name=f"die-{dimension}.inp",
                     thickness=0. if flat else THICKNESS)
-    way = f"if(t > 1, 1.4*(t - 1), 0), -{depth}*min(t, 1)"
+    way = f"if(t > 4, 1.4*(t - 4)/16, 0), -{depth}*min(t/4, 1)"
     box = ("20, 6 : 0, 0 : 2, 1 : true" if flat else
            f"20, 6, 1 : 0, 0, 0 : 2, 1, {THICKNESS} : true")
     rest, sides = ("", "") if flat else (
@@ -157,7 +157,7 @@ def over_the_end(p, dimension, secondary, steps=16, depth=0.08):
                 f"Support = 3: {way}{rest}{sides}"),
         pair(surfaces[secondary - 1], surfaces[2 - secondary]),
         section("Refinement", "Level = 0"), section("Output", "Fields = false"),
-        section("Load steps", f"Steps = {2 * steps}", "End time = 2")))
+        section("Load steps", "Steps = 20", "End time = 20")))
 
 
 # The same in ten steps of pressing, and n of sliding: soft and shallow, or deep,
