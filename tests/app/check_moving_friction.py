@@ -6,7 +6,7 @@ import statistics
 
 from block_scene import block, pair, section, solid
 from program import Program, set_words
-from sliding_scenes import RUBBER, newton, slide, turn
+from sliding_scenes import RUBBER, check_friction_turned, newton, slide
 
 p = Program()
 FINE = ["Load steps/Newton tolerance=1e-12",
@@ -94,34 +94,10 @@ check_drag(8, "Method/Enforcement=augmented lagrangian",
            "Method/Pressure tolerance=1e-12")
 
 
-# What is turned as a whole by 90 degrees after it has been pressed keeps all its
-# forces, friction too, which here some nodes take up by sticking.
-def check_turn(*words):
-    scene = turn(p, 2)
-    words = [*FINE, FRICTION, *words]
-    here = solved(scene, *words, "Load steps/End time=0.2",
-                  "Load steps/Steps=3")
-    there = solved(scene, *words)
-    what = f"turned {words}"
-    p.expect(here["pair_1_friction_force"] > 1e-3 * here["contact_force"],
-             f"{what}: no friction to turn")
-    for key in ("energy", "pair_1_pressure", "pair_1_normal_force",
-                "pair_1_friction_force", "least_stretch", "least_volume"):
-        p.close(there[key], here[key], 1e-9, f"{what}: {key}")
-    # What has slipped is at its bound and stays there, without a way.
-    p.expect(there["pair_1_dissipation"] < 1e-10 * here["energy"],
-             f"{what}: dissipation {there['pair_1_dissipation']}")
-    scale = here["contact_force"]
-    for key in ("pair_1_force", "pair_1_friction"):
-        force, before = there[key], here[key]
-        p.expect(abs(force[0] + before[1]) < 1e-9 * scale
-                 and abs(force[1] - before[0]) < 1e-9 * scale,
-                 f"{what}: {key} {force} from {before}")
-
-
+# What is turned as a whole by 90 degrees after it has been pressed.
 for each in ([], [STANDARD], [SMALL], [SMALL, STANDARD],
              ["Method/Enforcement=penalty"]):
-    check_turn(*each)
+    check_friction_turned(p, 2, solved, *FINE, FRICTION, *each)
 
 
 # What sticks on a mesh that matches is one body.

@@ -6,7 +6,7 @@ import math
 
 from block_scene import block, pair, section, solid
 from program import Program, set_words
-from sliding_scenes import RUBBER, newton, turn
+from sliding_scenes import RUBBER, check_friction_turned, newton
 
 p = Program()
 FINE = ["Load steps/Newton tolerance=1e-12",
@@ -98,35 +98,10 @@ for key in ("energy", "pair_1_friction_force", "pair_1_normal_force"):
     p.close(two[key], dual[key], 1e-7, f"dragged on two ranks: {key}")
 
 
-# What is turned as a whole by 90 degrees after it has been pressed keeps all its
-# forces, friction too, which here some nodes take up by sticking.
-def check_turn(*words):
-    scene = turn(p, 3)
-    words = [*FINE, FRICTION, *words]
-    here = solved(scene, *words, "Load steps/End time=0.2",
-                  "Load steps/Steps=3")
-    there = solved(scene, *words)
-    what = f"turned {words}"
-    p.expect(here["pair_1_friction_force"] > 1e-3 * here["contact_force"],
-             f"{what}: no friction to turn")
-    for key in ("energy", "pair_1_pressure", "pair_1_normal_force",
-                "pair_1_friction_force", "least_stretch", "least_volume"):
-        p.close(there[key], here[key], 1e-9, f"{what}: {key}")
-    p.expect(there["pair_1_dissipation"] < 1e-10 * here["energy"],
-             f"{what}: dissipation {there['pair_1_dissipation']}")
-    scale = here["contact_force"]
-    for key in ("pair_1_force", "pair_1_friction"):
-        force, before = there[key], here[key]
-        p.expect(abs(force[0] + before[1]) < 1e-9 * scale
-                 and abs(force[1] - before[0]) < 1e-9 * scale,
-                 f"{what}: {key} {force} from {before}")
-    print(what, "linearisations",
-          [len(newton(p, step)) for step in range(1, 16)])
-
-
+# What is turned as a whole by 90 degrees after it has been pressed.
 for each in ([], [STANDARD], [SMALL], [NODES],
              ["Method/Enforcement=penalty"]):
-    check_turn(*each)
+    check_friction_turned(p, 3, solved, *FINE, FRICTION, *each)
 
 
 # What sticks on a mesh that matches is one body.

@@ -47,11 +47,39 @@ def turn(p, dimension):
                 f"2: 1.2, 1{'' if flat else ', 0.5'}")))
 
 
+def check_friction_turned(p, dimension, solved, *words):
+    """All forces of the turned blocks, friction too, which some nodes take up
+    by sticking, are those of before; solved(scene, *words) is a summary."""
+    scene = turn(p, dimension)
+    here = solved(scene, *words, "Load steps/End time=0.2",
+                  "Load steps/Steps=3")
+    there = solved(scene, *words)
+    what = f"turned {words}"
+    p.expect(here["pair_1_friction_force"] > 1e-3 * here["contact_force"],
+             f"{what}: no friction to turn")
+    for key in ("energy", "pair_1_pressure", "pair_1_normal_force",
+                "pair_1_friction_force", "least_stretch", "least_volume"):
+        p.close(there[key], here[key], 1e-9, f"{what}: {key}")
+    # What has slipped is at its bound and stays there, without a way.
+    p.expect(there["pair_1_dissipation"] < 1e-10 * here["energy"],
+             f"{what}: dissipation {there['pair_1_dissipation']}")
+    scale = here["contact_force"]
+    for key in ("pair_1_force", "pair_1_friction"):
+        force, before = there[key], here[key]
+        p.expect(abs(force[0] + before[1]) < 1e-9 * scale
+                 and abs(force[1] - before[0]) < 1e-9 * scale,
+                 f"{what}: {key} {force} from {before}")
+    print(what, "linearisations",
+          [len(newton(p, step)) for step in range(1, 16)])
+
+
 # A stiff die with an arc of radius 1 below is pressed into a block and slides on,
 # by 20 facets in 22 steps, without friction.
 def write_die(p, columns, rows, middle, width=1.2, radius=1., height=0.6,
-              name="die.inp"):
-    """Mesh of the die; its lowest point is at (middle, 1). Ids: 2 arc, 3 top."""
+              name="die.inp", thickness=0.):
+    """Mesh of the die; its lowest point is at (middle, 1). With a thickness it is
+    one of cells in space, from z = 0. Ids: 2 arc, 3 top, 4 and 5 front and
+    back."""
     half = math.asin(width / 2 / radius)
     nodes = []
     for row in range(rows + 1):
@@ -62,22 +90,29 @@ def write_die(p, columns, rows, middle, width=1.2, radius=1., height=0.6,
             part = row / rows
             nodes.append([m + a + part * (b - a)
                           for m, a, b in zip((middle, 1.), arc, top)])
+    n = len(nodes)
     number = lambda row, column: row * (columns + 1) + column + 1
-    items = []
-    for row in range(rows):
-        for column in range(columns):
-            items.append((0, "quad", number(row, column),
-                          number(row, column + 1), number(row + 1, column + 1),
-                          number(row + 1, column)))
-    for column in range(columns):
-        items.append((2, "line", number(0, column), number(0, column + 1)))
-        items.append((3, "line", number(rows, column),
-                      number(rows, column + 1)))
-    lines = [f"{len(nodes)} {len(items)} 0 0 0"]
-    lines += [f"{n + 1} {x!r} {y!r} 0" for n, (x, y) in enumerate(nodes)]
-    lines += [f"{n + 1} {' '.join(map(str, item))}"
-              for n, item in enumerate(items)]
-    return p.write(name, "\n".join(lines) + "\n")
+    quads = [(number(row, column), number(row, column + 1),
+              number(row + 1, column + 1), number(row + 1, column))
+             for row in range(rows) for column in range(columns)]
+    lines = [(side, number(row, column), number(row, column + 1))
+             for column in range(columns) for side, row in ((2, 0), (3, rows))]
+    nodes = [(x, y, 0.) for x, y in nodes]
+    if thickness > 0.:
+        nodes += [(x, y, thickness) for x, y, _ in nodes]
+        behind = lambda corners: [corner + n for corner in corners]
+        items = [(0, "hex", *quad, *behind(quad)) for quad in quads]
+        items += [(side, "quad", a, b, b + n, a + n) for side, a, b in lines]
+        items += [(4, "quad", *quad) for quad in quads]
+        items += [(5, "quad", *behind(quad)) for quad in quads]
+    else:
+        items = [(0, "quad", *quad) for quad in quads]
+        items += [(side, "line", a, b) for side, a, b in lines]
+    text = [f"{len(nodes)} {len(items)} 0 0 0"]
+    text += [f"{k + 1} {x!r} {y!r} {z!r}" for k, (x, y, z) in enumerate(nodes)]
+    text += [f"{k + 1} {' '.join(map(str, item))}"
+             for k, item in enumerate(items)]
+    return p.write(name, "\n".join(text) + "\n")
 
 
 def dies(columns, rows, width, mesh, young, way, *more):
@@ -98,6 +133,31 @@ def slide(p, columns, rows, die_columns, die_rows, steps, length=2., width=4):
     return p.write("slide.prm", dies(
         columns, rows, width, die, 10, way,
         section("Load steps", f"Steps = {2 * steps}", "End time = 2")))
+
+
+# It slides over the end of a block and off it, in the plane, or in space in a
+# state of plane strain; what is the secondary is chosen.
+THICKNESS = 0.15
+
+
+def over_the_end(p, dimension, secondary, depth=0.08):
+    flat = dimension == 2
+    die = write_die(p, 12, 4, 1.3, name=f"die-{dimension}.inp",
+                    thickness=0. if flat else THICKNESS)
+    way = f"if(t > 4, 1.4*(t - 4)/16, 0), -{depth}*min(t/4, 1)"
+    box = ("20, 6 : 0, 0 : 2, 1 : true" if flat else
+           f"20, 6, 1 : 0, 0, 0 : 2, 1, {THICKNESS} : true")
+    rest, sides = ("", "") if flat else (
+        ", 0", "; 4: free, free, 0; 5: free, free, 0")
+    surfaces = ("1: 3", "2: 2")
+    return p.write(f"over-{dimension}.prm", solid(
+        dimension, block(1, box, f"2: 0, 0{rest}{sides}", more=RUBBER),
+        section("Body 2", section("Mesh", f"File = {die}"), RUBBER[0],
+                "Young modulus = 10", RUBBER[2],
+                f"Support = 3: {way}{rest}{sides}"),
+        pair(surfaces[secondary - 1], surfaces[2 - secondary]),
+        section("Refinement", "Level = 0"), section("Output", "Fields = false"),
+        section("Load steps", "Steps = 20", "End time = 20")))
 
 
 # The same in ten steps of pressing, and n of sliding: soft and shallow, or deep,

@@ -286,15 +286,15 @@ reversed_surfaces_are_reported(void **state)
   end(&p);
 }
 
-/* Nodes beyond the border of the primary surface. */
+/* Nodes beyond the border of the primary surface, which are not those of the
+ * facets behind the one there, however far the reach is. */
 static void
 border(void **state)
 {
-  (void)state;
-  const double q[5] = {0.5, 0, 1, 1, 0.01};
+  const double q[5] = {0.5, 0, 1, 1, 0.01}, motion = *(const double *)*state;
   pair p = begin(scene_patch(ABUT_FACET_QUAD4, 64, 4, scene_plane, q, true),
                  scene_square(ABUT_FACET_QUAD4, 4, 0, false), NULL);
-  run(&p, 0);
+  run(&p, motion);
   for (int32_t i = 0; i < p.view.n_nodes; ++i)
   {
     const double beyond = p.mesh[0].position[3 * i] - 1;
@@ -630,6 +630,7 @@ surfaces_with_equal_numbers_are_still_two(void **state)
 int
 main(void)
 {
+  static double motion[2] = {0., 1.};
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(surfaces_with_equal_numbers_are_still_two),
       cmocka_unit_test(flat_grids),
@@ -640,7 +641,8 @@ main(void)
       cmocka_unit_test(thickness_excludes_the_wrong_side),
       cmocka_unit_test(crossing_thin_plates),
       cmocka_unit_test(reversed_surfaces_are_reported),
-      cmocka_unit_test(border),
+      cmocka_unit_test_prestate(border, &motion[0]),
+      cmocka_unit_test_prestate(border, &motion[1]),
       cmocka_unit_test(connectivity_is_kept_between_calls),
       cmocka_unit_test(motion_enlarges_the_reach),
       cmocka_unit_test(groups),

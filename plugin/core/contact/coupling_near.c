@@ -215,28 +215,42 @@ box_distance(int dim, int n, const double *nodes, const double *x)
   return square;
 }
 
-/* Whether a facet's nearest point can be that of a point of the secondary. */
+/* What is nearest to a point of the secondary: among the candidates, and of the
+ * borders that it lies beyond. */
+typedef struct nearest
+{
+  double least, border;
+  int32_t facet; /* -1: none */
+  bool inside;
+} nearest;
+
+/* Whether a facet's nearest point can be that of a point of the secondary.
+ * Where the border is nearer it cannot be on the edge of a facet behind. */
 static bool
 suits(const abut_coupling *c, const abut_coupling_facet *facet, int32_t m,
-      double size, const abut_projection *p)
+      double size, const abut_projection *p, nearest *n)
 {
   const double extension = abut_detection_defaults().extension * size;
   const double overshoot = p->distance * p->distance - p->gap * p->gap;
-  return dot3(p->normal, facet->normal) <= c->options.normal_cosine
-         && abut_coupling_in_reach(c, p->gap < 0. ? -p->distance : p->distance,
-                                   size)
-         && !(overshoot > extension * extension
-              && abut_beyond_border(c->primary, m, p));
+  if (!(dot3(p->normal, facet->normal) <= c->options.normal_cosine)
+      || !abut_coupling_in_reach(c, p->gap < 0. ? -p->distance : p->distance,
+                                 size))
+    return false;
+  if (overshoot > extension * extension && abut_beyond_border(c->primary, m, p))
+  {
+    n->border = min2(n->border, p->distance);
+    return false;
+  }
+  return p->inside || p->distance <= n->border;
 }
 
-/* The candidate with the nearest point, or -1. */
-static int32_t
-nearest_facet(const abut_coupling *c, const abut_coupling_facet *facet,
-              int32_t n_candidates, const double *x)
+static void
+scan(const abut_coupling *c, const abut_coupling_facet *facet,
+     int32_t n_candidates, const double *x, nearest *found)
 {
   const int32_t *candidate = c->candidates.data;
-  double least = INFINITY;
-  int32_t found = -1;
+  found->least = INFINITY;
+  found->facet = -1;
   for (int32_t k = 0; k < n_candidates; ++k)
   {
     double nodes[3 * ABUT_FACET_MAX_NODES];
@@ -246,18 +260,30 @@ nearest_facet(const abut_coupling *c, const abut_coupling_facet *facet,
     const double size = abut_surface_longest_side(kind, nodes);
     /* Curved facets bulge out of the box of their nodes. */
     const double bulge = n > abut_facet_n_corners(kind) ? size : 0.;
-    if (found >= 0
+    if (found->facet >= 0
         && box_distance(c->view.dimension, n, nodes, x)
-               > (least + bulge) * (least + bulge))
+               > (found->least + bulge) * (found->least + bulge))
       continue;
     abut_projection p;
     abut_project(kind, nodes, x, &p);
-    if (!(p.distance < least) || !suits(c, facet, m, size, &p))
+    if (!(p.distance < found->least) || !suits(c, facet, m, size, &p, found))
       continue;
-    least = p.distance;
-    found = m;
+    found->least = p.distance;
+    found->facet = m;
+    found->inside = p.inside;
   }
-  return found;
+}
+
+/* The candidate with the nearest point, or -1. */
+static int32_t
+nearest_facet(const abut_coupling *c, const abut_coupling_facet *facet,
+              int32_t n_candidates, const double *x)
+{
+  nearest found = {INFINITY, INFINITY, -1, false};
+  do
+    scan(c, facet, n_candidates, x, &found);
+  while (found.facet >= 0 && !found.inside && found.least > found.border);
+  return found.facet;
 }
 
 static abut_status

@@ -47,6 +47,7 @@ typedef struct abut_candidate
   double bound;  /* squared distance to its box: not more than cost^2 */
   double centre; /* squared distance to its centre */
   double cost;
+  bool inside; /* its nearest point is inside the facet */
 } abut_candidate;
 
 /* One node and its candidates. */

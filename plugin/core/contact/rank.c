@@ -11,6 +11,10 @@
  * second does, so that of the handful of candidates of a node usually one is
  * projected.
  *
+ * A node beyond the border of the surface has no facet. Those behind the one at
+ * the border are not nearer for being allowed: a facet whose nearest point is
+ * on its edge is no candidate where the border is nearer.
+ *
  * Costs that differ by round-off are a tie, and the facet with the lowest
  * number wins; the result then does not depend on the order in which
  * candidates come, on the numbering of the arrays, or on the frame. */
@@ -195,10 +199,11 @@ tie(const abut_record *r, const double *x)
 }
 
 /* Step 12: the cost of a candidate, or infinity if it is rejected or surely
- * costs more than `least`. */
+ * costs more than `least`; *border becomes the distance of a border that the
+ * node lies beyond, if that is less. */
 static double
 cost_of(abut_detection *d, const abut_ranking *k, const abut_record *r,
-        double least, abut_projection *p)
+        double least, double *border, abut_projection *p)
 {
   double nodes[3 * ABUT_FACET_MAX_NODES];
   const abut_facet_kind kind =
@@ -213,6 +218,8 @@ cost_of(abut_detection *d, const abut_ranking *k, const abut_record *r,
   }
   if (reason == ABUT_REJECTION_N)
     return p->distance;
+  if (reason == ABUT_REJECTION_BEYOND_BORDER)
+    *border = fmin(*border, p->distance);
   ++d->rejected[reason];
   return INFINITY;
 }
@@ -294,37 +301,86 @@ settle(const abut_detection *d, const abut_ranking *k, const abut_candidate *c,
   return best;
 }
 
+/* The cheapest of the candidates c[n] so far. */
+typedef struct best_so_far
+{
+  const abut_record *record;
+  double least;
+  int32_t n_costs;
+} best_so_far;
+
+/* Drop the candidates that the border is in front of; whether the best one was
+ * among them. */
+static bool
+drop_behind_border(abut_detection *d, const abut_ranking *k, abut_candidate *c,
+                   int32_t n, double border, best_so_far *best)
+{
+  if (!(border < best->least) || best->record == NULL)
+    return false;
+  const abut_record *held = best->record;
+  *best = (best_so_far){NULL, INFINITY, 0};
+  for (int32_t i = 0; i < n; ++i)
+  {
+    if (c[i].cost == INFINITY)
+      continue;
+    if (!c[i].inside && c[i].cost > border + tie(c[i].record, k->x))
+    {
+      c[i].cost = INFINITY;
+      ++d->rejected[ABUT_REJECTION_BEYOND_BORDER];
+      continue;
+    }
+    ++best->n_costs;
+    if (c[i].cost < best->least)
+    {
+      best->least = c[i].cost;
+      best->record = c[i].record;
+    }
+  }
+  return best->record != held;
+}
+
 int32_t
 abut_detection_rank(abut_detection *d, const abut_ranking *k,
                     abut_projection *projection)
 {
   abut_candidate *c = d->scratch.data;
   abut_projection p;
-  const abut_record *held = NULL;
-  double least = INFINITY;
-  int32_t n_costs = 0, i = 0;
+  best_so_far best = {NULL, INFINITY, 0};
+  double border = INFINITY;
+  bool fresh = true;
+  int32_t i = 0;
   const int32_t n = select(d, k, c);
-  for (; i < n; ++i)
+  do
   {
-    bring_forward(c + i, n - i);
-    const double limit = least + tie(c[i].record, k->x);
-    if (c[i].bound > limit * limit)
-      break;
-    c[i].cost = cost_of(d, k, c[i].record, least, &p);
-    n_costs += c[i].cost < INFINITY;
-    if (c[i].cost < least)
+    for (; i < n; ++i)
     {
-      least = c[i].cost;
-      held = c[i].record;
+      bring_forward(c + i, n - i);
+      const double limit = best.least + tie(c[i].record, k->x);
+      if (c[i].bound > limit * limit)
+        break;
+      c[i].cost = cost_of(d, k, c[i].record, best.least, &border, &p);
+      if (c[i].cost == INFINITY)
+        continue;
+      c[i].inside = p.inside;
+      ++best.n_costs;
+      if (!(c[i].cost < best.least))
+        continue;
+      best.least = c[i].cost;
+      best.record = c[i].record;
       *projection = p;
+      fresh = true;
     }
-  }
+    if (!drop_behind_border(d, k, c, i, border, &best))
+      break;
+    fresh = false;
+  } while (i < n);
   d->rejected[ABUT_REJECTION_COSTLIER] += n - i;
-  if (held == NULL)
+  if (best.record == NULL)
     return -1;
-  d->rejected[ABUT_REJECTION_COSTLIER] += n_costs - 1;
-  const abut_record *best = n_costs > 1 ? settle(d, k, c, i, least) : held;
-  if (best != held)
-    (void)cost_of(d, k, best, INFINITY, projection);
-  return best->facet;
+  d->rejected[ABUT_REJECTION_COSTLIER] += best.n_costs - 1;
+  const abut_record *chosen =
+      best.n_costs > 1 ? settle(d, k, c, i, best.least) : best.record;
+  if (chosen != best.record || !fresh)
+    (void)cost_of(d, k, chosen, INFINITY, &border, projection);
+  return chosen->facet;
 }
