@@ -23,9 +23,15 @@
  * A cycle is one V-cycle with two sweeps of a Chebyshev smoother of degree 2,
  * in single precision; as an operator it is symmetric and positive definite on
  * what is free, and 0 on what is held.
+ *
+ * Several ranks can share a hierarchy. Each has the nodes that it owns and
+ * copies of some others, and sums up its own part of all matrices: those of
+ * all ranks together are the matrix. What the core does not know, which
+ * copies belong together, two functions of the host do (abut_multigrid_ranks).
+ * Then hold() and cycle() are collective, and so is failure.
  */
 
-#include <abut/context.h>
+#include <abut/strategy.h>
 
 #ifdef __cplusplus
 extern "C"
@@ -50,6 +56,24 @@ extern "C"
     const double *weight;  /**< of these */
   } abut_multigrid_mesh;
 
+  /** What a rank must know of the others. */
+  typedef struct abut_multigrid_ranks
+  {
+    /** [n_meshes] The nodes first_own[l] to first_own[l] + n_own[l] - 1 of mesh
+     * l are this rank's. The others are copies of nodes of other ranks: all
+     * that matrix and terms have columns for, and all their parents; of the
+     * coarsest mesh all nodes, in the same order on all ranks. */
+    const int32_t *first_own;
+    const int32_t *n_own; /**< [n_meshes] see first_own */
+    /** Replace values [nodes of the mesh * n_values] by the sums of all copies
+     * of each node, to the last bit the same for each. */
+    void (*add_copies)(void *user, int32_t mesh, int32_t n_values,
+                       float *values);
+    /** Sums (or maximum) over ranks of n values in place. */
+    void (*reduce)(void *user, abut_reduction op, double *values, int32_t n);
+    void *user; /**< handed to both */
+  } abut_multigrid_ranks;
+
   /** Meshes from the finest to the coarsest. */
   typedef struct abut_multigrid_hierarchy
   {
@@ -58,16 +82,22 @@ extern "C"
     int32_t n_meshes;                /**< >= 1 */
     const abut_multigrid_mesh *mesh; /**< [n_meshes] */
     /** [nodes of the finest mesh * block] row of the matrix, and entry of
-     * vectors, of each unknown; NULL: node * block + component. */
+     * vectors, of each unknown; NULL: node * block + component. Own nodes have
+     * the first rows, which are all that vectors have. */
     const int32_t *unknown;
+    /** NULL: there are no other ranks. The arrays are copied. */
+    const abut_multigrid_ranks *ranks;
   } abut_multigrid_hierarchy;
 
   /** A symmetric matrix of the finest mesh in compressed rows, with symmetric
    * pattern; arrays are the caller's and are copied. */
   typedef struct abut_multigrid_matrix
   {
-    size_t struct_size;    /**< sizeof(abut_multigrid_matrix) */
-    int32_t n;             /**< rows: nodes of the finest mesh * block */
+    size_t struct_size; /**< sizeof(abut_multigrid_matrix) */
+    /** Rows: nodes of the finest mesh * block. If there are other ranks it may
+     * be less, and rows from there on are empty; rows of copies may have parts
+     * of what is in the row of the node. */
+    int32_t n;
     const int32_t *start;  /**< [n + 1] where rows begin */
     const int32_t *column; /**< [start[n]] */
     const double *value;   /**< [start[n]] */

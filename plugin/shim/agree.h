@@ -12,18 +12,27 @@
 
 namespace abut::shim
 {
-  /** Throw @p message on all ranks if it is not empty on one: that of the
-   * lowest such rank. Collective. */
-  template <typename Error>
-  void throw_everywhere(const MPI_Comm communicator, const std::string &message)
+  /** The message that is not empty of the lowest rank; empty if there is none.
+   * Collective. */
+  inline std::string first_message(const MPI_Comm communicator,
+                                   const std::string &message)
   {
     namespace MPI = dealii::Utilities::MPI;
     const unsigned int none = std::numeric_limits<unsigned int>::max();
     const unsigned int first =
         MPI::min(message.empty() ? none : MPI::this_mpi_process(communicator),
                  communicator);
-    if (first != none)
-      throw Error(MPI::broadcast(communicator, message, first));
+    return first == none ? "" : MPI::broadcast(communicator, message, first);
+  }
+
+  /** Throw @p message on all ranks if it is not empty on one: that of the
+   * lowest such rank. Collective. */
+  template <typename Error>
+  void throw_everywhere(const MPI_Comm communicator, const std::string &message)
+  {
+    const std::string first = first_message(communicator, message);
+    if (!first.empty())
+      throw Error(first);
   }
 
   /** Run @p function. What it throws on any rank is thrown on all: as an Error

@@ -4,9 +4,19 @@
 // those of lower levels that are not refined. What a vertex of it is on mesh
 // l - 1 follows from the tree of cells: itself, or the middle of an edge, face
 // or cell there.
+//
+// On several ranks each has the vertices whose unknowns it owns. All that they
+// follow from are corners of cells that its own cells were refined from: these
+// are in its tree, but what else there is to know of such a corner, only its
+// owner does. See shared_vertices.h for how they find each other.
 #include "mesh_hierarchy.h"
 
+#include "agree.h"
+#include "shared_vertices.h"
+
 #include <deal.II/base/mpi.h>
+#include <deal.II/distributed/shared_tria.h>
+#include <deal.II/distributed/tria.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/grid/tria.h>
 
@@ -17,77 +27,101 @@ namespace abut::shim
   namespace
   {
     using solve::MeshHierarchy;
+    using Parents = VertexParents;
 
     /** A mesh with at most so many unknowns is coarse enough. */
     constexpr std::size_t coarse_enough = 600;
     /** What can be factorised in each cycle. */
     constexpr std::size_t most_on_coarsest = 4000;
 
-    /** Vertices that a vertex is in the middle of; none: it is no middle. */
-    struct Parents
-    {
-      unsigned int n = 0;
-      unsigned int vertex[8] = {};
-    };
-
     template <int dim> class HierarchyMaker
     {
     public:
-      using Cell = typename dealii::Triangulation<dim>::cell_iterator;
-
       HierarchyMaker(const dealii::DoFHandler<dim> &dof_handler,
                      const dealii::AffineConstraints<double> &constraints)
           : dof_handler_(dof_handler),
             triangulation_(dof_handler.get_triangulation()),
             constraints_(constraints),
+            communicator_(dof_handler.get_communicator()),
             n_components_(dof_handler.get_fe().n_components()),
             unknown_(triangulation_.n_vertices() * n_components_,
                      dealii::numbers::invalid_dof_index),
-            middle_(triangulation_.n_vertices())
+            middle_(triangulation_.n_vertices()),
+            level_(triangulation_.n_vertices(), no_level),
+            hangs_(triangulation_.n_vertices(), 0),
+            is_wholly_fixed_(triangulation_.n_vertices(), 0)
       {
       }
 
       MeshHierarchy make();
 
     private:
+      static constexpr std::uint8_t no_level = 255;
+
       /** A mesh while it is made. */
       struct Draft
       {
-        std::vector<std::int32_t> node; ///< [vertices] -1: not on it
-        std::vector<unsigned int> vertex;
-        std::vector<std::uint8_t> hangs; ///< [vertices]
+        std::vector<std::int32_t> node;   ///< [vertices] number; -1: none, or
+                                          ///< another rank's of no interest
+        std::vector<unsigned int> vertex; ///< of the own nodes
+        std::int32_t first = 0, n_all = 0;
+        unsigned int level = 0;
       };
 
       std::string why_not() const;
       void find_unknowns();
       void find_middles();
-      std::vector<unsigned int> vertices() const;
-      Draft draft(int level, const std::vector<unsigned int> &finer) const;
-      void mark_hanging(int level, Draft &mesh) const;
+      void find_levels();
+      void mark_hanging();
+      void mark_fixed();
+      bool is_own(unsigned int vertex) const;
+      std::vector<unsigned int> own_vertices() const;
+      Draft draft(unsigned int level,
+                  const std::vector<unsigned int> &finer) const;
+      std::vector<Draft> drafts() const;
+      void learn_of_others(std::vector<Draft> &meshes);
       bool has_other_constraints(const Draft &finest) const;
       std::vector<std::uint8_t> fixed(const Draft &mesh) const;
-      bool is_wholly_fixed(const Draft &mesh, unsigned int vertex) const;
       void add_parents(const Draft &coarse, unsigned int vertex, double weight,
-                       MeshHierarchy::Mesh &mesh) const;
+                       MeshHierarchy::Mesh &mesh);
       void add_weights(const Draft &fine, const Draft &coarse,
-                       MeshHierarchy::Mesh &mesh) const;
+                       MeshHierarchy::Mesh &mesh);
 
       const dealii::DoFHandler<dim> &dof_handler_;
       const dealii::Triangulation<dim> &triangulation_;
       const dealii::AffineConstraints<double> &constraints_;
+      const MPI_Comm communicator_;
       const unsigned int n_components_;
       /** [vertices * components] */
       std::vector<dealii::types::global_dof_index> unknown_;
       std::vector<Parents> middle_; ///< [vertices]
+      /** [vertices] of the coarsest mesh that it is a corner in. */
+      std::vector<std::uint8_t> level_;
+      /** [vertices] the same on all meshes that it is on; of vertices of other
+       * ranks what they said. */
+      std::vector<std::uint8_t> hangs_, is_wholly_fixed_;
+      bool is_lost_ = false; ///< a vertex that must be known is not
     };
+
+    /** Whether coarse cells and their vertices have the same numbers on all
+     * ranks. */
+    template <int dim>
+    bool knows_coarse_mesh(const dealii::Triangulation<dim> &triangulation)
+    {
+      using namespace dealii::parallel;
+      return dynamic_cast<const distributed::Triangulation<dim> *>(
+                 &triangulation)
+                 != nullptr
+             || dynamic_cast<const shared::Triangulation<dim> *>(&triangulation)
+                    != nullptr;
+    }
 
     template <int dim> std::string HierarchyMaker<dim>::why_not() const
     {
       const dealii::FiniteElement<dim> &fe = dof_handler_.get_fe();
-      if (dealii::Utilities::MPI::n_mpi_processes(
-              dof_handler_.get_communicator())
-          > 1)
-        return "it works on one rank";
+      if (dealii::Utilities::MPI::n_mpi_processes(communicator_) > 1
+          && !knows_coarse_mesh(triangulation_))
+        return "the ranks do not all know the coarsest mesh";
       if (fe.n_base_elements() != 1
           || dynamic_cast<const dealii::FE_Q<dim> *>(&fe.base_element(0))
                  == nullptr
@@ -107,6 +141,8 @@ namespace abut::shim
       std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
       for (const auto &cell : dof_handler_.active_cell_iterators())
       {
+        if (cell->is_artificial())
+          continue;
         cell->get_dof_indices(dofs);
         for (unsigned int i = 0; i < dofs.size(); ++i)
         {
@@ -115,6 +151,14 @@ namespace abut::shim
                    + place.first] = dofs[i];
         }
       }
+    }
+
+    template <int dim>
+    bool HierarchyMaker<dim>::is_own(const unsigned int v) const
+    {
+      const auto unknown = unknown_[v * n_components_];
+      return unknown != dealii::numbers::invalid_dof_index
+             && dof_handler_.locally_owned_dofs().is_element(unknown);
     }
 
     /** The vertex in the middle of an edge, face or cell that is refined. */
@@ -143,41 +187,68 @@ namespace abut::shim
           for (const unsigned int face : cell->face_indices())
             note_middle(cell->face(face), middle_);
         note_middle(cell, middle_);
+        typename dealii::Triangulation<dim>::cell_iterator coarsest = cell;
+        while (coarsest->level() > 0)
+          coarsest = coarsest->parent();
+        middle_[cell->child(0)->vertex_index(cell->n_vertices() - 1)].cell =
+            coarsest->index() + 1;
       }
     }
 
-    template <int dim>
-    void HierarchyMaker<dim>::mark_hanging(const int level, Draft &mesh) const
+    template <int dim> void HierarchyMaker<dim>::find_levels()
+    {
+      for (const auto &cell : triangulation_.cell_iterators())
+        for (const unsigned int v : cell->vertex_indices())
+        {
+          std::uint8_t &level = level_[cell->vertex_index(v)];
+          level = std::min<std::uint8_t>(level, cell->level());
+        }
+    }
+
+    template <int dim> void HierarchyMaker<dim>::mark_hanging()
     {
       const auto mark = [&](const auto &object)
       {
         if (object->has_children())
-          mesh.hangs[object->child(0)->vertex_index(object->n_vertices() - 1)] =
-              1;
+          hangs_[object->child(0)->vertex_index(object->n_vertices() - 1)] = 1;
       };
-      for (int l = 0; l < level; ++l)
-        for (const auto &cell : triangulation_.cell_iterators_on_level(l))
-        {
-          if (!cell->is_active())
-            continue;
-          for (const unsigned int line : cell->line_indices())
-            mark(cell->line(line));
-          if constexpr (dim == 3)
-            for (const unsigned int face : cell->face_indices())
-              mark(cell->face(face));
-        }
+      // That of artificial cells may be refined elsewhere.
+      for (const auto &cell : triangulation_.active_cell_iterators())
+      {
+        if (cell->is_artificial())
+          continue;
+        for (const unsigned int line : cell->line_indices())
+          mark(cell->line(line));
+        if constexpr (dim == 3)
+          for (const unsigned int face : cell->face_indices())
+            mark(cell->face(face));
+      }
     }
 
-    /** Those with unknowns, in the order of the matrix for the sake of caches.
-     */
+    template <int dim> void HierarchyMaker<dim>::mark_fixed()
+    {
+      for (unsigned int v = 0; v < hangs_.size(); ++v)
+      {
+        if (unknown_[v * n_components_] == dealii::numbers::invalid_dof_index)
+          continue;
+        bool all = true;
+        for (unsigned int c = 0; c < n_components_ && all; ++c)
+          all = hangs_[v]
+                || constraints_.is_constrained(unknown_[v * n_components_ + c]);
+        is_wholly_fixed_[v] = all;
+      }
+    }
+
+    /** In the order of the matrix for the sake of caches. */
     template <int dim>
-    std::vector<unsigned int> HierarchyMaker<dim>::vertices() const
+    std::vector<unsigned int> HierarchyMaker<dim>::own_vertices() const
     {
       constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
-      std::vector<unsigned int> by_unknown(dof_handler_.n_dofs(), none), result;
+      const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+      std::vector<unsigned int> by_unknown(owned.n_elements(), none), result;
       for (unsigned int v = 0; v < triangulation_.n_vertices(); ++v)
-        if (unknown_[v * n_components_] != dealii::numbers::invalid_dof_index)
-          by_unknown[unknown_[v * n_components_]] = v;
+        if (is_own(v))
+          by_unknown[owned.index_within_set(unknown_[v * n_components_])] = v;
       for (const unsigned int v : by_unknown)
         if (v != none)
           result.push_back(v);
@@ -186,25 +257,106 @@ namespace abut::shim
 
     template <int dim>
     typename HierarchyMaker<dim>::Draft
-    HierarchyMaker<dim>::draft(const int level,
+    HierarchyMaker<dim>::draft(const unsigned int level,
                                const std::vector<unsigned int> &finer) const
     {
+      namespace MPI = dealii::Utilities::MPI;
       Draft mesh;
-      mesh.node.assign(triangulation_.n_vertices(), -1);
-      mesh.hangs.assign(triangulation_.n_vertices(), 0);
-      for (int l = 0; l <= level; ++l)
-        for (const auto &cell : triangulation_.cell_iterators_on_level(l))
-          if (l == level || cell->is_active())
-            for (const unsigned int v : cell->vertex_indices())
-              mesh.node[cell->vertex_index(v)] = 0;
+      mesh.level = level;
       for (const unsigned int v : finer)
-        if (mesh.node[v] == 0)
-        {
-          mesh.node[v] = static_cast<std::int32_t>(mesh.vertex.size());
+        if (level_[v] <= level)
           mesh.vertex.push_back(v);
-        }
-      mark_hanging(level, mesh);
+      const auto n = static_cast<std::int32_t>(mesh.vertex.size());
+      const unsigned int me = MPI::this_mpi_process(communicator_);
+      const std::vector<std::int32_t> all = MPI::all_gather(communicator_, n);
+      for (unsigned int rank = 0; rank < all.size(); ++rank)
+      {
+        mesh.first += rank < me ? all[rank] : 0;
+        mesh.n_all += all[rank];
+      }
+      mesh.node.assign(triangulation_.n_vertices(), -1);
+      for (std::int32_t i = 0; i < n; ++i)
+        mesh.node[mesh.vertex[i]] = mesh.first + i;
       return mesh;
+    }
+
+    /** From the finest to the first that is coarse enough. */
+    template <int dim>
+    std::vector<typename HierarchyMaker<dim>::Draft>
+    HierarchyMaker<dim>::drafts() const
+    {
+      std::vector<Draft> result;
+      unsigned int level = triangulation_.n_global_levels() - 1;
+      result.push_back(draft(level, own_vertices()));
+      while (level > 0
+             && static_cast<std::size_t>(result.back().n_all) * n_components_
+                    > coarse_enough)
+        result.push_back(draft(--level, result.back().vertex));
+      return result;
+    }
+
+    /** Corners of the cells that own cells were refined from. */
+    template <int dim>
+    std::vector<bool>
+    corners_above(const dealii::Triangulation<dim> &triangulation)
+    {
+      std::vector<bool> result(triangulation.n_vertices(), false);
+      std::vector<std::vector<bool>> seen(triangulation.n_levels());
+      for (unsigned int l = 0; l < seen.size(); ++l)
+        seen[l].resize(triangulation.n_raw_cells(l), false);
+      for (const auto &active : triangulation.active_cell_iterators())
+      {
+        if (!active->is_locally_owned())
+          continue;
+        typename dealii::Triangulation<dim>::cell_iterator cell = active;
+        while (!seen[cell->level()][cell->index()])
+        {
+          seen[cell->level()][cell->index()] = true;
+          for (const unsigned int v : cell->vertex_indices())
+            result[cell->vertex_index(v)] = true;
+          if (cell->level() > 0)
+            cell = cell->parent();
+        }
+      }
+      return result;
+    }
+
+    template <int dim>
+    void HierarchyMaker<dim>::learn_of_others(std::vector<Draft> &meshes)
+    {
+      const std::vector<VertexKey> keys = vertex_keys(middle_);
+      // Coarser meshes have parents.
+      const unsigned int n_words = meshes.size();
+      std::vector<VertexKey> known, wanted;
+      std::vector<unsigned int> vertices;
+      solve::Words words;
+      for (const unsigned int v : meshes[1].vertex)
+      {
+        known.push_back(keys[v]);
+        words.push_back(2 * hangs_[v] + is_wholly_fixed_[v]);
+        for (std::size_t l = 1; l < meshes.size(); ++l)
+          words.push_back(meshes[l].node[v] + 1);
+      }
+      const std::vector<bool> corners = corners_above(triangulation_);
+      const unsigned int finest = triangulation_.n_global_levels() - 1;
+      for (unsigned int v = 0; v < corners.size(); ++v)
+        if (corners[v] && level_[v] < finest && !is_own(v))
+        {
+          vertices.push_back(v);
+          wanted.push_back(keys[v]);
+        }
+      const solve::Words answer =
+          find_vertices(communicator_, known, words, n_words, wanted);
+      auto word = answer.begin();
+      for (const unsigned int v : vertices)
+      {
+        is_lost_ = is_lost_ || *word == unknown_vertex;
+        hangs_[v] = (*word & 2) != 0;
+        is_wholly_fixed_[v] = *word & 1;
+        ++word;
+        for (std::size_t l = 1; l < meshes.size(); ++l)
+          meshes[l].node[v] = static_cast<std::int32_t>(*word++) - 1;
+      }
     }
 
     template <int dim>
@@ -215,7 +367,7 @@ namespace abut::shim
         {
           const auto *const entries = constraints_.get_constraint_entries(
               unknown_[v * n_components_ + c]);
-          if (entries != nullptr && !entries->empty() && !finest.hangs[v])
+          if (entries != nullptr && !entries->empty() && !hangs_[v])
             return true;
         }
       return false;
@@ -229,7 +381,7 @@ namespace abut::shim
       for (std::size_t i = 0; i < result.size(); ++i)
       {
         const unsigned int v = mesh.vertex[i / n_components_];
-        result[i] = mesh.hangs[v]
+        result[i] = hangs_[v]
                     || constraints_.is_constrained(
                         unknown_[v * n_components_ + i % n_components_]);
       }
@@ -237,36 +389,25 @@ namespace abut::shim
     }
 
     template <int dim>
-    bool HierarchyMaker<dim>::is_wholly_fixed(const Draft &mesh,
-                                              const unsigned int vertex) const
-    {
-      bool result = true;
-      for (unsigned int c = 0; c < n_components_ && result; ++c)
-        result = mesh.hangs[vertex]
-                 || constraints_.is_constrained(
-                     unknown_[vertex * n_components_ + c]);
-      return result;
-    }
-
-    template <int dim>
     void HierarchyMaker<dim>::add_parents(const Draft &coarse,
                                           const unsigned int vertex,
                                           const double weight,
-                                          MeshHierarchy::Mesh &mesh) const
+                                          MeshHierarchy::Mesh &mesh)
     {
-      if (coarse.node[vertex] >= 0 && !coarse.hangs[vertex])
+      if (level_[vertex] <= coarse.level && !hangs_[vertex])
       {
-        if (is_wholly_fixed(coarse, vertex))
+        const std::int32_t node = coarse.node[vertex];
+        is_lost_ = is_lost_ || node < 0;
+        if (is_wholly_fixed_[vertex])
           return;
         const auto first = mesh.parent.begin() + mesh.start.back();
-        const auto same =
-            std::find(first, mesh.parent.end(), coarse.node[vertex]);
+        const auto same = std::find(first, mesh.parent.end(), node);
         if (same != mesh.parent.end())
         {
           mesh.weight[same - mesh.parent.begin()] += weight;
           return;
         }
-        mesh.parent.push_back(coarse.node[vertex]);
+        mesh.parent.push_back(node);
         mesh.weight.push_back(weight);
         return;
       }
@@ -278,12 +419,12 @@ namespace abut::shim
     template <int dim>
     void HierarchyMaker<dim>::add_weights(const Draft &fine,
                                           const Draft &coarse,
-                                          MeshHierarchy::Mesh &mesh) const
+                                          MeshHierarchy::Mesh &mesh)
     {
       mesh.start = {0};
       for (const unsigned int v : fine.vertex)
       {
-        if (!is_wholly_fixed(fine, v))
+        if (!is_wholly_fixed_[v])
           add_parents(coarse, v, 1., mesh);
         mesh.start.push_back(static_cast<std::int64_t>(mesh.parent.size()));
       }
@@ -293,39 +434,45 @@ namespace abut::shim
     {
       MeshHierarchy result;
       result.n_components = n_components_;
-      result.missing = why_not();
+      result.missing = first_message(communicator_, why_not());
       if (!result.missing.empty())
         return result;
       find_unknowns();
       find_middles();
-      int level = static_cast<int>(triangulation_.n_levels()) - 1;
-      Draft fine = draft(level, vertices());
-      if (has_other_constraints(fine))
-        result.missing = "unknowns are tied to others";
-      for (const unsigned int v : fine.vertex)
+      find_levels();
+      mark_hanging();
+      mark_fixed();
+      std::vector<Draft> meshes = drafts();
+      if (dealii::Utilities::MPI::n_mpi_processes(communicator_) > 1
+          && meshes.size() > 1)
+        learn_of_others(meshes);
+      for (const unsigned int v : meshes[0].vertex)
         for (unsigned int c = 0; c < n_components_; ++c)
           result.unknown.push_back(
               static_cast<std::int32_t>(unknown_[v * n_components_ + c]));
-      for (;; --level)
+      if (has_other_constraints(meshes[0]))
+        result.missing = "unknowns are tied to others";
+      for (std::size_t l = 0; l < meshes.size(); ++l)
       {
         MeshHierarchy::Mesh mesh;
-        const std::size_t n = fine.vertex.size();
-        mesh.n_nodes = static_cast<std::int32_t>(n);
-        mesh.fixed = fixed(fine);
-        const bool is_last = level == 0 || n * n_components_ <= coarse_enough;
-        Draft coarse = is_last ? Draft() : draft(level - 1, fine.vertex);
-        if (!is_last)
-          add_weights(fine, coarse, mesh);
+        mesh.n_nodes = static_cast<std::int32_t>(meshes[l].vertex.size());
+        mesh.first = meshes[l].first;
+        mesh.n_all = meshes[l].n_all;
+        mesh.fixed = fixed(meshes[l]);
+        if (l + 1 < meshes.size())
+          add_weights(meshes[l], meshes[l + 1], mesh);
         result.meshes.push_back(std::move(mesh));
-        if (is_last)
-          break;
-        fine = std::move(coarse);
+        meshes[l] = {};
       }
-      const std::size_t n = fine.vertex.size() * n_components_;
+      if (is_lost_)
+        result.missing = "the ranks do not agree on the coarser meshes";
+      const std::size_t n =
+          std::size_t(result.meshes.back().n_all) * n_components_;
       if (n > most_on_coarsest)
         result.missing = "the coarsest mesh has " + std::to_string(n)
                          + " unknowns, more than "
                          + std::to_string(most_on_coarsest);
+      result.missing = first_message(communicator_, result.missing);
       return result;
     }
   } // namespace

@@ -9,9 +9,9 @@
 
 namespace abut::shim
 {
-  /** The meshes that the mesh of a field was refined from, for linear elements
-   * on one rank; @p constraints are hanging nodes and prescribed values.
-   * Hanging nodes are welcome on all meshes. */
+  /** The meshes that the mesh of a field was refined from, for linear elements;
+   * @p constraints are hanging nodes and prescribed values. Hanging nodes are
+   * welcome on all meshes. Collective. */
   template <int dim>
   solve::MeshHierarchy
   make_mesh_hierarchy(const dealii::DoFHandler<dim> &dof_handler,

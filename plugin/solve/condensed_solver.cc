@@ -172,12 +172,12 @@ namespace abut::solve
       return true;
     const Condensate &now = matrix_.condensate();
     double n_changed = 0., n_in_contact = 0.;
+    bool is_freed = false;
     for (int i = 0; i < rows_->n_rows(); ++i)
     {
-      // A cycle that holds an unknown never moves it. (There is one rank.)
-      if (choice_.is_geometric() && built_.pivot[i] != Condensate::none
-          && now.pivot[i] != built_.pivot[i])
-        return true;
+      is_freed = is_freed
+                 || (built_.pivot[i] != Condensate::none
+                     && now.pivot[i] != built_.pivot[i]);
       const double unit = rows_->weight(i) * row_stiffness_[i];
       const double ratio =
           (unit + now.stiffness[i]) / (unit + built_.stiffness[i]);
@@ -192,6 +192,10 @@ namespace abut::solve
       // Each row of a point with friction may change, but it is one contact.
       n_in_contact += any && (is_direct() || !rows_->is_tangent(i));
     }
+    // A cycle that holds an unknown never moves it.
+    if (choice_.is_geometric()
+        && MPI::logical_or(is_freed, rows_->communicator()))
+      return true;
     return PreconditionerKeeper::are_too_many(
         n_changed, n_in_contact, is_direct(), rows_->communicator());
   }
@@ -265,20 +269,32 @@ namespace abut::solve
 
   void CondensedSolver::build_geometric()
   {
-    if (geometric_ == nullptr)
-      geometric_ =
-          std::make_unique<GeometricMultigrid>(*stiffness_, *space_.meshes);
-    else if (has_new_matrix_)
-      geometric_->set_matrix(*stiffness_);
-    has_new_matrix_ = false;
     CondensedMatrix condensed;
     condensed.reinit(*stiffness_, *rows_);
     condensed.set(built_);
-    LocalMatrix terms(static_cast<int>(diagonal_.size()));
+    LocalMatrix terms;
     condensed.for_each_term(
         [&](const auto row, const auto &columns, const auto &values)
         { terms.add(row, columns, values); });
-    terms.close();
+    const MPI_Comm communicator = rows_->communicator();
+    std::vector<dealii::types::global_dof_index> touched;
+    if (MPI::n_mpi_processes(communicator) > 1)
+      touched = terms.unknowns();
+    if (MPI::logical_or(geometric_ == nullptr
+                            || !geometric_->knows(*stiffness_, touched),
+                        communicator))
+    {
+      // More of them for the sets that will come.
+      std::vector<dealii::types::global_dof_index> ghosts;
+      rows_->ghosts().fill_index_vector(ghosts);
+      touched.insert(touched.end(), ghosts.begin(), ghosts.end());
+      geometric_.reset();
+      geometric_ = std::make_unique<GeometricMultigrid>(
+          *stiffness_, *space_.meshes, touched);
+    }
+    else if (has_new_matrix_)
+      geometric_->set_matrix(*stiffness_);
+    has_new_matrix_ = false;
     geometric_->set_terms(terms);
     geometric_->hold(held_by_pivots(), {});
   }

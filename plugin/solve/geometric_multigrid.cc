@@ -5,26 +5,113 @@
 
 namespace abut::solve
 {
+  namespace
+  {
+    /** What the core asks of other ranks; user data are the shared meshes. */
+    void add_copies(void *user, const std::int32_t mesh,
+                    const std::int32_t n_values, float *values)
+    {
+      static_cast<const SharedMeshes *>(user)->copies(mesh).add(n_values,
+                                                                values);
+    }
+
+    void reduce(void *user, const abut_reduction operation, double *values,
+                const std::int32_t n)
+    {
+      MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE,
+                    operation == ABUT_REDUCTION_SUM ? MPI_SUM : MPI_MAX,
+                    static_cast<const SharedMeshes *>(user)->communicator());
+    }
+
+    /** Columns that other ranks own, in their order. */
+    std::vector<GeometricMultigrid::Index> ghosts_of(const la::Matrix &matrix)
+    {
+      const la::LocalRows rows = la::local_rows(matrix);
+      std::vector<GeometricMultigrid::Index> result;
+      for (int k = rows.n_rows; k < rows.n_columns; ++k)
+        result.push_back(la::global_column(matrix, k));
+      return result;
+    }
+
+    /** Those and the others of @p touched. */
+    std::vector<GeometricMultigrid::Index>
+    with_touched(const dealii::IndexSet &owned,
+                 const std::vector<GeometricMultigrid::Index> &ghosts,
+                 std::vector<GeometricMultigrid::Index> touched)
+    {
+      std::vector<GeometricMultigrid::Index> known = ghosts, result = ghosts;
+      std::sort(known.begin(), known.end());
+      std::sort(touched.begin(), touched.end());
+      touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+      for (const GeometricMultigrid::Index unknown : touched)
+        if (!owned.is_element(unknown)
+            && !std::binary_search(known.begin(), known.end(), unknown))
+          result.push_back(unknown);
+      return result;
+    }
+  } // namespace
+
   GeometricMultigrid::GeometricMultigrid(const la::Matrix &matrix,
-                                         const MeshHierarchy &meshes)
+                                         const MeshHierarchy &meshes,
+                                         const std::vector<Index> &touched)
   {
     abut_context *context = nullptr;
     AssertThrow(abut_context_create(nullptr, &context) == ABUT_SUCCESS,
                 dealii::ExcMessage("no memory for multigrid"));
     context_.reset(context);
+    const MPI_Comm communicator = matrix.get_mpi_communicator();
+    if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+      create(meshes);
+    else
+    {
+      const dealii::IndexSet owned = matrix.locally_owned_range_indices();
+      ghosts_ = ghosts_of(matrix);
+      shared_ = std::make_unique<SharedMeshes>(
+          meshes, owned, with_touched(owned, ghosts_, touched), communicator);
+      create(shared_->local());
+      shared_->forget_weights();
+    }
+    set_matrix(matrix);
+  }
+
+  void GeometricMultigrid::create(const MeshHierarchy &meshes)
+  {
     std::vector<abut_multigrid_mesh> all;
     for (const MeshHierarchy::Mesh &mesh : meshes.meshes)
       all.push_back({mesh.n_nodes, mesh.fixed.data(),
                      mesh.start.empty() ? nullptr : mesh.start.data(),
                      mesh.parent.data(), mesh.weight.data()});
+    std::vector<std::int32_t> first_own, n_own;
+    for (int l = 0; shared_ != nullptr && l < shared_->n_meshes(); ++l)
+    {
+      first_own.push_back(shared_->copies(l).first_own());
+      n_own.push_back(shared_->copies(l).n_own());
+    }
+    const abut_multigrid_ranks ranks = {first_own.data(), n_own.data(),
+                                        add_copies, reduce, shared_.get()};
     const abut_multigrid_hierarchy hierarchy = {
-        sizeof(hierarchy), static_cast<std::int32_t>(meshes.n_components),
-        static_cast<std::int32_t>(all.size()), all.data(),
-        meshes.unknown.data()};
+        sizeof(hierarchy),
+        static_cast<std::int32_t>(meshes.n_components),
+        static_cast<std::int32_t>(all.size()),
+        all.data(),
+        meshes.unknown.data(),
+        shared_ == nullptr ? nullptr : &ranks};
     abut_multigrid *made = nullptr;
-    check(abut_multigrid_create(context, &hierarchy, &made));
+    const abut_status status =
+        abut_multigrid_create(context_.get(), &hierarchy, &made);
     multigrid_.reset(made);
-    set_matrix(matrix);
+    n_rows_ = static_cast<std::int32_t>(meshes.unknown.size());
+    check(status);
+  }
+
+  bool GeometricMultigrid::knows(const la::Matrix &matrix,
+                                 const std::vector<Index> &touched) const
+  {
+    return shared_ == nullptr
+           || (ghosts_of(matrix) == ghosts_
+               && std::all_of(touched.begin(), touched.end(),
+                              [&](const Index unknown)
+                              { return shared_->row(unknown) >= 0; }));
   }
 
   void GeometricMultigrid::set_matrix(const la::Matrix &matrix)
@@ -35,19 +122,30 @@ namespace abut::solve
     check(abut_multigrid_set_matrix(multigrid_.get(), &copied));
   }
 
-  void GeometricMultigrid::set_terms(const LocalMatrix &terms)
+  void GeometricMultigrid::set_terms(LocalMatrix &terms)
   {
+    if (shared_ == nullptr)
+      terms.close(n_rows_, [](const Index unknown) { return unknown; });
+    else
+      terms.close(n_rows_, [&](const Index unknown)
+                  { return static_cast<Index>(shared_->row(unknown)); });
     const abut_multigrid_matrix copied = {
-        sizeof(copied), static_cast<std::int32_t>(terms.start.size()) - 1,
-        terms.start.data(), terms.column.data(), terms.value.data()};
+        sizeof(copied), n_rows_, terms.start.data(), terms.column.data(),
+        terms.value.data()};
     check(abut_multigrid_set_terms(multigrid_.get(),
                                    terms.column.empty() ? nullptr : &copied));
   }
 
   void GeometricMultigrid::check(const abut_status status) const
   {
-    AssertThrow(status == ABUT_SUCCESS,
-                dealii::ExcMessage(abut_context_message(context_.get())));
+    const bool failed = status != ABUT_SUCCESS;
+    const bool fails = shared_ == nullptr ? failed
+                                          : dealii::Utilities::MPI::logical_or(
+                                              failed, shared_->communicator());
+    AssertThrow(!fails,
+                dealii::ExcMessage(
+                    failed ? abut_context_message(context_.get())
+                           : "geometric multigrid failed on another rank"));
   }
 
   void GeometricMultigrid::hold(const std::vector<std::uint8_t> &held,
@@ -60,7 +158,10 @@ namespace abut::solve
 
   void GeometricMultigrid::vmult(la::Vector &dst, const la::Vector &src) const
   {
-    check(abut_multigrid_cycle(multigrid_.get(), la::data(src), la::data(dst)));
+    const abut_status status =
+        abut_multigrid_cycle(multigrid_.get(), la::data(src), la::data(dst));
+    AssertThrow(status == ABUT_SUCCESS,
+                dealii::ExcMessage(abut_context_message(context_.get())));
   }
 
   namespace
@@ -74,14 +175,13 @@ namespace abut::solve
     std::string why_not_geometric(const la::Matrix &matrix,
                                   const NearNullSpace &space)
     {
-      const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(
-          matrix.get_mpi_communicator());
-      if (n_ranks > 1)
-        return "it works on one rank, here are " + std::to_string(n_ranks);
       if (space.meshes == nullptr)
         return "the coarser meshes are not known";
-      if (space.meshes->missing.empty()
-          && space.meshes->unknown.size() != matrix.m())
+      const bool has_others =
+          space.meshes->missing.empty()
+          && space.meshes->unknown.size() != matrix.local_size();
+      if (dealii::Utilities::MPI::logical_or(has_others,
+                                             matrix.get_mpi_communicator()))
         return "there are unknowns beside those of the mesh";
       return space.meshes->missing;
     }

@@ -4,6 +4,7 @@
 
 #include "local_matrix.h"
 #include "multigrid.h"
+#include "shared_meshes.h"
 
 #include <abut/multigrid.h>
 
@@ -12,19 +13,30 @@
 namespace abut::solve
 {
   /** V-cycles over the meshes that a mesh was refined from, see
-   * abut/multigrid.h, with some unknowns held. On one rank. */
+   * abut/multigrid.h, with some unknowns held. All functions but knows() are
+   * collective. */
   class GeometricMultigrid : public Multigrid
   {
   public:
-    /** A copy of @p matrix is made; hold() comes next. */
-    GeometricMultigrid(const la::Matrix &matrix, const MeshHierarchy &meshes);
+    using Index = dealii::types::global_dof_index;
+
+    /** A copy of @p matrix is made; hold() comes next. @p touched are unknowns
+     * of other ranks that terms will have beside those of the matrix; owned
+     * ones do no harm. */
+    GeometricMultigrid(const la::Matrix &matrix, const MeshHierarchy &meshes,
+                       const std::vector<Index> &touched = {});
+
+    /** Whether set_matrix() and set_terms() can take a matrix and terms with
+     * these unknowns, as far as this rank is concerned. */
+    bool knows(const la::Matrix &matrix,
+               const std::vector<Index> &touched) const;
 
     /** Another matrix on the same meshes, copied; hold() comes next. */
     void set_matrix(const la::Matrix &matrix);
 
     /** What is added to the matrix in a few of its rows from the next hold()
-     * on, instead of what was; copied. */
-    void set_terms(const LocalMatrix &terms);
+     * on, instead of what was; any rank may have any part of it. Closes it. */
+    void set_terms(LocalMatrix &terms);
 
     /** [owned] nonzero where an unknown is held, and what is added to the
      * diagonal; empty: nothing. Costs what is near the changes. */
@@ -46,8 +58,13 @@ namespace abut::solve
       }
     };
 
+    void create(const MeshHierarchy &meshes);
     void check(abut_status status) const;
 
+    /** Null on one rank; outlives the hierarchy. */
+    std::unique_ptr<SharedMeshes> shared_;
+    std::vector<Index> ghosts_; ///< of the matrix, in their order
+    std::int32_t n_rows_ = 0;   ///< with those of copies
     std::unique_ptr<abut_context, Destroy> context_;
     std::unique_ptr<abut_multigrid, Destroy> multigrid_;
   };

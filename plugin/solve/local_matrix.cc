@@ -5,18 +5,30 @@
 
 namespace abut::solve
 {
-  void
-  LocalMatrix::add(const dealii::types::global_dof_index row,
-                   const std::vector<dealii::types::global_dof_index> &columns,
-                   const std::vector<double> &values)
+  void LocalMatrix::add(const Index row, const std::vector<Index> &columns,
+                        const std::vector<double> &values)
   {
     for (std::size_t k = 0; k < columns.size(); ++k)
-      entries_.push_back(
-          {static_cast<int>(row), static_cast<int>(columns[k]), values[k]});
+      entries_.push_back({row, columns[k], values[k]});
   }
 
-  void LocalMatrix::close()
+  std::vector<LocalMatrix::Index> LocalMatrix::unknowns() const
   {
+    std::vector<Index> result;
+    for (const Entry &entry : entries_)
+    {
+      if (result.empty() || result.back() != entry.row)
+        result.push_back(entry.row);
+      result.push_back(entry.column);
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  void LocalMatrix::sum_up(const int n_rows)
+  {
+    start.assign(n_rows + std::size_t(1), 0);
     std::stable_sort(entries_.begin(), entries_.end(),
                      [](const Entry &a, const Entry &b) {
                        return a.row != b.row ? a.row < b.row
@@ -25,15 +37,16 @@ namespace abut::solve
     int last = -1;
     for (const Entry &entry : entries_)
     {
-      if (entry.row == last && entry.column == column.back())
+      const int row = static_cast<int>(entry.row);
+      if (row == last && static_cast<int>(entry.column) == column.back())
       {
         value.back() += entry.value;
         continue;
       }
-      last = entry.row;
-      column.push_back(entry.column);
+      last = row;
+      column.push_back(static_cast<int>(entry.column));
       value.push_back(entry.value);
-      ++start[entry.row + 1];
+      ++start[row + 1];
     }
     for (std::size_t i = 1; i < start.size(); ++i)
       start[i] += start[i - 1];

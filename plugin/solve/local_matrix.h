@@ -8,21 +8,32 @@
 
 namespace abut::solve
 {
-  /** A sparse matrix of one rank, summed up from lines, as plain arrays. */
+  /** What a rank has of a sparse matrix, summed up from lines, as plain
+   * arrays. */
   class LocalMatrix
   {
   public:
-    explicit LocalMatrix(const int n_rows) : start(n_rows + std::size_t(1), 0)
-    {
-    }
+    using Index = dealii::types::global_dof_index;
 
     /** Add to a row, whose number is that of the unknown. */
-    void add(dealii::types::global_dof_index row,
-             const std::vector<dealii::types::global_dof_index> &columns,
+    void add(Index row, const std::vector<Index> &columns,
              const std::vector<double> &values);
 
-    /** Sum up what was added. */
-    void close();
+    /** Unknowns of rows and columns, ascending, before it is closed. */
+    std::vector<Index> unknowns() const;
+
+    /** Sum up what was added, with unknowns by other numbers below @p n_rows.
+     */
+    template <typename Number>
+    void close(const int n_rows, const Number &number)
+    {
+      for (Entry &entry : entries_)
+      {
+        entry.row = number(entry.row);
+        entry.column = number(entry.column);
+      }
+      sum_up(n_rows);
+    }
 
     std::vector<int> start; ///< [rows + 1] once it is closed
     std::vector<int> column;
@@ -31,9 +42,11 @@ namespace abut::solve
   private:
     struct Entry
     {
-      int row, column;
+      Index row, column;
       double value;
     };
+
+    void sum_up(int n_rows);
 
     std::vector<Entry> entries_;
   };

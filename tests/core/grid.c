@@ -232,8 +232,8 @@ grid_open(grid *g, int32_t dim, int32_t block, int32_t finest, int32_t coarsest)
   for (int32_t l = g->n_meshes - 1; l >= 0; --l)
     make_mesh(g, l);
   make_matrix(g);
-  g->hierarchy = (abut_multigrid_hierarchy){sizeof(g->hierarchy), block,
-                                            g->n_meshes, g->mesh, NULL};
+  g->hierarchy = (abut_multigrid_hierarchy){
+      sizeof(g->hierarchy), block, g->n_meshes, g->mesh, NULL, NULL};
 }
 
 void

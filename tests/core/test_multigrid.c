@@ -353,6 +353,69 @@ test_terms_are_part_of_the_matrix(void **state)
 }
 
 static void
+add_no_copies(void *user, int32_t mesh, int32_t n_values, float *values)
+{
+  (void)mesh;
+  (void)n_values;
+  (void)values;
+  *(int32_t *)user += 1;
+}
+
+static void
+reduce_alone(void *user, abut_reduction op, double *values, int32_t n)
+{
+  (void)op;
+  (void)values;
+  (void)n;
+  *(int32_t *)user += 1;
+}
+
+/* A rank of which there is only one makes the same cycles as no ranks, with
+ * terms and sets that change. */
+static void
+test_one_rank_is_none(void **state)
+{
+  (void)state;
+  grid g;
+  grid_open(&g, 2, 2, 4, 1);
+  halves h;
+  halves_open(&h, &g, 0.4);
+  abut_context *context = fixture_context();
+  int32_t first[GRID_LEVELS] = {0}, n[GRID_LEVELS], n_calls = 0;
+  for (int32_t l = 0; l < g.n_meshes; ++l)
+    n[l] = g.mesh[l].n_nodes;
+  abut_multigrid_ranks ranks = {first, n, add_no_copies, reduce_alone,
+                                &n_calls};
+  abut_multigrid *alone = open_multigrid(context, &h.less), *ranked = NULL;
+  abut_multigrid_hierarchy hierarchy = g.hierarchy;
+  hierarchy.ranks = &ranks;
+  assert_ok(abut_multigrid_create(context, &hierarchy, &ranked));
+  assert_ok(abut_multigrid_set_matrix(ranked, &h.less.matrix));
+  for (int which = NOTHING; which < ALL_SETS; ++which)
+  {
+    uint8_t *held = make_set(&g, (set)which, 43);
+    abut_multigrid *both[2] = {alone, ranked};
+    for (int k = 0; k < 2; ++k)
+    {
+      assert_ok(
+          abut_multigrid_set_terms(both[k], which == FEW ? NULL : &h.more));
+      assert_ok(abut_multigrid_hold(both[k], held, NULL));
+    }
+    assert_same_cycle(&g, alone, ranked);
+    free(held);
+  }
+  assert_true(n_calls > 0);
+  assert_ok(abut_multigrid_destroy(&ranked));
+  n[1] += 1;
+  assert_int_equal(abut_multigrid_create(context, &hierarchy, &ranked),
+                   ABUT_INVALID_ARGUMENT);
+  assert_ok(abut_multigrid_destroy(&alone));
+  assert_ok(abut_context_destroy(&context));
+  halves_close(&h);
+  grid_close(&g);
+}
+
+static void
 test_one_mesh_is_solved(void **state)
 {
   (void)state;
@@ -494,6 +557,7 @@ main(void)
       cmocka_unit_test(test_coarse_matrix_is_that_of_galerkin),
       cmocka_unit_test(test_what_changed_is_made_anew_and_no_more),
       cmocka_unit_test(test_terms_are_part_of_the_matrix),
+      cmocka_unit_test(test_one_rank_is_none),
       cmocka_unit_test(test_one_mesh_is_solved),
       cmocka_unit_test(test_unknowns_in_any_order),
       cmocka_unit_test(test_mistakes_are_told),

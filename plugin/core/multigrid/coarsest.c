@@ -23,12 +23,14 @@ is_free(const abut_multigrid *mg, const abut_multigrid_level *level, int32_t i)
 /* Rows number q of `rows`, the matrix's for 0 and those added to it for 1, that
  * node i has; NULL: none. */
 static const abut_node_rows *
-rows_of(const abut_multigrid_level *level, int32_t part, int32_t i, int32_t *q)
+rows_of(const abut_multigrid *mg, const abut_multigrid_level *level,
+        int32_t part, int32_t i, int32_t *q)
 {
   *q = i;
+  const bool is_gathered = level->ranks != NULL;
   if (part == 0)
-    return &level->matrix;
-  if (level->terms.n == 0 || level->terms.at[i] < 0)
+    return is_gathered ? &mg->gathered : &level->matrix;
+  if (is_gathered || level->terms.n == 0 || level->terms.at[i] < 0)
     return NULL;
   *q = level->terms.at[i];
   return &level->terms.rows;
@@ -60,7 +62,7 @@ walk(const abut_multigrid *mg, const abut_multigrid_level *level, int32_t *list,
     for (int32_t part = 0; part < 2; ++part)
     {
       int32_t q = 0;
-      const abut_node_rows *rows = rows_of(level, part, list[n_done], &q);
+      const abut_node_rows *rows = rows_of(mg, level, part, list[n_done], &q);
       if (rows != NULL)
         n = append(mg, level, rows, q, list, n, seen);
     }
@@ -100,7 +102,7 @@ reach(abut_multigrid *mg, const abut_multigrid_level *level, int32_t part,
   abut_envelope *f = &mg->factor;
   const int32_t b = mg->block;
   int32_t q = 0;
-  const abut_node_rows *rows = rows_of(level, part, f->source[row] / b, &q);
+  const abut_node_rows *rows = rows_of(mg, level, part, f->source[row] / b, &q);
   if (rows == NULL)
     return;
   for (int64_t e = rows->start[q]; e < rows->start[q + 1]; ++e)
@@ -146,7 +148,7 @@ add_numbers(abut_multigrid *mg, const abut_multigrid_level *level, int32_t part,
   abut_envelope *f = &mg->factor;
   const int32_t b = mg->block, r = f->source[row] % b;
   int32_t q = 0;
-  const abut_node_rows *rows = rows_of(level, part, f->source[row] / b, &q);
+  const abut_node_rows *rows = rows_of(mg, level, part, f->source[row] / b, &q);
   if (rows == NULL)
     return;
   for (int64_t e = rows->start[q]; e < rows->start[q + 1]; ++e)
@@ -222,7 +224,9 @@ abut_multigrid_factorise(abut_multigrid *mg)
   if ((int64_t)level->n * mg->block > ABUT_MULTIGRID_COARSEST)
     return abut_fail(mg->context, ABUT_UNSUPPORTED, call,
                      "the coarsest mesh has more than 4000 unknowns");
-  if (reserve(mg, level) != ABUT_SUCCESS)
+  if (reserve(mg, level) != ABUT_SUCCESS
+      || (level->ranks != NULL
+          && abut_multigrid_gather_coarsest(mg) != ABUT_SUCCESS))
     return abut_fail(mg->context, ABUT_OUT_OF_MEMORY, call, "no memory");
   int32_t *list = abut_pool_take(&mg->coarsest, level->n, sizeof(int32_t));
   uint8_t *seen = abut_pool_take(&mg->coarsest, level->n, 1);

@@ -4,6 +4,7 @@
 #include "multigrid/multigrid.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A pivot below this part of its diagonal entry: the component moves with the
  * others, as in rigid motions of a coarse function that is nearly cut off. */
@@ -54,17 +55,33 @@ diagonal_block(const abut_multigrid_level *level, int32_t b, int32_t i,
                + (more < 0 ? 0 : level->terms.rows.weight[more * b * b + k]);
 }
 
+/* Diagonal blocks of all nodes, added up over the ranks. */
+static void
+share_blocks(abut_multigrid *mg, const abut_multigrid_level *level)
+{
+  const int32_t b = mg->block;
+  for (int32_t i = 0; i < level->n; ++i)
+    diagonal_block(level, b, i, mg->blocks + (int64_t)i * b * b);
+  abut_level_share(level, b * b, mg->blocks);
+}
+
 void
 abut_multigrid_invert(abut_multigrid *mg, int32_t l)
 {
   abut_multigrid_level *level = &mg->level[l];
   const int32_t b = mg->block;
+  if (level->ranks != NULL)
+    share_blocks(mg, level);
   for (int32_t i = 0; i < level->n; ++i)
   {
     if (!level->dirty[i])
       continue;
     float block[ABUT_MULTIGRID_BLOCK];
-    diagonal_block(level, b, i, block);
+    if (level->ranks == NULL)
+      diagonal_block(level, b, i, block);
+    else
+      memcpy(block, mg->blocks + (int64_t)i * b * b,
+             (size_t)(b * b) * sizeof(float));
     uint8_t *held = level->held + (int64_t)i * b;
     for (int32_t c = 0; c < b && l > 0; ++c)
       held[c] = level->fixed[(int64_t)i * b + c] || !(block[c * b + c] > 0);
@@ -90,9 +107,13 @@ abut_multigrid_bound(abut_multigrid *mg, int32_t l, int32_t n_steps)
   uint64_t seed = 1;
   for (int64_t u = 0; u < n; ++u)
   {
+    const int64_t i = u / mg->block;
     const float x = noise(&seed);
-    level->x[u] = level->held[u] ? 0 : x;
+    level->x[u] = i < level->first_own || i >= level->end_own ? 0 : x;
   }
+  abut_level_share(level, mg->block, level->x);
+  for (int64_t u = 0; u < n; ++u)
+    level->x[u] = level->held[u] ? 0 : level->x[u];
   double largest = 0;
   for (int32_t step = 0; step < n_steps; ++step)
   {

@@ -31,6 +31,8 @@ abut_multigrid_collect(abut_multigrid *mg, const abut_multigrid_matrix *a,
   for (int32_t c = 0; c < mg->block; ++c)
   {
     const int32_t row = mg->unknown[i * mg->block + c];
+    if (row >= a->n)
+      continue;
     int32_t last = -1; /* components of a node mostly stand side by side */
     for (int32_t e = a->start[row]; e < a->start[row + 1]; ++e)
     {
@@ -89,7 +91,8 @@ abut_multigrid_add_row(abut_multigrid *mg, const abut_multigrid_matrix *a,
   for (int32_t c = 0; c < b; ++c)
   {
     const int32_t row = mg->unknown[i * b + c];
-    for (int32_t e = a->start[row]; e < a->start[row + 1]; ++e)
+    for (int32_t e = row < a->n ? a->start[row] : 0;
+         row < a->n && e < a->start[row + 1]; ++e)
     {
       const int32_t column = a->column[e];
       const int64_t at = mg->place[host->node[column]];
@@ -120,8 +123,10 @@ abut_status
 abut_multigrid_check(abut_multigrid *mg, const abut_multigrid_matrix *a,
                      const char *call)
 {
-  if (a->n != mg->level[0].n * mg->block || a->start == NULL || a->start[0] != 0
-      || a->column == NULL || a->value == NULL)
+  const int32_t n = mg->level[0].n * mg->block;
+  const bool has_rows = mg->level[0].ranks == NULL ? a->n == n : a->n <= n;
+  if (!has_rows || a->n < 0 || a->start == NULL || a->start[0] != 0
+      || (a->start[a->n] > 0 && (a->column == NULL || a->value == NULL)))
     return abut_fail(mg->context, ABUT_INVALID_ARGUMENT, call,
                      "the matrix is incomplete, or not that of the finest "
                      "mesh");
@@ -129,7 +134,7 @@ abut_multigrid_check(abut_multigrid *mg, const abut_multigrid_matrix *a,
   for (int32_t i = 0; i < a->n; ++i)
     for (int32_t e = a->start[i]; e < a->start[i + 1]; ++e)
     {
-      if (a->column[e] < 0 || a->column[e] >= a->n)
+      if (a->column[e] < 0 || a->column[e] >= n)
         return abut_fail(mg->context, ABUT_INVALID_ARGUMENT, call,
                          "a column is none of the matrix");
       probe += 0.0 * a->value[e];

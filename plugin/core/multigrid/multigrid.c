@@ -41,6 +41,22 @@ wrong_mesh(const abut_multigrid_hierarchy *h, int32_t l)
 }
 
 static const char *
+wrong_ranks(const abut_multigrid_hierarchy *h)
+{
+  const abut_multigrid_ranks *ranks = h->ranks;
+  if (ranks == NULL)
+    return NULL;
+  if (ranks->first_own == NULL || ranks->n_own == NULL
+      || ranks->add_copies == NULL || ranks->reduce == NULL)
+    return "what joins the ranks is incomplete";
+  for (int32_t l = 0; l < h->n_meshes; ++l)
+    if (ranks->first_own[l] < 0 || ranks->n_own[l] < 0
+        || ranks->n_own[l] > h->mesh[l].n_nodes - ranks->first_own[l])
+      return "a rank owns nodes that it does not have";
+  return NULL;
+}
+
+static const char *
 wrong_hierarchy(const abut_multigrid_hierarchy *h)
 {
   if (h->block < 1 || h->block > 3)
@@ -53,7 +69,7 @@ wrong_hierarchy(const abut_multigrid_hierarchy *h)
     if (what != NULL)
       return what;
   }
-  return NULL;
+  return wrong_ranks(h);
 }
 
 static void
@@ -101,6 +117,23 @@ transpose(abut_pool *pool, const abut_node_rows *rows, int32_t n, int32_t n_new,
     }
 }
 
+/* Tell a level which nodes are this rank's. */
+static void
+take_own(abut_multigrid *mg, const abut_multigrid_ranks *ranks, int32_t l)
+{
+  abut_multigrid_level *level = &mg->level[l];
+  level->number = l;
+  level->first_own = 0;
+  level->end_own = level->n;
+  if (ranks == NULL)
+    return;
+  level->ranks = &mg->ranks;
+  level->first_own = ranks->first_own[l];
+  level->end_own = level->first_own + ranks->n_own[l];
+  level->product = abut_pool_take(&mg->structure, (int64_t)level->n * mg->block,
+                                  sizeof(float));
+}
+
 static void
 take_mesh(abut_multigrid *mg, const abut_multigrid_mesh *mesh, int32_t l)
 {
@@ -127,7 +160,21 @@ take_mesh(abut_multigrid *mg, const abut_multigrid_mesh *mesh, int32_t l)
               &level->children);
 }
 
-/* False if the numbers are no permutation. */
+/* Whether node i of the finest level is this rank's. */
+static bool
+is_own(const abut_multigrid *mg, int64_t i)
+{
+  return i >= mg->level[0].first_own && i < mg->level[0].end_own;
+}
+
+/* Rows of this rank, which are the first ones. */
+static int64_t
+n_own_rows(const abut_multigrid *mg)
+{
+  return (int64_t)(mg->level[0].end_own - mg->level[0].first_own) * mg->block;
+}
+
+/* False if the numbers are no permutation, or own nodes not the first. */
 static bool
 take_unknowns(abut_multigrid *mg, const int32_t *unknown)
 {
@@ -138,7 +185,8 @@ take_unknowns(abut_multigrid *mg, const int32_t *unknown)
   for (int64_t u = 0; u < n && good; ++u)
   {
     good = mg->unknown[u] >= 0 && mg->unknown[u] < n
-           && mg->held[mg->unknown[u]] == 0;
+           && mg->held[mg->unknown[u]] == 0
+           && is_own(mg, u / mg->block) == (mg->unknown[u] < n_own_rows(mg));
     if (good)
       mg->held[mg->unknown[u]] = 1;
   }
@@ -154,6 +202,7 @@ build(abut_multigrid *mg, const abut_multigrid_hierarchy *h)
   for (int32_t l = 0; l < mg->n_levels; ++l)
   {
     take_mesh(mg, &h->mesh[l], l);
+    take_own(mg, h->ranks, l);
     most = most > h->mesh[l].n_nodes ? most : h->mesh[l].n_nodes;
   }
   const int64_t n = (int64_t)mg->level[0].n * mg->block;
@@ -165,6 +214,14 @@ build(abut_multigrid *mg, const abut_multigrid_hierarchy *h)
   mg->place = abut_pool_take(&mg->structure, most, sizeof(int32_t));
   mg->fine_place = abut_pool_take(&mg->structure, most, sizeof(int32_t));
   mg->list = abut_pool_take(&mg->structure, most, sizeof(int32_t));
+  if (h->ranks != NULL)
+  {
+    mg->ranks = *h->ranks;
+    mg->ranks.first_own = mg->ranks.n_own = NULL; /* the levels know them */
+    mg->changed = abut_pool_take(&mg->structure, h->mesh[0].n_nodes, 1);
+    mg->blocks = abut_pool_take(
+        &mg->structure, (int64_t)most * mg->block * mg->block, sizeof(float));
+  }
   if (mg->structure.failed)
     return abut_fail(mg->context, ABUT_OUT_OF_MEMORY, create_call, "no memory");
   for (int32_t i = 0; i < most; ++i)
@@ -185,7 +242,7 @@ abut_multigrid_create(abut_context *context,
   if (multigrid == NULL || hierarchy == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, create_call,
                      "an argument is NULL");
-  abut_multigrid_hierarchy taken = {sizeof(taken), 1, 0, NULL, NULL};
+  abut_multigrid_hierarchy taken = {sizeof(taken), 1, 0, NULL, NULL, NULL};
   abut_status status =
       abut_take(context, create_call, &taken, sizeof(taken), hierarchy);
   if (status != ABUT_SUCCESS)
@@ -280,8 +337,9 @@ take_node(abut_multigrid *mg, int32_t i, const uint8_t *held,
   {
     const int64_t u = (int64_t)i * b + c;
     const int32_t row = mg->unknown[u];
-    const uint8_t is_held = held != NULL && held[row];
-    const double more = added == NULL ? 0 : added[row];
+    const bool own = is_own(mg, i);
+    const uint8_t is_held = own ? held != NULL && held[row] : mg->blocks[u] > 0;
+    const double more = own && added != NULL ? added[row] : 0;
     changed |= is_held != mg->held[u] || more != mg->added[u];
     mg->held[u] = is_held;
     mg->added[u] = more;
@@ -293,12 +351,49 @@ take_node(abut_multigrid *mg, int32_t i, const uint8_t *held,
   return changed;
 }
 
+/* Let mg->blocks say which unknowns other ranks hold. */
+static void
+share_held(abut_multigrid *mg, const uint8_t *held)
+{
+  const abut_multigrid_level *level = &mg->level[0];
+  for (int64_t u = 0; u < (int64_t)level->n * mg->block; ++u)
+    mg->blocks[u] =
+        is_own(mg, u / mg->block) && held != NULL && held[mg->unknown[u]];
+  abut_level_share(level, mg->block, mg->blocks);
+}
+
+/* The same as mark_finest() where copies have no rows that would tell whose
+ * columns they are. */
+static void
+mark_shared(abut_multigrid *mg, const uint8_t *held, const double *added,
+            bool all)
+{
+  abut_multigrid_level *level = &mg->level[0];
+  share_held(mg, held);
+  for (int32_t i = 0; i < level->n; ++i)
+    mg->changed[i] = take_node(mg, i, held, added);
+  for (int32_t i = 0; i < level->n; ++i)
+  {
+    bool any = all || mg->moved[i] || mg->changed[i];
+    for (int64_t e = level->matrix.start[i];
+         !any && e < level->matrix.start[i + 1]; ++e)
+      any = mg->changed[level->matrix.node[e]];
+    level->dirty[i] = any;
+  }
+  abut_level_share_flags(level, 1, level->dirty);
+}
+
 /* Mark the rows of the finest level that differ from the last time. */
 static void
 mark_finest(abut_multigrid *mg, const uint8_t *held, const double *added,
             bool all)
 {
   abut_multigrid_level *level = &mg->level[0];
+  if (level->ranks != NULL)
+  {
+    mark_shared(mg, held, added, all);
+    return;
+  }
   memset(level->dirty, all, (size_t)level->n);
   for (int32_t i = 0; i < level->n; ++i)
   {
@@ -308,6 +403,14 @@ mark_finest(abut_multigrid *mg, const uint8_t *held, const double *added,
         level->dirty[level->matrix.node[e]] = 1;
     level->dirty[i] |= mg->moved[i];
   }
+}
+
+static bool
+any_rank(const abut_multigrid_level *level, bool here)
+{
+  double value = here;
+  abut_level_reduce(level, ABUT_REDUCTION_MAX, &value, 1);
+  return value > 0;
 }
 
 /* Mark the rows of level l + 1 that depend on those marked on level l. */
@@ -325,7 +428,8 @@ mark_coarse(abut_multigrid *mg, int32_t l)
       coarse->dirty[fine->parents.node[e]] = 1;
       any = true;
     }
-  return any;
+  abut_level_share_flags(coarse, 1, coarse->dirty);
+  return any_rank(coarse, any);
 }
 
 /* What is held takes nothing from the largest eigenvalue of the finest level:
@@ -342,8 +446,7 @@ static bool
 holds_numbers(const abut_multigrid *mg, const double *added)
 {
   bool good = true;
-  for (int64_t u = 0; added != NULL && u < (int64_t)mg->level[0].n * mg->block;
-       ++u)
+  for (int64_t u = 0; added != NULL && u < n_own_rows(mg); ++u)
     good &= isfinite(added[u]) && added[u] >= 0;
   return good;
 }
@@ -357,13 +460,16 @@ abut_multigrid_hold(abut_multigrid *mg, const uint8_t *held,
   if (!mg->has_matrix)
     return abut_fail(mg->context, ABUT_INVALID_ARGUMENT, hold_call,
                      "there is no matrix yet");
-  if (!holds_numbers(mg, added))
-    return abut_fail(mg->context, ABUT_INVALID_ARGUMENT, hold_call,
-                     "what is added is negative or not finite");
+  const bool good = holds_numbers(mg, added);
+  if (any_rank(&mg->level[0], !good))
+    return good ? abut_fail(mg->context, ABUT_FAILED_ELSEWHERE, hold_call,
+                            "what is added is wrong on another rank")
+                : abut_fail(mg->context, ABUT_INVALID_ARGUMENT, hold_call,
+                            "what is added is negative or not finite");
   const bool first = !mg->is_ready;
   mg->is_ready = false;
   mg->n_renewed = 0;
-  const bool has_terms = mg->level[0].terms.n > 0;
+  const bool has_terms = any_rank(&mg->level[0], mg->level[0].terms.n > 0);
   const bool is_prepared = !has_terms && (first || mg->had_terms);
   if (is_prepared)
     prepare_finest(mg);
@@ -419,15 +525,20 @@ abut_multigrid_cycle(abut_multigrid *mg, const double *r, double *x)
                      mg->is_ready ? "a vector is NULL"
                                   : "abut_multigrid_hold() comes first");
   abut_multigrid_level *level = &mg->level[0];
-  const int64_t n = (int64_t)level->n * mg->block;
+  const int64_t first = (int64_t)level->first_own * mg->block;
+  const int64_t end = (int64_t)level->end_own * mg->block;
   double size = 0;
-  for (int64_t u = 0; u < n; ++u)
+  for (int64_t u = 0; u < end - first; ++u)
     size = fmax(size, fabs(r[u]));
+  abut_level_reduce(level, ABUT_REDUCTION_MAX, &size, 1);
   const double scale = size > 0 ? 1 / size : 0;
-  for (int64_t u = 0; u < n; ++u)
+  if (level->ranks != NULL)
+    memset(level->r, 0, (size_t)level->n * (size_t)mg->block * sizeof(float));
+  for (int64_t u = first; u < end; ++u)
     level->r[u] = level->held[u] ? 0 : (float)(scale * r[mg->unknown[u]]);
+  abut_level_share(level, mg->block, level->r);
   cycle(mg, 0);
-  for (int64_t u = 0; u < n; ++u)
+  for (int64_t u = first; u < end; ++u)
     x[mg->unknown[u]] = size * (double)level->x[u];
   return ABUT_SUCCESS;
 }

@@ -69,6 +69,12 @@ typedef struct abut_multigrid_level
                             and columns that are held */
   float *x, *r, *z;      /* [n * block + 1] of a cycle */
   double largest;        /* bound of the eigenvalues of inverse * matrix */
+
+  int32_t number;                    /* of this level */
+  int32_t first_own, end_own;        /* nodes that are this rank's */
+  const abut_multigrid_ranks *ranks; /* NULL: there are no others */
+  float *product; /* [n * block] of the matrix, added up over ranks; NULL: it
+                     is not kept */
 } abut_multigrid_level;
 
 /* Cholesky factor of a symmetric matrix by rows, each from its first nonzero
@@ -89,9 +95,14 @@ struct abut_multigrid
   abut_context *context;
   int32_t block, n_levels;
   int32_t *unknown; /* [n * block] row of the host */
+  abut_multigrid_ranks ranks;
+  float *blocks;    /* [max nodes] work: diagonal blocks; NULL: one rank */
+  uint8_t *changed; /* [n] work; NULL: one rank */
   abut_pool structure, matrices, terms, coarsest;
   abut_multigrid_level level[ABUT_MULTIGRID_MESHES];
   abut_envelope factor;
+  abut_node_rows
+      gathered;   /* of the coarsest level, of all ranks; one: unused */
   uint8_t *held;  /* [n * block] by the last hold() */
   double *added;  /* [n * block] to the diagonal */
   float *plain;   /* [n * block] diagonal without what is added */
@@ -108,6 +119,22 @@ struct abut_multigrid
 abut_status abut_multigrid_check(abut_multigrid *mg,
                                  const abut_multigrid_matrix *matrix,
                                  const char *call);
+
+/* Add up values [n * n_values] over the copies of nodes on other ranks. */
+void abut_level_share(const abut_multigrid_level *level, int32_t n_values,
+                      float *values);
+
+/* Set flags [n * n_flags] that are set at any copy; n_flags <= block.
+ * Overwrites level->z. */
+void abut_level_share_flags(abut_multigrid_level *level, int32_t n_flags,
+                            uint8_t *flags);
+
+/* The sum (or maximum) over ranks, in place. */
+void abut_level_reduce(const abut_multigrid_level *level, abut_reduction op,
+                       double *values, int32_t n);
+
+/* Make mg->gathered, the sum of the matrices of all ranks. */
+abut_status abut_multigrid_gather_coarsest(abut_multigrid *mg);
 
 /* What the rows of the host are. */
 typedef struct abut_host_numbers
@@ -172,7 +199,7 @@ void abut_level_prolong(abut_multigrid_level *level, int32_t block,
 void abut_level_smooth_last(abut_multigrid_level *level, int32_t block);
 
 /* z = inverse * matrix * x; returns (z, matrix x) / (x, matrix x), which is at
- * most the largest eigenvalue. */
+ * most the largest eigenvalue. Collective. */
 double abut_level_quotient(abut_multigrid_level *level, int32_t block);
 
 #endif

@@ -8,7 +8,8 @@
  *     z = 4/3 S r / largest
  *     weight_1 z + weight_2 (z / 5 + 12/5 S (r - A z) / largest),
  * the same before and after the coarse level, which makes the cycle symmetric.
- * Each line is one pass over the rows.
+ * Each line is one pass over the rows. With other ranks products are made
+ * first, and added up over the copies of nodes.
  */
 #include "multigrid/multigrid.h"
 
@@ -60,14 +61,40 @@ add_row_times(const abut_node_rows *rows, const int32_t b, int32_t q,
 
 /* t = row i of the matrix, with what is added to it, times v. */
 ABUT_INLINE void
-row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
-          const float *v, float *t)
+own_row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
+              const float *v, float *t)
 {
   for (int32_t r = 0; r < b; ++r)
     t[r] = 0;
   add_row_times(&level->matrix, b, i, v, t);
   if (level->terms.n > 0 && level->terms.at[i] >= 0)
     add_row_times(&level->terms.rows, b, level->terms.at[i], v, t);
+}
+
+/* Let row_times() know the product of all ranks' matrices with v, which is the
+ * same at all copies. */
+ABUT_INLINE void
+multiply(abut_multigrid_level *level, const int32_t b, const float *v)
+{
+  if (level->product == NULL)
+    return;
+  for (int32_t i = 0; i < level->n; ++i)
+    own_row_times(level, b, i, v, level->product + (int64_t)i * b);
+  abut_level_share(level, b, level->product);
+}
+
+/* The same after multiply() with v. */
+ABUT_INLINE void
+row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
+          const float *v, float *t)
+{
+  if (level->product == NULL)
+  {
+    own_row_times(level, b, i, v, t);
+    return;
+  }
+  for (int32_t r = 0; r < b; ++r)
+    t[r] = level->product[(int64_t)i * b + r];
 }
 
 /* s = factor * inverse of node i times t. */
@@ -110,6 +137,7 @@ smooth_first(abut_multigrid_level *level, const int32_t b)
   for (int32_t i = 0; i < level->n; ++i)
     scale(level, b, i, factor, level->r + (int64_t)i * b,
           level->z + (int64_t)i * b);
+  multiply(level, b, level->z);
   for (int32_t i = 0; i < level->n; ++i)
     second_line(level, b, i, true);
 }
@@ -118,6 +146,7 @@ ABUT_INLINE void
 smooth_last(abut_multigrid_level *level, const int32_t b)
 {
   const float factor = (float)(4. / (3. * level->largest));
+  multiply(level, b, level->x);
   for (int32_t i = 0; i < level->n; ++i)
   {
     float t[3];
@@ -127,6 +156,7 @@ smooth_last(abut_multigrid_level *level, const int32_t b)
       level->r[at + r] -= t[r];
     scale(level, b, i, factor, level->r + at, level->z + at);
   }
+  multiply(level, b, level->z);
   for (int32_t i = 0; i < level->n; ++i)
     second_line(level, b, i, false);
 }
@@ -136,7 +166,8 @@ restrict_residual(abut_multigrid_level *level, const int32_t b,
                   abut_multigrid_level *coarse)
 {
   memset(coarse->r, 0, (size_t)coarse->n * (size_t)b * sizeof(float));
-  for (int32_t i = 0; i < level->n; ++i)
+  multiply(level, b, level->x);
+  for (int32_t i = level->first_own; i < level->end_own; ++i)
   {
     float t[3];
     const int64_t at = (int64_t)i * b;
@@ -149,6 +180,7 @@ restrict_residual(abut_multigrid_level *level, const int32_t b,
         coarse->r[(int64_t)level->parents.node[e] * b + r] +=
             level->parents.weight[e] * t[r];
   }
+  abut_level_share(coarse, b, coarse->r);
 }
 
 ABUT_INLINE void
@@ -172,20 +204,24 @@ prolong(abut_multigrid_level *level, const int32_t b,
 ABUT_INLINE double
 quotient(abut_multigrid_level *level, const int32_t b)
 {
-  double above = 0, below = 0;
+  double sums[2] = {0, 0};
+  multiply(level, b, level->x);
   for (int32_t i = 0; i < level->n; ++i)
   {
     float t[3];
     const int64_t at = (int64_t)i * b;
     row_times(level, b, i, level->x, t);
     scale(level, b, i, 1, t, level->z + at);
+    if (i < level->first_own || i >= level->end_own)
+      continue;
     for (int32_t r = 0; r < b; ++r)
     {
-      above += (double)level->z[at + r] * (double)t[r];
-      below += (double)level->x[at + r] * (double)t[r];
+      sums[0] += (double)level->z[at + r] * (double)t[r];
+      sums[1] += (double)level->x[at + r] * (double)t[r];
     }
   }
-  return below > 0 ? above / below : 0;
+  abut_level_reduce(level, ABUT_REDUCTION_SUM, sums, 2);
+  return sums[1] > 0 ? sums[0] / sums[1] : 0;
 }
 
 /* The loops above are compiled for each size of blocks. */

@@ -35,7 +35,7 @@ number(abut_multigrid *mg, const abut_multigrid_matrix *a,
     for (int32_t c = 0; c < b; ++c)
     {
       const int32_t row = mg->unknown[i * b + c];
-      any |= a->start[row + 1] > a->start[row];
+      any |= row < a->n && a->start[row + 1] > a->start[row];
     }
     terms->at[i] = any ? terms->n++ : -1;
   }
