@@ -145,7 +145,7 @@ extern "C"
                                            const uint8_t *held,
                                            const double *added);
 
-  /** One cycle: @p x = M @p r, both [rows]. */
+  /** One cycle: @p x = M @p r, both [own rows]; NULL where there are none. */
   ABUT_API abut_status abut_multigrid_cycle(abut_multigrid *multigrid,
                                             const double *r, double *x);
 

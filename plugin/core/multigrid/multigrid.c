@@ -520,7 +520,8 @@ abut_multigrid_cycle(abut_multigrid *mg, const double *r, double *x)
   static const char call[] = "abut_multigrid_cycle";
   if (mg == NULL)
     return ABUT_INVALID_ARGUMENT;
-  if (!mg->is_ready || r == NULL || x == NULL)
+  const bool lacks_vector = n_own_rows(mg) > 0 && (r == NULL || x == NULL);
+  if (!mg->is_ready || lacks_vector)
     return abut_fail(mg->context, ABUT_INVALID_ARGUMENT, call,
                      mg->is_ready ? "a vector is NULL"
                                   : "abut_multigrid_hold() comes first");
