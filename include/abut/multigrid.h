@@ -22,8 +22,8 @@
  *
  * A cycle is one V-cycle in single precision, with a Chebyshev smoother of
  * degree 2 before and after the coarse level; of fields with one unknown at a
- * node and without terms, one sweep of Gauss and Seidel; as an operator it is symmetric and positive definite on
- * what is free, and 0 on what is held.
+ * node and without terms, one sweep of Gauss and Seidel; as an operator it is
+ * symmetric and positive definite on what is free, and 0 on what is held.
  */
 
 #include <abut/context.h>
