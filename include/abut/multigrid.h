@@ -20,9 +20,11 @@
  *     abut_multigrid_hold(mg, held, NULL);    // whenever the set has changed
  *     abut_multigrid_cycle(mg, r, x);         // x is about A^-1 r
  *
- * A cycle is one V-cycle with two sweeps of a Chebyshev smoother of degree 2,
- * in single precision; as an operator it is symmetric and positive definite on
- * what is free, and 0 on what is held.
+ * A cycle is one V-cycle in single precision, with a Chebyshev smoother of
+ * degree 2 before and after the coarse level; of fields with one unknown at a
+ * node, without terms and on one rank, one sweep of Gauss and Seidel; as an
+ * operator it is symmetric and positive definite on what is free, and 0 on what
+ * is held.
  *
  * Several ranks can share a hierarchy. Each has the nodes that it owns and
  * copies of some others, and sums up its own part of all matrices: those of

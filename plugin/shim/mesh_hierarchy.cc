@@ -46,6 +46,7 @@ namespace abut::shim
             n_components_(dof_handler.get_fe().n_components()),
             unknown_(triangulation_.n_vertices() * n_components_,
                      dealii::numbers::invalid_dof_index),
+            is_constrained_(unknown_.size()),
             middle_(triangulation_.n_vertices()),
             level_(triangulation_.n_vertices(), no_level),
             hangs_(triangulation_.n_vertices(), 0),
@@ -70,6 +71,7 @@ namespace abut::shim
 
       std::string why_not() const;
       void find_unknowns();
+      void find_constrained();
       void find_middles();
       void find_levels();
       void mark_hanging();
@@ -94,7 +96,8 @@ namespace abut::shim
       const unsigned int n_components_;
       /** [vertices * components] */
       std::vector<dealii::types::global_dof_index> unknown_;
-      std::vector<Parents> middle_; ///< [vertices]
+      std::vector<std::uint8_t> is_constrained_; ///< the same
+      std::vector<Parents> middle_;              ///< [vertices]
       /** [vertices] of the coarsest mesh that it is a corner in. */
       std::vector<std::uint8_t> level_;
       /** [vertices] the same on all meshes that it is on; of vertices of other
@@ -151,6 +154,18 @@ namespace abut::shim
                    + place.first] = dofs[i];
         }
       }
+      find_constrained();
+    }
+
+    /** Constraints are asked once: they take long to find one of a number. */
+    template <int dim> void HierarchyMaker<dim>::find_constrained()
+    {
+      std::vector<std::uint8_t> by_unknown(dof_handler_.n_dofs());
+      for (const auto &line : constraints_.get_lines())
+        by_unknown[line.index] = 1;
+      for (std::size_t i = 0; i < unknown_.size(); ++i)
+        is_constrained_[i] = unknown_[i] != dealii::numbers::invalid_dof_index
+                             && by_unknown[unknown_[i]] != 0;
     }
 
     template <int dim>
@@ -381,9 +396,9 @@ namespace abut::shim
       for (std::size_t i = 0; i < result.size(); ++i)
       {
         const unsigned int v = mesh.vertex[i / n_components_];
-        result[i] = hangs_[v]
-                    || constraints_.is_constrained(
-                        unknown_[v * n_components_ + i % n_components_]);
+        result[i] =
+            hangs_[v] != 0
+            || is_constrained_[v * n_components_ + i % n_components_] != 0;
       }
       return result;
     }
@@ -421,6 +436,13 @@ namespace abut::shim
                                           const Draft &coarse,
                                           MeshHierarchy::Mesh &mesh)
     {
+      // Hanging nodes of the coarse mesh alone may have more.
+      std::size_t n = 0;
+      for (const unsigned int v : fine.vertex)
+        n += coarse.node[v] >= 0 ? 1 : middle_[v].n;
+      mesh.parent.reserve(n);
+      mesh.weight.reserve(n);
+      mesh.start.reserve(fine.vertex.size() + 1);
       mesh.start = {0};
       for (const unsigned int v : fine.vertex)
       {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "nodal_candidates.h"
 
+#include "shifted_cells.h"
+
 #include <abut/dealii/linear_algebra.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -47,6 +49,18 @@ namespace abut::shim
       return dealii::Quadrature<dim>(fe.get_unit_support_points(), weights);
     }
 
+    /** Whether node i of a cell is its vertex i. */
+    template <int dim>
+    bool has_nodes_in_vertices(const dealii::FiniteElement<dim> &fe)
+    {
+      constexpr unsigned int n = dealii::GeometryInfo<dim>::vertices_per_cell;
+      bool result = fe.n_dofs_per_cell() == n;
+      for (unsigned int i = 0; i < n && result; ++i)
+        result = fe.unit_support_point(i)
+                 == dealii::GeometryInfo<dim>::unit_cell_vertex(i);
+      return result;
+    }
+
     template <int dim>
     void collect_in_domain(const dealii::Mapping<dim> &mapping,
                            const dealii::DoFHandler<dim> &dof_handler,
@@ -57,11 +71,19 @@ namespace abut::shim
                                    dealii::update_JxW_values
                                        | dealii::update_quadrature_points);
       std::vector<global_dof_index> dofs(fe.n_dofs_per_cell());
+      ShiftedCells<dim> shapes(mapping);
+      const bool nodes_are_vertices = has_nodes_in_vertices(fe);
       for (const auto &cell : dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
         {
-          values.reinit(cell);
           cell->get_dof_indices(dofs);
+          if (nodes_are_vertices && shapes.is_shifted(cell))
+          {
+            for (unsigned int i = 0; i < dofs.size(); ++i)
+              collection.add(dofs[i], cell->vertex(i), values.JxW(i));
+            continue;
+          }
+          values.reinit(cell);
           for (unsigned int i = 0; i < dofs.size(); ++i)
             collection.add(dofs[i], values.quadrature_point(i), values.JxW(i));
         }

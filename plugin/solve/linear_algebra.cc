@@ -210,16 +210,25 @@ namespace abut::la
   std::vector<double> diagonal(const LocalRows &rows)
   {
     std::vector<double> result(rows.n_rows, 0.);
+    int place = 0; // of the last row's diagonal entry, mostly this one's, too
     for (int i = 0; i < rows.n_rows; ++i)
     {
+      const int guess = rows.start[i] + place;
+      if (guess < rows.start[i + 1] && rows.column[guess] == i)
+      {
+        result[i] = rows.value[guess];
+        continue;
+      }
       const int *const begin = rows.column + rows.start[i];
       const int *const end = rows.column + rows.start[i + 1];
       // Epetra sorts rows unless it is told not to.
       const int *at = std::lower_bound(begin, end, i);
       if (at == end || *at != i)
         at = std::find(begin, end, i);
-      if (at != end)
-        result[i] = rows.value[at - rows.column];
+      if (at == end)
+        continue;
+      result[i] = rows.value[at - rows.column];
+      place = static_cast<int>(at - begin);
     }
     return result;
   }

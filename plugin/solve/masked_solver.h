@@ -26,21 +26,30 @@ namespace abut::solve
     std::vector<double> diagonal;
   };
 
-  /** P K P + D, and the identity on held unknowns, which stay 0. */
+  /** P K P + D, and the identity on held unknowns, which stay 0. On one rank
+   * their rows are passed over. */
   class MaskedOperator
   {
   public:
     MaskedOperator(const la::Matrix &matrix, const Mask &mask)
-        : matrix_(matrix), mask_(mask)
+        : matrix_(matrix),
+          mask_(mask),
+          is_alone_(dealii::Utilities::MPI::n_mpi_processes(
+                        matrix.get_mpi_communicator())
+                    == 1),
+          rows_(is_alone_ ? la::local_rows(matrix) : la::LocalRows())
     {
     }
 
     void vmult(la::Vector &dst, const la::Vector &src) const
     {
-      matrix_.vmult(dst, src);
       double *out = la::data(dst);
       const double *in = la::data(src);
       const std::size_t n = mask_.held.size();
+      if (is_alone_)
+        multiply_free(in, out);
+      else
+        matrix_.vmult(dst, src);
       if (!mask_.diagonal.empty())
         for (std::size_t i = 0; i < n; ++i)
           out[i] += mask_.diagonal[i] * in[i];
@@ -49,8 +58,22 @@ namespace abut::solve
     }
 
   private:
+    void multiply_free(const double *in, double *out) const
+    {
+      for (int i = 0; i < rows_.n_rows; ++i)
+      {
+        double sum = 0.;
+        const int end = rows_.start[mask_.held[i] ? i : i + 1];
+        for (int k = rows_.start[i]; k < end; ++k)
+          sum += rows_.value[k] * in[rows_.column[k]];
+        out[i] = sum;
+      }
+    }
+
     const la::Matrix &matrix_;
     const Mask &mask_;
+    const bool is_alone_;
+    const la::LocalRows rows_;
   };
 
   /** S M S with the scaling of MaskedSolver, 0 at held unknowns. */

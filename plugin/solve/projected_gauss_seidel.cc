@@ -9,19 +9,13 @@ namespace abut::solve
   {
     /** Minimise over unknown i alone, all others being fixed. */
     double relax(const la::LocalRows &rows, const double *residual,
-                 const std::vector<double> &d, const int i)
+                 const double *diagonal, const std::vector<double> &d,
+                 const int i)
     {
       double force = -residual[i];
-      double diagonal = 0.;
       for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
-      {
-        const int j = rows.column[k];
-        if (j == i)
-          diagonal = rows.value[k];
-        else
-          force -= rows.value[k] * d[j];
-      }
-      return force / diagonal;
+        force -= rows.value[k] * d[rows.column[k]];
+      return d[i] + force / diagonal[i];
     }
   } // namespace
 
@@ -34,13 +28,16 @@ namespace abut::solve
   {
     const la::LocalRows rows = la::local_rows(stiffness);
     const double *const r = la::data(residual);
+    const std::vector<double> diagonal = la::diagonal(rows);
     for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
     {
       std::vector<double> d = la::gather(stiffness, correction);
       for (int i = 0; i < rows.n_rows; ++i)
-        d[i] = std::clamp(relax(rows, r, d, i), lower[i], upper[i]);
+        d[i] = std::clamp(relax(rows, r, diagonal.data(), d, i), lower[i],
+                          upper[i]);
       for (int i = rows.n_rows; i-- > 0;)
-        d[i] = std::clamp(relax(rows, r, d, i), lower[i], upper[i]);
+        d[i] = std::clamp(relax(rows, r, diagonal.data(), d, i), lower[i],
+                          upper[i]);
       std::copy(d.begin(), d.begin() + rows.n_rows, la::data(correction));
     }
   }

@@ -32,7 +32,7 @@ ROOMS = [
     ("app/restart", "app/input"),
     ("app/report", "app/input app/restart"),
     ("app/mesh", "app/input"),
-    ("app/physics", "app/input"),
+    ("app/physics", "app/input shim"),
     ("app/adapt", "app/input app/restart app/report app/physics"),
     ("app/pictures", "app/input app/restart app/report app/mesh "
                      "app/physics"),

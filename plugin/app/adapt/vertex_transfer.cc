@@ -119,25 +119,21 @@ namespace abut::app
     }
   }
 
-  template <int dim>
-  la::Vector
-  VertexTransfer<dim>::collect(const std::vector<double> &values) const
-  {
-    la::Vector result(dof_handler_.locally_owned_dofs(),
-                      dof_handler_.get_communicator());
-    double *const out = la::data(result);
-    for_each_unknown(dof_handler_,
-                     [&](const global_dof_index dof, const unsigned int place)
-                     { out[dof] = values[place]; });
-    return result;
-  }
-
   template <int dim> std::vector<la::Vector> VertexTransfer<dim>::interpolate()
   {
     fill_new_vertices();
-    std::vector<la::Vector> result;
-    for (const std::vector<double> &values : values_)
-      result.push_back(collect(values));
+    std::vector<la::Vector> result(values_.size(),
+                                   la::Vector(dof_handler_.locally_owned_dofs(),
+                                              dof_handler_.get_communicator()));
+    std::vector<double *> out;
+    for (la::Vector &field : result)
+      out.push_back(la::data(field));
+    for_each_unknown(dof_handler_,
+                     [&](const global_dof_index dof, const unsigned int place)
+                     {
+                       for (std::size_t f = 0; f < out.size(); ++f)
+                         out[f][dof] = values_[f][place];
+                     });
     return result;
   }
 

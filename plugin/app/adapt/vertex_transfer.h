@@ -31,7 +31,6 @@ namespace abut::app
   private:
     void keep(const la::Vector &field, std::vector<double> &values) const;
     void fill_new_vertices();
-    la::Vector collect(const std::vector<double> &values) const;
 
     const dealii::DoFHandler<dim> &dof_handler_;
     const unsigned int n_components_;

@@ -5,6 +5,24 @@
 
 namespace abut::app
 {
+  namespace
+  {
+    /** Rows with so few entries are counted through, without a branch. */
+    constexpr int few = 32;
+
+    /** The first of ascending numbers that is not less than @p wanted. */
+    const int *place_in_order(const int *begin, const int *end,
+                              const int wanted)
+    {
+      if (end - begin > few)
+        return std::lower_bound(begin, end, wanted);
+      int n_less = 0;
+      for (const int *at = begin; at != end; ++at)
+        n_less += *at < wanted;
+      return begin + n_less;
+    }
+  } // namespace
+
   template <int dim>
   CellSum<dim>::CellSum(const DiscreteProblem<dim> &problem, la::Matrix &matrix)
       : constraints_(problem.constraints),
@@ -39,7 +57,7 @@ namespace abut::app
     if (guess >= begin && guess < end && rows_.column[guess] == column)
       return guess;
     const int *const sorted =
-        std::lower_bound(rows_.column + begin, rows_.column + end, column);
+        place_in_order(rows_.column + begin, rows_.column + end, column);
     if (sorted != rows_.column + end && *sorted == column)
       return static_cast<int>(sorted - rows_.column);
     const int *const any =

@@ -6,6 +6,7 @@
 #include "app/input/input_error.h"
 #include "cell_sum.h"
 #include "error_norms.h"
+#include "shim/shifted_cells.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
@@ -27,6 +28,7 @@ namespace abut::app
             data(data),
             quadrature(problem.fe.degree + 1),
             values(problem.mapping, problem.fe, quadrature, flags(data)),
+            shapes(problem.mapping),
             k(quadrature.size(),
               data.conductivity->value(dealii::Point<dim>())),
             f(quadrature.size(), data.load->value(dealii::Point<dim>()))
@@ -36,8 +38,7 @@ namespace abut::app
       /** Throws InputError for values of k and f that are not legal. */
       template <typename Cell> void compute(const Cell &cell)
       {
-        values.reinit(cell);
-        if (is_like_the_last())
+        if (!is_new(cell))
           return;
         fill_matrix();
         fill_load();
@@ -46,8 +47,7 @@ namespace abut::app
       /** The load alone, on all cells that this object goes to. */
       template <typename Cell> void compute_load(const Cell &cell)
       {
-        values.reinit(cell);
-        if (!is_like_the_last())
+        if (is_new(cell))
           fill_load();
       }
 
@@ -55,12 +55,17 @@ namespace abut::app
       dealii::Vector<double> load;
 
     private:
-      /** Cells that are shifted only have the same matrix. */
-      bool is_like_the_last() const
+      /** Go to a cell; false: it is shifted only, and has the same matrix and
+       * load as the last. */
+      template <typename Cell> bool is_new(const Cell &cell)
       {
-        return data.constant_load && data.constant_conductivity
-               && values.get_cell_similarity()
-                      == dealii::CellSimilarity::translation;
+        const bool same = data.constant_load && data.constant_conductivity;
+        if (same && shapes.is_shifted(cell))
+          return false;
+        values.reinit(cell);
+        return !same
+               || values.get_cell_similarity()
+                      != dealii::CellSimilarity::translation;
       }
 
       static dealii::UpdateFlags flags(const MembraneData<dim> &data)
@@ -111,6 +116,7 @@ namespace abut::app
       const MembraneData<dim> &data;
       const dealii::QGauss<dim> quadrature;
       dealii::FEValues<dim> values;
+      shim::ShiftedCells<dim> shapes;
       std::vector<double> k, f;
     };
 

@@ -1,16 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "law/check.h"
 
-/* x * 0 is 0 for every finite x and NaN otherwise: one sum tells without a
- * branch in the loop. */
-static bool
-all_finite(const double *x, int32_t n)
-{
-  double sum = 0;
-  for (int32_t i = 0; i < n; ++i)
-    sum += x[i] * 0.0;
-  return sum == 0;
-}
+#include "base/finite.h"
 
 static bool
 all_positive(const double *x, int32_t n)
@@ -35,12 +26,12 @@ abut_law_check_points(const abut_law_points *points, bool with_slack)
   if (points->gap == NULL || points->pressure == NULL || points->scale == NULL
       || (with_slack && points->slack == NULL))
     return ABUT_INVALID_ARGUMENT;
-  if (!all_finite(points->gap, n) || !all_finite(points->pressure, n)
-      || !all_finite(points->scale, n)
-      || (with_slack && !all_finite(points->slack, n))
-      || (points->compliance != NULL && !all_finite(points->compliance, n))
+  if (!abut_all_finite(points->gap, n) || !abut_all_finite(points->pressure, n)
+      || !abut_all_finite(points->scale, n)
+      || (with_slack && !abut_all_finite(points->slack, n))
+      || (points->compliance != NULL && !abut_all_finite(points->compliance, n))
       || (points->reference_pressure != NULL
-          && !all_finite(points->reference_pressure, n)))
+          && !abut_all_finite(points->reference_pressure, n)))
     return ABUT_NOT_FINITE;
   return all_positive(points->scale, n) ? ABUT_SUCCESS : ABUT_INVALID_ARGUMENT;
 }

@@ -80,7 +80,13 @@ make_pattern(abut_multigrid *mg, const abut_multigrid_matrix *a,
     return;
   abut_multigrid_clear_places(mg, n);
   for (int32_t i = 0; i < n; ++i)
-    abut_multigrid_collect(mg, a, host, i, rows->node + rows->start[i]);
+  {
+    int32_t *columns = rows->node + rows->start[i];
+    abut_multigrid_collect(mg, a, host, i, columns);
+    if (mg->block == 1)
+      abut_row_in_order(columns, rows->start[i + 1] - rows->start[i], i,
+                        mg->list);
+  }
 }
 
 void

@@ -103,6 +103,9 @@ make_pattern(abut_multigrid *mg, int32_t l, const row_set *set, int32_t n,
     const int32_t n_fine = list_columns(mg, fine, set, k);
     most = most > n_fine ? most : n_fine;
     status = append_parents(mg, fine, k, n_fine, &columns, &n_columns);
+    if (mg->block == 1 && status == ABUT_SUCCESS)
+      abut_row_in_order((int32_t *)columns.data + rows->start[q],
+                        n_columns - rows->start[q], k, mg->list);
     rows->start[q + 1] = n_columns;
     diagonal[q] = -1;
     for (int64_t e = rows->start[q]; e < n_columns; ++e)
@@ -169,15 +172,22 @@ abut_terms_pattern(abut_multigrid *mg, int32_t l)
 }
 
 /* Add the row of child i over fine columns, of which there are n; returns how
- * many there are now. Rows that are held are left out. */
+ * many there are now. Rows that are held are left out, and nodes of which
+ * nothing is free not even looked at. */
 ABUT_INLINE int32_t
 add_child(abut_multigrid *mg, const abut_multigrid_level *fine,
           const abut_node_rows *rows, const int32_t b, int32_t q, int32_t i,
           float weight, int32_t n, float *sum)
 {
   float factor[3];
+  bool any = false;
   for (int32_t r = 0; r < b; ++r)
+  {
+    any |= !fine->held[(int64_t)i * b + r];
     factor[r] = fine->held[(int64_t)i * b + r] ? 0 : weight;
+  }
+  if (!any)
+    return n;
   for (int64_t e = rows->start[q]; e < rows->start[q + 1]; ++e)
   {
     const int32_t j = rows->node[e];

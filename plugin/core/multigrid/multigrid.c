@@ -470,7 +470,10 @@ abut_multigrid_hold(abut_multigrid *mg, const uint8_t *held,
   mg->is_ready = false;
   mg->n_renewed = 0;
   const bool has_terms = any_rank(&mg->level[0], mg->level[0].terms.n > 0);
-  const bool is_prepared = !has_terms && (first || mg->had_terms);
+  /* A sweep wants whole rows, and ranks have parts of them. */
+  mg->sweeps = mg->block == 1 && !has_terms && mg->level[0].ranks == NULL;
+  const bool is_prepared =
+      !mg->sweeps && !has_terms && (first || mg->had_terms);
   if (is_prepared)
     prepare_finest(mg);
   mg->had_terms = has_terms;
@@ -490,7 +493,7 @@ abut_multigrid_hold(abut_multigrid *mg, const uint8_t *held,
     if (has_terms)
       abut_terms_rows(mg, l);
     abut_multigrid_invert(mg, l + 1);
-    if (l + 2 < mg->n_levels)
+    if (l + 2 < mg->n_levels && !mg->sweeps)
       abut_multigrid_bound(mg, l + 1, POWER_STEPS);
   }
   const abut_status status = abut_multigrid_factorise(mg);
@@ -505,6 +508,15 @@ cycle(abut_multigrid *mg, int32_t l)
   if (l + 1 == mg->n_levels)
   {
     abut_multigrid_solve_coarsest(mg);
+    return;
+  }
+  if (mg->sweeps)
+  {
+    abut_level_sweep_first(level);
+    abut_level_sweep_restrict(level, &mg->level[l + 1]);
+    cycle(mg, l + 1);
+    abut_level_prolong(level, 1, &mg->level[l + 1]);
+    abut_level_sweep_last(level);
     return;
   }
   abut_level_smooth_first(level, mg->block);

@@ -68,7 +68,8 @@ typedef struct abut_multigrid_level
   float *inverse;        /* [n] blocks: inverse of the diagonal block, 0 in rows
                             and columns that are held */
   float *x, *r, *z;      /* [n * block + 1] of a cycle */
-  double largest;        /* bound of the eigenvalues of inverse * matrix */
+  double largest;        /* bound of the eigenvalues of inverse * matrix; 0
+                            where nobody asks */
 
   int32_t number;                    /* of this level */
   int32_t first_own, end_own;        /* nodes that are this rank's */
@@ -112,6 +113,7 @@ struct abut_multigrid
   int32_t *list;       /* [max nodes] work: fine columns of a coarse row */
   int64_t n_renewed;
   bool has_matrix, is_ready;
+  bool sweeps;    /* smooth by sweeps instead of polynomials */
   bool had_terms; /* at the last hold */
 };
 
@@ -197,6 +199,16 @@ void abut_level_restrict(abut_multigrid_level *level, int32_t block,
 void abut_level_prolong(abut_multigrid_level *level, int32_t block,
                         const abut_multigrid_level *coarse);
 void abut_level_smooth_last(abut_multigrid_level *level, int32_t block);
+
+/* The same for one unknown at a node, see sweep.c; prolongation is as above.
+ * z is what the first sweep leaves. */
+void abut_level_sweep_first(abut_multigrid_level *level);
+void abut_level_sweep_restrict(abut_multigrid_level *level,
+                               abut_multigrid_level *coarse);
+void abut_level_sweep_last(abut_multigrid_level *level);
+
+/* The columns of row i, n of them, as these want them; work has room for n. */
+void abut_row_in_order(int32_t *node, int64_t n, int32_t i, int32_t *work);
 
 /* z = inverse * matrix * x; returns (z, matrix x) / (x, matrix x), which is at
  * most the largest eigenvalue. Collective. */

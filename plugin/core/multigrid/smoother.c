@@ -59,13 +59,27 @@ add_row_times(const abut_node_rows *rows, const int32_t b, int32_t q,
   }
 }
 
-/* t = row i of the matrix, with what is added to it, times v. */
+/* Whether nothing of node i is free. */
+ABUT_INLINE bool
+is_out(const abut_multigrid_level *level, const int32_t b, int32_t i)
+{
+  bool out = true;
+  for (int32_t r = 0; r < b; ++r)
+    out &= level->held[(int64_t)i * b + r] != 0;
+  return out;
+}
+
+/* t = row i of the matrix, with what is added to it, times v. Rows of which
+ * nothing is free are passed over, as their products are multiplied by 0: a
+ * third of the work where a third of a membrane touches. */
 ABUT_INLINE void
 own_row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
               const float *v, float *t)
 {
   for (int32_t r = 0; r < b; ++r)
     t[r] = 0;
+  if (is_out(level, b, i))
+    return;
   add_row_times(&level->matrix, b, i, v, t);
   if (level->terms.n > 0 && level->terms.at[i] >= 0)
     add_row_times(&level->terms.rows, b, level->terms.at[i], v, t);

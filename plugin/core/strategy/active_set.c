@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* See active_set.h for the method. */
 #include "strategy/active_set.h"
+#include "base/finite.h"
 #include "strategy/outer_table.h"
 #include "strategy/strategy.h"
 
@@ -100,16 +101,19 @@ find_maxima(abut_strategy *s, findings *found)
     /* Of a length, whatever the units in which the law measures c. */
     const double slope =
         fabs(s->d_gap[i]) + fabs(s->d_pressure[i]) * s->stiffness[i];
-    max[PRESSURE] = fmax(max[PRESSURE], fabs(s->pressure[i]));
-    max[GAP_CHANGE] = fmax(max[GAP_CHANGE], fabs(s->dg[i]));
+    const bool is_tangent = s->bilateral[i] == ABUT_ROW_TANGENT;
+    max[PRESSURE] = abut_larger(max[PRESSURE], fabs(s->pressure[i]));
+    max[GAP_CHANGE] = abut_larger(max[GAP_CHANGE], fabs(s->dg[i]));
     if (slope > 0)
-      max[DEFECT] = fmax(max[DEFECT], fabs(s->residual[i]) / slope);
-    if (abut_friction_row_is_free(s, i))
-      max[TRACTION] = fmax(max[TRACTION], fabs(s->residual[i]));
-    max[PENETRATION] = fmax(max[PENETRATION], abut_strategy_penetration(s, i));
-    if (s->bilateral[i] != ABUT_ROW_TANGENT)
-      max[COMPLEMENTARITY] =
-          fmax(max[COMPLEMENTARITY], fabs(s->pressure[i] * s->gap[i]));
+      max[DEFECT] = abut_larger(max[DEFECT], fabs(s->residual[i]) / slope);
+    if (is_tangent && abut_friction_row_is_free(s, i))
+      max[TRACTION] = abut_larger(max[TRACTION], fabs(s->residual[i]));
+    if (is_tangent)
+      continue;
+    max[PENETRATION] =
+        abut_larger(max[PENETRATION], abut_strategy_penetration(s, i));
+    max[COMPLEMENTARITY] =
+        abut_larger(max[COMPLEMENTARITY], fabs(s->pressure[i] * s->gap[i]));
   }
   const abut_status status =
       abut_strategy_reduce(s, ABUT_REDUCTION_MAX, max, N_MAXIMA);
@@ -192,7 +196,7 @@ count_bad(abut_strategy *s, findings *found)
         s->weight[i]
         * (flips ? fabs(s->pressure[i]) + s->stiffness[i] * fabs(s->gap[i])
                  : abut_friction_excess(s, i));
-    found->last_bad = fmax(found->last_bad, (double)s->id[i]);
+    found->last_bad = abut_larger(found->last_bad, (double)s->id[i]);
   }
   abut_status status = abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, N_SUMS);
   if (status == ABUT_SUCCESS)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Helpers that all methods use: reductions, requests, and the law at the
  * present point. */
+#include "base/finite.h"
 #include "strategy/strategy.h"
 
 #include <math.h>
@@ -53,7 +54,8 @@ abut_strategy_points(const abut_strategy *s)
   return points;
 }
 
-/* A number that tells the laws' matrix coefficients apart. */
+/* A number that tells the laws' matrix coefficients apart: those of a row come
+ * into one, so that rows wait for one product only. */
 static uint64_t
 sign_coefficients(const abut_strategy *s)
 {
@@ -65,8 +67,9 @@ sign_coefficients(const abut_strategy *s)
     uint64_t a, b;
     memcpy(&a, blocks ? &s->friction.a[i] : &s->d_pressure[i], sizeof(a));
     memcpy(&b, blocks ? &s->friction.b[i] : &s->d_gap[i], sizeof(b));
-    sign = (sign ^ a) * UINT64_C(1099511628211);
-    sign = (sign ^ b) * UINT64_C(1099511628211);
+    const uint64_t both =
+        a ^ ((b << 23 | b >> 41) * UINT64_C(0x9e3779b97f4a7c15));
+    sign = (sign ^ both) * UINT64_C(1099511628211);
   }
   return sign;
 }
@@ -128,12 +131,13 @@ abut_strategy_linearise(abut_strategy *s)
       .d_pressure = s->d_pressure,
       .d_gap = s->d_gap,
   };
-  const uint64_t before = sign_coefficients(s);
   abut_status status = s->options.law->linearise(&points, s->state, &result);
   status = check_law_result(s, status);
   if (status == ABUT_SUCCESS && abut_friction_is_on(&s->friction))
     status = abut_friction_evaluate(s);
-  s->coefficients_changed |= sign_coefficients(s) != before;
+  const uint64_t sign = sign_coefficients(s);
+  s->coefficients_changed |= sign != s->coefficient_sign;
+  s->coefficient_sign = sign;
   return status;
 }
 
@@ -199,5 +203,5 @@ abut_strategy_penetration(const abut_strategy *s, int32_t i)
 {
   if (s->bilateral[i] == ABUT_ROW_TANGENT)
     return 0;
-  return s->bilateral[i] != 0 ? fabs(s->gap[i]) : fmax(-s->gap[i], 0);
+  return s->bilateral[i] != 0 ? fabs(s->gap[i]) : abut_larger(-s->gap[i], 0);
 }

@@ -2,6 +2,7 @@
 /* The front of all methods: life cycle, checks at the boundary, and handing
  * the host's reports to the method. */
 #include "strategy/strategy.h"
+#include "base/finite.h"
 #include "base/sized.h"
 #include "strategy/options.h"
 #include "strategy/outer_table.h"
@@ -153,14 +154,13 @@ abut_strategy_progress_sized(const abut_strategy *strategy,
                    sizeof(strategy->progress), &strategy->progress);
 }
 
-/* Whether all ranks' values are finite: one sum instead of a test per value. */
+/* Whether all ranks' values are finite; y may be NULL. */
 static abut_status
 all_finite(abut_strategy *s, const double *x, const double *y, bool *finite)
 {
-  double probe = 0;
-  for (int32_t i = 0; i < s->n; ++i)
-    probe += (x[i] + y[i]) * 0.0;
-  double bad = probe == 0 ? 0 : 1;
+  const bool here =
+      abut_all_finite(x, s->n) && (y == NULL || abut_all_finite(y, s->n));
+  double bad = here ? 0 : 1;
   const abut_status status =
       abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &bad, 1);
   *finite = bad == 0;
@@ -192,7 +192,7 @@ take_gap(abut_strategy *s, const double *gap)
   bool finite = false;
   if (s->n > 0)
     memcpy(s->gap, gap, (size_t)s->n * sizeof(double));
-  const abut_status status = all_finite(s, s->gap, s->gap, &finite);
+  const abut_status status = all_finite(s, s->gap, NULL, &finite);
   if (status != ABUT_SUCCESS)
     return status;
   return finite ? s->method->moved(s) : stop_not_finite(s, "a gap");

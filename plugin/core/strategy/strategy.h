@@ -50,6 +50,7 @@ struct abut_strategy
   double mu; /* barrier, pressure times length */
   bool matrix_changed;
   bool coefficients_changed; /* here, by the law, since the last SOLVE */
+  uint64_t coefficient_sign; /* of those of the last linearisation */
   abut_request request;
   abut_progress progress;
 
