@@ -113,30 +113,6 @@ test_triangle(void **state)
   assert_near(x[2], 0., 1e-15);
 }
 
-/* The same triangle up to where x + y / 2 = 1: a triangle of area 1. */
-static void
-test_keep(void **state)
-{
-  (void)state;
-  const abut_part s = {3, {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}};
-  const double origin[3] = {0, 0, 0}, normal[3] = {0, 0, 1};
-  double value[abut_clip_max];
-  abut_clip3 c;
-  assert_int_equal(abut_clip3_parts(&s, &s, origin, normal, &c),
-                   ABUT_CLIP_POLYGON);
-  for (int i = 0; i < c.n; ++i)
-  {
-    const double u = c.vertex[i][0], v = c.vertex[i][1];
-    value[i] =
-        1. - (u * c.e1[0] + v * c.e2[0]) - 0.5 * (u * c.e1[1] + v * c.e2[1]);
-  }
-  assert_int_equal(abut_clip3_keep(&c, value, 1e-9), 1);
-  assert_near(c.area, 1., 1e-15);
-  for (int i = 0; i < c.n; ++i)
-    value[i] = -1.;
-  assert_int_equal(abut_clip3_keep(&c, value, 1e-9), 0);
-}
-
 /* A cloud of random convex quadrilaterals against a grid that covers them:
  * the parts add up to each one's area, whatever the orientation, and clipping
  * is symmetric in a common plane. */
@@ -307,7 +283,6 @@ main(void)
       cmocka_unit_test(test_grids),
       cmocka_unit_test(test_octagon),
       cmocka_unit_test(test_triangle),
-      cmocka_unit_test(test_keep),
       cmocka_unit_test(test_partition),
       cmocka_unit_test(test_dart),
       cmocka_unit_test(test_quadratic),

@@ -446,11 +446,8 @@ void abut_coupling_aim(abut_coupling *c, const abut_coupling_facet *facet);
 abut_status abut_coupling_find_candidates(abut_coupling *c, int32_t facet,
                                           int32_t *n);
 
-/* Largest gap within the reach of a primary facet of this size, and largest
- * depth. */
-double abut_coupling_reach(const abut_coupling *c, double size, double *depth);
-
-/* Whether a gap is within them. */
+/* Whether a gap is within the reach of a primary facet of this size, and not
+ * too deep. */
 bool abut_coupling_in_reach(const abut_coupling *c, double gap, double size);
 
 /* Make room for one more point; NULL without memory. */

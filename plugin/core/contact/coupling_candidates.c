@@ -40,20 +40,12 @@ abut_coupling_find_candidates(abut_coupling *c, int32_t facet, int32_t *n)
   return ABUT_SUCCESS;
 }
 
-double
-abut_coupling_reach(const abut_coupling *c, double size, double *depth)
-{
-  const double relative = c->options.search.relative_reach * size;
-  const double reach = relative > c->reach ? relative : c->reach;
-  const double half = 0.5 * c->options.thickness;
-  *depth = half > 0. && half < reach ? half : reach;
-  return reach;
-}
-
 bool
 abut_coupling_in_reach(const abut_coupling *c, double gap, double size)
 {
-  double depth;
-  const double reach = abut_coupling_reach(c, size, &depth);
-  return gap <= reach && gap >= -depth;
+  const double relative = c->options.search.relative_reach * size;
+  const double reach = relative > c->reach ? relative : c->reach;
+  const double depth =
+      c->options.thickness > 0. ? 0.5 * c->options.thickness : reach;
+  return gap <= reach && gap >= -depth && gap >= -reach;
 }

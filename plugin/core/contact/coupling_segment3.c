@@ -67,42 +67,13 @@ gap_at(const work *w, const segment *g, const double *uv, double *gap)
   return 1;
 }
 
-static bool
-is_in_reach(const work *w, const segment *g, double size)
+/* Keep the common polygon of two patches if it is within reach. */
+static abut_status
+keep(work *w, const segment *g, double size)
 {
   double gap;
-  return gap_at(w, g, g->polygon.centroid, &gap)
-         && abut_coupling_in_reach(w->c, gap, size);
-}
-
-/* Cut off what is out of reach, so that what is covered does not jump while
- * surfaces move: first what is too far, then what is too deep. */
-static bool
-cut_to_reach(const work *w, segment *g, double size)
-{
-  double depth;
-  const double reach = abut_coupling_reach(w->c, size, &depth);
-  for (int k = 0; k < 2; ++k)
-  {
-    double value[abut_clip_max], gap;
-    for (int i = 0; i < g->polygon.n; ++i)
-    {
-      if (!gap_at(w, g, g->polygon.vertex[i], &gap))
-        return false;
-      value[i] = k == 0 ? reach - gap : gap + depth;
-    }
-    if (!abut_clip3_keep(&g->polygon, value, ABUT_CLIP_SMALLEST))
-      return false;
-  }
-  return true;
-}
-
-/* Keep the common polygon of two patches as far as it is within reach. */
-static abut_status
-keep(work *w, segment *g, double size)
-{
-  if (!(abut_coupling_follows(w->c) ? cut_to_reach(w, g, size)
-                                    : is_in_reach(w, g, size)))
+  if (!gap_at(w, g, g->polygon.centroid, &gap)
+      || !abut_coupling_in_reach(w->c, gap, size))
     return ABUT_SUCCESS;
   const abut_status status = abut_array_reserve(w->c->context, &w->c->segments,
                                                 w->n, (int64_t)w->n + 1);

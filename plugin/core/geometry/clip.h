@@ -83,11 +83,6 @@ abut_clip_result abut_clip3_parts(const abut_part *s, const abut_part *m,
 int abut_clip3_intersect(const abut_clip3 *a, const abut_clip3 *b, double part,
                          abut_clip3 *common);
 
-/* Keep the part of a polygon where a function, affine over it, is not negative:
- * its values at the vertices; nonzero if that is more than the given part of
- * it. */
-int abut_clip3_keep(abut_clip3 *polygon, const double *value, double part);
-
 /* Convex pieces of a without b (of one plane), dropped below `part` of a; at
  * most b->n. Returns their number. */
 int abut_clip3_subtract(const abut_clip3 *a, const abut_clip3 *b, double part,

@@ -64,17 +64,15 @@ convex(const polygon *p, double area)
   return 1;
 }
 
-/* Keep where a function that is affine over the polygon is not negative; its
- * values at the vertices. */
+/* Keep what is to the left of a -> b. */
 static void
-keep(polygon *p, const double *value)
+cut(polygon *p, const double *a, const double *b)
 {
   polygon q = {0};
   for (int i = 0; i < p->n && q.n < abut_clip_max; ++i)
   {
-    const int next = (i + 1) % p->n;
-    const double *x = p->x[i], *y = p->x[next];
-    const double s = value[i], t = value[next];
+    const double *x = p->x[i], *y = p->x[(i + 1) % p->n];
+    const double s = side(a, b, x), t = side(a, b, y);
     if (s >= 0.)
     {
       memcpy(q.x[q.n], x, sizeof(q.x[0]));
@@ -91,16 +89,6 @@ keep(polygon *p, const double *value)
     }
   }
   *p = q;
-}
-
-/* Keep what is to the left of a -> b. */
-static void
-cut(polygon *p, const double *a, const double *b)
-{
-  double value[abut_clip_max];
-  for (int i = 0; i < p->n; ++i)
-    value[i] = side(a, b, p->x[i]);
-  keep(p, value);
 }
 
 static void
@@ -167,17 +155,6 @@ abut_clip3_intersect(const abut_clip3 *a, const abut_clip3 *b, double part,
   *common = *a;
   measure(&p, common);
   return common->area > part * min2(a->area, b->area);
-}
-
-int
-abut_clip3_keep(abut_clip3 *c, const double *value, double part)
-{
-  const double least = part * c->area;
-  polygon p;
-  set_polygon(c, &p);
-  keep(&p, value);
-  measure(&p, c);
-  return c->area > least;
 }
 
 /* What is outside of one edge of b after another. */
