@@ -60,10 +60,9 @@ namespace abut::shim
         nearest(context, secondary, primary, search, facing, communicator);
     abut_failure failure = ABUT_FAILURE_NO_PARTNER;
     std::ostringstream text;
-    if (const double distance = std::min(opposed.above, opposed.below);
-        distance <= reach)
+    if (opposed.above <= reach && opposed.above <= opposed.below)
       text << "the surfaces are near each other, the smallest distance is "
-           << distance
+           << opposed.above
            << ", but no part of one lies opposite the other: they meet at an "
               "edge or a corner alone. Check the boundary ids and the position "
               "of the bodies.";
@@ -75,7 +74,11 @@ namespace abut::shim
     {
       failure = ABUT_FAILURE_OVERLAP;
       text << "the bodies overlap by at least " << opposed.below
-           << ", more than the reach of " << reach
+           << (opposed.below > reach
+                   ? ", more than the reach of "
+                   : ", more than half of the body's thickness, or at an edge "
+                     "or a corner alone, within the reach of ")
+           << reach
            << ". Move them apart, or give the pair a larger reach if the "
               "overlap is meant as interference.";
     }

@@ -153,6 +153,6 @@ def peak(steps):
 steps = 300 if p.short else 1000
 few, many = peak(10), peak(steps)
 print(f"a load step keeps {(many - few) / (steps - 10):.0f} bytes")
-p.expect(many - few < (steps - 10) * 4096,
+p.expect(many - few < (steps - 10) * 6144,
          f"memory of load steps: {few}, {many}")
 p.finish()

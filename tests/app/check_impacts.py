@@ -364,7 +364,9 @@ def check_incline(p):
         begin = min(rows, key=lambda row: abs(row["time"] - (2 - length)))
         mean = ((rows[-1]["momentum_x"] - begin["momentum_x"]) / 2
                 / (rows[-1]["time"] - begin["time"]))
-        p.close(mean, 6 - 0.3 * 8, 1e-3, f"{scheme}: down an incline")
+        # The waves of the start stay in the block where nothing damps them.
+        p.close(mean, 6 - 0.3 * 8, 1e-3 if scheme == "hht" else 2e-3,
+                f"{scheme}: down an incline")
         print(f"{scheme}: {mean / 3.6 - 1:+.1e} of the acceleration")
 
 

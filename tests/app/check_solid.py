@@ -69,7 +69,7 @@ p.expect_error(run("Pair 1/Secondary=2: 3", "Pair 1/Reach=2",
                    "Body 2/Support=1: 0, 0"),
                "Pair 1/Secondary", "ABUT-F23", "same way")
 p.expect_error(run("Body 2/Mesh/Move=3, 0"), "Pair 1/Secondary", "ABUT-F24",
-               "too far apart", "reach")
+               "lies opposite the other", "position of the bodies")
 
 # What is merely odd is a warning.
 coarse = run("Body 1/Refinements=3", "Refinement/Level=0")
