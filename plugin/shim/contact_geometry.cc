@@ -119,9 +119,20 @@ namespace abut
     RowsElsewhere result;
     result.points = shim::create_points(context.get(), points_dimension);
     const auto kept = surfaces->keep();
+    const auto make_rows = [&]
+    {
+      abut_points_view there = {};
+      check(abut_points_get(result.points.get(), &there));
+      result.rows = solve::PointOperator(dof_handler->locally_owned_dofs(),
+                                         there, source->nodes(), communicator);
+    };
     try
     {
       surfaces->find(displacement, result.points.get());
+      make_rows();
+      // Tangents have their numbers by those of their point that stay.
+      if (drop_needless(result.rows))
+        make_rows();
       if (has_friction)
         result.slip_reference = surfaces->slip_reference(committed);
     }
@@ -130,10 +141,6 @@ namespace abut
       surfaces->put_back(kept);
       throw;
     }
-    abut_points_view there = {};
-    check(abut_points_get(result.points.get(), &there));
-    result.rows = solve::PointOperator(dof_handler->locally_owned_dofs(), there,
-                                       source->nodes(), communicator);
     surfaces->put_back(kept);
     return result;
   }

@@ -301,18 +301,25 @@ namespace abut
     }
   }
 
+  template <int dim>
+  bool ContactAssembler<dim>::Implementation::drop_needless(
+      const solve::PointOperator &rows)
+  {
+    // Rows between nodes that cannot move say nothing.
+    std::vector<std::uint8_t> keep = rows.rows_with_columns();
+    source->drop_needless(keep);
+    const bool any = MPI::logical_or(
+        std::count(keep.begin(), keep.end(), 0) > 0, communicator);
+    if (any)
+      source->filter(keep);
+    return any;
+  }
+
   template <int dim> void ContactAssembler<dim>::Implementation::take_points()
   {
     make_operator();
-    // Rows between nodes that cannot move say nothing.
-    std::vector<std::uint8_t> rows = coefficients.rows_with_columns();
-    source->drop_needless(rows);
-    if (MPI::logical_or(std::count(rows.begin(), rows.end(), 0) > 0,
-                        communicator))
-    {
-      source->filter(rows);
+    if (drop_needless(coefficients))
       make_operator();
-    }
     n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
                       communicator);
     // A solver is kept as long as it would be made of the same rows: of the

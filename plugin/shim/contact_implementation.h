@@ -54,6 +54,9 @@ namespace abut
     shim::RowSource::Change find_points(const la::Vector &displacement);
     /** Make all that belongs to new points. Collective. */
     void take_points();
+    /** Leave the rows out of the source's points that need none; whether
+     * there were such. Collective. */
+    bool drop_needless(const solve::PointOperator &rows);
     /** Make the operator of the points. Collective. */
     void make_operator();
     /** Make what has been reached the trial version of the history. */

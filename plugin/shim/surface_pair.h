@@ -123,6 +123,18 @@ namespace abut::shim
     std::vector<std::int32_t> opposite;
     std::vector<std::int32_t> lines, columns;
     std::vector<double> hessian;
+
+    /** Let the matrices follow the components of the point that stay. */
+    void keep_components(const std::vector<std::uint8_t> &keep)
+    {
+      const std::size_t size = hessian.size() / keep.size();
+      std::size_t n = 0;
+      for (std::size_t k = 0; k < keep.size() && size > 0; ++k)
+        if (keep[k] != 0)
+          std::copy_n(hessian.begin() + k * size, size,
+                      hessian.begin() + n++ * size);
+      hessian.resize(n * size);
+    }
   };
 
   /** What a tangent's point of mortar that moves had opposite it at the last

@@ -48,6 +48,10 @@ namespace abut::shim
       const std::vector<double> moved = motions(u);
       for (std::size_t p = 0; p < pairs_.size(); ++p)
         find_pair(p, moved[p], taken);
+      // Components are known by their place among those that stay.
+      std::vector<std::uint8_t> components(view_.n_components, 1);
+      drop_needless(components);
+      filter(components);
       note_partners();
     };
     try

@@ -555,9 +555,8 @@ namespace abut::shim
     for_each_row(
         [&](const Component &row)
         {
-          const Pair &pair = pairs_[row.place.pair];
+          // Tangents that turn are not quite along what supports hold.
           if (is_tangent(row) && row.place.node >= 0
-              && discretisation_info(pair.discretisation).couples_rows
               && freedom(static_cast<Node>(row.place.node), row.direction)
                      < least_freedom)
             keep[row.row] = 0;
@@ -569,10 +568,16 @@ namespace abut::shim
   {
     std::size_t n = 0;
     for (std::size_t i = 0; i < places_.size(); ++i)
-      if (std::any_of(keep.begin() + view_.component_start[i],
-                      keep.begin() + view_.component_start[i + 1],
-                      [](const std::uint8_t k) { return k != 0; }))
-        places_[n++] = places_[i];
+    {
+      const auto first = keep.begin() + view_.component_start[i],
+                 last = keep.begin() + view_.component_start[i + 1];
+      if (std::all_of(first, last, [](const std::uint8_t k) { return k == 0; }))
+        continue;
+      places_[i].keep_components({first, last});
+      if (n != i)
+        places_[n] = std::move(places_[i]);
+      ++n;
+    }
     places_.resize(n);
     check(context_, abut_points_filter(points_, keep.data()));
     check(context_, abut_points_get(points_, &view_));

@@ -163,4 +163,34 @@ def check_ironing(mu):
 for each in (0., MU):
     check_ironing(each)
 
+# A strip that is held across on both of its sides is the plane: tangents turn with
+# the surface, and then none of them is quite along what is held.
+def strip(dimension):
+    def cut(cells, low, high):
+        third = (", 1", ", 0", ", 0.25") if dimension == 3 else ("", "", "")
+        return (f"{cells}{third[0]} : {low}{third[1]} : {high}{third[2]} "
+                ": true")
+
+    held = "; 4: free, free, 0; 5: free, free, 0" if dimension == 3 else ""
+    rest = ", 0" if dimension == 3 else ""
+    return p.write(f"strip{dimension}.prm", solid(
+        dimension,
+        block(1, cut("12, 4", "0, 0", "3, 1"), f"2: 0, 0{rest}{held}",
+              more=RUBBER),
+        block(2, cut("4, 2", "1, 1", "2, 1.5"),
+              f"3: 0.05*t, -0.05*t{rest}{held}", more=RUBBER),
+        pair("1: 3", "2: 2"), section("Load steps", "Steps = 2"),
+        section("Refinement", "Level = 0"),
+        section("Output", "Fields = false")))
+
+
+for words in (["Method/Sliding=small"], ["Method/Sliding=large"],
+              [NODES]):
+    plane = solved(strip(2), *FINE, FRICTION, *words)
+    space = solved(strip(3), *FINE, FRICTION, *words)
+    p.expect(plane["pair_1_friction_force"] > 0.2 * plane["contact_force"],
+             f"strip, {words}: friction {plane['pair_1_friction_force']}")
+    for key in ("energy", "contact_force", "pair_1_friction_force"):
+        p.close(space[key] / 0.25, plane[key], 1e-6, f"strip, {words}: {key}")
+
 p.finish()
