@@ -272,9 +272,9 @@ def check_driven():
     steps: place, velocity and stiffness of obstacles go on, too."""
     for name, more in (
             ("struck-bar", ["Body 1/Mesh/Arguments=10, 1 : 0, 0 : 1, 1 : true",
-                            "Time/Step=0.1", "Time/End=1.2",
-                            "Output/Every=4"]),
-            ("pressed-ball", ["Load steps/Steps=12", "Refinement/Level=3",
+                            "Time/Step=0.02", "Time/End=1.2",
+                            "Output/Every=20"]),
+            ("pressed-ball", ["Load steps/Steps=24", "Refinement/Level=3",
                               "Refinement/Adaptive cycles=0"])):
         scene = p.write(name + ".prm",
                         (p.source / f"prm/{name}.prm").read_text() + EVERY)
