@@ -58,8 +58,8 @@ int
 main(int argc, char *argv[])
 {
   // Open MPI guards a pointer into files that ranks share, which nobody uses
-  // here, by a semaphore with the name of the file: that of a run that was killed
-  // while it wrote a checkpoint lets all later ones wait for ever.
+  // here, by a semaphore with the name of the file: that of a run that was
+  // killed while it wrote a checkpoint lets all later ones wait for ever.
   setenv("OMPI_MCA_sharedfp", "^sm", 0);
   // deal.II starts PETSc too, which would take our words for options of its own
   // and print those that it does not know.
