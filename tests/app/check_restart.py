@@ -3,6 +3,8 @@
 left alone; and what is refused. Part 1: on one rank; part 2: on two, or from one
 on to two. A short run ends bodies, a membrane and a bar on its way once each by
 each signal."""
+import ctypes
+import os
 import pathlib
 import shutil
 import signal
@@ -41,10 +43,10 @@ def ranked(command, ranks):
             "--oversubscribe", "-n", str(ranks)] + command
 
 
-def run(scene, *more, settings=(), ranks=1):
+def run(scene, *more, settings=(), ranks=1, seconds=SECONDS):
     command = ranked([p.abut, *words(scene, *more, settings=settings)], ranks)
     return subprocess.run(command, cwd=p.folder, text=True,
-                          capture_output=True, timeout=SECONDS)
+                          capture_output=True, timeout=seconds)
 
 
 def checkpoints():
@@ -183,6 +185,30 @@ def check_new_begin(scene, expected, settings):
     p.expect(result.returncode == 0, f"begun anew: {result.stderr}")
     p.expect(not list(OUT.glob("checkpoint*")), "old checkpoint is left")
     expect_same(expected, "begun anew")
+
+
+def check_left_semaphores():
+    """A run that was killed while MPI wrote its mesh leaves semaphores of Open MPI
+    with the names of the files, which nobody ever frees."""
+    library = ctypes.CDLL(None)
+    library.sem_open.restype = ctypes.c_void_p
+    names = [f"OMPIO_{name}".encode()
+             for name in ("mesh", "mesh_fixed.data", "mesh_variable.data")]
+    for name in names:
+        library.sem_unlink(name)
+        p.expect(library.sem_open(name, os.O_CREAT, 0o600, 0), f"{name} is ours")
+    try:
+        result = run(bodies, settings=steps, seconds=60)
+        p.expect(result.returncode == 0, f"semaphores are left: {result.stderr}")
+        interrupt(bodies, 2, signal.SIGTERM, steps)
+        result = run(bodies, "--resume", settings=steps, seconds=60)
+        p.expect(result.returncode == 0, f"resumed: {result.stderr}")
+    except subprocess.TimeoutExpired:
+        p.expect(False, "the run waits for a semaphore of one that was killed")
+    finally:
+        for name in names:
+            library.sem_unlink(name)
+    shutil.rmtree(OUT)
 
 
 bodies = p.write("bodies.prm", BODIES)
@@ -379,6 +405,7 @@ def check_short():
     stopped(membrane, 2, signal.SIGTERM, expected, cycles)
     check_refusals(membrane, cycles)
     check_other_ranks(membrane, expected, cycles)
+    check_left_semaphores()
     check_motion()
     check_friction(1)
 
@@ -387,6 +414,7 @@ if p.short:
     check_short()
 elif p.part == 1:
     check_one_rank(bodies, steps)
+    check_left_semaphores()
     check_motion()
     check_driven()
     check_string()

@@ -8,7 +8,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <new>
 #include <thread>
@@ -57,10 +56,6 @@ namespace
 int
 main(int argc, char *argv[])
 {
-  // Open MPI guards a pointer into files that ranks share, which nobody uses
-  // here, by a semaphore with the name of the file: that of a run that was
-  // killed while it wrote a checkpoint lets all later ones wait for ever.
-  setenv("OMPI_MCA_sharedfp", "^sm", 0);
   // deal.II starts PETSc too, which would take our words for options of its own
   // and print those that it does not know.
   int n_names = 1;

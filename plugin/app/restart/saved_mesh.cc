@@ -7,6 +7,8 @@
 #include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/dofs/dof_tools.h>
 
+#include <cstdlib>
+
 namespace abut::app
 {
   namespace
@@ -16,6 +18,15 @@ namespace abut::app
         dealii::parallel::distributed::SolutionTransfer<dim, la::Vector>;
 
     const char *const mesh_name = "mesh";
+
+    /** Open MPI guards a pointer into files that ranks share, which nobody uses
+     * here, by a semaphore with the name of the file: that of a run that was
+     * killed while it wrote a checkpoint lets all later ones wait for ever. The
+     * variable is read when the first file is opened. */
+    void leave_out_shared_pointers()
+    {
+      setenv("OMPI_MCA_sharedfp", "^sm", 0);
+    }
 
     template <int dim>
     std::vector<la::Vector>
@@ -81,6 +92,7 @@ namespace abut::app
     if (!pointers.empty())
       transfer.prepare_for_serialization(pointers);
     require_room_for<dim>(folder, mesh, dof_handler, fields.size());
+    leave_out_shared_pointers();
     mesh.save((folder / mesh_name).string());
 
     MeshPart part{history.is_known(), history.steps(), {}};
@@ -107,6 +119,7 @@ namespace abut::app
       return fields;
     }
     history.forget();
+    leave_out_shared_pointers();
     mesh.load((folder / mesh_name).string());
     setup();
     std::vector<la::Vector> fields = empty_fields(n_fields, dof_handler);
