@@ -29,7 +29,8 @@ import same_figures
 HERE = pathlib.Path(__file__).resolve().parent
 SEED = 20261122
 SCENES = [HERE / "restart" / name
-          for name in ("rolling-press.prm", "creeping-front.prm")]
+          for name in ("rolling-press.prm", "creeping-front.prm",
+                       "landing-block.prm")]
 STOPPED = 4
 # What only tells how a run was made, and from when on.
 # How many facets of others a rank holds depends on how far bodies have moved
