@@ -40,14 +40,6 @@ MADE = ("ranks", "modelled", "could_be_left_out", "ghost_facets_on_rank")
 COARSE = ("energy", "contact_force", "converged")
 
 
-def environment():
-    result = dict(os.environ, DEAL_II_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    if os.geteuid() == 0:
-        result["OMPI_ALLOW_RUN_AS_ROOT"] = "1"
-        result["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
-    return result
-
-
 class Case:
     """A scene with its settings, and where its runs write."""
 
@@ -63,7 +55,7 @@ class Case:
             words = ["mpirun", "--oversubscribe", "-n", str(ranks)] + words
         return subprocess.Popen(words, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True,
-                                env=environment())
+                                env=measured.environment())
 
     def finish(self, output, ranks, *more):
         """Exit code and what was printed."""

@@ -35,6 +35,15 @@ def row(cells):
     print("| " + " | ".join(map(str, cells)) + " |", flush=True)
 
 
+def environment():
+    """One thread for each process, and MPI for root, too."""
+    result = dict(os.environ, DEAL_II_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    if os.geteuid() == 0:
+        result["OMPI_ALLOW_RUN_AS_ROOT"] = "1"
+        result["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
+    return result
+
+
 def call(abut, command, scene, settings, ranks=1):
     """Run `abut command scene` on one thread for each rank, with settings by
     path or as a list SECTION/NAME=VALUE; returns what it printed. A run that
@@ -47,13 +56,8 @@ def call(abut, command, scene, settings, ranks=1):
         words += ["--set-if-used", setting]
     if ranks > 1:
         words = ["mpirun", "--oversubscribe", "-n", str(ranks)] + words
-    environment = dict(os.environ, DEAL_II_NUM_THREADS="1",
-                       OMP_NUM_THREADS="1")
-    if os.geteuid() == 0:
-        environment["OMPI_ALLOW_RUN_AS_ROOT"] = "1"
-        environment["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
     done = subprocess.run(words, capture_output=True, text=True,
-                          env=environment)
+                          env=environment())
     if done.returncode != 0:
         raise RuntimeError(f"{' '.join(words)}\n{done.stderr}")
     return done.stdout
