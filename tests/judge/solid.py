@@ -108,12 +108,12 @@ class SolidJudge:
         self.initial_gaps()
         judge_friction(self)
 
-    def round_off(self):
+    def round_off(self, part=1e-13):
         """Of forces, where bodies move and are hardly deformed, or touch by the
         round-off of their places."""
         young = max(self.scene.number(f"Body {body}/Young modulus", 1.)
                     for body in range(1, self.n_bodies + 1))
-        return (1e-13 * young * (self.largest + 1e-3 * self.nodes.extent)
+        return (part * young * (self.largest + 1e-3 * self.nodes.extent)
                 * self.nodes.extent**(self.dim - 2))
 
     # Files
@@ -155,6 +155,10 @@ class SolidJudge:
         # what is turned about its axis has no resultant of radial forces
         radial = self.plane == "axisymmetric"
         noise = self.round_off()
+        if self.large:
+            # Newton's tolerance is of what bodies have moved
+            noise = max(noise, self.round_off(1e-3 * self.scene.number(
+                "Load steps/Newton tolerance", 1e-8)))
         outer = [add(add(a, b), c) for a, b, c in zip(
             self.load, self.contact, self.reaction)]
         aside, inner = ({}, {}) if radial else hanging_forces(self)
