@@ -71,26 +71,34 @@ def corners(dim, degree):
 
 
 def in_order(dim, degree, points):
-    """Numbers of the points in the order of the nodes: the first 2^dim are the
-    corners as VTK walks around them, the others are known by their place."""
+    """Numbers of the points in the order of the nodes. VTK has the corners
+    first, as it walks around them, then edges, faces and the middle; in which
+    order depends on its version, and is known by their places: an edge's node is
+    near the middle of its ends, a face's near that of its edges' nodes."""
     ring = [0, 1, 3, 2] if dim > 1 else [0, 1]
     if dim == 3:
         ring += [4 + i for i in ring]
     if degree == 1:
         return ring
-    at_corner = [points[i] for i in ring]
-    left = set(range(2**dim, 3**dim))
-    result = []
-    for index in itertools.product(range(3), repeat=dim):
-        place = tuple(i / 2 for i in index[::-1])
-        if all(s in (0., 1.) for s in place):
-            result.append(ring[sum(int(s) << d for d, s in enumerate(place))])
-            continue
-        near = interpolate(shapes(dim, 1, place)[0], at_corner)
-        best = min(left, key=lambda i: norm(sub(points[i], near)))
-        left.remove(best)
-        result.append(best)
-    return result
+    found = {tuple(bits[::-1]): i for bits, i in zip(
+        itertools.product((0., 1.), repeat=dim), ring)}
+    first = 2**dim
+    for free in range(1, dim + 1):
+        # edges, then faces, then the cell
+        places = [index[::-1] for index in itertools.product(
+            (0., .5, 1.), repeat=dim) if index.count(.5) == free]
+        left = set(range(first, first + len(places)))
+        first += len(places)
+        for place in places:
+            around = [points[found[place[:d] + (side,) + place[d + 1:]]]
+                      for d in range(dim) if place[d] == .5
+                      for side in (0., 1.)]
+            near = tuple(sum(x) / len(around) for x in zip(*around))
+            best = min(left, key=lambda i: norm(sub(points[i], near)))
+            left.remove(best)
+            found[place] = best
+    return [found[index[::-1]] for index in itertools.product(
+        (0., .5, 1.), repeat=dim)]
 
 
 def contains(dim, degree, nodes, point):

@@ -17,7 +17,8 @@ import tempfile
 import xml.etree.ElementTree
 
 import judge
-from run_files import vtu
+from hanging import HangingNodes
+from run_files import Fields, read_nodes, vtu
 from runs import has_mesh
 from scene import Scene
 
@@ -96,6 +97,44 @@ subsection Pair 1
 end
 subsection Refinement
   set Level = 0
+end
+""",
+    # hanging nodes on a curved hull
+    "hull": """
+set Scene = solid
+set Dimension = 3
+subsection Solid
+  set Obstacles = 1
+  set Pairs = 1
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = subdivided_cylinder
+    set Arguments = 1 : 1 : 0.25
+  end
+  set Young modulus = 100
+  set Poisson ratio = 0
+  set Support = 2: -0.005, 0, 0
+end
+subsection Obstacle 1
+  set Kind = plane
+  set Point = -0.25, 0, 0
+  set Normal = 1, 0, 0
+  set Rotation angle = t > 1 ? t - 1 : 0
+  set Rotation axis = 1, 0, 0
+end
+subsection Pair 1
+  set Secondary = 1: 1
+  set Obstacle = 1
+  set Friction = 0.3
+end
+subsection Load steps
+  set Steps = 2
+  set End time = 2
+end
+subsection Refinement
+  set Level = 1
+  set Adaptive cycles = 1
 end
 """,
     "corner": """
@@ -455,6 +494,26 @@ def moment_at_rest(copy):
         pair_1_moment=[*s["pair_1_moment"][:-1], moment]))
 
 
+def pair_of_forces(copy):
+    """A millionth of a moment more about the axis of the hull."""
+    def change(rows):
+        held = [row for row in rows if row["reaction_x"] != 0]
+        a = min(held, key=lambda row: row["y"])
+        b = max(held, key=lambda row: row["y"])
+        size = 1e-6 * sum(abs(row["reaction_y"]) for row in held)
+        a["reaction_z"] += size
+        b["reaction_z"] -= size
+    copy.nodes(change)
+
+
+def shifted_hanging_node(copy):
+    """By a ten-thousandth: forces and other displacements stay."""
+    nodes = read_nodes(copy.folder, 3, 1)
+    number = min(HangingNodes(nodes, Fields(copy.folder, "fields",
+                                            nodes).cells).parents)
+    all_displacements(copy, shift_at(nodes.place[number], [0., 5e-7, 0.]))
+
+
 def turned_forces(rows):
     """Contact forces of two nodes turned the opposite way: sums are kept."""
     a, b = [row for row in rows if row["contact_y"] < -0.01][:2]
@@ -638,6 +697,9 @@ FALSIFICATIONS = [
      lambda c: all_displacements(c, shift_at((0.5, 0.5), [0.2, 0.]))),
     ("an inner node shifted a little in all files", "rubber",
      lambda c: all_displacements(c, shift_at((0.5, 0.5), [1e-5, 0.]))),
+    ("a pair of reactions on the hull, sums kept", "hull", pair_of_forces),
+    ("a node on the hull between others, aside in all files", "hull",
+     shifted_hanging_node),
     ("a node pressed into the disc in all files", "rubber",
      lambda c: all_displacements(c, shift_at((0.25, 1.), [0., 0.05]))),
     ("moment at the undeformed places", "rubber", moment_at_rest),

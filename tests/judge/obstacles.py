@@ -149,7 +149,12 @@ class Obstacle:
             h = 1e-6 * max(abs(x[d]), 1e-3)
             ahead = tuple(v + h * (d == k) for k, v in enumerate(x))
             behind = tuple(v - h * (d == k) for k, v in enumerate(x))
-            total += ((function(ahead) - function(behind)) / (2 * h))**2
+            change = (function(ahead) - function(behind)) / (2 * h)
+            # a formula may end at the place, as x^3.1 does at the axis
+            for beside in (ahead, behind):
+                if math.isnan(change):
+                    change = (function(beside) - function(x)) / h
+            total += change**2
         return math.sqrt(total)
 
     def _height(self):

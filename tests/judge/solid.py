@@ -7,6 +7,8 @@ from driven import driven_work, judge_driven_balance
 from elements import (corners, derivative, gauss, interpolate, shapes,
                       slopes)
 from formula import Formula, split
+from hanging import hanging_forces, missing_moment
+from material import body_law, large_strain_energy, moduli
 from motion import MotionJudge, in_motion
 from obstacles import Obstacle
 from run_files import Fields, last_row, read_nodes
@@ -48,33 +50,6 @@ class Pair:
     def facets(surface, facets):
         return [f for f in facets if f.body in surface and (
             surface[f.body] is None or f.boundary in surface[f.body])]
-
-
-def body_law(scene, body):
-    return scene.get(f"Body {body}/Material", "hooke")
-
-
-def large_strain_energy(law, gradient, hoop, lame, mu, x):
-    """Per undeformed volume, of neo-Hooke's or St. Venant and Kirchhoff's
-    material."""
-    dim = len(gradient)
-    f = [[(gradient[i][j] if i < dim and j < dim else 0.) + (i == j)
-          for j in range(3)] for i in range(3)]
-    if dim == 2:
-        f[2][2] += hoop
-    det = dot(f[0], cross(f[1], f[2]))
-    if det <= 0:
-        raise Wrong(f"a body is turned inside out at {x}")
-    right = [[sum(f[k][i] * f[k][j] for k in range(3)) for j in range(3)]
-             for i in range(3)]
-    trace = sum(right[i][i] for i in range(3))
-    if law == "neo-hooke":
-        return (mu / 2 * (trace - 3 - 2 * math.log(det))
-                + lame / 2 * math.log(det)**2)
-    green = [[(right[i][j] - (i == j)) / 2 for j in range(3)]
-             for i in range(3)]
-    return (lame / 8 * (trace - 3)**2
-            + mu * sum(e * e for row in green for e in row))
 
 
 class SolidJudge:
@@ -133,12 +108,12 @@ class SolidJudge:
         self.initial_gaps()
         judge_friction(self)
 
-    def round_off(self):
+    def round_off(self, part=1e-13):
         """Of forces, where bodies move and are hardly deformed, or touch by the
         round-off of their places."""
         young = max(self.scene.number(f"Body {body}/Young modulus", 1.)
                     for body in range(1, self.n_bodies + 1))
-        return (1e-13 * young * (self.largest + 1e-3 * self.nodes.extent)
+        return (part * young * (self.largest + 1e-3 * self.nodes.extent)
                 * self.nodes.extent**(self.dim - 2))
 
     # Files
@@ -180,6 +155,13 @@ class SolidJudge:
         # what is turned about its axis has no resultant of radial forces
         radial = self.plane == "axisymmetric"
         noise = self.round_off()
+        if self.large:
+            # Newton's tolerance is of what bodies have moved
+            noise = max(noise, self.round_off(1e-3 * self.scene.number(
+                "Load steps/Newton tolerance", 1e-8)))
+        outer = [add(add(a, b), c) for a, b, c in zip(
+            self.load, self.contact, self.reaction)]
+        aside, inner = ({}, {}) if radial else hanging_forces(self)
         for body in range(1, self.n_bodies + 1):
             force = (0.,) * self.dim
             moment = (0.,) * (1 if self.dim == 2 else 3)
@@ -196,6 +178,9 @@ class SolidJudge:
             self.findings.check(f"balance of forces on body {body}", left,
                                 limit.value * size + noise, limit.reason)
             if not radial:
+                missing, more = missing_moment(
+                    aside, inner, outer, self.nodes.body, body, len(moment))
+                moment, arm = sub(moment, missing), arm + more
                 self.findings.check(f"balance of moments on body {body}",
                                     norm(moment), limit.value * arm
                                     + noise * self.nodes.extent,
@@ -284,15 +269,7 @@ class SolidJudge:
         """By the judge's own integration of the displacements."""
         u = u or self.u
         total = 0.
-        material = {}
-        for body in range(1, self.n_bodies + 1):
-            young = self.scene.number(f"Body {body}/Young modulus", 1.)
-            ratio = self.scene.number(f"Body {body}/Poisson ratio", 0.3)
-            mu = young / (2 * (1 + ratio))
-            lame = young * ratio / ((1 + ratio) * (1 - 2 * ratio))
-            if self.plane == "stress" and self.dim == 2:
-                lame = 2 * lame * mu / (lame + 2 * mu)
-            material[body] = lame, mu
+        material = moduli(self)
         for cell in self.fields.cells:
             points = [self.nodes.place[i] for i in cell.nodes]
             values = [u[i] for i in cell.nodes]

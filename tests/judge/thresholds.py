@@ -27,6 +27,9 @@ THRESHOLDS = {
     "balance, iterative": Threshold(
         1e-5, "the same where linear systems are solved iteratively, with the "
         "default tolerances"),
+    "hanging": Threshold(
+        1e-12, "of the largest displacement: a node of small cells on an edge "
+        "or face of a large one goes where that goes"),
     "complementarity": Threshold(
         1e-3, "of a facet, mean gap under pressure beside what the law allows: "
         "there is no force across a gap"),

@@ -26,7 +26,9 @@
  * which means the same on any mesh, and where u comes back to 0. Where d . K d
  * is not positive, as in a material that softens or in a snap through, energies
  * say nothing: there it is the forces that are not balanced which have to be
- * less than the tolerance times the forces.
+ * less than the tolerance times the forces. A program may ask for more of the
+ * balance of forces (SolverEvents::excess): forces of contact may be small
+ * beside those that have set the energy.
  *
  * Prescribed values that have changed since the last solve are not put into u
  * at once, which would fold the first layer of cells: they are a part of the
@@ -43,6 +45,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -251,6 +254,7 @@ namespace abut
       result_.explanation.clear();
       find_residual(u);
       set_linear_tolerance(1e-2);
+      last_excess_ = std::numeric_limits<double>::infinity();
       for (unsigned int step = 0; step < parameters_.max_steps; ++step)
       {
         const la::Matrix &tangent = problem_.tangent(u);
@@ -262,11 +266,11 @@ namespace abut
         trial_ = u;
         if (!solve_linearised(tangent, trial_) || !move(tangent, u))
           return false;
-        if (result_.error <= parameters_.tolerance)
-        {
-          contact_.follow(goal(u));
+        if (result_.error > parameters_.tolerance)
+          continue;
+        contact_.follow(goal(u));
+        if (is_settled(u) || step + 1 == parameters_.max_steps)
           return true;
-        }
       }
       return stop(NewtonReason::step_limit,
                   "Newton's method has not converged after "
@@ -276,6 +280,21 @@ namespace abut
                       + ". Use smaller load steps, or check that the tangent "
                         "is the derivative of the residual."
                       + about_negative_steps() + about_sliding(u));
+    }
+
+    /** Whether forces are in balance at @p u, where the displacement has come
+     * to its tolerance, or another step does not help. Energies may be set by
+     * other forces than those of contact. */
+    bool is_settled(const la::Vector &u)
+    {
+      if (!events_.excess)
+        return true;
+      const double before =
+          std::exchange(last_excess_, events_.excess(u, residual_));
+      if (last_excess_ <= 1. || !(last_excess_ < 0.5 * before))
+        return true;
+      set_linear_tolerance(std::min(linear_tolerance_, 0.1 / last_excess_));
+      return false;
     }
 
     /** Forces of the linearisation whose residual_ is that at step_. */
@@ -653,6 +672,7 @@ namespace abut
     double defect_ = 0.; ///< of the law at the last trial, where points move
     bool has_change_ = false; ///< whether they differ from the present ones
     double linear_tolerance_ = 1e-2;
+    double last_excess_ = 0.; ///< of forces out of balance, when last asked for
   };
 } // namespace abut
 

@@ -82,6 +82,14 @@ namespace abut
     /** A step of a nonlinear problem was taken. */
     std::function<void(const NewtonStep &step)> moved;
 
+    /** Of a nonlinear problem whose displacement @p u has come to its
+     * tolerance: what is left of the balance of forces, with this residual, as
+     * a multiple of what may be left. Above 1 Newton's method goes on while it
+     * falls; the assembler has followed @p u. Empty: the tolerance alone ends
+     * it. */
+    std::function<double(const la::Vector &u, const la::Vector &residual)>
+        excess;
+
     /** Look at a converged answer: a text that is not empty says why it must
      * not be used. @p search counts calls of detect() so far, from 1. */
     std::function<std::string(const la::Vector &u, unsigned int search)> refuse;

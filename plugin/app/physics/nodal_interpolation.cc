@@ -2,11 +2,35 @@
 #include "nodal_interpolation.h"
 
 #include "app/input/collective.h"
+#include "app/input/input_error.h"
+#include "app/input/short_number.h"
+
+#include <cmath>
 
 namespace abut::app
 {
   namespace
   {
+    /** Larger ones lead out of the numbers in a step, and who meets them then
+     * is not who they came from. */
+    constexpr double largest_value = 1e30;
+
+    template <int dim>
+    void check_size(const double value, const dealii::Point<dim> &place,
+                    const Expression<dim> &formula)
+    {
+      if (std::abs(value) <= largest_value)
+        return;
+      std::string at = "(" + short_number(place[0]);
+      for (unsigned int d = 1; d < dim; ++d)
+        at += ", " + short_number(place[d]);
+      throw InputError(formula.parameter(),
+                       "'" + formula.text() + "' is " + short_number(value)
+                           + " at " + at + "): more than "
+                           + short_number(largest_value)
+                           + ", which no motion begins with.");
+    }
+
     /** Put the values of a formula at the nodes of a cell into their places. */
     template <int dim, typename Cell>
     void put_values(const DiscreteProblem<dim> &problem, const Cell &cell,
@@ -25,6 +49,7 @@ namespace abut::app
         const std::vector<double> value = formula.evaluate(places, c);
         for (unsigned int i = 0; i < value.size(); ++i)
         {
+          check_size(value[i], places[i], formula);
           const auto dof = dofs[fe.component_to_system_index(c, i)];
           if (owned.is_element(dof))
             la::data(values)[owned.index_within_set(dof)] = value[i];

@@ -14,7 +14,8 @@ namespace abut::app
 
   /** Values of formulas, with as many components as the problem, at its nodes
    * (owned); hanging nodes as the formulas say. Throws InputError for values
-   * that are not finite. Collective. */
+   * that are not finite or larger than 1e30, of which no motion is. Collective.
+   */
   template <int dim>
   la::Vector values_at_nodes(const DiscreteProblem<dim> &problem,
                              const FormulaOfCells<dim> &formula_of);

@@ -207,6 +207,8 @@ namespace abut::app
     { note_step(cost, step); };
     events.moved = [this](const NewtonStep &step)
     { steps.add(report, state.present.load_step, state.present.level, step); };
+    events.excess = [this](const la::Vector &, const la::Vector &residual)
+    { return wants_balance() ? imbalance(residual) / visible_imbalance : 0.; };
     events.refuse = [this](const la::Vector &, const unsigned int search)
     { return refuse(search); };
     events.missed = [this](const std::size_t n_nodes)
@@ -235,30 +237,41 @@ namespace abut::app
     stop_if_asked();
   }
 
-  template <int dim> bool ContactRun<dim>::is_balanced(std::string &why)
+  /* Without contact Newton's method has looked. Coarser meshes are solved
+   * roughly on purpose, and with a target error all are; and not every variant
+   * of Nitsche's method balances forces. */
+  template <int dim> bool ContactRun<dim>::wants_balance() const
   {
-    // Without contact Newton's method has looked. Coarser meshes are solved
-    // roughly on purpose, and with a target error all are; and not every
-    // variant of Nitsche's method balances forces.
     const MethodParameters &method = state.method;
-    if (!model.has_contact() || !state.is_last_mesh()
-        || state.settings.refinement.has_target()
-        || (abut_law_needs_stress(method.options.law)
-            && method.nitsche_theta != 0.))
-      return true;
-    const DiscreteProblem<dim> &problem = model.problem();
-    la::Vector residual = problem.vector();
-    model.residual(state.u, residual);
-    double imbalance = state.contact.imbalance(residual, model.small_force());
+    return model.has_contact() && state.is_last_mesh()
+           && !state.settings.refinement.has_target()
+           && !(abut_law_needs_stress(method.options.law)
+                && method.nitsche_theta != 0.);
+  }
+
+  template <int dim>
+  double ContactRun<dim>::imbalance(const la::Vector &residual) const
+  {
+    const double result =
+        state.contact.imbalance(residual, model.small_force());
     // The first touch of bodies in flight is as soft as chance will have it:
     // what solvers promise is a part of all forces that there are.
-    if (model.has_inertia())
-      imbalance = std::min(imbalance, state.contact.imbalance(residual));
+    return model.has_inertia()
+               ? std::min(result, state.contact.imbalance(residual))
+               : result;
+  }
+
+  template <int dim> bool ContactRun<dim>::is_balanced(std::string &why)
+  {
+    if (!wants_balance())
+      return true;
+    la::Vector residual = model.problem().vector();
+    model.residual(state.u, residual);
     const SolvedBy by = {!model.problem().is_linear(),
                          state.present.linear.method.compare(0, 6, "direct")
                              == 0};
-    return diagnose_balance(report, imbalance, state.contact.progress().penalty,
-                            by, why);
+    return diagnose_balance(report, imbalance(residual),
+                            state.contact.progress().penalty, by, why);
   }
 
   template <int dim>

@@ -51,6 +51,9 @@ namespace abut::app
     SolverEvents solver_events();
     void note_step(const LinearReport &cost, const la::Vector &increment);
     std::string refuse(unsigned int search);
+    bool wants_balance() const;
+    /** Forces out of balance as a part of those of contact. Collective. */
+    double imbalance(const la::Vector &residual) const;
     bool is_balanced(std::string &why);
     std::string failure_of(const NewtonResult &result) const;
     /** A sentence about the present step in time; empty in statics. */

@@ -13,9 +13,8 @@ namespace abut::app
     /** Steps from a cold start that a start from a coarser mesh would save. */
     constexpr int many_steps = 12;
 
-    /** Forces out of balance that are worth a word, and those that make an
-     * answer useless. */
-    constexpr double visible_imbalance = 1e-6, useless_imbalance = 1e-2;
+    /** Forces out of balance that make an answer useless. */
+    constexpr double useless_imbalance = 1e-2;
 
     /** Part of the energy by which works may be off, and what tolerances leave
      * of works that cancel each other, and of gaps in sizes of a cell. */

@@ -42,6 +42,10 @@ namespace abut::app
     bool factors = false; ///< linear systems were factorised
   };
 
+  /** Forces out of balance, as a part of those of contact, that are worth a
+   * word. */
+  constexpr double visible_imbalance = 1e-6;
+
   /** Of the balance of forces, see ContactAssembler::imbalance(): whether the
    * answer may be used; @p failure is then what to say.
    * @param penalty of the law, 0 if none */

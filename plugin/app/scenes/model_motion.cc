@@ -228,6 +228,18 @@ namespace abut::app
     abut_time_judge(&time.scheme, &given, &balance, &verdict);
   }
 
+  template <int dim> std::string ModelMotion<dim>::cure_of_gain() const
+  {
+    const std::string scheme = time.scheme.name;
+    if (words.stops ? scheme == "contact stabilised"
+                    : scheme == "hht" && time.mass == ABUT_TIME_MASS_MODIFIED)
+      return "Use a shorter Time/Step: it is long beside an impact.";
+    return std::string("Use Time/Scheme = ")
+           + (words.stops ? "contact stabilised"
+                          : "hht with Time/Mass = modified")
+           + ", or a shorter Time/Step.";
+  }
+
   template <int dim> std::string ModelMotion<dim>::commit()
   {
     motion.commit();
@@ -243,16 +255,13 @@ namespace abut::app
                              + short_number(present.bodies.time, 6) + " is "
                              + short_number(100. * balance.gain, 3)
                              + " % above that of the start: ";
-    const std::string cure =
-        std::string("Use Time/Scheme = ")
-        + (words.stops ? "contact stabilised" : "hht with Time/Mass = modified")
-        + ", or a shorter Time/Step.";
     if (verdict == ABUT_TIME_BLOWS_UP)
       return coded(ABUT_FAILURE_BLOW_UP,
-                   what + "the motion is unstable. " + cure);
+                   what + "the motion is unstable. " + cure_of_gain());
     if (!has_warned)
-      run.report.warn(coded(ABUT_FAILURE_ENERGY_GAIN,
-                            what + "more than the scheme may gain. " + cure));
+      run.report.warn(
+          coded(ABUT_FAILURE_ENERGY_GAIN,
+                what + "more than the scheme may gain. " + cure_of_gain()));
     has_warned = true;
     return "";
   }

@@ -176,6 +176,8 @@ namespace abut::app
     void look_at_step();
     void judge(const MotionRecord &record, abut_time_verdict &verdict);
     void warn_of_loss() const;
+    /** What to try where energy was made: nothing that the motion has. */
+    std::string cure_of_gain() const;
 
     const InertiaParameters &time;
     const MotionWords words;

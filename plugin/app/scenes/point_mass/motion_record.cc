@@ -98,14 +98,19 @@ namespace abut::app
 
   bool MotionRecord::judge_end(Report &report) const
   {
+    const std::string name = scheme.name;
+    const bool is_bounded = name == "hht" || name == "contact stabilised";
     if (gains)
       report.warn(coded(
           ABUT_FAILURE_ENERGY_GAIN,
           "the scheme has made energy, " + short_number(100. * balance.gain, 3)
               + " % of what there was, beyond its bound since time "
-              + short_number(gain_time, 6)
-              + ": take hht or contact stabilised with the mass that they are "
-                "made for, or a smaller Time/Step"));
+              + short_number(gain_time, 6) + ": take "
+              + (is_bounded
+                     ? "the mass that the scheme is made for, Time/Mass = auto"
+                     : "hht or contact stabilised with the mass that they are "
+                       "made for")
+              + ", or a smaller Time/Step"));
     const auto fall = static_cast<std::size_t>(balance.fall_at);
     if (loses && fall > 0)
       report.warn(text_of_loss(scheme, balance, entries.at(fall - 1).time,
