@@ -126,7 +126,6 @@ namespace
   {
     const Materials<dim> materials = {
         {0, std::make_shared<Hooke<dim>>(7., 0.3)}};
-    const StressPostprocessor<dim> stresses(materials);
     const SignedLength<dim> pressure("pressure", -1.);
     const FirstComponent<dim> status("status");
     const std::vector<std::vector<double>> vectors =
@@ -150,6 +149,9 @@ namespace
       const la::Vector u = problem.interpolate(dim == 2 ? "x; y" : "x; y; x*z");
       Fields<dim> fields{
           problem.mapping, problem.dof_handler, {{"displacement", &u}}, {}};
+      const CellMaterials<dim> at(problem.mapping, problem.dof_handler, u,
+                                  materials);
+      const StressPostprocessor<dim> stresses(at);
       fields.derived = {{&u, &stresses}};
       const std::string name = "bodies-" + kind + "-" + std::to_string(degree);
       FieldSeries(folder, name, MPI_COMM_WORLD).write(0., fields);

@@ -28,15 +28,24 @@ namespace
     hooke,
     stiffening,
     neo_hooke,
-    st_venant_kirchhoff
+    st_venant_kirchhoff,
+    hooke_of_cells, ///< by the mean change of volume of a cell
+    neo_hooke_of_cells
   };
 
-  constexpr Law all_laws[] = {Law::hooke, Law::stiffening, Law::neo_hooke,
-                              Law::st_venant_kirchhoff};
+  constexpr Law all_laws[] = {Law::hooke,          Law::stiffening,
+                              Law::neo_hooke,      Law::st_venant_kirchhoff,
+                              Law::hooke_of_cells, Law::neo_hooke_of_cells};
+
+  bool is_of_cells(const Law law)
+  {
+    return law == Law::hooke_of_cells || law == Law::neo_hooke_of_cells;
+  }
 
   bool is_of_large_strain(const Law law)
   {
-    return law == Law::neo_hooke || law == Law::st_venant_kirchhoff;
+    return law == Law::neo_hooke || law == Law::st_venant_kirchhoff
+           || law == Law::neo_hooke_of_cells;
   }
 
   template <int dim>
@@ -50,6 +59,12 @@ namespace
     case Law::neo_hooke:
       return std::make_shared<NeoHooke<dim>>(young_modulus, poisson_ratio,
                                              plane);
+    case Law::hooke_of_cells:
+      return std::make_shared<Hooke<dim>>(young_modulus, poisson_ratio, plane,
+                                          VolumeChange::of_cell);
+    case Law::neo_hooke_of_cells:
+      return std::make_shared<NeoHooke<dim>>(young_modulus, poisson_ratio,
+                                             plane, VolumeChange::of_cell);
     case Law::st_venant_kirchhoff:
       return std::make_shared<StVenantKirchhoff<dim>>(young_modulus,
                                                       poisson_ratio, plane);
@@ -57,6 +72,25 @@ namespace
       return std::make_shared<Stiffening<dim>>(young_modulus, poisson_ratio,
                                                stiffening, plane);
     }
+  }
+
+  /** The material at points: of a cell whose volume has grown by 0.3, where
+   * that matters. */
+  template <int dim>
+  std::shared_ptr<const Material<dim>> at_points(const Law law,
+                                                 const PlaneModel plane)
+  {
+    const auto material = make<dim>(law, plane);
+    Expect::that((material->cell_volume() != nullptr) == is_of_cells(law),
+                 "who asks for the volume of cells");
+    return is_of_cells(law) ? material->cell_volume()->held_at(0.3) : material;
+  }
+
+  /** Whether the law has this plane model. */
+  bool exists(const Law law, const PlaneModel plane)
+  {
+    return plane != PlaneModel::stress
+           || (!is_of_large_strain(law) && !is_of_cells(law));
   }
 
   /** A displacement and its gradient at a point. */
@@ -189,9 +223,9 @@ namespace
     }
     for (const Law law : all_laws)
     {
-      if (is_of_large_strain(law) && plane == PlaneModel::stress)
+      if (!exists(law, plane))
         continue;
-      const auto material = make<dim>(law, plane);
+      const auto material = at_points<dim>(law, plane);
       const State<dim> here = state(at);
       const NominalStress<dim> s = stress(*material, here);
       Tensor<1, dim> expected;
@@ -223,7 +257,8 @@ namespace
   /** Hooke's stiffness by pairs of nodes against the tangent that every
    * material has, on a cell without right angles. */
   template <int dim>
-  void cell_tangent(const PlaneModel plane, const unsigned int degree)
+  void cell_tangent(const PlaneModel plane, const unsigned int degree,
+                    const Law law)
   {
     dealii::Triangulation<dim> mesh;
     dealii::GridGenerator::hyper_cube(mesh, 1, 2);
@@ -237,7 +272,7 @@ namespace
     points.reinit(mesh.begin_active());
     const unsigned int n = fe.n_dofs_per_cell();
     dealii::FullMatrix<double> own(n, n), general(n, n);
-    const auto material = make<dim>(Law::hooke, plane);
+    const auto material = make<dim>(law, plane);
     material->cell_tangent(points, fe, CellState<dim>(), own);
     material->Material<dim>::cell_tangent(points, fe, CellState<dim>(),
                                           general);
@@ -303,7 +338,10 @@ namespace
                     degree);
     Elasticity<dim> &problem = two.problem;
     Expect::that(problem.is_linear()
-                     == (law == Law::hooke && other == Law::hooke),
+                     == (!is_of_large_strain(law) && law != Law::stiffening
+                         && other != Law::neo_hooke_of_cells
+                         && other != Law::st_venant_kirchhoff
+                         && other != Law::stiffening),
                  "linear if both are");
     const double h = 1e-4;
     la::Vector u = two.some(0.005, 1.);
@@ -325,6 +363,11 @@ namespace
     difference /= 2 * h;
     problem.tangent(u).vmult(predicted, along);
     problem.constraints.set_zero(predicted);
+    la::Vector second = two.some(1e-1, 7.), changed(u);
+    problem.tangent(u).vmult(changed, second);
+    const double back_and_forth = changed * along;
+    Expect::near(predicted * second, back_and_forth,
+                 1e-12 * std::abs(back_and_forth), "symmetry");
     const double size = predicted.l2_norm();
     predicted -= difference;
     Expect::near(predicted.l2_norm() / size, 0, 1e-6, "residual's derivative");
@@ -367,6 +410,61 @@ namespace
         sum += forces(dof);
     Expect::near(dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD), force, 1e-14,
                  "force on a side");
+  }
+
+  /** A square deformed by u = (c x y, 0), which grows by c y: what one change
+   * of volume for all of it, c/2, makes of energy and stress, by hand.
+   * Logarithms are sums over Gauss' two points. */
+  void mean_of_a_cell()
+  {
+    const double c = 0.6;
+    Problem<2> mesh(1, 2);
+    unit_cube(mesh, 0);
+    Elasticity<2> problem(mesh.mesh, 1);
+    const Expression<2> value("0.6*x*y; 0", "s", 2);
+    const double points[] = {0.5 - std::sqrt(1. / 12),
+                             0.5 + std::sqrt(1. / 12)};
+    const double logs =
+        (std::log(1 + c * points[0]) + std::log(1 + c * points[1])) / 2;
+    const double small = lambda * c * c / 8 + mu * c * c / 2;
+    const double large = mu / 2 * (c + 2 * c * c / 3 - 2 * logs)
+                         + lambda / 2 * std::pow(std::log(1 + c / 2), 2);
+    for (const Law law : {Law::hooke_of_cells, Law::neo_hooke_of_cells})
+    {
+      ElasticData<2> data;
+      data.materials[0] = make<2>(law, PlaneModel::strain);
+      data.name = [](dealii::types::boundary_id) { return "a side"; };
+      problem.setup(data);
+      problem.assemble_stiffness();
+      problem.assemble_load(data);
+      la::Vector u = problem.vector();
+      dealii::VectorTools::interpolate(problem.mapping, problem.dof_handler,
+                                       value, u);
+      const bool is_small = law == Law::hooke_of_cells;
+      Expect::near(problem.energy(u), is_small ? small : large, 1e-14,
+                   "energy of a cell");
+      const la::Vector ghosted = problem.ghosted_field(u);
+      const CellMaterials<2> materials(problem.mapping, problem.dof_handler,
+                                       ghosted, data.materials);
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+        {
+          // At (1, 1), where grad u = ((c, c), (0, 0)).
+          Tensor<2, 2> gradient;
+          gradient[0][0] = gradient[0][1] = c;
+          const Stress<2> s = materials.at(cell).stress(gradient, {}, {1., 1.});
+          const double j = 1 + c, mean = 1 + c / 2;
+          const double p =
+              is_small ? lambda * c / 2 : lambda * std::log(mean) / mean;
+          Expect::near(s.out_of_plane, p, 1e-14, "stress along z");
+          Expect::near(s.tensor[0][1], is_small ? mu * c : mu * c / j, 1e-14,
+                       "shear");
+          Expect::near(
+              s.tensor[0][0],
+              p + (is_small ? 2 * mu * c : mu / j * (j * j + c * c - 1)), 1e-14,
+              "stress along x");
+        }
+    }
   }
 
   /** A state whose F is a rotation, and one stretched by the given factors
@@ -449,17 +547,23 @@ namespace
     energy_by_hand<dim>(plane);
     divergence<dim>(plane);
     for (const Law law : all_laws)
-      if (!is_of_large_strain(law) || plane != PlaneModel::stress)
-        derivatives(*make<dim>(law, plane));
+      if (exists(law, plane))
+        derivatives(*at_points<dim>(law, plane));
     for (const unsigned int degree : {1U, 2U})
     {
-      cell_tangent<dim>(plane, degree);
+      for (const Law law : {Law::hooke, Law::hooke_of_cells})
+        if (exists(law, plane))
+          cell_tangent<dim>(plane, degree, law);
       bodies<dim>(plane, degree, Law::hooke, Law::hooke);
       bodies<dim>(plane, degree, Law::stiffening, Law::hooke);
     }
     bodies<dim>(plane, 1, Law::stiffening, Law::stiffening);
-    if (plane != PlaneModel::stress)
-      bodies<dim>(plane, 1, Law::neo_hooke, Law::st_venant_kirchhoff);
+    if (plane == PlaneModel::stress)
+      return;
+    bodies<dim>(plane, 1, Law::neo_hooke, Law::st_venant_kirchhoff);
+    bodies<dim>(plane, 1, Law::neo_hooke_of_cells, Law::neo_hooke_of_cells);
+    bodies<dim>(plane, 1, Law::neo_hooke_of_cells, Law::st_venant_kirchhoff);
+    bodies<dim>(plane, 1, Law::hooke_of_cells, Law::hooke);
   }
 } // namespace
 
@@ -479,7 +583,9 @@ main(int argc, char **argv)
           stretched<2>(law);
           stretched<3>(law);
         }
-        for (const Law law : {Law::neo_hooke, Law::st_venant_kirchhoff})
+        mean_of_a_cell();
+        for (const Law law : {Law::neo_hooke, Law::st_venant_kirchhoff,
+                              Law::neo_hooke_of_cells})
         {
           large_strain<2>(law);
           large_strain<3>(law);

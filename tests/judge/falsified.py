@@ -221,6 +221,8 @@ end
     "rubber": (ROOT / "prm/finite-disc.prm").read_text(encoding="utf-8")
     .replace("set Level = 4", "set Level = 3")
     .replace("set Steps = 15", "set Steps = 4"),
+    "pad": (ROOT / "prm/rubber-pad.prm").read_text(encoding="utf-8")
+    .replace("set Steps = 5", "set Steps = 2"),
     "motion": (ROOT / "prm/bar-impact.prm").read_text(encoding="utf-8")
     .replace("set End = 2", "set End = 0.6"),
     "rubber in motion": (ROOT / "prm/ring-impact.prm").read_text(
@@ -710,6 +712,10 @@ FALSIFICATIONS = [
      lambda c: c.edit("neo-hooke", "st venant-kirchhoff")),
     ("another volume ratio in the scene", "rubber",
      lambda c: c.edit("Poisson ratio = 0.3", "Poisson ratio = 0.301")),
+    ("volume of points in the scene", "pad",
+     lambda c: c.edit("mean dilatation", "full integration")),
+    ("another volume ratio of cells in the scene", "pad",
+     lambda c: c.edit("Poisson ratio = 0.4999", "Poisson ratio = 0.4995")),
     ("the disc deeper in the scene", "rubber",
      lambda c: c.edit("-0.3*t", "-0.35*t")),
     ("part of masses.csv missing", "masses", truncate("masses.csv", 0.7)),

@@ -317,6 +317,9 @@ class Mutation:
                                       "st venant-kirchhoff"])
             for k in range(n_bodies):
                 self.set(f"Body {k + 1}/Material", law)
+        elif which < 0.35:
+            self.set(f"{body}/Element", self.random.choice(
+                ["full integration", "mean dilatation"]))
         elif which < 0.6:
             self.set(f"{body}/Poisson ratio",
                      f"{self.random.choice([0, -0.5, 0.2, 0.45, 0.49, 0.4999, 0.5])}")

@@ -11,9 +11,12 @@ def body_law(scene, body):
     return scene.get(f"Body {body}/Material", "hooke")
 
 
-def large_strain_energy(law, gradient, hoop, lame, mu, x):
-    """Per undeformed volume, of neo-Hooke's or St. Venant and Kirchhoff's
-    material."""
+def has_mean_dilatation(scene, body):
+    return scene.get(f"Body {body}/Element") == "mean dilatation"
+
+
+def deformation(gradient, hoop, x):
+    """With the third direction, and by how much it changes volumes."""
     dim = len(gradient)
     f = [[(gradient[i][j] if i < dim and j < dim else 0.) + (i == j)
           for j in range(3)] for i in range(3)]
@@ -22,6 +25,13 @@ def large_strain_energy(law, gradient, hoop, lame, mu, x):
     det = dot(f[0], cross(f[1], f[2]))
     if det <= 0:
         raise Wrong(f"a body is turned inside out at {x}")
+    return f, det
+
+
+def large_strain_energy(law, gradient, hoop, lame, mu, x):
+    """Per undeformed volume, of neo-Hooke's or St. Venant and Kirchhoff's
+    material."""
+    f, det = deformation(gradient, hoop, x)
     right = [[sum(f[k][i] * f[k][j] for k in range(3)) for j in range(3)]
              for i in range(3)]
     trace = sum(right[i][i] for i in range(3))
@@ -83,6 +93,44 @@ def stress_at(judge, body, gradient, numbers):
     return small_strain_stress(gradient, *numbers)
 
 
+def points_of(judge, cell):
+    """Of a cell at the points of a rule: undeformed volume, gradient of the
+    displacement, slopes of the shape functions."""
+    points = [judge.nodes.place[i] for i in cell.nodes]
+    values = [judge.u[i] for i in cell.nodes]
+    for place, weight in gauss(judge.dim, judge.degree + 1):
+        _, inverse, dx = judge.at(cell, points, place)
+        columns = tuple(zip(*inverse))
+        directions = slopes(judge.dim, cell.degree, place)
+        gradient = [[dot(row, column) for column in columns]
+                    for row in derivative(directions, values)]
+        yield dx * weight, gradient, [[dot(slope, column) for column in columns]
+                                      for slope in zip(*directions)]
+
+
+def volume_stress(judge, gradient, pressure):
+    """Of one pressure in a cell: the derivative of the present volume."""
+    dim = judge.dim
+    if not judge.large:
+        return [[pressure * (i == j) for j in range(dim)] for i in range(dim)]
+    f, det = deformation(gradient, 0., "")
+    inverse, _ = invert(f)
+    return [[pressure * det * inverse[j][i] for j in range(dim)]
+            for i in range(dim)]
+
+
+def mean_pressure(judge, points, lame):
+    """Of the energy of a cell's mean change of volume, by present volume."""
+    volume = growth = 0.
+    for dx, gradient, _ in points:
+        volume += dx
+        growth += dx * (deformation(gradient, 0., "")[1] - 1. if judge.large
+                        else sum(gradient[i][i] for i in range(judge.dim)))
+    growth /= volume
+    return (lame * math.log1p(growth) / (1. + growth) if judge.large
+            else lame * growth)
+
+
 def material_forces(judge, wanted):
     """The derivative of the stored energy by the displacements of some nodes,
     not of bodies of revolution."""
@@ -91,19 +139,18 @@ def material_forces(judge, wanted):
     for cell in judge.fields.cells:
         if not any(i in forces for i in cell.nodes):
             continue
-        points = [judge.nodes.place[i] for i in cell.nodes]
-        values = [judge.u[i] for i in cell.nodes]
-        for place, weight in gauss(judge.dim, judge.degree + 1):
-            _, inverse, dx = judge.at(cell, points, place)
-            columns = tuple(zip(*inverse))
-            directions = slopes(judge.dim, cell.degree, place)
-            gradient = [[dot(row, column) for column in columns]
-                        for row in derivative(directions, values)]
-            stress = stress_at(judge, cell.body, gradient, material[cell.body])
-            for i, slope in zip(cell.nodes, zip(*directions)):
+        lame, mu = material[cell.body]
+        points = list(points_of(judge, cell))
+        pressure = 0.
+        if has_mean_dilatation(judge.scene, cell.body):
+            pressure, lame = mean_pressure(judge, points, lame), 0.
+        for dx, gradient, shape_slopes in points:
+            stress = stress_at(judge, cell.body, gradient, (lame, mu))
+            if pressure:
+                stress = [add(a, b) for a, b in zip(
+                    stress, volume_stress(judge, gradient, pressure))]
+            for i, slope in zip(cell.nodes, shape_slopes):
                 if i in forces:
-                    slope = [dot(slope, column) for column in columns]
                     forces[i] = add(forces[i],
-                                    [dot(row, slope) for row in stress],
-                                    dx * weight)
+                                    [dot(row, slope) for row in stress], dx)
     return forces

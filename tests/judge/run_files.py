@@ -85,7 +85,10 @@ class Cell:
 class Fields:
     """Cells of the last step of a series, with the points' fields."""
 
-    def __init__(self, folder, name, nodes):
+    def __init__(self, folder, name, nodes, blank=("gap",)):
+        """Fields in blank may have values that are no numbers: gaps do where
+        there is no row."""
+        self.blank = blank
         self.cells = []  # Cell, with `points` in the same order
         self.worst = 0.  # difference of displacements to nodal.csv
         self.values = {}  # by field: values of each cell's points
@@ -112,8 +115,7 @@ class Fields:
         dim = nodes.dim
         n = len(piece.points)
         for name, values in piece.fields.items():
-            # gaps are no numbers where there is no row
-            if name != "gap" and not all(map(math.isfinite, values)):
+            if name not in self.blank and not all(map(math.isfinite, values)):
                 raise Wrong(f"{name} has values that are no numbers")
         bodies = piece.fields.get("body")
         number = [nodes.find(place[:dim], bodies and int(bodies[i]))

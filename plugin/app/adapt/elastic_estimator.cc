@@ -4,6 +4,8 @@
 
 #include "residual_estimator.h"
 
+#include "app/physics/cell_volume.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -20,7 +22,10 @@ namespace abut::app
       using Vectors = std::vector<dealii::Tensor<1, dim>>;
 
       explicit ElasticResidual(const ElasticEstimatorInput<dim> &input)
-          : input(input), displacement(0)
+          : input(input),
+            materials(input.mapping, input.dof_handler, input.solution,
+                      input.materials),
+            displacement(0)
       {
       }
 
@@ -127,7 +132,7 @@ namespace abut::app
       const Material<dim> &
       material_at(const dealii::FEValuesBase<dim> &points) const
       {
-        return *input.materials.at(points.get_cell()->material_id());
+        return materials.at(points.get_cell());
       }
 
       void add_loads(const dealii::FEFaceValues<dim> &points,
@@ -148,6 +153,7 @@ namespace abut::app
       }
 
       const ElasticEstimatorInput<dim> &input;
+      const CellMaterials<dim> materials;
       const dealii::FEValuesExtractors::Vector displacement;
     };
   } // namespace

@@ -16,7 +16,8 @@ namespace abut::app
         {ABUT_FAILURE_OVERLAP,
          "move the bodies apart, or say that it is interference (Pair/Initial "
          "gap)"},
-        {ABUT_FAILURE_LOCKING, "Solid/Degree = 2"},
+        {ABUT_FAILURE_LOCKING,
+         "Body N/Element = mean dilatation, or Solid/Degree = 2"},
         {ABUT_FAILURE_BUCKETS, "Search/Bucket size = 0, or adaptive buckets"},
         {ABUT_FAILURE_LINEAR_SOLVER, "Solver/Linear solver = direct or auto"},
         {ABUT_FAILURE_NITSCHE,

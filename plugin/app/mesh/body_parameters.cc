@@ -26,6 +26,15 @@ namespace abut::app
         "up to a fifth) are for large displacements, with loads per area and "
         "volume of the undeformed body. All bodies of a scene are of small "
         "strain or none is.");
+    prm.declare_entry(
+        "Element", "full integration",
+        Patterns::Selection("full integration|mean dilatation"),
+        "full integration takes the strain at each point as it is, and locks "
+        "in nearly incompressible bodies with `Solid/Degree` = 1. mean "
+        "dilatation gives each cell one change of volume and one pressure: "
+        "what other programs call B-bar, F-bar, Q1/P0, hybrid or u-p elements "
+        "with constant pressure, for rubber (neo-hooke) and for hooke up to nu "
+        "= 0.4999 or so.");
     prm.declare_entry("Young modulus", "1",
                       NumberPattern::between(1. / largest_value, largest_value),
                       "E, force per area; of large strain that at its "
@@ -33,7 +42,8 @@ namespace abut::app
     prm.declare_entry("Poisson ratio", "0.3",
                       NumberPattern({nullptr, -1., 0.5, true, true}),
                       "nu. At 0.5 the material would be incompressible, which "
-                      "displacements alone cannot describe.");
+                      "displacements alone cannot describe. From 0.45 on set "
+                      "`Element` = mean dilatation.");
     prm.declare_entry("Density", "0", NumberPattern::between(0., largest_value),
                       "Mass per volume; its weight is density times "
                       "`Solid/Gravity`, and its inertia that of section "
@@ -74,6 +84,16 @@ namespace abut::app
     law = word == "hooke"       ? MaterialLaw::hooke
           : word == "neo-hooke" ? MaterialLaw::neo_hooke
                                 : MaterialLaw::st_venant_kirchhoff;
+    element = prm.get("Element") == "mean dilatation"
+                  ? ElementKind::mean_dilatation
+                  : ElementKind::full_integration;
+    if (element == ElementKind::mean_dilatation
+        && law == MaterialLaw::st_venant_kirchhoff)
+      throw InputError(parameter("Element"),
+                       "the energy of st venant-kirchhoff has no part that is "
+                       "one of volume alone, so that mean dilatation has "
+                       "nothing to average: set Material = neo-hooke, or "
+                       "Element = full integration.");
     young_modulus = prm.get_double("Young modulus");
     poisson_ratio = prm.get_double("Poisson ratio");
     density = prm.get_double("Density");

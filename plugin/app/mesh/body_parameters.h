@@ -18,6 +18,13 @@ namespace abut::app
     st_venant_kirchhoff /**< Hooke's law in large rotations */
   };
 
+  /** What the cells of a body are. */
+  enum class ElementKind
+  {
+    full_integration, /**< stress of the strain at each point */
+    mean_dilatation   /**< of the mean change of volume of a cell */
+  };
+
   /** A section `Body N` of a scene: shape, material, supports and loads. */
   struct BodyParameters
   {
@@ -25,6 +32,7 @@ namespace abut::app
     MeshParameters mesh;
     unsigned int refinements = 0;
     MaterialLaw law = MaterialLaw::hooke;
+    ElementKind element = ElementKind::full_integration;
     double young_modulus = 1.;
     double poisson_ratio = 0.3;
     double density = 0.;
@@ -35,7 +43,8 @@ namespace abut::app
     static void declare(dealii::ParameterHandler &prm,
                         const std::string &section);
 
-    /** Read it; throws InputError for a material that does not exist. */
+    /** Read it; throws InputError for an element that the material does not
+     * have. */
     void parse(dealii::ParameterHandler &prm, const std::string &section);
 
     /** Full name of a parameter, for messages. */

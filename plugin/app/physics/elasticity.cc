@@ -415,20 +415,20 @@ namespace abut::app
     if (is_linear())
       return DiscreteProblem<dim>::stored_energy(u);
     double energy = 0.;
-    for_each_state(*this, this->ghosted_field(u),
-                   [&](const auto &cell, const auto &points, const auto &state,
-                       const auto &)
-                   {
-                     const Material<dim> &material =
-                         *materials->at(cell->material_id());
-                     for (unsigned int q = 0; q < state.value.size(); ++q)
-                     {
-                       const dealii::Point<dim> &x = points.quadrature_point(q);
-                       energy +=
-                           material.energy(state.gradient[q], state.value[q], x)
-                           * points.JxW(q) * material.measure(x);
-                     }
-                   });
+    for_each_state(
+        *this, this->ghosted_field(u),
+        [&](const auto &cell, const auto &points, const auto &state,
+            const auto &)
+        {
+          const auto material =
+              materials->at(cell->material_id())->in_cell(points, state);
+          for (unsigned int q = 0; q < state.value.size(); ++q)
+          {
+            const dealii::Point<dim> &x = points.quadrature_point(q);
+            energy += material->energy(state.gradient[q], state.value[q], x)
+                      * points.JxW(q) * material->measure(x);
+          }
+        });
     return dealii::Utilities::MPI::sum(energy, this->communicator);
   }
 

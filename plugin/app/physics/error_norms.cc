@@ -3,6 +3,7 @@
 #include "error_norms.h"
 
 #include "app/input/input_error.h"
+#include "cell_volume.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -148,21 +149,36 @@ namespace abut::app
         return sum;
       }
 
-      double energy(const Material<dim> &material, const unsigned int q,
-                    const dealii::Point<dim> &point) const
+      /** Integral over the cell, of the undeformed body where the stiffness
+       * depends on the displacement. */
+      double energy(const Material<dim> &material,
+                    const dealii::FEValues<dim> &points) const
       {
-        dealii::Tensor<1, dim> u;
-        dealii::Tensor<2, dim> du;
-        for (unsigned int c = 0; c < dim; ++c)
+        const CellVolume<dim> *of_cell = material.cell_volume();
+        const auto held = of_cell != nullptr ? of_cell->held_at(0.) : nullptr;
+        const Material<dim> &at_points = held ? *held : material;
+        double sum = 0., volume = 0., change = 0.;
+        for (const unsigned int q : points.quadrature_point_indices())
         {
-          u[c] = value[c][q];
-          du[c] = gradient[c][q];
+          const dealii::Point<dim> &x = points.quadrature_point(q);
+          const double weight = points.JxW(q) * material.measure(x);
+          dealii::Tensor<1, dim> u;
+          dealii::Tensor<2, dim> du;
+          for (unsigned int c = 0; c < dim; ++c)
+          {
+            u[c] = value[c][q];
+            du[c] = gradient[c][q];
+          }
+          const double hoop = material.hoop_strain(du, u, x);
+          const NominalStress<dim> s = at_points.tangent({}, {}, x, du, u);
+          sum +=
+              weight * (scalar_product(s.tensor, du) + s.out_of_plane * hoop);
+          volume += weight;
+          change += weight * (trace(du) + hoop);
         }
-        // Of the undeformed body, where that depends on the displacement.
-        const NominalStress<dim> change =
-            material.tangent({}, {}, point, du, u);
-        return scalar_product(change.tensor, du)
-               + change.out_of_plane * material.hoop_strain(du, u, point);
+        if (of_cell != nullptr)
+          sum += of_cell->bulk_tangent(0.) * change * change / volume;
+        return sum;
       }
 
     private:
@@ -199,14 +215,12 @@ namespace abut::app
         const dealii::Point<dim> &x = points.quadrature_point(q);
         double weight = points.JxW(q);
         if (materials != nullptr)
-        {
-          const Material<dim> &material = *materials->at(cell->material_id());
-          weight *= material.measure(x);
-          energy += errors.energy(material, q, x) * weight;
-        }
+          weight *= materials->at(cell->material_id())->measure(x);
         l2 += errors.value_square(q) * weight;
         h1 += errors.gradient_square(q) * weight;
       }
+      if (materials != nullptr)
+        energy += errors.energy(*materials->at(cell->material_id()), points);
     }
     const MPI_Comm communicator = dof_handler.get_communicator();
     const double node =

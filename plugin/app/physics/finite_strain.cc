@@ -79,13 +79,22 @@ namespace abut::app
   }
 
   template <int dim>
+  typename FiniteStrain<dim>::Matrix
+  FiniteStrain<dim>::deformation(const dealii::Tensor<2, dim> &gradient,
+                                 const dealii::Tensor<1, dim> &displacement,
+                                 const dealii::Point<dim> &point) const
+  {
+    return with_third(gradient,
+                      this->hoop_strain(gradient, displacement, point), 1.);
+  }
+
+  template <int dim>
   NominalStress<dim>
   FiniteStrain<dim>::nominal_stress(const dealii::Tensor<2, dim> &gradient,
                                     const dealii::Tensor<1, dim> &displacement,
                                     const dealii::Point<dim> &point) const
   {
-    const Matrix f = with_third(
-        gradient, this->hoop_strain(gradient, displacement, point), 1.);
+    const Matrix f = deformation(gradient, displacement, point);
     return without_third<dim>(determinant(f) > 0. ? piola_of(f) : no_stress());
   }
 
@@ -95,8 +104,7 @@ namespace abut::app
                             const dealii::Tensor<1, dim> &displacement,
                             const dealii::Point<dim> &point) const
   {
-    const Matrix f = with_third(
-        gradient, this->hoop_strain(gradient, displacement, point), 1.);
+    const Matrix f = deformation(gradient, displacement, point);
     const double j = determinant(f);
     const Matrix cauchy = j > 0. ? piola_of(f) * transpose(f) / j : no_stress();
     const NominalStress<dim> part = without_third<dim>(cauchy);
@@ -108,8 +116,7 @@ namespace abut::app
                                    const dealii::Tensor<1, dim> &displacement,
                                    const dealii::Point<dim> &point) const
   {
-    const Matrix f = with_third(
-        gradient, this->hoop_strain(gradient, displacement, point), 1.);
+    const Matrix f = deformation(gradient, displacement, point);
     return determinant(f) > 0. ? energy_of(f)
                                : std::numeric_limits<double>::quiet_NaN();
   }
@@ -122,8 +129,7 @@ namespace abut::app
       const dealii::Tensor<2, dim> &gradient_change,
       const dealii::Tensor<1, dim> &displacement_change) const
   {
-    const Matrix f = with_third(
-        gradient, this->hoop_strain(gradient, displacement, point), 1.);
+    const Matrix f = deformation(gradient, displacement, point);
     const Matrix df = with_third(
         gradient_change,
         this->hoop_strain(gradient_change, displacement_change, point), 0.);
@@ -136,23 +142,67 @@ namespace abut::app
                                      const dealii::Tensor<1, dim> &displacement,
                                      const dealii::Point<dim> &point) const
   {
-    return std::log(determinant(with_third(
-        gradient, this->hoop_strain(gradient, displacement, point), 1.)));
+    return std::log(determinant(deformation(gradient, displacement, point)));
+  }
+
+  template <int dim>
+  double NeoHooke<dim>::change(const dealii::Tensor<2, dim> &gradient,
+                               const dealii::Tensor<1, dim> &displacement,
+                               const dealii::Point<dim> &point) const
+  {
+    const double j =
+        determinant(this->deformation(gradient, displacement, point));
+    return j > 0. ? j - 1. : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  template <int dim>
+  NominalStress<dim>
+  NeoHooke<dim>::change_slope(const dealii::Tensor<2, dim> &gradient,
+                              const dealii::Tensor<1, dim> &displacement,
+                              const dealii::Point<dim> &point) const
+  {
+    const Matrix f = this->deformation(gradient, displacement, point);
+    return without_third<dim>(determinant(f) * transpose(invert(f)));
+  }
+
+  template <int dim>
+  double NeoHooke<dim>::bulk_tangent(const double mean_change) const
+  {
+    const double j = 1. + mean_change;
+    return this->lambda() * (1. - std::log(j)) / (j * j);
+  }
+
+  template <int dim>
+  std::shared_ptr<const Material<dim>>
+  NeoHooke<dim>::held_at(const double mean_change) const
+  {
+    auto held = std::make_shared<NeoHooke<dim>>(*this);
+    held->volume_ = VolumeChange::of_point;
+    held->held_ = 1. + mean_change;
+    return held;
+  }
+
+  template <int dim>
+  double NeoHooke<dim>::pressure(const double volume_ratio) const
+  {
+    return this->lambda() * std::log(volume_ratio) / volume_ratio;
   }
 
   template <int dim> double NeoHooke<dim>::energy_of(const Matrix &f) const
   {
-    const double log_j = std::log(determinant(f));
-    return 0.5 * this->mu() * (f.norm_square() - 3. - 2. * log_j)
-           + 0.5 * this->lambda() * log_j * log_j;
+    const double j = determinant(f), mean = held_ ? *held_ : j;
+    return 0.5 * this->mu() * (f.norm_square() - 3. - 2. * std::log(j))
+           + 0.5 * this->lambda() * std::log(mean) * std::log(mean)
+           + (held_ ? pressure(mean) * (j - mean) : 0.);
   }
 
   template <int dim>
   typename NeoHooke<dim>::Matrix NeoHooke<dim>::piola_of(const Matrix &f) const
   {
-    const Matrix inverse = transpose(invert(f));
-    return this->mu() * f
-           + (this->lambda() * std::log(determinant(f)) - this->mu()) * inverse;
+    const double j = determinant(f);
+    const double factor =
+        held_ ? pressure(*held_) * j : this->lambda() * std::log(j);
+    return this->mu() * f + (factor - this->mu()) * transpose(invert(f));
   }
 
   template <int dim>
@@ -160,10 +210,13 @@ namespace abut::app
   NeoHooke<dim>::piola_change(const Matrix &f, const Matrix &df) const
   {
     const Matrix inverse = invert(f), relative = inverse * df;
+    const double j = determinant(f);
+    const double held = held_ ? pressure(*held_) * j : 0.;
     const double factor =
-        this->mu() - this->lambda() * std::log(determinant(f));
+        this->mu() - (held_ ? held : this->lambda() * std::log(j));
     return this->mu() * df
-           + transpose(this->lambda() * trace(relative) * inverse
+           + transpose((held_ ? held : this->lambda()) * trace(relative)
+                           * inverse
                        + factor * relative * inverse);
   }
 

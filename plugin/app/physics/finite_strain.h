@@ -13,9 +13,10 @@
  * with the same E and nu for small strain. Where J <= 0 all is nan.
  */
 
-#include "material.h"
+#include "cell_volume.h"
 
 #include <memory>
+#include <optional>
 
 namespace abut::app
 {
@@ -76,6 +77,11 @@ namespace abut::app
   protected:
     using Matrix = dealii::Tensor<2, 3>;
 
+    /** F. */
+    Matrix deformation(const dealii::Tensor<2, dim> &gradient,
+                       const dealii::Tensor<1, dim> &displacement,
+                       const dealii::Point<dim> &point) const;
+
     /** psi, P and the change of P with F, for J > 0. */
     virtual double energy_of(const Matrix &f) const = 0;
     virtual Matrix piola_of(const Matrix &f) const = 0;
@@ -95,14 +101,44 @@ namespace abut::app
   };
 
   /** psi = mu/2 (tr C - 3 - 2 ln J) + lambda/2 (ln J)^2: compressible
-   * neo-Hooke. */
-  template <int dim> class NeoHooke : public FiniteStrain<dim>
+   * neo-Hooke. By the volume of cells J is their mean in the last term. */
+  template <int dim>
+  class NeoHooke : public FiniteStrain<dim>, public CellVolume<dim>
   {
   public:
-    using FiniteStrain<dim>::FiniteStrain;
+    /** @param volume which J is in the last term */
+    NeoHooke(double young_modulus, double poisson_ratio, PlaneModel plane,
+             VolumeChange volume = VolumeChange::of_point)
+        : FiniteStrain<dim>(young_modulus, poisson_ratio, plane),
+          volume_(volume)
+    {
+    }
+
+    const CellVolume<dim> *cell_volume() const override
+    {
+      return volume_ == VolumeChange::of_cell ? this : nullptr;
+    }
+
+    /** J - 1. */
+    double change(const dealii::Tensor<2, dim> &gradient,
+                  const dealii::Tensor<1, dim> &displacement,
+                  const dealii::Point<dim> &point) const override;
+    NominalStress<dim>
+    change_slope(const dealii::Tensor<2, dim> &gradient,
+                 const dealii::Tensor<1, dim> &displacement,
+                 const dealii::Point<dim> &point) const override;
+    double bulk_tangent(double mean_change) const override;
+    std::shared_ptr<const Material<dim>>
+    held_at(double mean_change) const override;
 
   private:
     using typename FiniteStrain<dim>::Matrix;
+
+    /** lambda ln(J) / J, which J is multiplied by in the stress. */
+    double pressure(double volume_ratio) const;
+
+    VolumeChange volume_;
+    std::optional<double> held_; ///< J of the cell
     double energy_of(const Matrix &f) const override;
     Matrix piola_of(const Matrix &f) const override;
     Matrix piola_change(const Matrix &f, const Matrix &df) const override;

@@ -5,10 +5,11 @@ namespace abut::app
 {
   template <int dim>
   Hooke<dim>::Hooke(const double young_modulus, const double poisson_ratio,
-                    const PlaneModel plane)
+                    const PlaneModel plane, const VolumeChange volume)
       : Material<dim>(plane),
         young_modulus_(young_modulus),
-        poisson_ratio_(poisson_ratio)
+        poisson_ratio_(poisson_ratio),
+        volume_(volume)
   {
   }
 
@@ -30,9 +31,16 @@ namespace abut::app
                                  const dealii::Tensor<1, dim> &displacement,
                                  const dealii::Point<dim> &point) const
   {
-    const double lambda = this->lambda(), mu = this->mu();
     const double hoop = this->hoop_strain(gradient, displacement, point);
-    const double pressure = lambda * (trace(gradient) + hoop);
+    return stress_of(gradient, hoop, held_ ? *held_ : trace(gradient) + hoop);
+  }
+
+  template <int dim>
+  Stress<dim> Hooke<dim>::stress_of(const dealii::Tensor<2, dim> &gradient,
+                                    const double hoop,
+                                    const double volume_change) const
+  {
+    const double mu = this->mu(), pressure = lambda() * volume_change;
     Stress<dim> result;
     result.tensor = 2. * mu * symmetrize(gradient);
     for (unsigned int d = 0; d < dim; ++d)
@@ -48,10 +56,37 @@ namespace abut::app
                             const dealii::Point<dim> &point) const
   {
     const Stress<dim> s = Hooke<dim>::stress(gradient, displacement, point);
-    return 0.5
-           * (s.tensor * symmetrize(gradient)
-              + s.out_of_plane
-                    * this->hoop_strain(gradient, displacement, point));
+    const double half =
+        0.5
+        * (s.tensor * symmetrize(gradient)
+           + s.out_of_plane * this->hoop_strain(gradient, displacement, point));
+    if (!held_)
+      return half;
+    return half
+           + 0.5 * lambda() * *held_
+                 * (this->dilation(gradient, displacement, point) - *held_);
+  }
+
+  template <int dim>
+  NominalStress<dim> Hooke<dim>::change_slope(const dealii::Tensor<2, dim> &,
+                                              const dealii::Tensor<1, dim> &,
+                                              const dealii::Point<dim> &) const
+  {
+    NominalStress<dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result.tensor[d][d] = 1.;
+    result.out_of_plane = this->is_axisymmetric() ? 1. : 0.;
+    return result;
+  }
+
+  template <int dim>
+  std::shared_ptr<const Material<dim>>
+  Hooke<dim>::held_at(const double mean_change) const
+  {
+    auto held = std::make_shared<Hooke<dim>>(*this);
+    held->volume_ = VolumeChange::of_point;
+    held->held_ = mean_change;
+    return held;
   }
 
   template <int dim>
@@ -72,8 +107,11 @@ namespace abut::app
                       const dealii::Tensor<2, dim> &gradient_change,
                       const dealii::Tensor<1, dim> &displacement_change) const
   {
-    return Hooke<dim>::nominal_stress(gradient_change, displacement_change,
-                                      point);
+    const double hoop =
+        this->hoop_strain(gradient_change, displacement_change, point);
+    const Stress<dim> s = stress_of(gradient_change, hoop,
+                                    held_ ? 0. : trace(gradient_change) + hoop);
+    return {s.tensor, s.out_of_plane};
   }
 
   template <int dim>
@@ -83,7 +121,7 @@ namespace abut::app
                                 const dealii::Tensor<1, dim> &displacement,
                                 const dealii::Point<dim> &point) const
   {
-    const double lambda = this->lambda(), mu = this->mu();
+    const double lambda = held_ ? 0. : this->lambda(), mu = this->mu();
     dealii::Tensor<1, dim> result;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
@@ -107,7 +145,25 @@ namespace abut::app
                                 const CellState<dim> &,
                                 dealii::FullMatrix<double> &result) const
   {
-    const double lambda = this->lambda(), mu = this->mu();
+    if (cell_volume() == nullptr)
+    {
+      pointwise_tangent(values, fe, held_ ? 0. : lambda(), result);
+      return;
+    }
+    CellState<dim> undeformed;
+    undeformed.value.resize(values.n_quadrature_points);
+    undeformed.gradient.resize(values.n_quadrature_points);
+    pointwise_tangent(values, fe, 0., result);
+    this->add_volume_stiffness(values, fe, undeformed, result);
+  }
+
+  template <int dim>
+  void Hooke<dim>::pointwise_tangent(const dealii::FEValues<dim> &values,
+                                     const dealii::FiniteElement<dim> &fe,
+                                     const double lambda,
+                                     dealii::FullMatrix<double> &result) const
+  {
+    const double mu = this->mu();
     const bool rings = this->is_axisymmetric();
     const unsigned int n_nodes = fe.base_element(0).n_dofs_per_cell();
     for (unsigned int i = 0; i < n_nodes; ++i)

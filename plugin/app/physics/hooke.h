@@ -2,23 +2,54 @@
 #ifndef ABUT_APP_HOOKE_H
 #define ABUT_APP_HOOKE_H
 
-#include "material.h"
+#include "cell_volume.h"
+
+#include <optional>
 
 namespace abut::app
 {
-  /** Hooke's law of small strain, for isotropic bodies. */
-  template <int dim> class Hooke : public Material<dim>
+  /** Hooke's law of small strain, for isotropic bodies. By the volume of cells
+   * tr(eps) is their mean where lambda multiplies it. */
+  template <int dim> class Hooke : public Material<dim>, public CellVolume<dim>
   {
   public:
     /** @param young_modulus E > 0, stress
-     * @param poisson_ratio -1 < nu < 1/2 */
+     * @param poisson_ratio -1 < nu < 1/2
+     * @param volume of_cell: not in plane stress */
     Hooke(double young_modulus, double poisson_ratio,
-          PlaneModel plane = PlaneModel::strain);
+          PlaneModel plane = PlaneModel::strain,
+          VolumeChange volume = VolumeChange::of_point);
 
     bool is_linear() const override
     {
-      return true;
+      return !held_;
     }
+
+    const CellVolume<dim> *cell_volume() const override
+    {
+      return volume_ == VolumeChange::of_cell ? this : nullptr;
+    }
+
+    /** tr(eps). */
+    double change(const dealii::Tensor<2, dim> &gradient,
+                  const dealii::Tensor<1, dim> &displacement,
+                  const dealii::Point<dim> &point) const override
+    {
+      return this->dilation(gradient, displacement, point);
+    }
+
+    NominalStress<dim>
+    change_slope(const dealii::Tensor<2, dim> &gradient,
+                 const dealii::Tensor<1, dim> &displacement,
+                 const dealii::Point<dim> &point) const override;
+
+    double bulk_tangent(double) const override
+    {
+      return lambda();
+    }
+
+    std::shared_ptr<const Material<dim>>
+    held_at(double mean_change) const override;
 
     Stress<dim> stress(const dealii::Tensor<2, dim> &gradient,
                        const dealii::Tensor<1, dim> &displacement,
@@ -52,7 +83,9 @@ namespace abut::app
      *                    phi_j + mu delta_ab grad phi_i . grad phi_j
      *
      * and for axisymmetric bodies the terms of the hoop strain, with 2 pi r in
-     * the integral. */
+     * the integral. By the volume of cells lambda times the squared integral of
+     * the divergence, divided by the volume, takes the place of the first term.
+     */
     void cell_tangent(const dealii::FEValues<dim> &values,
                       const dealii::FiniteElement<dim> &fe,
                       const CellState<dim> &state,
@@ -83,7 +116,18 @@ namespace abut::app
     double lambda() const;
 
   private:
+    /** With a given tr(eps) in the first term. */
+    Stress<dim> stress_of(const dealii::Tensor<2, dim> &gradient, double hoop,
+                          double volume_change) const;
+
+    /** cell_tangent() with this lambda at each point. */
+    void pointwise_tangent(const dealii::FEValues<dim> &values,
+                           const dealii::FiniteElement<dim> &fe, double lambda,
+                           dealii::FullMatrix<double> &result) const;
+
     double young_modulus_, poisson_ratio_;
+    VolumeChange volume_;
+    std::optional<double> held_; ///< tr(eps) of the cell
   };
 } // namespace abut::app
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "material.h"
 
+#include "cell_volume.h"
+
 #include <deal.II/base/numbers.h>
 
 #include <cmath>
@@ -131,18 +133,19 @@ namespace abut::app
   {
     result = 0.;
     const unsigned int n_nodes = fe.base_element(0).n_dofs_per_cell();
+    CellState<dim> undeformed;
+    if (is_linear())
+    {
+      undeformed.value.resize(values.n_quadrature_points);
+      undeformed.gradient.resize(values.n_quadrature_points);
+    }
+    const CellState<dim> &at = is_linear() ? undeformed : state;
+    const auto material = in_cell(values, at);
     for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
     {
       const dealii::Point<dim> &x = values.quadrature_point(q);
       const double weight = values.JxW(q) * measure(x);
-      dealii::Tensor<1, dim> u;
-      dealii::Tensor<2, dim> du;
-      if (!is_linear())
-      {
-        u = state.value[q];
-        du = state.gradient[q];
-      }
-      const Moduli moduli = this->moduli(du, u, x);
+      const Moduli moduli = material->moduli(at.gradient[q], at.value[q], x);
       for (unsigned int column = 0; column < fe.n_dofs_per_cell(); ++column)
       {
         const auto [component, node] = fe.system_to_component_index(column);
@@ -157,6 +160,46 @@ namespace abut::app
         }
       }
     }
+    add_volume_stiffness(values, fe, at, result);
+  }
+
+  template <int dim>
+  void Material<dim>::add_volume_stiffness(
+      const dealii::FEValues<dim> &values, const dealii::FiniteElement<dim> &fe,
+      const CellState<dim> &state, dealii::FullMatrix<double> &result) const
+  {
+    const CellVolume<dim> *of_cell = cell_volume();
+    if (of_cell == nullptr)
+      return;
+    // Derivative of the cell's volume by its values.
+    dealii::Vector<double> slope(fe.n_dofs_per_cell());
+    double volume = 0.;
+    for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+    {
+      const dealii::Point<dim> &x = values.quadrature_point(q);
+      const double weight = values.JxW(q) * measure(x);
+      volume += weight;
+      add_nodal_forces(
+          values, fe,
+          of_cell->change_slope(state.gradient[q], state.value[q], x), q,
+          weight, slope);
+    }
+    const double factor =
+        of_cell->bulk_tangent(of_cell->mean_change(*this, values, state))
+        / volume;
+    for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+      for (unsigned int j = 0; j < fe.n_dofs_per_cell(); ++j)
+        result(i, j) += factor * slope(i) * slope(j);
+  }
+
+  template <int dim>
+  std::shared_ptr<const Material<dim>>
+  Material<dim>::in_cell(const dealii::FEValues<dim> &values,
+                         const CellState<dim> &state) const
+  {
+    if (const CellVolume<dim> *of_cell = cell_volume())
+      return of_cell->held_at(of_cell->mean_change(*this, values, state));
+    return {std::shared_ptr<const Material<dim>>(), this};
   }
 
   template <int dim>
@@ -178,19 +221,31 @@ namespace abut::app
                                   dealii::Vector<double> &forces) const
   {
     forces = 0.;
-    const unsigned int n_nodes = fe.base_element(0).n_dofs_per_cell();
+    const auto material = in_cell(values, state);
     for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
     {
       const dealii::Point<dim> &x = values.quadrature_point(q);
-      const double weight = values.JxW(q) * measure(x);
-      const NominalStress<dim> s =
-          nominal_stress(state.gradient[q], state.value[q], x);
-      for (unsigned int i = 0; i < n_nodes; ++i)
-      {
-        const auto force = nodal_force(values, s, i, q);
-        for (unsigned int c = 0; c < dim; ++c)
-          forces(fe.component_to_system_index(c, i)) += weight * force[c];
-      }
+      add_nodal_forces(
+          values, fe,
+          material->nominal_stress(state.gradient[q], state.value[q], x), q,
+          values.JxW(q) * measure(x), forces);
+    }
+  }
+
+  template <int dim>
+  void Material<dim>::add_nodal_forces(const dealii::FEValues<dim> &values,
+                                       const dealii::FiniteElement<dim> &fe,
+                                       const NominalStress<dim> &stress,
+                                       const unsigned int q,
+                                       const double volume,
+                                       dealii::Vector<double> &forces) const
+  {
+    const unsigned int n_nodes = fe.base_element(0).n_dofs_per_cell();
+    for (unsigned int i = 0; i < n_nodes; ++i)
+    {
+      const auto force = nodal_force(values, stress, i, q);
+      for (unsigned int c = 0; c < dim; ++c)
+        forces(fe.component_to_system_index(c, i)) += volume * force[c];
     }
   }
 

@@ -52,6 +52,15 @@ namespace abut::app
     double out_of_plane = 0.; ///< as in Stress
   };
 
+  /** Which change of volume stress follows from. */
+  enum class VolumeChange
+  {
+    of_point, /**< that of the point */
+    of_cell   /**< the mean of its cell, see CellVolume */
+  };
+
+  template <int dim> class CellVolume;
+
   /** The displacement at the quadrature points of a cell. */
   template <int dim> struct CellState
   {
@@ -64,7 +73,10 @@ namespace abut::app
    * du_i/dx_j of the displacement, and for axisymmetric bodies its value and
    * the point, too; x is where the point is in the undeformed body. What is not
    * a state of any body, as one turned inside out, has stress and energy nan.
-   */
+   *
+   * Where cell_volume() is not null, what is asked of a point is answered as if
+   * its cell deformed evenly; the answer for a point of a cell that does not is
+   * that of in_cell(). */
   template <int dim> class Material
   {
   public:
@@ -124,6 +136,19 @@ namespace abut::app
                               const CellState<dim> &state,
                               dealii::FullMatrix<double> &result) const;
 
+    /** What there is to know of the mean change of volume of a cell, if stress
+     * follows from that; else null. */
+    virtual const CellVolume<dim> *cell_volume() const
+    {
+      return nullptr;
+    }
+
+    /** The material as the points of a cell in a state have it; this one where
+     * stress follows from the change of volume of the point, and to be kept no
+     * longer than it. */
+    std::shared_ptr<const Material> in_cell(const dealii::FEValues<dim> &values,
+                                            const CellState<dim> &state) const;
+
     /** Internal forces of a cell, int nominal stress : grad phi; arguments as
      * above. */
     void cell_forces(const dealii::FEValues<dim> &values,
@@ -172,6 +197,14 @@ namespace abut::app
 
     const PlaneModel plane;
 
+  protected:
+    /** Add to the tangent of a cell what follows from a change of its mean
+     * volume, if stress does; @p state also if is_linear(). */
+    void add_volume_stiffness(const dealii::FEValues<dim> &values,
+                              const dealii::FiniteElement<dim> &fe,
+                              const CellState<dim> &state,
+                              dealii::FullMatrix<double> &result) const;
+
   private:
     /** Changes of the nominal stress at a point by each entry of the gradient,
      * and by the radial displacement of axisymmetric bodies. */
@@ -190,6 +223,12 @@ namespace abut::app
     Moduli moduli(const dealii::Tensor<2, dim> &gradient,
                   const dealii::Tensor<1, dim> &displacement,
                   const dealii::Point<dim> &point) const;
+
+    /** Add what a stress at point @p q of a volume does to all nodes. */
+    void add_nodal_forces(const dealii::FEValues<dim> &values,
+                          const dealii::FiniteElement<dim> &fe,
+                          const NominalStress<dim> &stress, unsigned int q,
+                          double volume, dealii::Vector<double> &forces) const;
 
     /** What a stress at point @p q does to a node, per volume. */
     dealii::Tensor<1, dim> nodal_force(const dealii::FEValues<dim> &values,

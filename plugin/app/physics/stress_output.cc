@@ -48,7 +48,8 @@ namespace abut::app
   } // namespace
 
   template <int dim>
-  StressPostprocessor<dim>::StressPostprocessor(const Materials<dim> &materials)
+  StressPostprocessor<dim>::StressPostprocessor(
+      const CellMaterials<dim> &materials)
       : materials(materials)
   {
   }
@@ -86,7 +87,7 @@ namespace abut::app
       std::vector<dealii::Vector<double>> &results) const
   {
     const Material<dim> &material =
-        *materials.at(inputs.template get_cell<dim>()->material_id());
+        materials.at(inputs.template get_cell<dim>());
     for (unsigned int q = 0; q < results.size(); ++q)
     {
       dealii::Tensor<1, dim> u;
@@ -123,6 +124,8 @@ namespace abut::app
           dealii::Quadrature<dim>(nodes.get_unit_support_points()),
           dealii::update_values | dealii::update_gradients
               | dealii::update_quadrature_points);
+      const CellMaterials<dim> of_cells(mapping, dof_handler, displacement,
+                                        materials);
       const dealii::FEValuesExtractors::Vector field(0);
       std::vector<dealii::Tensor<1, dim>> u(nodes.n_dofs_per_cell());
       std::vector<dealii::Tensor<2, dim>> du(nodes.n_dofs_per_cell());
@@ -142,7 +145,7 @@ namespace abut::app
         typename dealii::DoFHandler<dim>::active_cell_iterator(
             &scalar.get_triangulation(), cell->level(), cell->index(), &scalar)
             ->get_dof_indices(dofs);
-        const Material<dim> &material = *materials.at(cell->material_id());
+        const Material<dim> &material = of_cells.at(cell);
         const double volume = cell->measure();
         for (unsigned int i = 0; i < dofs.size(); ++i)
         {

@@ -6,7 +6,7 @@
  * Stresses of elastic bodies: as fields of output files, and at nodes.
  */
 
-#include "material.h"
+#include "cell_volume.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -25,8 +25,8 @@ namespace abut::app
   class StressPostprocessor : public dealii::DataPostprocessor<dim>
   {
   public:
-    /** @p materials must outlive this object. */
-    explicit StressPostprocessor(const Materials<dim> &materials);
+    /** @p materials, at the displacement, must outlive this object. */
+    explicit StressPostprocessor(const CellMaterials<dim> &materials);
 
     std::vector<std::string> get_names() const override;
 
@@ -41,7 +41,7 @@ namespace abut::app
         std::vector<dealii::Vector<double>> &results) const override;
 
   private:
-    const Materials<dim> &materials;
+    const CellMaterials<dim> &materials;
   };
 
   /** Stress at the nodes of a scalar Lagrange element on the same mesh: the

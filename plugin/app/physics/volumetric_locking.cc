@@ -17,10 +17,13 @@ namespace abut::app
     {
       const dealii::FEValuesExtractors::Vector field(0);
       const unsigned int n = points.n_quadrature_points;
-      std::vector<dealii::Tensor<1, dim>> u(n);
-      std::vector<dealii::Tensor<2, dim>> gradient(n);
+      CellState<dim> state;
+      auto &[u, gradient] = state;
+      u.resize(n);
+      gradient.resize(n);
       points[field].get_function_values(displacement, u);
       points[field].get_function_gradients(displacement, gradient);
+      const auto in_cell = material.in_cell(points, state);
       double volume = 0., first = 0., second = 0.;
       for (unsigned int q = 0; q < n; ++q)
       {
@@ -30,10 +33,11 @@ namespace abut::app
         volume += weight;
         first += weight * dilation;
         second += weight * dilation * dilation;
-        energies[0] += weight * 2. * material.energy(gradient[q], u[q], x);
+        energies[0] += weight * 2. * in_cell->energy(gradient[q], u[q], x);
       }
-      energies[1] += material.dilation_stiffness()
-                     * std::max(0., second - first * first / volume);
+      if (material.cell_volume() == nullptr)
+        energies[1] += material.dilation_stiffness()
+                       * std::max(0., second - first * first / volume);
     }
   } // namespace
 

@@ -19,14 +19,17 @@ namespace abut::app
     make_material(const BodyParameters &body, const PlaneModel plane)
     {
       const double e = body.young_modulus, nu = body.poisson_ratio;
+      const VolumeChange volume = body.element == ElementKind::mean_dilatation
+                                      ? VolumeChange::of_cell
+                                      : VolumeChange::of_point;
       switch (body.law)
       {
       case MaterialLaw::neo_hooke:
-        return std::make_shared<NeoHooke<dim>>(e, nu, plane);
+        return std::make_shared<NeoHooke<dim>>(e, nu, plane, volume);
       case MaterialLaw::st_venant_kirchhoff:
         return std::make_shared<StVenantKirchhoff<dim>>(e, nu, plane);
       default:
-        return std::make_shared<Hooke<dim>>(e, nu, plane);
+        return std::make_shared<Hooke<dim>>(e, nu, plane, volume);
       }
     }
   } // namespace

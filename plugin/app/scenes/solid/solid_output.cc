@@ -68,7 +68,10 @@ namespace abut::app
                        model.elasticity.dof_handler,
                        {{"displacement", &displacement}},
                        {{"body", &body}}};
-    const StressPostprocessor<dim> stresses(model.data.materials);
+    const CellMaterials<dim> materials(model.elasticity.mapping,
+                                       model.elasticity.dof_handler,
+                                       displacement, model.data.materials);
+    const StressPostprocessor<dim> stresses(materials);
     fields.derived = {{&displacement, &stresses}};
     if (model.run.present.estimate)
       fields.cells.emplace_back("squared_error_estimate",

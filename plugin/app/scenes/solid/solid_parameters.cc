@@ -147,6 +147,24 @@ namespace abut::app
     return counts;
   }
 
+  void SolidParameters::check_element(const BodyParameters &body) const
+  {
+    if (body.element != ElementKind::mean_dilatation)
+      return;
+    const auto refuse = [&body](const std::string &why)
+    {
+      throw InputError(body.parameter("Element"),
+                       why + " Set it to full integration.");
+    };
+    if (degree > 1)
+      refuse("mean dilatation is for Solid/Degree = 1: one pressure in a cell "
+             "would take quadratic elements an order of accuracy, and they "
+             "hardly lock without it.");
+    if (plane == PlaneModel::stress)
+      refuse("in plane stress (Solid/Plane) the thickness follows from the "
+             "other strains, nothing keeps the volume, and nothing locks.");
+  }
+
   void SolidParameters::check_materials() const
   {
     for (const BodyParameters &body : bodies)
@@ -157,6 +175,8 @@ namespace abut::app
                              + " is not of the same kind: set both to hooke, "
                                "or both to neo-hooke or st venant-kirchhoff. A "
                                "stiff body hardly strains with any of them.");
+    for (const BodyParameters &body : bodies)
+      check_element(body);
     if (!has_large_strain())
       return;
     const auto refuse = [](const std::string &parameter, const std::string &why)

@@ -68,6 +68,7 @@ namespace abut::app
     /** Whether all bodies are of small strain, or of large, and nothing is
      * asked for that large strain does not have. Throws InputError. */
     void check_materials() const;
+    void check_element(const BodyParameters &body) const;
 
     /** Make all else fit a motion; throws InputError for what does not. */
     void begin_motion();

@@ -358,7 +358,9 @@ namespace abut::app
     diagnose_condition(report, condition, penalty);
     double poisson_ratio = 0.;
     for (const auto &material : model.data.materials)
-      poisson_ratio = std::max(poisson_ratio, material.second->poisson_ratio());
+      if (material.second->cell_volume() == nullptr)
+        poisson_ratio =
+            std::max(poisson_ratio, material.second->poisson_ratio());
     if (parameters.degree > 1 || parameters.plane == PlaneModel::stress
         || poisson_ratio < least_locking_ratio)
       return;
@@ -374,7 +376,9 @@ namespace abut::app
                 "linear elements cannot avoid: with Poisson ratio "
               + short_number(poisson_ratio, 6)
               + " they lock, displacements are too small and contact forces "
-                "too large. Set Solid/Degree = 2."));
+                "too large. Set Body N/Element = mean dilatation, or "
+                "Solid/Degree "
+                "= 2."));
   }
 
   template <int dim> void SolidReport<dim>::model_lines() const
