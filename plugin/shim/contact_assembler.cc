@@ -148,6 +148,7 @@ namespace abut
                            "consecutively."));
     i.record_present();
     i.history.leave_ranks();
+    i.elements.forget();
     i.is_forgotten = true;
     i.rows_mesh = 0;
     i.has_rows = false;

@@ -118,6 +118,7 @@ namespace abut
   {
     RowsElsewhere result;
     result.points = shim::create_points(context.get(), points_dimension);
+    surfaces->bring_in_reach(displacement);
     const auto kept = surfaces->keep();
     const auto make_rows = [&]
     {
@@ -150,6 +151,7 @@ namespace abut
   ContactAssembler<dim>::Implementation::follow(const la::Vector &displacement)
   {
     const std::vector<std::int64_t> before = row_numbers();
+    surfaces->bring_in_reach(displacement);
     auto kept = surfaces->keep();
     shim::Handle<abut_points> old_points = std::move(points);
     find_points(displacement);

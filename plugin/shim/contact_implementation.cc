@@ -219,7 +219,7 @@ namespace abut
           *mapping, *dof_handler, *constraints, pairs,
           typename shim::SurfacePairRows<dim>::Settings{method, search,
                                                         axisymmetric},
-          context.get(), exchange);
+          context.get(), exchange, detection);
       surfaces = made.get();
       if (committed.size() > 0)
         surfaces->note_commit(committed);

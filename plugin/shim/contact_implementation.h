@@ -206,6 +206,8 @@ namespace abut
     /** The facets of pairs on this mesh, once they are found. */
     std::shared_ptr<shim::SurfaceExchange<dim>> exchange;
     CommunicationReport sent_before; ///< on earlier meshes
+    DetectionReport detection;
+    shim::ContactElements elements;
     bool source_is_outdated = true;
     bool has_new_gaps = false; ///< of pairs that are otherwise the same
     mutable std::optional<solve::NearNullSpace> bodies;

@@ -47,6 +47,22 @@ namespace abut
                : PointCount{i.surfaces->n_finds(), i.surfaces->n_kept()};
   }
 
+  template <int dim>
+  DetectionReport ContactAssembler<dim>::detection_report() const
+  {
+    const Implementation &i = *implementation;
+    DetectionReport result = i.detection;
+    for (std::uint64_t *count :
+         {&result.searches, &result.reuses, &result.rebuilds, &result.refits,
+          &result.gatherings})
+      *count = MPI::max(*count, i.communicator);
+    result.seconds = MPI::max(result.seconds, i.communicator);
+    if (i.surfaces != nullptr && i.has_rows)
+      i.elements.compare(i.surfaces->contact_elements(), result,
+                         i.communicator);
+    return result;
+  }
+
   template <int dim> double ContactAssembler<dim>::complementarity() const
   {
     const Implementation &i = *implementation;
@@ -252,6 +268,7 @@ namespace abut
 #define ABUT_INSTANTIATE(dim)                                                  \
   template std::vector<StepMotion> ContactAssembler<dim>::step_motion(         \
       const la::Vector &) const;                                               \
+  template DetectionReport ContactAssembler<dim>::detection_report() const;    \
   template typename ContactAssembler<dim>::PointCount                          \
   ContactAssembler<dim>::point_count() const;                                  \
   template double ContactAssembler<dim>::contact_force() const;                \

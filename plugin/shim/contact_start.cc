@@ -167,6 +167,8 @@ namespace abut
     i.check_size("commit()", "displacement", displacement.size());
     i.record_present();
     i.history.commit();
+    if (i.surfaces != nullptr && i.has_rows)
+      i.elements.commit(i.surfaces->contact_elements(), i.communicator);
     if (i.surfaces != nullptr)
       i.surfaces->note_commit(displacement);
     // Pairs with friction may be out of reach of each other as yet. Those that
@@ -209,6 +211,7 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.history.save(stream);
+    i.elements.save(stream, i.communicator);
     // Who loads has no preconditioner, nor points that were made earlier: then
     // neither should this run.
     i.solver.reset();
@@ -224,6 +227,7 @@ namespace abut
       i.create_source();
     const std::uint64_t mesh = i.source->mesh_signature();
     i.history.load(stream, mesh);
+    i.elements.load(stream, i.communicator);
     // Displacements are the host's to keep: that of the commit() must come from
     // there, or slips would be measured from an undeformed body.
     if (i.committed.size() == 0

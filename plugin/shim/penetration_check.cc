@@ -4,6 +4,7 @@
 
 #include "agree.h"
 #include "passage_check.h"
+#include "stopwatch.h"
 
 #include <abut/dealii/rigid_obstacle.h>
 
@@ -330,6 +331,7 @@ namespace abut::shim
                                      const double tolerance)
   {
     const std::vector<Direction> u = displacements_in_reach(displacement);
+    const Stopwatch watch(detection_.seconds);
     std::vector<dealii::Point<dim>> reference(surface_.nodes.size()),
         present(surface_.nodes.size());
     for (std::size_t n = 0; n < present.size(); ++n)
@@ -338,9 +340,7 @@ namespace abut::shim
       present[n] = reference[n] + u[n];
     }
     const std::vector<std::uint8_t> held = held_nodes();
-    std::vector<double> motions;
-    for (const Pair &pair : pairs_)
-      motions.push_back(motion(pair, pair.steps ? way_since(u) : u));
+    const std::vector<double> moved = motions(has_steps() ? way_since(u) : u);
 
     std::vector<Penetration<dim>> missed;
     std::string message;
@@ -357,17 +357,17 @@ namespace abut::shim
         {
           check_obstacle(pair, marks, present, tolerance, missed);
           if (missed.size() == before)
-            check_passage(p, marks, present, motions[p], tolerance, missed);
+            check_passage(p, marks, present, moved[p], tolerance, missed);
           continue;
         }
         const DisplacedSides<dim> sides(context_, pair.secondary, pair.primary,
                                         reference, present);
-        const double reach = std::max(pair.data.reach, 1.5 * motions[p]);
+        const double reach = std::max(pair.data.reach, 1.5 * moved[p]);
         check_surfaces(pair, marks, present, reach, tolerance, missed);
         if (SelfContact<dim>::is_split(pair.data))
           check_same_sides(pair, present, reach, tolerance, missed);
         if (missed.size() == before)
-          check_passage(p, marks, present, motions[p], tolerance, missed);
+          check_passage(p, marks, present, moved[p], tolerance, missed);
       }
       catch (const std::exception &error)
       {

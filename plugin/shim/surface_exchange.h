@@ -38,6 +38,8 @@ namespace abut::shim
   template <int dim> class SurfaceExchange
   {
   public:
+    using Index = dealii::types::global_dof_index;
+
     /** Two surfaces that may touch; the primary is empty for obstacles. */
     struct Link
     {
@@ -46,6 +48,8 @@ namespace abut::shim
       /** Distance within which facets are looked for; with @ref margin added,
        * by which nodes may have moved without anything being missed. */
       double reach = 0., margin = 0.;
+      /** Its sides are looked for at the place of gather(), not undeformed. */
+      bool displaced = false;
     };
 
     /** Nodes may also have moved by this part of the size of the smallest
@@ -84,11 +88,27 @@ namespace abut::shim
     void refresh();
 
     /** The facets that this rank needs, with those near each other of each
-     * link. Distances in @p links are raised to those of the call before, if
-     * those are larger; then no facet is sent. Throws ContactError on all ranks
-     * for facets without area. Collective. */
+     * link, where the bodies were in the last gather_at(). Distances in @p
+     * links are raised to those of the call before, if those are larger; then
+     * no facet is sent. Throws ContactError on all ranks for facets without
+     * area. Collective. */
     ContactSurface<dim> gather(abut_context *context, std::vector<Link> &links,
                                const abut_search_options &search);
+
+    /** The same where bodies are displaced by @p place (owned). Facets that are
+     * not near any more are forgotten, and so are their nodes but for those
+     * with a first unknown in @p kept. Collective. */
+    ContactSurface<dim> gather_at(const la::Vector &place,
+                                  const std::set<Index> &kept,
+                                  abut_context *context,
+                                  std::vector<Link> &links,
+                                  const abut_search_options &search);
+
+    /** What bodies were displaced by in the last gather_at(); empty: 0. */
+    const la::Vector &place() const
+    {
+      return place_;
+    }
 
     /** A length that the least distance of the two sides of a link does not
      * exceed, from the boxes of the last gather(). Collective. */
@@ -101,8 +121,8 @@ namespace abut::shim
 
     /** The displacement that was committed of each node of the gathered
      * surface:
-     * @p u as it is (owned), constraints and all, whatever they prescribe by
-     * now. Collective. */
+     * @p u as it is (owned; empty: 0), constraints and all, whatever they
+     * prescribe by now. Collective. */
     std::vector<dealii::Tensor<1, dim>>
     displacements_as_given(const ContactSurface<dim> &surface,
                            const la::Vector &u);
@@ -121,7 +141,6 @@ namespace abut::shim
     CommunicationReport communication() const;
 
   private:
-    using Index = dealii::types::global_dof_index;
     using Facet = typename ContactSurface<dim>::Facet;
     using Node = typename ContactSurface<dim>::Node;
     using Parent = typename ContactSurface<dim>::Parent;
@@ -189,7 +208,11 @@ namespace abut::shim
     template <typename Predicate>
     Part make_part(abut_context *context,
                    const std::set<dealii::types::boundary_id> &ids,
-                   const Predicate &belongs) const;
+                   bool displaced, const Predicate &belongs) const;
+    /** Find where nodes that are known here are displaced to. Collective. */
+    void displace();
+    /** Forget nodes of no facet. */
+    void forget_nodes(const std::set<Index> &kept);
     std::vector<double> own_boxes(abut_context *context,
                                   const std::vector<Link> &links) const;
     void gather_boxes(abut_context *context, const std::vector<Link> &links);
@@ -224,6 +247,9 @@ namespace abut::shim
     /** What is known here. */
     std::unordered_map<std::int64_t, FacetRecord> facets_;
     std::unordered_map<Index, NodeRecord> nodes_;
+    la::Vector place_; ///< empty: 0
+    /** By the first unknown of nodes; not there: 0. */
+    std::unordered_map<Index, dealii::Tensor<1, dim>> displaced_;
     /** Of the last selection. */
     std::vector<Link> links_;
     abut_search_options search_;

@@ -51,12 +51,9 @@ namespace abut::shim
   SurfacePairRows<dim>::motions(const std::vector<Direction> &u)
   {
     std::vector<Direction> since(u);
-    if (moves() && searched_from_.size() > 0)
-    {
-      const auto then = exchange_->displacements(surface_, searched_from_);
-      for (std::size_t n = 0; n < u.size(); ++n)
-        since[n] -= then[n];
-    }
+    if (moves())
+      since = difference(
+          u, exchange_->displacements_as_given(surface_, searched_from_));
     std::vector<double> result;
     for (const Pair &pair : pairs_)
       result.push_back(

@@ -44,10 +44,7 @@ namespace abut::shim
       checks_.clear();
       note_place(u);
       check(context_, abut_points_get(points_, &view_));
-      std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
-      const std::vector<double> moved = motions(u);
-      for (std::size_t p = 0; p < pairs_.size(); ++p)
-        find_pair(p, moved[p], taken);
+      find_pairs(motions(u));
       // Components are known by their place among those that stay.
       std::vector<std::uint8_t> components(view_.n_components, 1);
       drop_needless(components);

@@ -3,7 +3,11 @@
 #include "surface_pair_rows.h"
 
 #include "agree.h"
+#include "fnv_hash.h"
+#include "pair_diagnosis.h"
+#include "stopwatch.h"
 
+#include <abut/coupling_search.h>
 #include <abut/dealii/coded.h>
 #include <abut/dealii/rigid_obstacle.h>
 
@@ -24,6 +28,11 @@ namespace abut::shim
     /** A node that can move along a direction only this little (1: freely)
      * is held there. */
     constexpr double least_freedom = 0.5;
+
+    /** Lists of candidates where bodies are are too long by this part of a
+     * facet, unless the parameters say by what: the longer they are, the longer
+     * they serve. */
+    constexpr double skin_of_displaced = 1.;
 
     /** What suits a pair, if the parameters leave it to choose. */
     abut_discretisation automatic_discretisation(const abut_law &law,
@@ -69,14 +78,16 @@ namespace abut::shim
       const dealii::DoFHandler<dim> &dof_handler,
       const dealii::AffineConstraints<double> &constraints,
       const std::vector<ContactPair<dim>> &given, const Settings &settings,
-      abut_context *context, std::shared_ptr<SurfaceExchange<dim>> exchange)
+      abut_context *context, std::shared_ptr<SurfaceExchange<dim>> exchange,
+      DetectionReport &detection)
       : mapping_(mapping),
         dof_handler_(dof_handler),
         constraints_(constraints),
         communicator_(dof_handler.get_communicator()),
         settings_(settings),
         context_(context),
-        exchange_(std::move(exchange))
+        exchange_(std::move(exchange)),
+        detection_(detection)
   {
     const auto pairs = SelfContact<dim>::with_sides(given);
     const auto ids = all_ids(pairs);
@@ -89,7 +100,7 @@ namespace abut::shim
                            context));
     for (const auto &pair : pairs)
       create_pair(pair);
-    gather();
+    gather(nullptr);
   }
 
   template <int dim>
@@ -202,6 +213,9 @@ namespace abut::shim
     options.normal_cosine = settings_.search.detection.normal_cosine;
     options.search = settings_.search.detection.search;
     options.search.reach = std::max(options.search.reach, pair.data.reach);
+    if (options.search.skin == 0. && pair.has_displaced_sides()
+        && !pair.data.obstacle)
+      options.search.skin = skin_of_displaced * facet_size(pair);
     options.thickness = pair.thickness;
     abut_coupling *made = nullptr;
     check(context_, pair.data.obstacle
@@ -415,6 +429,59 @@ namespace abut::shim
   }
 
   template <int dim>
+  void SurfacePairRows<dim>::search(const Pair &pair, const double motion)
+  {
+    const Stopwatch watch(detection_.seconds);
+    const auto statistics = [&]
+    {
+      abut_search_statistics result;
+      check(context_,
+            abut_search_get_statistics(
+                abut_coupling_searcher(pair.coupling.get()), &result));
+      return result;
+    };
+    run_everywhere<ContactError>(
+        communicator_,
+        [&]
+        {
+          run_named(pair.data.name,
+                    [&]
+                    {
+                      const abut_search_statistics before = statistics();
+                      check(context_,
+                            abut_coupling_search(pair.coupling.get(), motion));
+                      const abut_search_statistics after = statistics();
+                      detection_.searches +=
+                          after.n_searches - before.n_searches;
+                      detection_.reuses += after.n_reuses - before.n_reuses;
+                      detection_.rebuilds += after.n_builds - before.n_builds;
+                      detection_.refits += after.n_refits - before.n_refits;
+                    });
+        });
+  }
+
+  template <int dim>
+  ContactElements::Table SurfacePairRows<dim>::contact_elements() const
+  {
+    ContactElements::Table result;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      if (!has_lasting_numbers(pairs_[places_[i].pair]))
+        continue;
+      std::vector<std::int64_t> opposite;
+      for_each_primary(i, [&](const Node node, double)
+                       { opposite.push_back(surface_.nodes[node].number); });
+      std::sort(opposite.begin(), opposite.end());
+      FnvHash hash;
+      hash.mix(places_[i].pair);
+      for (const std::int64_t number : opposite)
+        hash.mix(number);
+      result[view_.component_id[view_.component_start[i]]] = hash.value;
+    }
+    return result;
+  }
+
+  template <int dim>
   void SurfacePairRows<dim>::find_pair(const std::size_t number,
                                        const double motion,
                                        std::vector<std::uint8_t> &taken)
@@ -427,6 +494,8 @@ namespace abut::shim
     if (pair.has_displaced_sides())
       displaced.emplace(context_, pair.secondary, pair.primary, reference_,
                         present_);
+    if (!pair.data.obstacle)
+      search(pair, motion);
     auto groups =
         pair.data.tied
             ? tie_groups(pair, taken)
@@ -453,6 +522,25 @@ namespace abut::shim
           taken[places_[i].node] = 1;
     exchange_->merge_marks(surface_, taken);
     make_check(number, n_dropped);
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::find_pairs(const std::vector<double> &moved)
+  {
+    const std::vector<std::vector<std::uint8_t>> nearer =
+        nodes_of_nearer_pairs(moved);
+    std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
+      std::vector<std::uint8_t> others(taken);
+      for (std::size_t n = 0; n < others.size(); ++n)
+        others[n] = others[n] != 0 || nearer[p][n] != 0;
+      const std::vector<std::uint8_t> before(others);
+      find_pair(p, moved[p], others);
+      for (std::size_t n = 0; n < others.size(); ++n)
+        if (others[n] != before[n])
+          taken[n] = 1;
+    }
   }
 
   template <int dim>
@@ -533,16 +621,11 @@ namespace abut::shim
     checks_.clear();
     check(context_, abut_points_clear(points_));
     note_place(moves() ? u : place);
-    made_place_ =
-        has_steps() && committed_ != nullptr ? *committed_ : la::Vector();
-    std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
-    const std::vector<double> moved = motions(way);
+    made_place_ = moves() ? displacement : last_commit();
+    find_pairs(motions(way));
     for (std::size_t p = 0; p < pairs_.size(); ++p)
-    {
-      find_pair(p, moved[p], taken);
       if (pairs_[p].data.obstacle && checks_[p].n_rows == 0)
         refuse_inside(pairs_[p], displacement);
-    }
     origins_ = std::move(wanted);
     return Change::points;
   }

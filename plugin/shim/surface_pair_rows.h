@@ -2,6 +2,7 @@
 #ifndef ABUT_SHIM_SURFACE_PAIR_ROWS_H
 #define ABUT_SHIM_SURFACE_PAIR_ROWS_H
 
+#include "contact_elements.h"
 #include "row_source.h"
 #include "surface_exchange.h"
 #include "surface_pair.h"
@@ -39,13 +40,15 @@ namespace abut::shim
 
     /** All references must outlive this object. Throws ContactError for pairs
      * that make no sense. Of the surfaces, each rank holds what is near its own
-     * part. @p exchange may be null. Collective. */
+     * part. @p exchange may be null. What detection takes is added to @p
+     * detection. Collective. */
     SurfacePairRows(const dealii::Mapping<dim> &mapping,
                     const dealii::DoFHandler<dim> &dof_handler,
                     const dealii::AffineConstraints<double> &constraints,
                     const std::vector<ContactPair<dim>> &pairs,
                     const Settings &settings, abut_context *context,
-                    std::shared_ptr<SurfaceExchange<dim>> exchange);
+                    std::shared_ptr<SurfaceExchange<dim>> exchange,
+                    DetectionReport &detection);
 
     /** What knows the facets: to be given to the next object for the same mesh,
      * so that they need not be found again. */
@@ -158,6 +161,17 @@ namespace abut::shim
 
     /** Whether points of a pair are made step by step (Sliding::step). */
     bool has_steps() const;
+
+    /** Let facets be known that are near each other at @p displacement, so
+     * that what is kept meanwhile by keep() stays good. Collective. */
+    void bring_in_reach(const la::Vector &displacement)
+    {
+      displacements_in_reach(displacement);
+    }
+
+    /** The elements of the present points, but for those whose numbers do not
+     * last. Not collective. */
+    ContactElements::Table contact_elements() const;
 
     /** Median of the secondary surfaces, that of the pair of the largest. */
     double facet_size() const
@@ -442,7 +456,11 @@ namespace abut::shim
     void refuse(Pair &pair, const std::string &text) const;
 
     void create_pair(const ContactPair<dim> &data);
-    void gather();
+    /** First unknowns of the nodes that points refer to. */
+    std::set<dealii::types::global_dof_index> used_nodes() const;
+    /** @p place: where bodies are displaced to, whose points are not those of
+     * the undeformed ones; null: where they were the last time. */
+    void gather(const la::Vector *place);
     void create_sides(Pair &pair);
     void find_thickness(Pair &pair);
     double find_thickness(const Pair &pair,
@@ -453,8 +471,27 @@ namespace abut::shim
     void check_sides(const Pair &pair) const;
     void check_displacements(const std::vector<Direction> &u) const;
     std::vector<Direction> displacements_in_reach(const la::Vector &u);
-    bool is_in_reach(const Pair &pair, double motion) const;
-    void renew();
+    /** Steps 2 to 19 of the detection of a pair between bodies. Throws on all
+     * ranks. Collective. */
+    void search(const Pair &pair, double motion);
+    /** How far the sides of a pair have come against each other, length. */
+    struct Motions
+    {
+      double searched = 0.; ///< since the last commit(), which reach follows
+      /** Since facets near each other were gathered; at the last commit() or
+       * now, whichever is more. */
+      double gathered = 0.;
+    };
+    /** [pairs] Collective. */
+    std::vector<Motions>
+    motions_since_gathering(const std::vector<Direction> &u);
+    /** Whether the facets that are known suffice. */
+    bool is_in_reach(const Pair &pair, const Motions &motions) const;
+    /** Choose from how far facets are to be gathered. */
+    void set_distances(Pair &pair, const Motions &motions) const;
+    /** Displacement of the last commit(); empty: 0, or not known. */
+    const la::Vector &last_commit() const;
+    void renew(const la::Vector *place);
     std::string explain_no_rows(std::size_t pair);
     bool is_owned(Node node) const;
     double motion(const Pair &pair, const std::vector<Direction> &u) const;
@@ -479,6 +516,11 @@ namespace abut::shim
     bool is_made_at(const std::vector<Direction> &u) const;
     /** How the nodes have moved from there; @p u where there is no such place.
      */
+    static double facet_size(const Pair &pair)
+    {
+      return std::max(pair.secondary.everywhere.median,
+                      pair.primary.everywhere.median);
+    }
     static std::vector<Direction>
     difference(std::vector<Direction> u, const std::vector<Direction> &from);
     /** The way since the points were made. */
@@ -524,6 +566,22 @@ namespace abut::shim
     bool has_lasting_numbers(const Pair &pair) const;
     void find_pair(std::size_t pair, double motion,
                    std::vector<std::uint8_t> &taken);
+    /** The points of all pairs. Collective. */
+    void find_pairs(const std::vector<double> &moved);
+    /** Whether the pair is one between bodies that a node may belong to or not:
+     * obstacles and ties have all theirs. */
+    static bool is_group(const Pair &pair)
+    {
+      return !pair.data.obstacle && !pair.data.tied;
+    }
+    /** Whether a node is in the secondary of several. Collective. */
+    bool have_common_nodes() const;
+    /** Signed, of the surfaces at a point that was just made. */
+    double distance_where_made(std::size_t point) const;
+    /** [pairs][nodes] nonzero: another group is nearer to the node. Takes the
+     * points away that it makes to find out. Collective. */
+    std::vector<std::vector<std::uint8_t>>
+    nodes_of_nearer_pairs(const std::vector<double> &moved);
     std::vector<Origin> origins(const std::vector<Direction> &u) const;
     solve::NodeMap append_stress(const SurfaceTraction<dim> &traction,
                                  abut_points *stress) const;
@@ -549,6 +607,7 @@ namespace abut::shim
     const Settings settings_;
     abut_context *const context_;
     std::shared_ptr<SurfaceExchange<dim>> exchange_;
+    DetectionReport &detection_;
     ContactSurface<dim> surface_;
     std::vector<Pair> pairs_;
     abut_points *points_ = nullptr; ///< of the last find()
@@ -564,8 +623,11 @@ namespace abut::shim
     la::Vector searched_from_;  ///< where points move: of the last commit()
     std::vector<Place> places_; ///< [points]
     const la::Vector *committed_ = nullptr;
-    la::Vector made_place_; ///< what that was when points were made; empty: 0
+    /** Where points were made, of pairs that are displaced; empty: 0. */
+    la::Vector made_place_;
     unsigned int n_finds_ = 0, n_kept_ = 0;
+    /** [nodes] displacements that facets were gathered at. */
+    std::vector<Direction> gathered_;
     /** Of pairs that are displaced: where the nodes are and were, and their
      * displacements [nodes * dim], where the points were made. */
     std::vector<dealii::Point<dim>> present_, reference_;

@@ -4,6 +4,7 @@
 #include "agree.h"
 #include "fnv_hash.h"
 #include "pair_diagnosis.h"
+#include "stopwatch.h"
 #include "surface_pair_rows.h"
 
 #include <abut/dealii/coded.h>
@@ -16,6 +17,7 @@
 namespace abut::shim
 {
   namespace MPI = dealii::Utilities::MPI;
+  using dealii::types::global_dof_index;
 
   namespace
   {
@@ -30,16 +32,37 @@ namespace abut::shim
     }
   } // namespace
 
-  template <int dim> void SurfacePairRows<dim>::gather()
+  template <int dim>
+  std::set<global_dof_index> SurfacePairRows<dim>::used_nodes() const
+  {
+    std::set<global_dof_index> used;
+    const auto add = [&](const Node node)
+    { used.insert(surface_.nodes[node].dof[0]); };
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      for (auto e = view_.start[i]; e < view_.start[i + 1]; ++e)
+        add(view_.node[e]);
+      for (const auto *list :
+           {&places_[i].opposite, &places_[i].lines, &places_[i].columns})
+        std::for_each(list->begin(), list->end(), add);
+    }
+    return used;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::gather(const la::Vector *const place)
   {
     origins_.clear();
     partners_place_.reset();
     std::vector<typename SurfaceExchange<dim>::Link> links;
     for (const Pair &pair : pairs_)
       links.push_back({pair.data.name, pair.data.secondary, pair.data.primary,
-                       pair.reach, pair.margin});
-    surface_ =
-        exchange_->gather(context_, links, settings_.search.detection.search);
+                       pair.reach, pair.margin, pair.has_displaced_sides()});
+    const abut_search_options &search = settings_.search.detection.search;
+    surface_ = place == nullptr ? exchange_->gather(context_, links, search)
+                                : exchange_->gather_at(*place, used_nodes(),
+                                                       context_, links, search);
+    gathered_ = exchange_->displacements_as_given(surface_, exchange_->place());
     for (std::size_t i = 0; i < pairs_.size(); ++i)
     {
       pairs_[i].reach = links[i].reach;
@@ -84,6 +107,10 @@ namespace abut::shim
   {
     const ContactPair<dim> &data = pair.data;
     pair.coupling.reset();
+    // The same whatever a rank knows of other ranks' facets.
+    const bool is_measured = pair.secondary.everywhere.n_facets > 0;
+    const SideMeasures secondary = pair.secondary.everywhere,
+                       primary = pair.primary.everywhere;
     run_for_pair(communicator_, data.name,
                  [&]
                  {
@@ -92,9 +119,17 @@ namespace abut::shim
                    pair.primary = make_side(context_, surface_, data.primary,
                                             settings_.search);
                  });
-    for (auto *side : {&pair.secondary, &pair.primary})
-      side->everywhere = measure_everywhere(*side, surface_, communicator_);
-    find_thickness(pair);
+    if (is_measured)
+    {
+      pair.secondary.everywhere = secondary;
+      pair.primary.everywhere = primary;
+    }
+    else
+    {
+      for (auto *side : {&pair.secondary, &pair.primary})
+        side->everywhere = measure_everywhere(*side, surface_, communicator_);
+      find_thickness(pair);
+    }
     run_for_pair(communicator_, data.name,
                  [&]
                  {
@@ -140,7 +175,8 @@ namespace abut::shim
                          : find_thickness(pair, data.primary, pair.primary);
   }
 
-  template <int dim> void SurfacePairRows<dim>::renew()
+  template <int dim>
+  void SurfacePairRows<dim>::renew(const la::Vector *const where)
   {
     // What refers to nodes and facets does so by their numbers meanwhile.
     const auto number_of = [](const auto &list, const std::int32_t index)
@@ -159,14 +195,11 @@ namespace abut::shim
               number_of(surface_.nodes, pairs_[p].secondary.node[n]),
               pairs_[p].dropped[n]);
 
-    gather();
+    gather(where);
     // Nodes have other numbers; points stay where they were made. Ranks without
     // nodes take part.
-    if (points_ != nullptr && has_steps())
-      note_place(
-          made_place_.size() == 0
-              ? std::vector<Direction>(surface_.nodes.size())
-              : exchange_->displacements_as_given(surface_, made_place_));
+    if (points_ != nullptr && (moves() || has_steps()))
+      note_place(exchange_->displacements_as_given(surface_, made_place_));
 
     const auto index_of = [](const auto &list, const std::int64_t number)
     {
@@ -174,7 +207,9 @@ namespace abut::shim
           std::lower_bound(list.begin(), list.end(), number,
                            [](const auto &entry, const std::int64_t n)
                            { return entry.number < n; });
-      return number < 0 ? -1 : static_cast<std::int32_t>(it - list.begin());
+      return number < 0 || it == list.end() || it->number != number
+                 ? -1 // not known any more
+                 : static_cast<std::int32_t>(it - list.begin());
     };
     std::vector<Node> now;
     for (const std::int64_t number : nodes)
@@ -198,8 +233,10 @@ namespace abut::shim
       if (!pair.dropped.empty())
         pair.dropped.assign(pair.secondary.n_nodes(), 0);
       for (const auto &[number, why] : dropped[p])
-        pair.dropped[pair.secondary.local_node(
-            index_of(surface_.nodes, number))] = why;
+        if (const int node =
+                pair.secondary.local_node(index_of(surface_.nodes, number));
+            node >= 0)
+          pair.dropped[node] = why;
     }
   }
 
@@ -233,17 +270,18 @@ namespace abut::shim
 
   template <int dim>
   bool SurfacePairRows<dim>::is_in_reach(const Pair &pair,
-                                         const double motion) const
+                                         const Motions &motions) const
   {
     if (pair.data.obstacle)
       return true;
     const abut_search_options &search = settings_.search.detection.search;
     const double smallest = std::min(pair.secondary.everywhere.smallest,
                                      pair.primary.everywhere.smallest);
-    return 1.5 * motion <= std::max(
+    return 1.5 * motions.searched <= std::max(
                {pair.reach, search.reach, search.relative_reach * smallest})
-           && motion <= pair.margin
-                            + SurfaceExchange<dim>::relative_margin * smallest;
+           && motions.gathered
+                  <= pair.margin
+                         + SurfaceExchange<dim>::relative_margin * smallest;
   }
 
   template <int dim>
@@ -265,29 +303,82 @@ namespace abut::shim
     throw_everywhere<ContactError>(communicator_, message.str());
   }
 
+  template <int dim> const la::Vector &SurfacePairRows<dim>::last_commit() const
+  {
+    static const la::Vector nothing;
+    return moves()                                ? searched_from_
+           : has_steps() && committed_ != nullptr ? *committed_
+                                                  : nothing;
+  }
+
+  template <int dim>
+  std::vector<typename SurfacePairRows<dim>::Motions>
+  SurfacePairRows<dim>::motions_since_gathering(const std::vector<Direction> &u)
+  {
+    std::vector<Motions> result(pairs_.size());
+    if (pairs_.empty())
+      return result;
+    // Points are made, and slips measured, there, too.
+    const std::vector<Direction> then =
+        exchange_->displacements_as_given(surface_, last_commit());
+    const std::vector<Direction> since = difference(u, then),
+                                 there = difference(then, gathered_),
+                                 here = difference(u, gathered_);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
+      const Pair &pair = pairs_[p];
+      if (pair.data.obstacle)
+        continue;
+      if (!pair.has_displaced_sides())
+        result[p].searched = result[p].gathered = motion(pair, u);
+      else
+        result[p] = {motion(pair, since),
+                     std::max(motion(pair, there), motion(pair, here))};
+    }
+    return result;
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::set_distances(Pair &pair,
+                                           const Motions &motions) const
+  {
+    if (!pair.has_displaced_sides())
+    {
+      if (is_in_reach(pair, motions))
+        return;
+      // As far again before it has to be done anew.
+      pair.reach = std::max(pair.reach, 2. * 1.5 * motions.searched);
+      pair.margin = std::max(pair.margin, 2. * motions.gathered);
+      return;
+    }
+    pair.reach = std::max(
+        {pair.data.reach, 2. * 1.5 * motions.searched, facet_size(pair)});
+    pair.margin = 2. * motions.searched + facet_size(pair);
+  }
+
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   SurfacePairRows<dim>::displacements_in_reach(const la::Vector &displacement)
   {
+    const Stopwatch watch(detection_.seconds);
     std::vector<Direction> u = exchange_->displacements(surface_, displacement);
     check_displacements(u);
-    bool is_far = false;
-    for (Pair &pair : pairs_)
-    {
-      const double moved = motion(pair, u);
-      if (is_in_reach(pair, moved))
-        continue;
-      // As far again before it has to be done anew.
-      pair.reach = std::max(pair.reach, 2. * 1.5 * moved);
-      pair.margin = std::max(pair.margin, 2. * moved);
-      is_far = true;
-    }
-    if (is_far)
-    {
-      renew();
-      u = exchange_->displacements(surface_, displacement);
-    }
-    return u;
+    const std::vector<Motions> motions = motions_since_gathering(u);
+    bool is_far = false, is_displaced = false;
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (!is_in_reach(pairs_[p], motions[p]))
+      {
+        is_far = true;
+        is_displaced = is_displaced || pairs_[p].has_displaced_sides();
+      }
+    if (!is_far)
+      return u;
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (is_displaced || !pairs_[p].has_displaced_sides())
+        set_distances(pairs_[p], motions[p]);
+    renew(is_displaced ? &displacement : nullptr);
+    ++detection_.gatherings;
+    return exchange_->displacements(surface_, displacement);
   }
 
   template <int dim>
@@ -300,13 +391,15 @@ namespace abut::shim
         std::max({search.reach, pair.data.reach,
                   search.relative_reach * pair.primary.everywhere.largest});
     pair.reach = std::max(pair.reach, exchange_->distance_bound(number));
-    renew();
+    renew(nullptr);
     return why_no_rows(context_, pair.secondary, pair.primary, settings_.search,
                        reach, communicator_);
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template void SurfacePairRows<dim>::gather();                                \
+  template std::set<global_dof_index> SurfacePairRows<dim>::used_nodes()       \
+      const;                                                                   \
+  template void SurfacePairRows<dim>::gather(const la::Vector *);              \
   template void SurfacePairRows<dim>::find_thickness(Pair &);                  \
   template double SurfacePairRows<dim>::find_thickness(                        \
       const Pair &, const std::set<dealii::types::boundary_id> &,              \

@@ -52,9 +52,9 @@ namespace abut::shim
   template <int dim>
   std::vector<dealii::Tensor<1, dim>> SurfacePairRows<dim>::place_of_step()
   {
-    if (!has_steps() || committed_ == nullptr || committed_->size() == 0)
-      return std::vector<Direction>(surface_.nodes.size());
-    return exchange_->displacements_as_given(surface_, *committed_);
+    return has_steps()
+               ? exchange_->displacements_as_given(surface_, last_commit())
+               : std::vector<Direction>(surface_.nodes.size());
   }
 
   template <int dim>

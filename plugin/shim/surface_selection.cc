@@ -36,6 +36,7 @@ namespace abut::shim
   template <typename Predicate>
   typename SurfaceExchange<dim>::Part
   SurfaceExchange<dim>::make_part(abut_context *context, const Ids &ids,
+                                  const bool displaced,
                                   const Predicate &belongs) const
   {
     Part part;
@@ -52,9 +53,15 @@ namespace abut::shim
       {
         const auto entry = place.emplace(node, place.size());
         connectivity.push_back(entry.first->second);
-        if (entry.second)
-          for (unsigned int d = 0; d < dim; ++d)
-            position.push_back(nodes_.at(node).node.point[d]);
+        if (!entry.second)
+          continue;
+        dealii::Point<dim> point = nodes_.at(node).node.point;
+        if (displaced)
+          if (const auto moved = displaced_.find(node);
+              moved != displaced_.end())
+            point += moved->second;
+        for (unsigned int d = 0; d < dim; ++d)
+          position.push_back(point[d]);
       }
     abut_surface_data data = abut_surface_data_defaults();
     data.dimension = dim;
@@ -81,7 +88,7 @@ namespace abut::shim
     {
       std::int32_t n = 0;
       std::vector<abut_box> box(boxes_per_part);
-      const Part part = make_part(context, ids,
+      const Part part = make_part(context, ids, link.displaced,
                                   [](const FacetRecord &record) {
                                     return record.ring <= last_ring_with_shares;
                                   });
@@ -163,7 +170,7 @@ namespace abut::shim
     const unsigned int me = MPI::this_mpi_process(post_.communicator());
     std::map<unsigned int, std::set<std::int64_t>> result;
     const Part part = make_part(
-        context, side % 2 == 0 ? link.secondary : link.primary,
+        context, side % 2 == 0 ? link.secondary : link.primary, link.displaced,
         [&](const FacetRecord &record) { return record.facet.owner == me; });
     if (part.surface == nullptr)
       return result;
@@ -211,6 +218,7 @@ namespace abut::shim
     for (std::size_t i = 0; i < links.size() && result; ++i)
       result = links[i].secondary == links_[i].secondary
                && links[i].primary == links_[i].primary
+               && links[i].displaced == links_[i].displaced
                && links[i].reach <= links_[i].reach
                && links[i].margin <= links_[i].margin;
     if (result)
@@ -249,6 +257,56 @@ namespace abut::shim
     search_ = search;
   }
 
+  template <int dim> void SurfaceExchange<dim>::displace()
+  {
+    displaced_.clear();
+    if (place_.size() == 0)
+      return;
+    std::vector<Index> unknowns;
+    for (const auto &[first, record] : nodes_)
+      for (unsigned int d = 0; d < dim; ++d)
+        unknowns.push_back(record.node.dof[d]);
+    SharedValues values(dof_handler_.locally_owned_dofs(), std::move(unknowns),
+                        post_);
+    values.fetch(la::data(place_), post_);
+    for (const auto &[first, record] : nodes_)
+      for (unsigned int d = 0; d < dim; ++d)
+        displaced_[first][d] = values(record.node.dof[d]);
+  }
+
+  template <int dim>
+  void SurfaceExchange<dim>::forget_nodes(const std::set<Index> &kept)
+  {
+    std::set<Index> used(kept);
+    for (const auto &[number, record] : facets_)
+      for (const auto *list : {&record.nodes, &record.parents})
+        used.insert(list->begin(), list->end());
+    for (const Index node : kept)
+      for (const Parent &parent : nodes_.at(node).parents)
+        used.insert(parent.index);
+    for (auto it = nodes_.begin(); it != nodes_.end();)
+      it = used.count(it->first) == 0 ? nodes_.erase(it) : std::next(it);
+  }
+
+  template <int dim>
+  ContactSurface<dim> SurfaceExchange<dim>::gather_at(
+      const la::Vector &place, const std::set<Index> &kept,
+      abut_context *context, std::vector<Link> &links,
+      const abut_search_options &search)
+  {
+    fetch_nodes();
+    place_ = place;
+    displace();
+    for (auto it = facets_.begin(); it != facets_.end();)
+      it = it->second.ring >= near ? facets_.erase(it) : std::next(it);
+    find_near(context, links, search);
+    forget_nodes(kept);
+    fetch_nodes();
+    ContactSurface<dim> surface = arrange();
+    share_values(surface);
+    return surface;
+  }
+
   template <int dim>
   ContactSurface<dim>
   SurfaceExchange<dim>::gather(abut_context *context, std::vector<Link> &links,
@@ -257,6 +315,7 @@ namespace abut::shim
     fetch_nodes();
     if (!is_known(links, search))
     {
+      displace();
       find_near(context, links, search);
       fetch_nodes();
     }
@@ -348,8 +407,10 @@ namespace abut::shim
   SurfaceExchange<dim>::displacements_as_given(
       const ContactSurface<dim> &surface, const la::Vector &u)
   {
-    unknowns_.fetch(la::data(u), post_);
     std::vector<dealii::Tensor<1, dim>> result(surface.nodes.size());
+    if (u.size() == 0)
+      return result;
+    unknowns_.fetch(la::data(u), post_);
     for (std::size_t n = 0; n < result.size(); ++n)
       for (unsigned int d = 0; d < dim; ++d)
         result[n][d] = unknowns_(surface.nodes[n].dof[d]);
@@ -422,6 +483,9 @@ namespace abut::shim
 #define ABUT_INSTANTIATE(dim)                                                  \
   template ContactSurface<dim> SurfaceExchange<dim>::gather(                   \
       abut_context *, std::vector<Link> &, const abut_search_options &);       \
+  template ContactSurface<dim> SurfaceExchange<dim>::gather_at(                \
+      const la::Vector &, const std::set<Index> &, abut_context *,             \
+      std::vector<Link> &, const abut_search_options &);                       \
   template bool SurfaceExchange<dim>::update_constants(ContactSurface<dim> &); \
   template std::vector<dealii::Tensor<1, dim>>                                 \
   SurfaceExchange<dim>::displacements(const ContactSurface<dim> &,             \

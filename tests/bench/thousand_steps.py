@@ -8,7 +8,10 @@ the processor time, the part of contact outside linear systems (its section
 `contact rows`) in all of it and in what a step solves, and how much larger the peak of memory is after a
 thousand steps than after ten.
 
-    thousand_steps.py ABUT [--steps N] [--set SECTION/NAME=VALUE]
+With --slide it is a die that slides to and fro on a block
+(tests/bench/sliding-block.prm), and printed is what its detection takes, too.
+
+    thousand_steps.py ABUT [--slide] [--steps N] [--set SECTION/NAME=VALUE]
 """
 import measured
 
@@ -17,18 +20,35 @@ SCENE = "prm/patch-2d.prm"
 MESH = {"Refinement/Level": 4, "Exact solution/Displacement": ""}
 
 
-def run(abut, steps, more):
-    return measured.Run(abut, SCENE, {
-        **measured.SILENT, **MESH, "Load steps/Steps": steps}, more)
+SLIDING = "tests/bench/sliding-block.prm"
+
+
+def run(abut, slide, steps, more):
+    settings = {"Load steps/Steps": steps}
+    settings |= {"Load steps/End time": steps} if slide else MESH
+    return measured.Run(abut, SLIDING if slide else SCENE,
+                        {**measured.SILENT, **settings}, more)
+
+
+def print_detection(summary, seconds):
+    print(f"\ndetection {summary['detection_seconds']:.3f} s, "
+          f"{100 * summary['detection_seconds'] / seconds:.1f} % of what steps "
+          f"take; lists made anew for {summary['searches']} of "
+          f"{summary['searches'] + summary['search_reuses']} questions, in "
+          f"{summary['linearisations']} linearisations; contact elements "
+          f"gained {summary['elements_gained']}, lost "
+          f"{summary['elements_lost']}, exchanged "
+          f"{summary['elements_exchanged']}")
 
 
 def main():
     parser = measured.options(__doc__)
     parser.add_argument("--steps", type=int, default=1000)
+    parser.add_argument("--slide", action="store_true")
     measured.add_set(parser)
     options = parser.parse_args()
-    few = run(options.abut, 10, options.set)
-    many = run(options.abut, options.steps, options.set)
+    few = run(options.abut, options.slide, 10, options.set)
+    many = run(options.abut, options.slide, options.steps, options.set)
     total = many.summary["processor_seconds"]
     measured.head(["part", "processor seconds", "share"])
     for name in many.summary["sections"]:
@@ -44,6 +64,8 @@ def main():
           f"results; peak memory {memory[0]:.1f} MB after 10 steps, {memory[1]:.1f} MB after "
           f"{options.steps}, "
           f"{1e6 * (memory[1] - memory[0]) / options.steps:.0f} bytes a step")
+    if options.slide:
+        print_detection(many.summary, contact + sum(rest))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,8 @@
 /* Points that move against the nearest point of another surface. */
 #include "coupling_fixture.h"
 
+#include <abut/coupling_search.h>
+
 enum
 {
   MAX_POINTS = 400,
@@ -371,12 +373,109 @@ test_off_the_end(void **state)
   couple_destroy(&m.c);
 }
 
+/* What a set of points holds, to the last bit. */
+static void
+same_points(const abut_points *a, const abut_points *b)
+{
+  abut_points_view p, q;
+  require(abut_points_get(a, &p));
+  require(abut_points_get(b, &q));
+  assert_int_equal(p.n_points, q.n_points);
+  assert_int_equal(p.n_components, q.n_components);
+  const size_t n = (size_t)p.n_points, m = (size_t)p.start[n];
+  assert_memory_equal(p.id, q.id, n * sizeof(*p.id));
+  assert_memory_equal(p.weight, q.weight, n * sizeof(*p.weight));
+  assert_memory_equal(p.gap, q.gap, (size_t)p.n_components * sizeof(*p.gap));
+  assert_memory_equal(p.frame, q.frame,
+                      (size_t)(p.n_components * p.dimension)
+                          * sizeof(*p.frame));
+  assert_memory_equal(p.start, q.start, (n + 1) * sizeof(*p.start));
+  assert_memory_equal(p.node, q.node, m * sizeof(*p.node));
+  assert_memory_equal(p.coefficient, q.coefficient, m * sizeof(*p.coefficient));
+}
+
+/* A wavy patch slides over a plane by three facets, and comes back to where it
+ * was on the way, as trials of a line search do. Lists with a skin give the
+ * points of lists that are made anew, with any algorithm, and most of the time
+ * no list is made. */
+static void
+check_skin(abut_discretisation discretisation, abut_search_algorithm algorithm)
+{
+  static const double low[5] = {0., 0., 1., 1., 0.},
+                      high[5] = {0.2, 0.2, 0.4, 0.4, 0.};
+  scene_mesh primary =
+                 scene_patch(ABUT_FACET_QUAD4, 10, 10, scene_plane, low, false),
+             secondary =
+                 scene_patch(ABUT_FACET_QUAD4, 5, 5, scene_plane, high, true);
+  double place[3 * MAX_NODES];
+  abut_coupling_options options = abut_coupling_defaults();
+  options.discretisation = discretisation;
+  couple exact, listed;
+  exact = couple_meshes(&secondary, &primary, &options, NULL);
+  options.search.algorithm = algorithm;
+  options.search.skin = 0.1;
+  listed = couple_meshes(&secondary, &primary, &options, NULL);
+  const int n_steps = 60;
+  for (int k = 0; k < n_steps; ++k)
+  {
+    const int back = k % 5 == 4 ? 2 : 0;
+    for (int32_t i = 0; i < secondary.n_nodes; ++i)
+    {
+      const double *x = secondary.position + 3 * (int64_t)i;
+      place[3 * i] = x[0] + 0.005 * (k - back);
+      place[3 * i + 1] = x[1];
+      place[3 * i + 2] = 0.002 * sin(20. * x[0] + 0.1 * k);
+    }
+    abut_coupling_target target = abut_coupling_target_defaults(NULL);
+    target.reference = secondary.position;
+    couple *both[2] = {&exact, &listed};
+    for (int c = 0; c < 2; ++c)
+    {
+      require(abut_surface_update(both[c]->secondary, place));
+      require(abut_points_clear(both[c]->points));
+      target.points = both[c]->points;
+      if (c == 1) /* the build has nothing left to search */
+        require(abut_coupling_search(both[c]->coupling, 0.01));
+      require(abut_coupling_build(both[c]->coupling, NULL, 0.01, &target));
+    }
+    same_points(exact.points, listed.points);
+  }
+  abut_search_statistics found[2];
+  require(abut_search_get_statistics(abut_coupling_searcher(exact.coupling),
+                                     &found[0]));
+  require(abut_search_get_statistics(abut_coupling_searcher(listed.coupling),
+                                     &found[1]));
+  assert_int_equal(found[0].n_searches, n_steps + 1);
+  assert_int_equal(found[1].n_searches + found[1].n_reuses, n_steps + 1);
+  /* A third of a unit is gone in all, and a list serves for a tenth. */
+  assert_true(found[1].n_searches >= 3 && found[1].n_searches <= 6);
+  couple_destroy(&exact);
+  couple_destroy(&listed);
+  scene_free(&primary);
+  scene_free(&secondary);
+}
+
+static void
+test_skin(void **state)
+{
+  (void)state;
+  static const abut_discretisation kinds[] = {
+      ABUT_DISCRETISATION_NODE_TO_SEGMENT, ABUT_DISCRETISATION_QUADRATURE_POINT,
+      ABUT_DISCRETISATION_DUAL_MORTAR};
+  for (int k = 0; k < 3; ++k)
+    for (int a = 0; a < ABUT_SEARCH_N_ALGORITHMS; ++a)
+      check_skin(kinds[k], (abut_search_algorithm)a);
+  assert_int_equal(abut_coupling_search(NULL, 0.), ABUT_INVALID_ARGUMENT);
+  assert_null(abut_coupling_searcher(NULL));
+}
+
 int
 main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(test_lines, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_roof, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_skin, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_off_the_end, set_up, tear_down)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

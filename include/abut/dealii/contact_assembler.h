@@ -43,6 +43,7 @@
 #include <abut/dealii/communication_report.h>
 #include <abut/dealii/contact_examination.h>
 #include <abut/dealii/contact_pair.h>
+#include <abut/dealii/detection_report.h>
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/search_parameters.h>
@@ -402,6 +403,11 @@ namespace abut
     };
     /** Of the mesh of the last reinit(). O(1). */
     virtual PointCount point_count() const;
+
+    /** What it has taken so far to find out which surfaces may touch, and
+     * which contact elements have changed since the last commit(). Collective.
+     */
+    virtual DetectionReport detection_report() const;
 
     /** Largest penetration max(0, -g), length. */
     virtual double penetration() const;

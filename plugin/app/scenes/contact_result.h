@@ -5,6 +5,7 @@
 #include "app/adapt/error_target.h"
 #include "app/physics/error_norms.h"
 
+#include <abut/dealii/detection_report.h>
 #include <abut/dealii/solver_parameters.h>
 #include <abut/strategy.h>
 
@@ -31,6 +32,9 @@ namespace abut::app
     /** With friction: taken up since the last load step, energy; and the sum of
      * the tractions along the surfaces, force. */
     double dissipation = 0., friction_force = 0.;
+    /** What detection took since the result before, and the contact elements
+     * that have changed since the last load step. */
+    DetectionReport detection;
     std::optional<ErrorNorms> errors;
     std::optional<double> estimate;
     std::optional<ErrorParts> error_parts; ///< with a target only

@@ -169,6 +169,9 @@ namespace abut::app
       present.active = contact.n_active();
       present.force = contact.contact_force();
       present.penetration = contact.penetration();
+      const DetectionReport detection = contact.detection_report();
+      present.detection = detection.since(state.detection);
+      state.detection = detection;
     }
     present.errors = model.errors();
     std::map<std::string, double> row = result_row(present);

@@ -64,6 +64,7 @@ namespace abut::app
     ContactResult present;
     std::vector<ContactResult> results;
     unsigned int n_searches = 0, n_repeated_searches = 0;
+    DetectionReport detection; ///< of this process, up to the last result
   };
 } // namespace abut::app
 

@@ -22,6 +22,13 @@ namespace abut
     archive &r.condition &r.setup_seconds &r.solve_seconds;
     archive &r.tolerance &r.method;
   }
+
+  template <class Archive>
+  void serialize(Archive &archive, DetectionReport &r, unsigned int)
+  {
+    archive &r.searches &r.reuses &r.rebuilds &r.refits &r.gatherings;
+    archive &r.seconds &r.gained &r.lost &r.exchanged;
+  }
 } // namespace abut
 
 namespace abut::app
@@ -44,7 +51,7 @@ namespace abut::app
                                                       sizeof(r.progress));
     archive &r.cells &r.dofs &r.rows &r.active;
     archive &r.energy &r.force &r.penetration;
-    archive &r.dissipation &r.friction_force;
+    archive &r.dissipation &r.friction_force &r.detection;
     archive &r.errors &r.estimate &r.error_parts &r.inf_sup &r.seconds;
   }
 } // namespace abut::app

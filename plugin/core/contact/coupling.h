@@ -160,6 +160,10 @@ struct abut_coupling
   abut_pairs_view pairs_view;
   abut_detection *detection; /* node to segment */
   double reach;              /* absolute part, of this build */
+  /* Of the last search: what it was made for, if it was. */
+  bool has_searched;
+  double searched_motion;
+  uint64_t searched_revision[2]; /* of the secondary and the primary */
 
   /* Orders by the caller's numbers; fixed. */
   abut_array facet_order;        /* int32_t, secondary facets */

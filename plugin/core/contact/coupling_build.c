@@ -6,16 +6,15 @@
 #include "contact/discretisation.h"
 #include "geometry/vector.h"
 
+#include <abut/coupling_search.h>
+
 #include <string.h>
 
 /* Pairs of facets, or contact elements of nodes. */
 static abut_status
-search(abut_coupling *c, double motion)
+find(abut_coupling *c, double motion)
 {
   const abut_search_options *o = &c->options.search;
-  c->reach = max2(o->reach, 1.5 * motion);
-  if (c->primary == NULL)
-    return abut_coupling_measure_obstacle(c);
   if (c->detection != NULL)
     return abut_detection_run(c->detection, motion);
   abut_status status =
@@ -24,6 +23,47 @@ search(abut_coupling *c, double motion)
     status = abut_search_facets(c->search, c->secondary, c->pairs);
   return status == ABUT_SUCCESS ? abut_pairs_get(c->pairs, &c->pairs_view)
                                 : status;
+}
+
+/* The same, unless it has been done. */
+static abut_status
+search(abut_coupling *c, double motion)
+{
+  c->reach = max2(c->options.search.reach, 1.5 * motion);
+  if (c->primary == NULL)
+    return abut_coupling_measure_obstacle(c);
+  const uint64_t revision[2] = {c->secondary->revision, c->primary->revision};
+  if (c->has_searched && c->searched_motion == motion
+      && c->searched_revision[0] == revision[0]
+      && c->searched_revision[1] == revision[1])
+    return ABUT_SUCCESS;
+  c->has_searched = false;
+  const abut_status status = find(c, motion);
+  c->has_searched = status == ABUT_SUCCESS;
+  c->searched_motion = motion;
+  memcpy(c->searched_revision, revision, sizeof(revision));
+  return status;
+}
+
+abut_status
+abut_coupling_search(abut_coupling *coupling, double motion)
+{
+  if (coupling == NULL)
+    return ABUT_INVALID_ARGUMENT;
+  if (!(motion >= 0 && motion <= ABUT_FACET_LIMIT))
+    return abut_fail(coupling->context, ABUT_INVALID_ARGUMENT,
+                     "abut_coupling_search",
+                     "motion is negative or not finite");
+  return coupling->primary != NULL ? search(coupling, motion) : ABUT_SUCCESS;
+}
+
+const abut_search *
+abut_coupling_searcher(const abut_coupling *coupling)
+{
+  return coupling == NULL ? NULL
+         : coupling->detection != NULL
+             ? abut_detection_search(coupling->detection)
+             : coupling->search;
 }
 
 /* Add the integrals of chi over the points in work to the sums of the nodes;

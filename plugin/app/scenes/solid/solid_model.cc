@@ -427,6 +427,12 @@ namespace abut::app
                                         "slipping",
                                         "friction_force",
                                         "dissipation",
+                                        "gained",
+                                        "lost",
+                                        "exchanged",
+                                        "searches",
+                                        "reuses",
+                                        "detection_seconds",
                                         "l2_error",
                                         "h1_error",
                                         "energy_norm_error",
@@ -469,6 +475,13 @@ namespace abut::app
       row["friction_force"] = result.friction_force;
       row["dissipation"] = result.dissipation;
     }
+    const DetectionReport &detection = result.detection;
+    row["gained"] = static_cast<double>(detection.gained);
+    row["lost"] = static_cast<double>(detection.lost);
+    row["exchanged"] = static_cast<double>(detection.exchanged);
+    row["searches"] = static_cast<double>(detection.searches);
+    row["reuses"] = static_cast<double>(detection.reuses);
+    row["detection_seconds"] = detection.seconds;
     if (has_large_strain())
     {
       row["linearisations"] = result.linearisations;

@@ -224,6 +224,33 @@ namespace abut::app
     report.set("friction_rung", run.results.back().progress.friction_rung);
   }
 
+  template <int dim> void SolidReport<dim>::report_detection() const
+  {
+    DetectionReport all;
+    for (const ContactResult &result : run.results)
+    {
+      const DetectionReport &some = result.detection;
+      all.searches += some.searches;
+      all.reuses += some.reuses;
+      all.rebuilds += some.rebuilds;
+      all.refits += some.refits;
+      all.gatherings += some.gatherings;
+      all.seconds += some.seconds;
+      all.gained += some.gained;
+      all.lost += some.lost;
+      all.exchanged += some.exchanged;
+    }
+    report.set("searches", all.searches);
+    report.set("search_reuses", all.reuses);
+    report.set("bucket_rebuilds", all.rebuilds);
+    report.set("bucket_refits", all.refits);
+    report.set("facet_gatherings", all.gatherings);
+    report.set("detection_seconds", all.seconds);
+    report.set("elements_gained", all.gained);
+    report.set("elements_lost", all.lost);
+    report.set("elements_exchanged", all.exchanged);
+  }
+
   template <int dim> void SolidReport<dim>::report_contact() const
   {
     const auto [force_imbalance, moment_imbalance] = report_pairs();
@@ -234,6 +261,7 @@ namespace abut::app
         || abut_law_needs_stress(method.options.law))
       report_transfer();
     report.set("search_rebuilds", run.n_repeated_searches);
+    report_detection();
     report.set("force_imbalance", force_imbalance);
     report.set("moment_imbalance", moment_imbalance);
     report.set("method", method.options.law->name);

@@ -35,6 +35,8 @@ namespace abut::app
     std::pair<double, double> report_pairs() const;
     void report_friction() const;
     void report_contact() const;
+    /** What it took to find out who touches whom, and what changed. */
+    void report_detection() const;
     /** Obstacles that forces move. */
     void report_driven() const;
     std::optional<double> relative_error() const;

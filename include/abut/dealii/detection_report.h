@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_DEALII_DETECTION_REPORT_H
+#define ABUT_DEALII_DETECTION_REPORT_H
+
+/** @file
+ * What it took to find out which surfaces may touch, and what has changed.
+ */
+
+#include <cstdint>
+
+namespace abut
+{
+  /** Detection between surfaces since an assembler was made: of all pairs
+   * together, and of the rank with most. */
+  struct DetectionReport
+  {
+    /** Searches at places of the bodies: those that made lists of candidates
+     * anew, and those that lists with a skin served. */
+    std::uint64_t searches = 0, reuses = 0;
+    /** Times that facets were sorted into buckets, and that only their boxes
+     * were refitted. */
+    std::uint64_t rebuilds = 0, refits = 0;
+    /** Times that facets of other ranks were asked for because bodies had come
+     * too far. */
+    std::uint64_t gatherings = 0;
+    /** Processor time of all this and of the check for penetrations. */
+    double seconds = 0.;
+    /** Contact elements that there were not at the last commit(), those that
+     * were there and are gone, and those that have other nodes of the primary;
+     * 0 before the first one on a mesh. An element is a node of the secondary,
+     * or a point of quadrature, with what is opposite it within reach. */
+    std::uint64_t gained = 0, lost = 0, exchanged = 0;
+
+    /** The same with what it has taken since @p before alone. */
+    DetectionReport since(const DetectionReport &before) const
+    {
+      DetectionReport result(*this);
+      result.searches -= before.searches;
+      result.reuses -= before.reuses;
+      result.rebuilds -= before.rebuilds;
+      result.refits -= before.refits;
+      result.gatherings -= before.gatherings;
+      result.seconds -= before.seconds;
+      return result;
+    }
+  };
+} // namespace abut
+
+#endif
