@@ -22,7 +22,8 @@ namespace abut::shim
     /** Of each node of the scalar element: first those of vertices, then of
      * lines, in space of faces, and of the cell. */
     template <int dim>
-    std::vector<NodePlace> node_places(const dealii::FiniteElement<dim> &element)
+    std::vector<NodePlace>
+    node_places(const dealii::FiniteElement<dim> &element)
     {
       using Geometry = dealii::GeometryInfo<dim>;
       std::vector<NodePlace> result;
