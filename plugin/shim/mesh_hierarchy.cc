@@ -5,6 +5,10 @@
 // l - 1 follows from the tree of cells: itself, or the middle of an edge, face
 // or cell there.
 //
+// Quadratic elements have one mesh more: their own nodes follow from the
+// vertices of the same cells, of which linear functions are quadratic ones,
+// too.
+//
 // On several ranks each has the vertices whose unknowns it owns. All that they
 // follow from are corners of cells that its own cells were refined from: these
 // are in its tree, but what else there is to know of such a corner, only its
@@ -12,6 +16,7 @@
 #include "mesh_hierarchy.h"
 
 #include "agree.h"
+#include "quadratic_nodes.h"
 #include "shared_vertices.h"
 
 #include <deal.II/base/mpi.h>
@@ -21,6 +26,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace abut::shim
 {
@@ -34,6 +40,8 @@ namespace abut::shim
     /** What can be factorised in each cycle. */
     constexpr std::size_t most_on_coarsest = 4000;
 
+    const char *const tied_unknowns = "unknowns are tied to others";
+
     template <int dim> class HierarchyMaker
     {
     public:
@@ -46,7 +54,7 @@ namespace abut::shim
             n_components_(dof_handler.get_fe().n_components()),
             unknown_(triangulation_.n_vertices() * n_components_,
                      dealii::numbers::invalid_dof_index),
-            is_constrained_(unknown_.size()),
+            is_constrained_(dof_handler.n_dofs()),
             middle_(triangulation_.n_vertices()),
             level_(triangulation_.n_vertices(), no_level),
             hangs_(triangulation_.n_vertices(), 0),
@@ -81,8 +89,10 @@ namespace abut::shim
       Draft draft(unsigned int level,
                   const std::vector<unsigned int> &finer) const;
       std::vector<Draft> drafts() const;
-      void learn_of_others(std::vector<Draft> &meshes);
-      bool has_other_constraints(const Draft &finest) const;
+      void learn_of_others(std::vector<Draft> &meshes, std::size_t first);
+      bool is_tied(dealii::types::global_dof_index unknown) const;
+      void take_vertices(const Draft &finest, MeshHierarchy &result) const;
+      void take_quadratic_nodes(const Draft &vertices, MeshHierarchy &result);
       std::vector<std::uint8_t> fixed(const Draft &mesh) const;
       void add_parents(const Draft &coarse, unsigned int vertex, double weight,
                        MeshHierarchy::Mesh &mesh);
@@ -96,7 +106,7 @@ namespace abut::shim
       const unsigned int n_components_;
       /** [vertices * components] */
       std::vector<dealii::types::global_dof_index> unknown_;
-      std::vector<std::uint8_t> is_constrained_; ///< the same
+      std::vector<std::uint8_t> is_constrained_; ///< [unknowns of all ranks]
       std::vector<Parents> middle_;              ///< [vertices]
       /** [vertices] of the coarsest mesh that it is a corner in. */
       std::vector<std::uint8_t> level_;
@@ -119,6 +129,19 @@ namespace abut::shim
                     != nullptr;
     }
 
+    /** Whether nodes are vertices, and of quadratic elements middles. */
+    template <int dim>
+    bool has_known_nodes(const dealii::FiniteElement<dim> &element)
+    {
+      bool are_middles = element.degree <= 2;
+      for (const dealii::Point<dim> &point : element.get_unit_support_points())
+        for (unsigned int d = 0; d < dim; ++d)
+          are_middles =
+              are_middles
+              && std::abs(2. * point[d] - std::round(2. * point[d])) < 1e-12;
+      return are_middles;
+    }
+
     template <int dim> std::string HierarchyMaker<dim>::why_not() const
     {
       const dealii::FiniteElement<dim> &fe = dof_handler_.get_fe();
@@ -128,8 +151,8 @@ namespace abut::shim
       if (fe.n_base_elements() != 1
           || dynamic_cast<const dealii::FE_Q<dim> *>(&fe.base_element(0))
                  == nullptr
-          || fe.degree != 1 || n_components_ > 3)
-        return "it works with linear elements (FE_Q of degree 1)";
+          || n_components_ > 3 || !has_known_nodes(fe.base_element(0)))
+        return "it works with FE_Q of degree 1 and 2";
       for (const auto &cell : triangulation_.cell_iterators())
         if (cell->has_children()
             && cell->refinement_case()
@@ -150,8 +173,9 @@ namespace abut::shim
         for (unsigned int i = 0; i < dofs.size(); ++i)
         {
           const auto place = fe.system_to_component_index(i);
-          unknown_[cell->vertex_index(place.second) * n_components_
-                   + place.first] = dofs[i];
+          if (place.second < cell->n_vertices())
+            unknown_[cell->vertex_index(place.second) * n_components_
+                     + place.first] = dofs[i];
         }
       }
       find_constrained();
@@ -160,12 +184,8 @@ namespace abut::shim
     /** Constraints are asked once: they take long to find one of a number. */
     template <int dim> void HierarchyMaker<dim>::find_constrained()
     {
-      std::vector<std::uint8_t> by_unknown(dof_handler_.n_dofs());
       for (const auto &line : constraints_.get_lines())
-        by_unknown[line.index] = 1;
-      for (std::size_t i = 0; i < unknown_.size(); ++i)
-        is_constrained_[i] = unknown_[i] != dealii::numbers::invalid_dof_index
-                             && by_unknown[unknown_[i]] != 0;
+        is_constrained_[line.index] = 1;
     }
 
     template <int dim>
@@ -254,6 +274,22 @@ namespace abut::shim
       }
     }
 
+    /** The number of the first own node over all ranks, and how many there
+     * are. */
+    void number_over_ranks(const MPI_Comm communicator, const std::int32_t n,
+                           std::int32_t &first, std::int32_t &n_all)
+    {
+      namespace MPI = dealii::Utilities::MPI;
+      const unsigned int me = MPI::this_mpi_process(communicator);
+      const std::vector<std::int32_t> all = MPI::all_gather(communicator, n);
+      first = n_all = 0;
+      for (unsigned int rank = 0; rank < all.size(); ++rank)
+      {
+        first += rank < me ? all[rank] : 0;
+        n_all += all[rank];
+      }
+    }
+
     /** In the order of the matrix for the sake of caches. */
     template <int dim>
     std::vector<unsigned int> HierarchyMaker<dim>::own_vertices() const
@@ -275,20 +311,13 @@ namespace abut::shim
     HierarchyMaker<dim>::draft(const unsigned int level,
                                const std::vector<unsigned int> &finer) const
     {
-      namespace MPI = dealii::Utilities::MPI;
       Draft mesh;
       mesh.level = level;
       for (const unsigned int v : finer)
         if (level_[v] <= level)
           mesh.vertex.push_back(v);
       const auto n = static_cast<std::int32_t>(mesh.vertex.size());
-      const unsigned int me = MPI::this_mpi_process(communicator_);
-      const std::vector<std::int32_t> all = MPI::all_gather(communicator_, n);
-      for (unsigned int rank = 0; rank < all.size(); ++rank)
-      {
-        mesh.first += rank < me ? all[rank] : 0;
-        mesh.n_all += all[rank];
-      }
+      number_over_ranks(communicator_, n, mesh.first, mesh.n_all);
       mesh.node.assign(triangulation_.n_vertices(), -1);
       for (std::int32_t i = 0; i < n; ++i)
         mesh.node[mesh.vertex[i]] = mesh.first + i;
@@ -336,26 +365,27 @@ namespace abut::shim
       return result;
     }
 
+    /** Learn the numbers of vertices of others on mesh @p first, which is the
+     * finest with nodes that others follow from, and on coarser ones. */
     template <int dim>
-    void HierarchyMaker<dim>::learn_of_others(std::vector<Draft> &meshes)
+    void HierarchyMaker<dim>::learn_of_others(std::vector<Draft> &meshes,
+                                              const std::size_t first)
     {
       const std::vector<VertexKey> keys = vertex_keys(middle_);
-      // Coarser meshes have parents.
-      const unsigned int n_words = meshes.size();
+      const unsigned int n_words = meshes.size() - first + 1;
       std::vector<VertexKey> known, wanted;
       std::vector<unsigned int> vertices;
       solve::Words words;
-      for (const unsigned int v : meshes[1].vertex)
+      for (const unsigned int v : meshes[first].vertex)
       {
         known.push_back(keys[v]);
         words.push_back(2 * hangs_[v] + is_wholly_fixed_[v]);
-        for (std::size_t l = 1; l < meshes.size(); ++l)
+        for (std::size_t l = first; l < meshes.size(); ++l)
           words.push_back(meshes[l].node[v] + 1);
       }
       const std::vector<bool> corners = corners_above(triangulation_);
-      const unsigned int finest = triangulation_.n_global_levels() - 1;
       for (unsigned int v = 0; v < corners.size(); ++v)
-        if (corners[v] && level_[v] < finest && !is_own(v))
+        if (corners[v] && level_[v] <= meshes[first].level && !is_own(v))
         {
           vertices.push_back(v);
           wanted.push_back(keys[v]);
@@ -369,23 +399,20 @@ namespace abut::shim
         hangs_[v] = (*word & 2) != 0;
         is_wholly_fixed_[v] = *word & 1;
         ++word;
-        for (std::size_t l = 1; l < meshes.size(); ++l)
+        for (std::size_t l = first; l < meshes.size(); ++l)
           meshes[l].node[v] = static_cast<std::int32_t>(*word++) - 1;
       }
     }
 
+    /** Whether an unknown follows from others. */
     template <int dim>
-    bool HierarchyMaker<dim>::has_other_constraints(const Draft &finest) const
+    bool HierarchyMaker<dim>::is_tied(
+        const dealii::types::global_dof_index unknown) const
     {
-      for (const unsigned int v : finest.vertex)
-        for (unsigned int c = 0; c < n_components_; ++c)
-        {
-          const auto *const entries = constraints_.get_constraint_entries(
-              unknown_[v * n_components_ + c]);
-          if (entries != nullptr && !entries->empty() && !hangs_[v])
-            return true;
-        }
-      return false;
+      if (is_constrained_[unknown] == 0)
+        return false;
+      const auto *const entries = constraints_.get_constraint_entries(unknown);
+      return entries != nullptr && !entries->empty();
     }
 
     template <int dim>
@@ -398,7 +425,8 @@ namespace abut::shim
         const unsigned int v = mesh.vertex[i / n_components_];
         result[i] =
             hangs_[v] != 0
-            || is_constrained_[v * n_components_ + i % n_components_] != 0;
+            || is_constrained_[unknown_[v * n_components_ + i % n_components_]]
+                   != 0;
       }
       return result;
     }
@@ -452,6 +480,52 @@ namespace abut::shim
       }
     }
 
+    /** The unknowns of linear elements. */
+    template <int dim>
+    void HierarchyMaker<dim>::take_vertices(const Draft &finest,
+                                            MeshHierarchy &result) const
+    {
+      for (const unsigned int v : finest.vertex)
+        for (unsigned int c = 0; c < n_components_; ++c)
+        {
+          const auto unknown = unknown_[v * n_components_ + c];
+          result.unknown.push_back(static_cast<std::int32_t>(unknown));
+          if (!hangs_[v] && is_tied(unknown))
+            result.missing = tied_unknowns;
+        }
+    }
+
+    /** The finest mesh of quadratic elements, above that of their vertices. */
+    template <int dim>
+    void HierarchyMaker<dim>::take_quadratic_nodes(const Draft &vertices,
+                                                   MeshHierarchy &result)
+    {
+      const std::vector<QuadraticNode> nodes =
+          own_quadratic_nodes(dof_handler_, hangs_);
+      MeshHierarchy::Mesh mesh;
+      mesh.n_nodes = static_cast<std::int32_t>(nodes.size());
+      number_over_ranks(communicator_, mesh.n_nodes, mesh.first, mesh.n_all);
+      mesh.start = {0};
+      for (const QuadraticNode &node : nodes)
+      {
+        bool is_wholly_fixed = true;
+        for (unsigned int c = 0; c < n_components_; ++c)
+        {
+          const bool is_fixed =
+              node.hangs || is_constrained_[node.unknown[c]] != 0;
+          mesh.fixed.push_back(is_fixed);
+          is_wholly_fixed = is_wholly_fixed && is_fixed;
+          result.unknown.push_back(static_cast<std::int32_t>(node.unknown[c]));
+          if (!node.hangs && is_tied(node.unknown[c]))
+            result.missing = tied_unknowns;
+        }
+        for (unsigned int k = 0; k < node.n_vertices && !is_wholly_fixed; ++k)
+          add_parents(vertices, node.vertex[k], 1. / node.n_vertices, mesh);
+        mesh.start.push_back(static_cast<std::int64_t>(mesh.parent.size()));
+      }
+      result.meshes.push_back(std::move(mesh));
+    }
+
     template <int dim> MeshHierarchy HierarchyMaker<dim>::make()
     {
       MeshHierarchy result;
@@ -465,15 +539,15 @@ namespace abut::shim
       mark_hanging();
       mark_fixed();
       std::vector<Draft> meshes = drafts();
+      const bool is_quadratic = dof_handler_.get_fe().degree == 2;
+      const std::size_t first = is_quadratic ? 0 : 1;
       if (dealii::Utilities::MPI::n_mpi_processes(communicator_) > 1
-          && meshes.size() > 1)
-        learn_of_others(meshes);
-      for (const unsigned int v : meshes[0].vertex)
-        for (unsigned int c = 0; c < n_components_; ++c)
-          result.unknown.push_back(
-              static_cast<std::int32_t>(unknown_[v * n_components_ + c]));
-      if (has_other_constraints(meshes[0]))
-        result.missing = "unknowns are tied to others";
+          && meshes.size() > first)
+        learn_of_others(meshes, first);
+      if (is_quadratic)
+        take_quadratic_nodes(meshes[0], result);
+      else
+        take_vertices(meshes[0], result);
       for (std::size_t l = 0; l < meshes.size(); ++l)
       {
         MeshHierarchy::Mesh mesh;

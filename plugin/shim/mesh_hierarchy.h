@@ -9,7 +9,9 @@
 
 namespace abut::shim
 {
-  /** The meshes that the mesh of a field was refined from, for linear elements;
+  /** The meshes that the mesh of a field was refined from, for elements of
+   * degree 1 and 2, whose own nodes are then a mesh above that of their
+   * vertices;
    * @p constraints are hanging nodes and prescribed values. Hanging nodes are
    * welcome on all meshes. Collective. */
   template <int dim>

@@ -26,10 +26,10 @@ namespace abut
         "iterative: conjugate gradients with ML's smoothed aggregation "
         "(FGMRES for saddle points); direct: a factorisation by Amesos (MUMPS "
         "where it is built in, else KLU); geometric: conjugate gradients with "
-        "multigrid over the meshes that the mesh was refined from, for linear "
-        "elements (elsewhere as iterative, and the report says why); auto: "
-        "direct up to `Direct limit` unknowns, else geometric where that is "
-        "possible and the tangent symmetric, else iterative.");
+        "multigrid over the meshes that the mesh was refined from, for "
+        "elements of degree 1 and 2 (elsewhere as iterative, and the report "
+        "says why); auto: direct up to `Direct limit` unknowns, else geometric "
+        "where that is possible and the tangent symmetric, else iterative.");
     prm.declare_entry("Maximum iterations",
                       std::to_string(standard.max_iterations), Integer(1),
                       "Iterations after which a linear solve is given up.");

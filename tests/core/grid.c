@@ -78,22 +78,39 @@ make_mesh(grid *g, int32_t l)
   mesh->weight = weight;
 }
 
-/* The gradient of corner k's function at a point of the unit cell. */
+/* Function number k of a cell along an axis, and its derivative. */
+static double
+along(const grid *g, int32_t k, double x)
+{
+  const double linear[2] = {1 - x, x};
+  const double quadratic[3] = {(1 - x) * (1 - 2 * x), 4 * x * (1 - x),
+                               x * (2 * x - 1)};
+  return g->degree == 1 ? linear[k] : quadratic[k];
+}
+
+static double
+slope(const grid *g, int32_t k, double x)
+{
+  const double linear[2] = {-1, 1};
+  const double quadratic[3] = {4 * x - 3, 4 - 8 * x, 4 * x - 1};
+  return g->degree == 1 ? linear[k] : quadratic[k];
+}
+
+/* The gradient of node k's function at a point of the unit cell. */
 static void
 gradient(const grid *g, int32_t k, const double *at, double *result)
 {
+  int32_t c[3];
+  coordinates(g, g->degree + 1, k, c);
   for (int32_t a = 0; a < g->dim; ++a)
   {
     result[a] = 1;
     for (int32_t d = 0; d < g->dim; ++d)
-    {
-      const bool upper = (k >> d) & 1;
-      result[a] *= d == a ? (upper ? 1 : -1) : upper ? at[d] : 1 - at[d];
-    }
+      result[a] *= d == a ? slope(g, c[d], at[d]) : along(g, c[d], at[d]);
   }
 }
 
-/* What corners i and j have for each other at a point, component by component.
+/* What nodes i and j have for each other at a point, component by component.
  */
 static void
 add_point(const grid *g, const double *gi, const double *gj, double weight,
@@ -112,61 +129,80 @@ add_point(const grid *g, const double *gi, const double *gj, double weight,
                                  + (r == c ? mu * product : 0));
 }
 
-/* Blocks of the element, [corner * corners + corner]; h^(dim - 2) left out, so
+/* Blocks of the element, [node * nodes + node]; h^(dim - 2) left out, so
  * that the Laplacian of the plane is made of sixths. */
 static void
 make_element(const grid *g, double (*element)[9])
 {
-  const int32_t corners = 1 << g->dim;
-  const double gauss[2] = {0.5 - sqrt(1. / 12), 0.5 + sqrt(1. / 12)};
-  for (int32_t q = 0; q < corners; ++q)
-    for (int32_t i = 0; i < corners; ++i)
-      for (int32_t j = 0; j < corners; ++j)
+  const int32_t n = g->degree + 1, nodes = power(n, g->dim);
+  const double far_out = g->degree == 1 ? sqrt(1. / 12) : sqrt(0.15);
+  const double gauss[2][3] = {{0.5 - far_out, 0.5 + far_out, 0},
+                              {0.5 - far_out, 0.5, 0.5 + far_out}};
+  const double weights[2][3] = {{0.5, 0.5, 0}, {5. / 18, 8. / 18, 5. / 18}};
+  for (int32_t q = 0; q < nodes; ++q)
+    for (int32_t i = 0; i < nodes; ++i)
+      for (int32_t j = 0; j < nodes; ++j)
       {
-        double at[3], gi[3], gj[3];
+        int32_t c[3];
+        double at[3], gi[3], gj[3], weight = 1;
+        coordinates(g, n, q, c);
         for (int32_t d = 0; d < g->dim; ++d)
-          at[d] = gauss[(q >> d) & 1];
+        {
+          at[d] = gauss[g->degree - 1][c[d]];
+          weight *= weights[g->degree - 1][c[d]];
+        }
         gradient(g, i, at, gi);
         gradient(g, j, at, gj);
-        add_point(g, gi, gj, 1. / corners, element[i * corners + j]);
+        add_point(g, gi, gj, weight, element[i * nodes + j]);
       }
 }
 
-/* Where a row's entry for a neighbour stands: offsets -1, 0, 1 by digits. */
+/* Nodes that share a cell with one are at most so far along an axis. */
+static int32_t
+n_offsets(const grid *g)
+{
+  return 2 * g->degree + 1;
+}
+
+/* Where a row's entry for a neighbour stands: offsets by digits. */
 static int32_t
 offset_of(const grid *g, const int32_t *from, const int32_t *to)
 {
   int32_t result = 0, step = 1;
-  for (int32_t d = 0; d < g->dim; ++d, step *= 3)
-    result += step * (to[d] - from[d] + 1);
+  for (int32_t d = 0; d < g->dim; ++d, step *= n_offsets(g))
+    result += step * (to[d] - from[d] + g->degree);
   return result;
 }
 
-/* Sum the elements into rows of all 3^dim neighbours. */
+/* Sum the elements into rows of all neighbours. */
 static void
 sum_elements(const grid *g, double *sum)
 {
-  const int32_t side = g->side[0], corners = 1 << g->dim, b = g->block;
-  double element[64][9];
-  memset(element, 0, sizeof(element));
+  const int32_t side = g->side[0], cells = (side - 1) / g->degree;
+  const int32_t n = g->degree + 1, nodes = power(n, g->dim), b = g->block;
+  double(*element)[9] = calloc((size_t)(nodes * nodes), sizeof(*element));
   make_element(g, element);
-  for (int32_t cell = 0; cell < power(side - 1, g->dim); ++cell)
-    for (int32_t k = 0; k < corners * corners; ++k)
+  for (int32_t cell = 0; cell < power(cells, g->dim); ++cell)
+    for (int32_t k = 0; k < nodes * nodes; ++k)
     {
       int32_t c[3] = {0, 0, 0}, to[3], from[3], node = 0, step = 1;
-      coordinates(g, side - 1, cell, c);
+      coordinates(g, cells, cell, c);
+      coordinates(g, n, k / nodes, from);
+      coordinates(g, n, k % nodes, to);
       for (int32_t d = 0; d < g->dim; ++d, step *= side)
       {
-        from[d] = c[d] + ((k / corners) >> d & 1);
-        to[d] = c[d] + ((k % corners) >> d & 1);
+        from[d] += g->degree * c[d];
+        to[d] += g->degree * c[d];
         node += step * from[d];
       }
-      double *row =
-          sum
-          + ((int64_t)node * power(3, g->dim) + offset_of(g, from, to)) * b * b;
+      double *row = sum
+                    + ((int64_t)node * power(n_offsets(g), g->dim)
+                       + offset_of(g, from, to))
+                          * b * b;
       for (int32_t e = 0; e < b * b; ++e)
         row[e] += element[k][e];
     }
+  free(element);
 }
 
 /* Rows of one node, without entries outside or constrained. */
@@ -174,17 +210,17 @@ static int32_t
 write_row(grid *g, const double *sum, int32_t node, int32_t component,
           int32_t at)
 {
-  const int32_t side = g->side[0], b = g->block;
+  const int32_t side = g->side[0], b = g->block, most = n_offsets(g);
   const bool fixed = is_fixed(g, side, node);
   int32_t c[3];
   coordinates(g, side, node, c);
-  for (int32_t k = 0; k < power(3, g->dim); ++k)
+  for (int32_t k = 0; k < power(most, g->dim); ++k)
   {
     int32_t other = 0, step = 1, digits = k;
     bool inside = true;
-    for (int32_t d = 0; d < g->dim; ++d, step *= side, digits /= 3)
+    for (int32_t d = 0; d < g->dim; ++d, step *= side, digits /= most)
     {
-      const int32_t x = c[d] + digits % 3 - 1;
+      const int32_t x = c[d] + digits % most - g->degree;
       inside &= x >= 0 && x < side;
       other += step * x;
     }
@@ -196,7 +232,8 @@ write_row(grid *g, const double *sum, int32_t node, int32_t component,
         continue;
       g->column[at] = other * b + e;
       g->value[at++] =
-          sum[(((int64_t)node * power(3, g->dim) + k) * b + component) * b + e];
+          sum[(((int64_t)node * power(most, g->dim) + k) * b + component) * b
+              + e];
     }
   }
   return at;
@@ -205,7 +242,7 @@ write_row(grid *g, const double *sum, int32_t node, int32_t component,
 static void
 make_matrix(grid *g)
 {
-  const int32_t per_row = power(3, g->dim) * g->block;
+  const int32_t per_row = power(n_offsets(g), g->dim) * g->block;
   g->n = g->mesh[0].n_nodes * g->block;
   g->start = calloc((size_t)g->n + 1, sizeof(int32_t));
   g->column = calloc((size_t)g->n * (size_t)per_row, sizeof(int32_t));
@@ -220,10 +257,12 @@ make_matrix(grid *g)
                                       g->column, g->value};
 }
 
-void
-grid_open(grid *g, int32_t dim, int32_t block, int32_t finest, int32_t coarsest)
+static void
+open_grid(grid *g, int32_t degree, int32_t dim, int32_t block, int32_t finest,
+          int32_t coarsest)
 {
   memset(g, 0, sizeof(*g));
+  g->degree = degree;
   g->dim = dim;
   g->block = block;
   g->n_meshes = finest - coarsest + 1;
@@ -234,6 +273,21 @@ grid_open(grid *g, int32_t dim, int32_t block, int32_t finest, int32_t coarsest)
   make_matrix(g);
   g->hierarchy = (abut_multigrid_hierarchy){
       sizeof(g->hierarchy), block, g->n_meshes, g->mesh, NULL, NULL};
+}
+
+void
+grid_open(grid *g, int32_t dim, int32_t block, int32_t finest, int32_t coarsest)
+{
+  open_grid(g, 1, dim, block, finest, coarsest);
+}
+
+/* The nodes are those of linear elements of half the size, and what they follow
+ * from the corners of their cells by is the same. */
+void
+grid_open_quadratic(grid *g, int32_t dim, int32_t block, int32_t finest,
+                    int32_t coarsest)
+{
+  open_grid(g, 2, dim, block, finest + 1, coarsest);
 }
 
 void

@@ -2,8 +2,9 @@
 #ifndef ABUT_TESTS_CORE_GRID_H
 #define ABUT_TESTS_CORE_GRID_H
 
-/* Matrices of (multi)linear elements on the unit square or cube in grids of
- * 2^level cells a side, with the hierarchy of meshes from a coarsest one. */
+/* Matrices of (multi)linear and quadratic elements on the unit square or cube
+ * in grids of 2^level cells a side, with the hierarchy of meshes from a
+ * coarsest one. */
 
 #include "fixture.h"
 
@@ -14,7 +15,7 @@ enum
 
 typedef struct grid
 {
-  int32_t dim, block, n_meshes;
+  int32_t degree, dim, block, n_meshes;
   int32_t side[GRID_LEVELS]; /* nodes along a side, from the finest */
   abut_multigrid_mesh mesh[GRID_LEVELS];
   int32_t n; /* rows of the finest matrix */
@@ -29,6 +30,12 @@ typedef struct grid
  * have their diagonal entry only. */
 void grid_open(grid *g, int32_t dim, int32_t block, int32_t finest,
                int32_t coarsest);
+
+/* The same with quadratic elements on the finest mesh, whose nodes are a mesh
+ * for themselves above that of the corners of their cells. */
+void grid_open_quadratic(grid *g, int32_t dim, int32_t block, int32_t finest,
+                         int32_t coarsest);
+
 void grid_close(grid *g);
 
 /* y = A x without what is held; held may be NULL. */

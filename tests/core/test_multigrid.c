@@ -52,10 +52,13 @@ make_set(const grid *g, set which, uint64_t seed)
 }
 
 static int32_t
-iterations(int32_t dim, int32_t block, int32_t level, set which)
+iterations(int32_t degree, int32_t dim, int32_t block, int32_t level, set which)
 {
   grid g;
-  grid_open(&g, dim, block, level, 1);
+  if (degree == 1)
+    grid_open(&g, dim, block, level, 1);
+  else
+    grid_open_quadratic(&g, dim, block, level, 1);
   abut_context *context = fixture_context();
   abut_multigrid *mg = open_multigrid(context, &g);
   uint8_t *held = make_set(&g, which, 3);
@@ -70,13 +73,13 @@ iterations(int32_t dim, int32_t block, int32_t level, set which)
 
 /* No more iterations than `most` on any mesh with any set. */
 static void
-expect_flat(int32_t dim, int32_t block, int32_t first, int32_t last,
-            int32_t most)
+expect_flat(int32_t degree, int32_t dim, int32_t block, int32_t first,
+            int32_t last, int32_t most)
 {
   for (int which = NOTHING; which < ALL_SETS; ++which)
     for (int32_t level = first; level <= last; ++level)
     {
-      const int32_t n = iterations(dim, block, level, (set)which);
+      const int32_t n = iterations(degree, dim, block, level, (set)which);
       if (n > most)
         fail_msg("%d iterations at level %d with set %d", n, level, which);
     }
@@ -86,15 +89,24 @@ static void
 test_poisson_is_flat(void **state)
 {
   (void)state;
-  expect_flat(2, 1, 4, 6, 9);
+  expect_flat(1, 2, 1, 4, 6, 9);
 }
 
 static void
 test_elasticity_is_flat(void **state)
 {
   (void)state;
-  expect_flat(2, 2, 3, 5, 14);
-  expect_flat(3, 3, 2, 3, 13);
+  expect_flat(1, 2, 2, 3, 5, 14);
+  expect_flat(1, 3, 3, 2, 3, 13);
+}
+
+static void
+test_quadratic_elements_are_flat(void **state)
+{
+  (void)state;
+  expect_flat(2, 2, 1, 3, 5, 10);
+  expect_flat(2, 2, 2, 2, 4, 15);
+  expect_flat(2, 3, 3, 1, 2, 15);
 }
 
 static void
@@ -553,6 +565,7 @@ main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_poisson_is_flat),
       cmocka_unit_test(test_elasticity_is_flat),
+      cmocka_unit_test(test_quadratic_elements_are_flat),
       cmocka_unit_test(test_cycle_is_symmetric_and_leaves_held),
       cmocka_unit_test(test_coarse_matrix_is_that_of_galerkin),
       cmocka_unit_test(test_what_changed_is_made_anew_and_no_more),
