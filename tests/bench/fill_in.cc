@@ -12,9 +12,10 @@
 //   present   pattern of the active rows, ordered anew for each set
 //   candidates  pattern of all rows, ordered once; open rows are lines of the
 //             unit matrix with zeros where they may couple
-//   inserted  pattern of the active rows; K is ordered once, and each active row
+//   inserted  pattern of the active rows; K is ordered once, and each active
+//   row
 //             comes after the last of its unknowns: no unknown of K moves
-//   inserted on change  the same, with all rows: ordered once, pattern of all
+//   inserted candidates  the same with the pattern of all rows, analysed once
 //
 // Times are of the processor, in seconds; entries are those of the factors, in
 // millions.
@@ -73,6 +74,7 @@ namespace
       dmumps_c(&data_);
     }
 
+    /** @p order places in the elimination, from 1; null: by MUMPS. */
     void analyse(Triplets &matrix, std::vector<int> *order)
     {
       data_.n = matrix.n;
@@ -89,6 +91,9 @@ namespace
 
     void factorise(Triplets &matrix)
     {
+      // The same places, in arrays of another matrix.
+      data_.irn = matrix.row.data();
+      data_.jcn = matrix.column.data();
       data_.a = matrix.value.data();
       call(2);
     }
@@ -138,8 +143,7 @@ namespace
       result.add(n + i, n + i, is_active ? 0. : 1.);
       for (auto e = rows.begin(i); e < rows.end(i); ++e)
       {
-        const double b =
-            is_active ? rows.weight(i) * rows.coefficient(e) : 0.;
+        const double b = is_active ? rows.weight(i) * rows.coefficient(e) : 0.;
         result.add(n + i, rows.column(e), b);
         result.add(rows.column(e), n + i, b);
       }

@@ -8,10 +8,9 @@
 namespace abut::app
 {
   template <int dim>
-  double
-  CellVolume<dim>::mean_change(const Material<dim> &material,
-                               const dealii::FEValuesBase<dim> &values,
-                               const CellState<dim> &state) const
+  double CellVolume<dim>::mean_change(const Material<dim> &material,
+                                      const dealii::FEValuesBase<dim> &values,
+                                      const CellState<dim> &state) const
   {
     double volume = 0., sum = 0.;
     for (unsigned int q = 0; q < values.n_quadrature_points; ++q)

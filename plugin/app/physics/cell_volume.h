@@ -20,11 +20,12 @@ namespace abut::app
    *     int S(F) + V U(e),  e = int v(F) / V
    *
    * with a change of volume v, J - 1 or its linear part, and U as it is of the
-   * point where v is not averaged. It is that of Simo, Taylor and Pister (Comput.
-   * Methods Appl. Mech. Engrg. 51, 1985) with a pressure and a dilatation in
-   * each cell, both eliminated: U'(e) is the pressure. So there is an energy, and
-   * the tangent is symmetric; of small strain it is the method B-bar. Cells of
-   * degree 1 do not lock with it. What a material has to say: */
+   * point where v is not averaged. It is that of Simo, Taylor and Pister
+   * (Comput. Methods Appl. Mech. Engrg. 51, 1985) with a pressure and a
+   * dilatation in each cell, both eliminated: U'(e) is the pressure. So there
+   * is an energy, and the tangent is symmetric; of small strain it is the
+   * method B-bar. Cells of degree 1 do not lock with it. What a material has to
+   * say: */
   template <int dim> class CellVolume
   {
   public:
