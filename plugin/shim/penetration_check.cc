@@ -362,7 +362,10 @@ namespace abut::shim
         }
         const DisplacedSides<dim> sides(context_, pair.secondary, pair.primary,
                                         reference, present);
-        const double reach = std::max(pair.data.reach, 1.5 * moved[p]);
+        // What was missed earlier may be deeper than the last step went.
+        const double all = std::min(1.5 * motion(pair, u), pair.reach);
+        const double reach =
+            std::max({pair.data.reach, 1.5 * moved[p], pair.moves ? all : 0.});
         check_surfaces(pair, marks, present, reach, tolerance, missed);
         if (SelfContact<dim>::is_split(pair.data))
           check_same_sides(pair, present, reach, tolerance, missed);

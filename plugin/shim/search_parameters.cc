@@ -69,8 +69,9 @@ namespace abut
       prm.declare_entry("Skin", Patterns::Tools::to_string(d.skin),
                         NumberPattern::between(0, largest_number),
                         "Length by which lists of candidates are made too "
-                        "long, so that they serve again after small motion; "
-                        "0 makes them anew after each motion.");
+                        "long, so that they serve again after small motion. "
+                        "0: the size of a facet where points move with the "
+                        "bodies; else they are made anew after each motion.");
     }
 
     void declare_ranking(ParameterHandler &prm, const abut_detection_options &d)

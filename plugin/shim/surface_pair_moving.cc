@@ -51,9 +51,8 @@ namespace abut::shim
   SurfacePairRows<dim>::motions(const std::vector<Direction> &u)
   {
     std::vector<Direction> since(u);
-    if (moves())
-      since = difference(
-          u, exchange_->displacements_as_given(surface_, searched_from_));
+    if (moves() && searched_from_.size() > 0)
+      since = difference(u, exchange_->displacements(surface_, searched_from_));
     std::vector<double> result;
     for (const Pair &pair : pairs_)
       result.push_back(

@@ -324,6 +324,8 @@ namespace abut::shim
     const std::vector<Direction> since = difference(u, then),
                                  there = difference(then, gathered_),
                                  here = difference(u, gathered_);
+    // What the search reaches for follows from these.
+    const std::vector<double> searched = motions(has_steps() ? since : u);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
       const Pair &pair = pairs_[p];
@@ -332,7 +334,7 @@ namespace abut::shim
       if (!pair.has_displaced_sides())
         result[p].searched = result[p].gathered = motion(pair, u);
       else
-        result[p] = {motion(pair, since),
+        result[p] = {std::max(searched[p], motion(pair, since)),
                      std::max(motion(pair, there), motion(pair, here))};
     }
     return result;

@@ -26,8 +26,10 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "scenes"))
 import run_scene  # noqa: E402
 
-# Not figures: what depends on the machine, and what is new in a later program.
-UNLIKE = ("second", "memory", "bytes", "sections", "version", "command",
+# Not figures: what depends on the machine, what a run that goes on has to do
+# once more, and what is new in a later program.
+UNLIKE = ("searches", "reuses", "bucket_", "gatherings",
+          "second", "memory", "bytes", "sections", "version", "command",
           "output", "share", "ratio_to", "messages", "could_be_left_out",
           "modelled")
 
