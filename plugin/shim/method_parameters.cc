@@ -369,10 +369,6 @@ namespace abut
     const std::string why = "Method/Sliding = large ";
     const std::string mortar = std::string("Method/Discretisation = ")
                                + abut_discretisation_name(discretisation);
-    if (pair.touches_itself)
-      return why
-             + "does not follow a surface that touches itself. Give its two "
-               "sides boundary ids of their own, or use small.";
     if (is_weighted && pair.has_obstacle)
       return why
              + "follows nodes and quadrature points against an obstacle, not "

@@ -50,6 +50,29 @@ for ranks in (2, 3):
     same(first, solve("self-contact.prm", {}, ranks)[0], f"{ranks} ranks", 1e-8)
 
 
+# A slot of rubber that closes and shears: its faces slide on each other by some
+# facets, and meet others than they were opposite to. They are what the answer
+# knows of as one surface as well as two.
+FACES = {"Pair 1/Secondary": "1: 1, 2", "Pair 1/Primary": "1: 1, 2"}
+RUBBER = {"Body 1/Material": "neo-hooke", "Body 1/Young modulus": 1,
+          "Body 1/Pressure": "", "Refinement/Level": 3,
+          "Body 1/Support": "4: 0, 0; 5: 0.2*t, -0.06*t",
+          "Load steps/Steps": 6, "Method/Sliding": "large"}
+for settings in ({}, {"Method/Discretisation": "node to segment"},
+                 {"Method/Enforcement": "penalty", "Pair 1/Friction": 0.3}):
+    one, rows = solve("self-contact.prm", {**RUBBER, **FACES, **settings})
+    two, _ = solve("self-contact.prm", {**RUBBER, **LIPS, **settings})
+    same(two, one, f"sheared slot, {settings}")
+    p.close(one["pair_1_slip"], two["pair_1_slip"], 1e-9,
+            f"sheared slot, {settings}: slip")
+    p.expect(one["elements_exchanged"] == two["elements_exchanged"] > 50
+             and one["pair_1_slip"] > 2 * 0.75 / 24,
+             f"sheared slot, {settings}: does not slide")
+    if not settings:
+        same(one, solve("self-contact.prm", {**RUBBER, **FACES}, 2)[0],
+             "sheared slot, 2 ranks", 1e-8)
+
+
 # Closed form: two blocks of 3 and 4 cells, one on the other, in one file. The
 # sides that meet are one surface. On a height of 2 the strain is uniform, and
 # the stress is E / (1 - nu^2) times it, whatever meets whatever.
@@ -153,9 +176,11 @@ p.write("hole.prm", solid(
     section("Pair 1", "Secondary = 1: 1", "Primary = 1: 1", "Reach = 1"),
     section("Load steps", "Steps = 4", "Smallest step = 0.1"),
     section("Refinement", "Level = 1"), bodies=1))
-result = p.call("run", "hole.prm", "--output", "out", "--quiet")
-p.expect(result.returncode == 3 and "ABUT-F24" in result.stderr
-         and "same one have met" in result.stderr, f"hole: {result.stderr}")
+for sliding, why in (("small", "same one have met"), ("large", "ABUT-F24")):
+    result = p.call("run", "hole.prm", "--output", "out", "--quiet", "--set",
+                    f"Method/Sliding={sliding}")
+    p.expect(result.returncode == 3 and "ABUT-F24" in result.stderr
+             and why in result.stderr, f"hole, {sliding}: {result.stderr}")
 
 # Friction: what two surfaces of their own have, and in the blocks, whose upper
 # one is moved aside until all of it slides, mu times the pressure.
