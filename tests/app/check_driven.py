@@ -107,6 +107,19 @@ summary, _ = run("rigid-plate.prm", {
 p.close(summary["obstacle_1_displacement"][1], -0.71, 1e-10, "a fallen plate")
 p.close(summary["obstacle_1_force"][1], 20, 1e-9, "weight of the plate")
 
+# By forces that hardly deform it: places of a block 1 high have 16 digits.
+for force, digits in ((1e-4, 1e-8), (1e-6, 1e-5), (1e-8, 1e-3)):
+    summary, _ = run("rigid-plate.prm", {
+        "Obstacle 1/Motion": "", "Obstacle 1/Free directions": "y",
+        "Obstacle 1/Force": f"0, -{force}*t"})
+    p.close(summary["obstacle_1_displacement"][1], -0.91 * force / 2000, digits,
+            f"a plate under {force}")
+    p.expect(summary["obstacle_imbalance"] <= digits, f"balance of {force}")
+refused("rigid-plate.prm", {
+    "Obstacle 1/Motion": "", "Obstacle 1/Free directions": "y",
+    "Obstacle 1/Force": "0, -1e-11*t", "Load steps/Smallest step": "0.5"},
+    "Obstacle 1", "too few digits", code=3)
+
 # Two obstacles, one on each side.
 summary, _ = run("rigid-plate.prm", {
     "Solid/Obstacles": "2", "Solid/Pairs": "2", "Obstacle 1/Motion": "",
@@ -174,6 +187,11 @@ summary, rows = run("falling-ball.prm", {"Refinement/Level": "4",
                                          "Time/Step": "0.04"})
 highest = max(row["obstacle_1_displacement_y"] for row in rows[-20:])
 p.expect(abs(highest) < 1e-2 * 1.8533e-3, f"comes back to {highest}")
+
+# Forces that drive the mass through the bar within a step: that is not the
+# scene's mistake, nor one of the pair.
+refused("struck-bar.prm", {"Obstacle 1/Force": "1e6*sin(50*t), 0",
+                           "Time/End": "0.2"}, "ABUT-F", code=3)
 
 # What cannot be.
 PLATE = {"Obstacle 1/Motion": "", "Obstacle 1/Free directions": "y",

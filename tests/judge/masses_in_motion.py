@@ -47,7 +47,9 @@ class MassesInMotionJudge:
                       else self.mass * len(self.masses))
         self.force = max([abs(r[f"force_{a}"]) for r in self.rows
                           for a in self.axes])
-        self.length = max([abs(r["u_height"]) for r in self.rows]
+        # a bar that lies on the plane is moved elsewhere
+        self.length = max([abs(r["u_height"]) for r in
+                           self.rows + self.masses]
                           + [scene.number("Motion/Gap", 0)]) or 1.
         self.energy = max(max(abs(r[n]) for n in ENERGIES + (
             "external_work",)) for r in self.rows)

@@ -8,7 +8,8 @@
     mutate.py --repeat 17        the same scene again, with what it prints
 
 A seed stands for one scene. Base scenes are first cut to at most 2000
-unknowns. Each run must end within its time with exit code 0 (and then be
+unknowns, and fewer, or to a part of their motion, where they have many steps.
+Runs on one rank are those of abut_served, which is loaded once. Each run must end within its time with exit code 0 (and then be
 judged right, or be nothing that can be judged), 2 with an error message, or 3.
 Results go to a file line by line: a run that was interrupted goes on where it
 was. With --sanitized PROGRAM every tenth scene is run by that program too, with
@@ -31,14 +32,40 @@ import time
 
 import judge
 from grammar import Mutation, read_reference
-from runs import (QUIET, ROOT, base_scenes, find_level, has_mesh, run, small, stand_in,
-                  words_of)
+from runs import (QUIET, ROOT, base_scenes, find_cut, has_mesh, n_steps, run,
+                  small, stand_in, words_of)
 from scene import Scene
 
 SECONDS = 20  # of processor time
 SANITIZED_EVERY = 10
+# Unknowns times steps of a base scene, and how many of those that have more go
+# through their whole motion all the same.
+COST, WHOLE = 4e4, 0.1
 FINE = {"0 right", "0 cannot be judged", "2", "3"}
 SANITIZER = re.compile(r"ERROR: \w*Sanitizer|runtime error:")
+
+
+def shorten(scene, part):
+    """Cut a scene to the first part of its motion."""
+    steps = max(1, round(part * n_steps(scene)))
+    if scene.get("Time/Scheme", "none") == "none":
+        end = scene.number("Load steps/End time", 1.)
+        end *= steps / n_steps(scene)
+        scene.values["Load steps/End time"] = f"{end:.12g}"
+        scene.values["Load steps/Steps"] = str(steps)
+    else:
+        step = scene.number("Time/Step", 0.)
+        scene.values["Time/End"] = f"{steps * step:.12g}"
+
+
+def cut(scene, level, part, source):
+    """A base scene on a coarse mesh that writes what the judge reads."""
+    for key, value in {**small(level), **QUIET}.items():
+        scene.values[key] = str(value)
+    if part < 1 and source.random() > WHOLE:
+        shorten(scene, part)
+    if scene.get("Time/Scheme", "none") != "none":
+        scene.values["Output/Every"] = "1000000"
 
 
 def make_case(seed, levels, reference):
@@ -49,8 +76,7 @@ def make_case(seed, levels, reference):
     base = Scene(base_scenes()[name])
     scene = Scene(base_scenes()[name])
     if has_mesh(scene):
-        for key, value in {**small(levels[name]), **QUIET}.items():
-            scene.values[key] = str(value)
+        cut(scene, *levels[name], source)
     # exact solutions of the base are those of no other scene
     for key in [k for k in scene.values if k.startswith("Exact solution")]:
         del scene.values[key]
@@ -147,11 +173,11 @@ def table(results, command):
 
 
 def find_levels(abut, path, patterns):
-    """Levels of the base scenes whose names fit, kept in a file if one is
-    given."""
+    """Levels of the base scenes whose names fit, and parts of their motions,
+    kept in a file if one is given."""
     if path and path.exists():
         return json.loads(path.read_text(encoding="utf-8"))
-    levels = {name: find_level(abut, scene)
+    levels = {name: find_cut(abut, scene, cost=COST)
               for name, scene in base_scenes().items()
               if any(fnmatch.fnmatch(name, p) for p in patterns)}
     if path:
@@ -208,7 +234,8 @@ def main():
                         default=ROOT / "build/release/abut")
     parser.add_argument("--sanitized", type=pathlib.Path)
     parser.add_argument("--served", type=pathlib.Path,
-                        help="the program for many runs")
+                        help="the program for many runs; abut_served beside "
+                        "the program, if it is there")
     parser.add_argument("--seeds", default="0:200", help="FIRST:END")
     parser.add_argument("--bases", nargs="+", default=["*"],
                         metavar="PATTERN", help="names of scenes in prm/")
@@ -223,7 +250,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
     abut = options.abut.resolve()
-    stand_in(abut, options.served)
+    served = options.served or abut.parent / "abut_served"
+    stand_in(abut, served if served.exists() else None)
     trial = Trial(abut, options.sanitized and options.sanitized.resolve())
     first, _, end = options.seeds.partition(":")
     listed = (read_list(options.list)[::options.every] if options.list

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs of the program within limits, and scenes cut to a small size."""
+import math
 import os
 import pathlib
 import re
@@ -112,28 +113,52 @@ def small(level):
             "Refinement/Adaptive cycles": 0}
 
 
-def find_level(abut, path, overrides=(), most=MOST_UNKNOWNS):
-    """A level of a scene, not finer than its own, on which it has no more than
-    so many unknowns: from their number on a coarse one, by `abut check`."""
-    overrides = dict(overrides)
-    scene = Scene(path)
-    if not has_mesh(scene):
-        return 0
-    kind = scene.get("Scene", "obstacle")
-    own = int(overrides.get("Refinement/Level") or scene.get(
-        "Refinement/Level", "2" if kind == "solid" else "5"))
-    level = min(own, 1)
+def n_steps(scene):
+    """Load or time steps of a scene."""
+    if scene.get("Time/Scheme", "none") == "none":
+        return scene.number("Load steps/Steps", 1.)
+    step = scene.number("Time/Step", 0.)
+    return scene.number("Time/End", 1.) / step if step > 0 else 1.
+
+
+def unknowns_of(abut, path, overrides, level):
+    """On a level, by `abut check`, or None."""
     words = [abut, "check", path]
     for name, value in {**overrides, **small(level)}.items():
         words += ["--set-if-used", f"{name}={value}"]
     with tempfile.TemporaryDirectory(prefix="abut-level-") as folder:
         code, output, _ = run(words, 60, pathlib.Path(folder))
     found = re.search(r"^ *dofs +(\d+)", output, re.MULTILINE)
-    if code != 0 or not found:
-        return level
+    return int(found[1]) if code == 0 and found else None
+
+
+def find_cut(abut, path, overrides=(), most=MOST_UNKNOWNS, cost=math.inf):
+    """A level of a scene, not finer than its own, on which it has no more than
+    so many unknowns, from their number on a coarse one; and the part of its
+    motion that it comes through at this cost, unknowns times steps, in space four
+    times as many. Coarser meshes come before shorter motions."""
+    overrides = dict(overrides)
+    scene = Scene(path)
+    if not has_mesh(scene):
+        return 0, 1.
+    kind = scene.get("Scene", "obstacle")
+    own = int(overrides.get("Refinement/Level") or scene.get(
+        "Refinement/Level", "2" if kind == "solid" else "5"))
+    level = min(own, 1)
+    unknowns = unknowns_of(abut, path, overrides, level)
+    if unknowns is None:
+        return level, 1.
     # each level has a little less than 2^dim times as many
-    factor = 2**int(scene.get("Dimension", "2"))
-    unknowns = int(found[1]) * factor
-    while level < own and unknowns <= most:
-        level, unknowns = level + 1, unknowns * factor
-    return level
+    dim = int(scene.get("Dimension", "2"))
+    steps = n_steps(scene) * (4 if dim == 3 else 1)
+    most = min(most, cost / steps)
+    while level < own and unknowns * 2**dim <= most:
+        level, unknowns = level + 1, unknowns * 2**dim
+    while level > 0 and unknowns > most:
+        level, unknowns = level - 1, unknowns / 2**dim
+    return level, min(1., cost / (unknowns * steps))
+
+
+def find_level(abut, path, overrides=(), most=MOST_UNKNOWNS):
+    """The level alone."""
+    return find_cut(abut, path, overrides, most)[0]

@@ -122,6 +122,12 @@ class SolidJudge:
         return (part * young * (self.largest + 1e-3 * self.nodes.extent)
                 * self.nodes.extent**(self.dim - 2))
 
+    def imbalance(self):
+        """Of forces that are in balance: of large strain also Newton's
+        tolerance, which is of what bodies have moved."""
+        newton = self.scene.number("Load steps/Newton tolerance", 1e-8)
+        return self.round_off(max(1e-13, 1e-3 * newton if self.large else 0.))
+
     # Files
 
     def files_agree(self):
@@ -160,11 +166,7 @@ class SolidJudge:
             return
         # what is turned about its axis has no resultant of radial forces
         radial = self.plane == "axisymmetric"
-        noise = self.round_off()
-        if self.large:
-            # Newton's tolerance is of what bodies have moved
-            noise = max(noise, self.round_off(1e-3 * self.scene.number(
-                "Load steps/Newton tolerance", 1e-8)))
+        noise = self.imbalance()
         outer = [add(add(a, b), c) for a, b, c in zip(
             self.load, self.contact, self.reaction)]
         aside, inner = ({}, {}) if radial else hanging_forces(self)
@@ -332,7 +334,7 @@ class SolidJudge:
             work = math.fsum(dot(w, add(add(a, b), c)) for w, a, b, c in
                              zip(way, self.load, self.contact, self.reaction))
             allowed = (limit.value * self.work_size + 1e-12 * energy / h
-                       + self.round_off() * self.largest)
+                       + self.imbalance() * self.largest)
             if abs(slope - work) > allowed:
                 # where bodies hardly change their volume, energies are not
                 # parabolas of this width

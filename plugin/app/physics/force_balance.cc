@@ -24,6 +24,10 @@ namespace abut::app
     /** Of a place beside gaps of its size. */
     constexpr double digits_of_place = 1e-15;
 
+    /** A rest that the digits of places explain is this part of the forces at
+     * most, or there is no answer. */
+    constexpr double largest_excuse = 1e-3;
+
     /** Pivots below this part of the largest one are nothing. */
     constexpr double small_pivot = 1e-12;
   } // namespace
@@ -47,16 +51,16 @@ namespace abut::app
     stiffness_.clear();
   }
 
-  double ForceBalance::error_of(const Forces &forces) const
+  double ForceBalance::error_of(const Forces &forces, const bool excuse) const
   {
     double result = 0.;
     for (std::size_t i = 0; i < n(); ++i)
     {
-      // What the digits of the place itself leave.
-      const double digits =
-          digits_of_place * std::abs(place_[i]) * stiffness(i, i);
-      const double rest =
-          std::max(0., std::abs(forces.rest[i]) - forces.round_off[i] - digits);
+      double least = forces.round_off[i];
+      if (excuse)
+        least += std::max(digits_of_place * std::abs(place_[i]), forces.digits)
+                 * std::max(0., stiffness(i, i));
+      const double rest = std::max(0., std::abs(forces.rest[i]) - least);
       const double part = rest > 0. ? rest / forces.size[i] : 0.;
       // A rest beside nothing at all is no number to go by.
       result = std::max(result, std::isfinite(part) ? part : 1.);
@@ -89,8 +93,9 @@ namespace abut::app
     ++n_places_;
     if (probes_)
       return take_probe(forces);
-    error_ = error_of(forces);
-    if (error_ <= tolerance_)
+    error_ = error_of(forces, false);
+    if (error_ <= tolerance_
+        || (error_ <= largest_excuse && error_of(forces, true) <= tolerance_))
     {
       // What has left has no stiffness to be met with again.
       if (!touches(forces))

@@ -37,6 +37,9 @@ namespace abut::app
        * to be in the way. */
       std::vector<double> way;
       double probe = 0.; ///< small beside what contact is deformed by, > 0
+      /** How much contact may change of itself by the digits that the places
+       * of bodies have, as a way of the obstacle, >= 0. */
+      double digits = 0.;
     };
 
     enum class Answer
@@ -112,7 +115,8 @@ namespace abut::app
     {
       return place_.size();
     }
-    double error_of(const Forces &forces) const;
+    /** @param excuse a rest for the digits of places */
+    double error_of(const Forces &forces, bool excuse) const;
     Visit visit(const Forces &forces) const;
     double stiffness(std::size_t i, std::size_t j) const;
     bool touches(const Forces &forces) const;

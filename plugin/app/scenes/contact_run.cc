@@ -329,11 +329,36 @@ namespace abut::app
     la::Vector good(state.u);
     for (;;)
     {
-      const bool solved = solve_contact_problem();
+      const bool solved = solve_at_place();
       (solved ? good : state.u) = solved ? state.u : good;
       const Placing placing = model.place_obstacles(solved, failure);
       if (placing != Placing::again)
         return placing == Placing::settled;
+    }
+  }
+
+  /* Where forces have driven an obstacle through a body is no mistake of the
+   * scene: it must not go there. */
+  template <int dim> bool ContactRun<dim>::solve_at_place()
+  {
+    if (is_starting || !model.has_inertia())
+      return solve_contact_problem();
+    try
+    {
+      return solve_contact_problem();
+    }
+    catch (const InputError &error)
+    {
+      const std::string what = error.what();
+      if (what.find(abut_failure_get(ABUT_FAILURE_WRONG_SIDE)->code)
+          == std::string::npos)
+        throw;
+      section.reset();
+      failure = coded(ABUT_FAILURE_NO_PARTNER,
+                      "Within a step forces drive an obstacle into a body past "
+                      "its surface: use a smaller Time/Step, or smaller "
+                      "forces.");
+      return false;
     }
   }
 

@@ -61,6 +61,7 @@ namespace abut::app
     /** The method on the present mesh. */
     MethodParameters present_method() const;
     /** With obstacles where they are. */
+    bool solve_at_place();
     bool solve_contact_problem();
     /** With obstacles that forces move where these are in balance. */
     bool solve_with_contact();

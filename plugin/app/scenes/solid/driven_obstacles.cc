@@ -35,6 +35,11 @@ namespace abut::app
     /** What round-off leaves of numbers, with something to spare. */
     constexpr double round_off_part = 1e-13;
 
+    /** Of places of bodies beside their extent; how many of them differences
+     * are taken over at least; and below how many a depth is none. */
+    constexpr double digits_of_bodies = 1e-15, least_probe = 1e3,
+                     least_depth = 1e4;
+
     void check_time(const abut_status status)
     {
       if (status != ABUT_SUCCESS)
@@ -505,8 +510,10 @@ namespace abut::app
               std::max({forces.size[i], std::abs(given[j]),
                         std::abs(contact[j]), std::abs(stopping[j])});
     forces.way = way_to_contact(place, contact, clearance);
-    forces.probe = part_of_probe * softness
-                   * *std::max_element(forces.size.begin(), forces.size.end());
+    forces.digits = digits_of_bodies * size;
+    largest_force = *std::max_element(forces.size.begin(), forces.size.end());
+    forces.probe = std::max(part_of_probe * softness * largest_force,
+                            least_probe * forces.digits);
     ++n_tried;
     const ForceBalance::Answer answer = balance.take(forces);
     if (answer == ForceBalance::Answer::balanced)
@@ -543,6 +550,15 @@ namespace abut::app
   std::string
   DrivenObstacles<dim>::explanation(const ForceBalance::Answer answer) const
   {
+    const double depth = largest_force * softness;
+    if (!is_out && depth < least_depth * digits_of_bodies * size)
+      return "The forces on "
+             + parameters.obstacles[coordinates.front().obstacle].section + ", "
+             + short_number(largest_force, 3)
+             + " at the most, deform bodies by some " + short_number(depth, 2)
+             + ", and places of bodies as large as " + short_number(size, 2)
+             + " have too few digits for that to be in balance. Look at the "
+               "units of forces, lengths and stiffness.";
     if (answer == ForceBalance::Answer::loose)
     {
       const Coordinate &c = coordinates[balance.loose()];

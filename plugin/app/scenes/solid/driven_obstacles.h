@@ -175,6 +175,7 @@ namespace abut::app
     std::unique_ptr<Expression<dim>> gravity;
     std::vector<std::uint8_t> massless;
     double size = 1., softness = 1.; ///< length, length per force
+    double largest_force = 0.;       ///< at the last place
     ForceBalance balance;
     Stage stage = Stage::statics;
     double dt = 0., present_time = 0., time_reached = 0.;
