@@ -10,6 +10,7 @@
 #include <abut/condense.h>
 #include <abut/context.h>
 #include <abut/coupling.h>
+#include <abut/coupling_search.h>
 #include <abut/dense_model.h>
 #include <abut/detect.h>
 #include <abut/export.h>

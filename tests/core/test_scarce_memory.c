@@ -12,6 +12,8 @@
 #include "scarce.h"
 #include "scenes.h"
 
+#include <abut/coupling_search.h>
+
 #include <string.h>
 
 enum
@@ -248,6 +250,7 @@ build(world *w, const abut_coupling_nodes *nodes)
 {
   TRY(abut_points_create(w->context, w->mesh_a.dimension, &w->points));
   abut_coupling_target target = abut_coupling_target_defaults(w->points);
+  TRY(abut_coupling_search(w->coupling, 0.));
   TRY(abut_coupling_build(w->coupling, nodes, 0., &target));
   target.tie_axes = w->obstacle == NULL ? 3 : 0;
   TRY(abut_points_clear(w->points));
