@@ -150,8 +150,7 @@ namespace abut::shim
         data.tied
             ? ""
             : sliding_refusal(sliding, law, pair.discretisation,
-                              {SelfContact<dim>::is_split(data),
-                               data.obstacle != nullptr, data.geometric_gap});
+                              {data.obstacle != nullptr, data.geometric_gap});
     if (!fixed.empty())
       throw ContactError("Pair '" + data.name + "': " + fixed);
     pairs_.push_back(std::move(pair));

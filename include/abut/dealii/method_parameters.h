@@ -63,7 +63,6 @@ namespace abut
   /** What decides whether the points of a pair can move. */
   struct SlidingPair
   {
-    bool touches_itself = false;   ///< self contact
     bool has_obstacle = false;     ///< a rigid obstacle, not a second body
     bool has_geometric_gap = true; ///< gaps are those of surfaces
   };

@@ -29,12 +29,10 @@ namespace abut::app
                 method.discretisation.value_or(
                     pair.obstacle > 0 ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
                                       : ABUT_DISCRETISATION_DUAL_MORTAR);
-            const bool touches_itself =
-                pair.obstacle == 0 && pair.secondary == pair.primary;
             return pair.tied
-                   || sliding_refusal(
-                          sliding, *method.options.law, discretisation,
-                          {touches_itself, pair.obstacle > 0, pair.mesh_gap})
+                   || sliding_refusal(sliding, *method.options.law,
+                                      discretisation,
+                                      {pair.obstacle > 0, pair.mesh_gap})
                           .empty();
           });
     }
