@@ -253,7 +253,8 @@ namespace abut::solve
       }
       return words;
     };
-    for (const auto &[rank, words] : ask_ranks(communicator_, questions, answer))
+    for (const auto &[rank, words] :
+         ask_ranks(communicator_, questions, answer))
       for (auto word = words.begin(); word != words.end();)
       {
         result.of[word[0]] = {result.line.size(), to_value(word[1])};
