@@ -302,6 +302,7 @@ namespace abut
     }
     if (i.request.action == ABUT_ACTION_MOVE && i.request.step_length != 1.)
       increment *= i.request.step_length;
+    i.take_increment(increment);
     report.tolerance = tolerance;
     i.report += report;
     return report;
@@ -322,7 +323,7 @@ namespace abut
     std::vector<double> before;
     if (i.was_added)
       before.swap(i.gap);
-    i.compute_gap(displacement);
+    i.update_gap(displacement);
     if (i.was_added)
     {
       for (int row = 0; row < i.coefficients.n_rows(); ++row)

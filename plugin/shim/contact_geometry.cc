@@ -65,6 +65,8 @@ namespace abut
   template <int dim> void ContactAssembler<dim>::Implementation::find_geometry()
   {
     geometry.reset();
+    substitution.reset();
+    substituted_increment = la::Vector();
     if (!moves())
       return;
     // The solver keeps what it was made of until it gets the next one.
@@ -87,6 +89,50 @@ namespace abut
                          visit(line.row, line.column, line.value);
                      }));
     present_displacement = start_displacement;
+    find_substitution();
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::find_substitution()
+  {
+    // A row that is far open does not close in this linearisation, or as if it
+    // were straight: its lever would move its node by too much.
+    const double near = 0.3 * surfaces->facet_size();
+    std::vector<std::uint8_t> wanted(coefficients.n_rows());
+    for (int row = 0; row < coefficients.n_rows(); ++row)
+      wanted[row] = row_pressure(row) > 0. || gap[row] < near;
+    const std::vector<solve::GapLine> lines = source->gap_lines(wanted);
+    if (!MPI::logical_or(std::any_of(lines.begin(), lines.end(),
+                                     [](const solve::GapLine &line)
+                                     { return !line.column.empty(); }),
+                         communicator))
+      return;
+    substitution =
+        std::make_unique<solve::GapSubstitution>(coefficients, lines);
+    substituted = start_displacement;
+  }
+
+  template <int dim>
+  void
+  ContactAssembler<dim>::Implementation::take_increment(la::Vector &increment)
+  {
+    if (substitution == nullptr)
+      return;
+    substituted_increment = increment;
+    substitution->apply(increment);
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::update_gap(
+      const la::Vector &displacement)
+  {
+    if (substituted_increment.size() == 0) // the host has solved by itself
+      compute_gap(displacement);
+    else
+    {
+      substituted += substituted_increment;
+      compute_gap(substituted);
+    }
   }
 
   template <int dim>
@@ -97,6 +143,9 @@ namespace abut
       return matrix;
     sum_with_geometry =
         std::make_unique<la::Matrix>(la::sum(matrix, *geometry));
+    if (substitution != nullptr)
+      sum_with_geometry = std::make_unique<la::Matrix>(la::sum(
+          *sum_with_geometry, substitution->product(*sum_with_geometry)));
     return *sum_with_geometry;
   }
 

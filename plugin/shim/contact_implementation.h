@@ -5,6 +5,7 @@
 #include "contact_history.h"
 #include "handles.h"
 #include "row_source.h"
+#include "solve/gap_substitution.h"
 #include "solve/local_elimination.h"
 #include "solve/nitsche_solver.h"
 #include "solve/row_solver.h"
@@ -147,6 +148,13 @@ namespace abut
     const la::Matrix &with_geometry(const la::Matrix &matrix);
     /** The residual with that, as far as the iteration has come. */
     la::Vector with_geometry(const la::Vector &residual) const;
+    /** How gaps change because directions and partners do. Collective. */
+    void find_substitution();
+    /** Make the displacements of what a solver says, and remember that.
+     * Collective. */
+    void take_increment(la::Vector &increment);
+    /** Gaps where the iteration has come to. Collective. */
+    void update_gap(const la::Vector &displacement);
     /** See ContactAssembler::evaluate(), with rows of that displacement.
      * Collective. */
     double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
@@ -244,10 +252,14 @@ namespace abut
      * nothing. */
     std::unique_ptr<la::Matrix> geometry;
     std::unique_ptr<la::Matrix> sum_with_geometry; ///< null: not made yet
-    la::Vector present_displacement;               ///< with geometry
-    std::vector<double> gap;   ///< [rows] at the present displacement
-    bool has_friction = false; ///< some pair has, on all ranks
-    la::Vector committed;      ///< displacement of the last commit(); empty: 0
+    /** Of rows that move: solvers see its v; null: the displacement. */
+    std::unique_ptr<solve::GapSubstitution> substitution;
+    la::Vector substituted;           ///< v that the iteration has come to
+    la::Vector substituted_increment; ///< of the last solve(); empty: none
+    la::Vector present_displacement;  ///< with geometry
+    std::vector<double> gap;          ///< [rows] at the present displacement
+    bool has_friction = false;        ///< some pair has, on all ranks
+    la::Vector committed; ///< displacement of the last commit(); empty: 0
     std::vector<RigidPose<dim>> committed_poses; ///< of obstacles; empty: first
     std::vector<double> committed_times;         ///< of obstacles, likewise
     bool committed_is_lost = false;              ///< of another mesh or run

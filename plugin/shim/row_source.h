@@ -3,6 +3,7 @@
 #define ABUT_SHIM_ROW_SOURCE_H
 
 #include "point_number.h"
+#include "solve/gap_line.h"
 #include "solve/node_map.h"
 
 #include <abut/dealii/linear_algebra.h>
@@ -89,6 +90,15 @@ namespace abut::shim
      * sees it. Without pressures (null) the same places with any values. Equal
      * places add up. */
     virtual std::vector<MatrixLine> geometric_lines(const double *) const
+    {
+      return {};
+    }
+
+    /** The rows of nodes but for tangents; of those with @p wanted nonzero with
+     * what their gaps change by because directions and coefficients do where
+     * points are made. */
+    virtual std::vector<solve::GapLine>
+    gap_lines(const std::vector<std::uint8_t> &) const
     {
       return {};
     }

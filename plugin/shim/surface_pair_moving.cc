@@ -210,6 +210,53 @@ namespace abut::shim
   }
 
   template <int dim>
+  void SurfacePairRows<dim>::add_gap_change(const std::size_t point,
+                                            solve::GapLine &line) const
+  {
+    // d(gap) = - sum_l d(n c_l) . x_l, wherever the origin is.
+    const Place &place = places_[point];
+    const std::size_t n = dim * place.columns.size();
+    std::vector<double> change(n, 0.);
+    for (std::size_t l = 0; l < place.lines.size(); ++l)
+    {
+      const Direction way = present_[place.lines[l]] - present_[place.node];
+      for (unsigned int d = 0; d < dim; ++d)
+        for (std::size_t b = 0; b < n; ++b)
+          change[b] += way[d] * place.hessian[(l * dim + d) * n + b];
+    }
+    const Terms columns = nodes_by_unknowns(place.columns);
+    for (std::size_t b = 0; b < n; ++b)
+      for (const auto &[unknown, factor] : columns[b])
+      {
+        line.column.push_back(unknown);
+        line.value.push_back(change[b] * factor);
+      }
+  }
+
+  template <int dim>
+  std::vector<solve::GapLine>
+  SurfacePairRows<dim>::gap_lines(const std::vector<std::uint8_t> &wanted) const
+  {
+    std::vector<solve::GapLine> lines;
+    for_each_component(
+        [&](const Component &row)
+        {
+          if (row.place.node < 0)
+            return;
+          solve::GapLine line;
+          line.row = static_cast<int>(row.row);
+          // Gaps at nearest points have all their derivatives.
+          if (!row.place.lines.empty() && wanted[row.row] != 0)
+            add_gap_change(row.point, line);
+          for (const auto &component : nodes_by_unknowns({row.place.node}))
+            for (const auto &[unknown, factor] : component)
+              line.own.push_back(unknown);
+          lines.push_back(std::move(line));
+        });
+    return lines;
+  }
+
+  template <int dim>
   void SurfacePairRows<dim>::make_isotropic(la::Vector &value) const
   {
     const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
@@ -277,6 +324,10 @@ namespace abut::shim
       std::size_t, const double *) const;                                      \
   template std::vector<MatrixLine> SurfacePairRows<dim>::geometric_lines(      \
       const double *) const;                                                   \
+  template void SurfacePairRows<dim>::add_gap_change(std::size_t,              \
+                                                     solve::GapLine &) const;  \
+  template std::vector<solve::GapLine> SurfacePairRows<dim>::gap_lines(        \
+      const std::vector<std::uint8_t> &) const;                                \
   template void SurfacePairRows<dim>::make_isotropic(la::Vector &) const;      \
   template SurfacePairRows<dim>::Kept SurfacePairRows<dim>::keep();            \
   template void SurfacePairRows<dim>::put_back(Kept);

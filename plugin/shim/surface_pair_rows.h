@@ -68,6 +68,8 @@ namespace abut::shim
     bool moves() const override;
     std::vector<MatrixLine>
     geometric_lines(const double *row_pressure) const override;
+    std::vector<solve::GapLine>
+    gap_lines(const std::vector<std::uint8_t> &wanted) const override;
 
     /** Tell the displacement of a commit(): bodies whose points move look for
      * each other as far as they have come since. */
@@ -553,6 +555,9 @@ namespace abut::shim
      * geometric_lines(), by these; empty: 0. */
     std::vector<double> turning(std::size_t point,
                                 const double *row_pressure) const;
+    /** Add what the gap of a point of mortar changes by because directions and
+     * coefficients do. */
+    void add_gap_change(std::size_t point, solve::GapLine &line) const;
     using TieGroup = TiedAxes;
     std::vector<TieGroup>
     tie_groups(const Pair &pair, const std::vector<std::uint8_t> &taken) const;

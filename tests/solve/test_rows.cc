@@ -3,6 +3,7 @@
 // back-end, every kind of law, ranks without rows or without unknowns.
 #include "../app_blocks/run_checks.h"
 #include "dense_problem.h"
+#include "solve/gap_substitution.h"
 #include "solve/make_row_solver.h"
 #include "solve/preconditioner_keeper.h"
 #include "solve/row_stiffness.h"
@@ -160,6 +161,82 @@ namespace
     }
   }
 
+  /** Rows of gaps that change by more than their rows say: by unknowns of all
+   * ranks and, two by two, by each other's. */
+  std::vector<std::map<std::int64_t, double>>
+  rest_of_gaps(const Problem &problem, std::mt19937 &random)
+  {
+    std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+    std::uniform_int_distribution<int> any(0, problem.size() / 4 - 1);
+    std::vector<std::map<std::int64_t, double>> result;
+    for (std::size_t k = 0; k < problem.rows.size(); ++k)
+    {
+      const std::size_t other = k % 2 == 0 ? k + 1 : k - 1;
+      result.emplace_back();
+      if (k % 5 == 4)
+        continue;
+      for (const int j : {4 * any(random) + 1, 4 * any(random) + 3})
+        result[k][j] = uniform(random);
+      const double own = 0.5 * uniform(random);
+      result[k][4 * k] = own * problem.rows[k].entries.at(4 * k);
+      if (other < problem.rows.size()
+          && problem.rows[other].rank == problem.rows[k].rank)
+        result[k][4 * other] = uniform(random);
+    }
+    return result;
+  }
+
+  void substitutions()
+  {
+    for (const std::vector<int> &partition : partitions())
+    {
+      std::mt19937 random(5);
+      Problem problem = make_problem(partition, 5);
+      add_rows(problem, Shape::own_unknown, random);
+      const auto rest = rest_of_gaps(problem, random);
+      Share share(problem, communicator);
+      const solve::PointOperator rows(share.owned, share.view, share.nodes,
+                                      communicator);
+      std::vector<solve::GapLine> lines(rows.n_rows());
+      for (int i = 0; i < rows.n_rows(); ++i)
+      {
+        lines[i].row = i;
+        lines[i].own.push_back(4 * share.number[i]);
+        for (const auto &[j, value] : rest[share.number[i]])
+        {
+          lines[i].column.push_back(j);
+          lines[i].value.push_back(value);
+        }
+      }
+      const solve::GapSubstitution substitution(rows, lines);
+
+      la::Vector v(share.owned, communicator);
+      for (int i = 0; i < share.n; ++i)
+        la::data(v)[i] = std::sin(1. + share.first + i);
+      la::Vector u(v), way(v), forces(v), expected(v);
+      substitution.apply(u);
+      way = u;
+      way -= v;
+      substitution.product(share.matrix).vmult(forces, v);
+      share.matrix.vmult(expected, way);
+      expected -= forces;
+      Expect::near(expected.linfty_norm(), 0., 1e-13, "K Z");
+      Expect::that(way.linfty_norm() > 0.1, "the substitution does something");
+      std::vector<double> all(problem.size(), 0.);
+      std::copy_n(la::data(u), share.n, all.begin() + share.first);
+      dealii::Utilities::MPI::sum(all, communicator, all);
+      for (int i = 0; i < rows.n_rows(); ++i)
+      {
+        double difference = 0.;
+        for (const auto &[j, value] : problem.rows[share.number[i]].entries)
+          difference += value * (all[j] - std::sin(1. + j));
+        for (const auto &[j, value] : rest[share.number[i]])
+          difference += value * all[j];
+        Expect::near(difference, 0., 1e-13, "C u = B v");
+      }
+    }
+  }
+
   /** @p dp_tolerance: pressures of springs 1e6 times stiffer than the matrix
    * come out of a gap with 6 digits less. */
   void compare(solve::RowSolver &solver, const Problem &problem, Share &share,
@@ -294,6 +371,7 @@ main(int argc, char **argv)
                          [](const std::filesystem::path &)
                          {
                            operators();
+                           substitutions();
                            policy();
                            solvers();
                          });
