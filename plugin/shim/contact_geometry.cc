@@ -270,6 +270,10 @@ namespace abut
   ContactAssembler<dim>::Implementation::with_geometry(const la::Matrix &);    \
   template la::Vector ContactAssembler<dim>::Implementation::with_geometry(    \
       const la::Vector &) const;                                               \
+  template void ContactAssembler<dim>::Implementation::take_increment(         \
+      la::Vector &);                                                           \
+  template void ContactAssembler<dim>::Implementation::update_gap(             \
+      const la::Vector &);                                                     \
   template void ContactAssembler<dim>::Implementation::follow(                 \
       const la::Vector &);                                                     \
   template double ContactAssembler<dim>::Implementation::evaluate_moved(       \
