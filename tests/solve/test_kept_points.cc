@@ -111,10 +111,11 @@ namespace
     MethodParameters method;
     method.options.law = abut_law_find("augmented lagrangian");
     method.discretisation = discretisation;
+    DetectionReport detection;
     shim::SurfacePairRows<2> rows(squares.mapping, squares.dof_handler,
                                   squares.constraints, squares.pairs(0.),
                                   {method, SearchParameters(), false},
-                                  context.get(), nullptr);
+                                  context.get(), nullptr, detection);
     const auto find = [&](const Change wanted, const std::string &when)
     {
       const Change found = rows.find(squares.u, points.get());
