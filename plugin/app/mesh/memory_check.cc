@@ -6,12 +6,15 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <limits>
 #include <string>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace abut::app
 {
@@ -27,6 +30,23 @@ namespace abut::app
         if (name == "MemAvailable:")
           return 1024 * kilobytes;
       return std::numeric_limits<double>::infinity();
+    }
+
+    /** What this process may still ask for (`ulimit -v`); infinity if it has no
+     * limit, or its size is not told. */
+    double allowed_here()
+    {
+      const double infinity = std::numeric_limits<double>::infinity();
+      rlimit limit = {};
+      if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return infinity;
+      std::ifstream in("/proc/self/statm");
+      double pages = 0.;
+      if (!(in >> pages))
+        return infinity;
+      return std::max(0.,
+                      static_cast<double>(limit.rlim_cur)
+                          - pages * static_cast<double>(sysconf(_SC_PAGESIZE)));
     }
 
     std::string in_gib(const double bytes)
@@ -65,8 +85,9 @@ namespace abut::app
                         &machine);
     const bool first = dealii::Utilities::MPI::this_mpi_process(machine) == 0;
     MPI_Comm_free(&machine);
-    return dealii::Utilities::MPI::sum(first ? available_here() : 0.,
-                                       communicator);
+    return std::min(dealii::Utilities::MPI::sum(first ? available_here() : 0.,
+                                                communicator),
+                    dealii::Utilities::MPI::sum(allowed_here(), communicator));
   }
 
   void check_memory(const unsigned int dim, const double n_cells,

@@ -23,8 +23,8 @@ namespace abut::app
                          unsigned int n_components = 1);
 
   /** Bytes that the machines of @p communicator can still give
-   * (`MemAvailable`, once per machine), or infinity where the system does not
-   * say. Collective. */
+   * (`MemAvailable`, once per machine), and no more than its processes may ask
+   * for (`ulimit -v`); infinity where the system does not say. Collective. */
   double available_bytes(MPI_Comm communicator);
 
   /** Throw InputError that names @p parameter, the estimate and what is there,
