@@ -71,12 +71,13 @@ namespace abut::app
     const DiscreteProblem<dim> &problem = model.problem();
     // What a law stores on purpose is no contradiction, and Nitsche's method
     // has no nodal forces of its own. Energies of motions have a balance of
-    // their own.
+    // their own. Forces at points that move turn on the way, so that their work
+    // is no product.
     const bool stores = method.user_law != nullptr
                         || method.options.allowed_penetration > 0.
                         || abut_law_needs_stress(method.options.law);
     if (!problem.is_linear() || model.has_inertia()
-        || (model.has_contact() && stores))
+        || (model.has_contact() && (stores || state.contact.points_move())))
       return {};
     la::Vector forces;
     Works works = find_works(problem, state, model.has_contact(), forces);
