@@ -14,22 +14,27 @@ namespace abut
    * together, and of the rank with most. */
   struct DetectionReport
   {
-    /** Searches at places of the bodies: those that made lists of candidates
-     * anew, and those that lists with a skin served. */
-    std::uint64_t searches = 0, reuses = 0;
-    /** Times that facets were sorted into buckets, and that only their boxes
-     * were refitted. */
-    std::uint64_t rebuilds = 0, refits = 0;
+    /** Searches at places of the bodies that made lists of candidates anew. */
+    std::uint64_t searches = 0;
+    /** Those that lists with a skin served. */
+    std::uint64_t reuses = 0;
+    /** Times that facets were sorted into buckets. */
+    std::uint64_t rebuilds = 0;
+    /** Times that only the boxes of facets were refitted. */
+    std::uint64_t refits = 0;
     /** Times that facets of other ranks were asked for because bodies had come
      * too far. */
     std::uint64_t gatherings = 0;
     /** Processor time of all this and of the check for penetrations. */
     double seconds = 0.;
-    /** Contact elements that there were not at the last commit(), those that
-     * were there and are gone, and those that have other nodes of the primary;
-     * 0 before the first one on a mesh. An element is a node of the secondary,
-     * or a point of quadrature, with what is opposite it within reach. */
-    std::uint64_t gained = 0, lost = 0, exchanged = 0;
+    /** Contact elements that there were not at the last commit(); 0 before the
+     * first one on a mesh. An element is a node of the secondary, or a point of
+     * quadrature, with what is opposite it within reach. */
+    std::uint64_t gained = 0;
+    /** Those that were there and are gone. */
+    std::uint64_t lost = 0;
+    /** Those that have other nodes of the primary. */
+    std::uint64_t exchanged = 0;
 
     /** The same with what it has taken since @p before alone. */
     DetectionReport since(const DetectionReport &before) const
