@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "contact_elements.h"
 
+#include "agree.h"
+#include "fnv_hash.h"
+
+#include <abut/dealii/contact_assembler.h>
+
 #include <istream>
 #include <map>
 #include <ostream>
@@ -45,42 +50,62 @@ namespace abut::shim
     const std::map<std::int64_t, std::uint64_t> mine(before_.begin(),
                                                      before_.end());
     const auto all = MPI::gather(communicator, mine);
-    if (MPI::this_mpi_process(communicator) != 0 || !is_known_)
+    if (MPI::this_mpi_process(communicator) != 0)
       return;
     std::map<std::int64_t, std::uint64_t> together;
     for (const auto &some : all)
       together.insert(some.begin(), some.end());
-    const auto write = [&](const auto word)
-    { stream.write(reinterpret_cast<const char *>(&word), sizeof(word)); };
-    write(std::uint64_t(together.size()));
+    FnvHash sum;
+    const auto write = [&](const std::uint64_t word)
+    {
+      sum.mix(word);
+      stream.write(reinterpret_cast<const char *>(&word), sizeof(word));
+    };
+    write(is_known_ ? together.size() + 1 : 0);
     for (const auto &[number, nodes] : together)
     {
-      write(number);
+      write(static_cast<std::uint64_t>(number));
       write(nodes);
     }
+    write(sum.value);
   }
 
   void ContactElements::load(std::istream &stream, const MPI_Comm communicator)
   {
-    forget();
     std::vector<std::uint64_t> words;
-    if (MPI::this_mpi_process(communicator) == 0)
-    {
-      const auto read = [&]
-      {
-        std::uint64_t word = 0;
-        stream.read(reinterpret_cast<char *>(&word), sizeof(word));
-        if (stream.good())
-          words.push_back(word);
-        return stream.good() ? word : 0;
-      };
-      for (std::uint64_t left = 2 * read(); left > 0 && stream.good(); --left)
-        read();
-      if (!stream.good()) // of something else
-        words.clear();
-    }
+    run_everywhere<HistoryError>(
+        communicator,
+        [&]
+        {
+          if (MPI::this_mpi_process(communicator) != 0)
+            return;
+          FnvHash sum;
+          const auto read = [&]
+          {
+            std::uint64_t word = 0;
+            stream.read(reinterpret_cast<char *>(&word), sizeof(word));
+            if (!stream.good())
+              throw HistoryError("The elements of contact are cut off.");
+            return word;
+          };
+          const auto keep = [&](const std::uint64_t word)
+          {
+            sum.mix(word);
+            words.push_back(word);
+            return word;
+          };
+          const std::uint64_t n = keep(read());
+          for (std::uint64_t left = n; left > 1; --left)
+          {
+            keep(read());
+            keep(read());
+          }
+          if (read() != sum.value)
+            throw HistoryError("The elements of contact are damaged.");
+        });
     words = MPI::broadcast(communicator, words);
-    is_known_ = !words.empty();
+    forget();
+    is_known_ = words.at(0) > 0;
     for (std::size_t i = 1; i + 1 < words.size(); i += 2)
       before_.emplace(static_cast<std::int64_t>(words[i]), words[i + 1]);
     n_before_ = before_.size();

@@ -38,7 +38,8 @@ namespace abut::shim
     void commit(Table now, MPI_Comm communicator);
 
     /** Write what is kept to @p stream of rank 0, and read it from there by any
-     * number of ranks; a stream that ends has nothing. Collective. */
+     * number of ranks. Throws HistoryError on all ranks, with nothing changed,
+     * for a stream that ends or is damaged. Collective. */
     void save(std::ostream &stream, MPI_Comm communicator) const;
     void load(std::istream &stream, MPI_Comm communicator);
 

@@ -8,6 +8,7 @@
 
 #include <abut/history.h>
 
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -75,8 +76,10 @@ namespace abut::shim
 
     /** Make both versions what save() wrote, which rank 0 reads. Throws
      * HistoryError on all ranks, without any change, if it is anything else or
-     * of another mesh than that with this signature. Collective. */
-    void load(std::istream &stream, std::uint64_t mesh);
+     * of another mesh than that with this signature. What follows in the stream
+     * is for @p read_rest, which may throw so, too. Collective. */
+    void load(std::istream &stream, std::uint64_t mesh,
+              const std::function<void()> &read_rest);
 
     /** What this rank has sent. */
     const CommunicationReport &sent() const

@@ -170,11 +170,13 @@ namespace abut::shim
     run_on_first(post_.communicator(), [&] { write(stream, all); });
   }
 
-  void ContactHistory::load(std::istream &stream, const std::uint64_t mesh)
+  void ContactHistory::load(std::istream &stream, const std::uint64_t mesh,
+                            const std::function<void()> &read_rest)
   {
     const MPI_Comm communicator = post_.communicator();
     std::vector<Bytes> parts;
     run_on_first(communicator, [&] { parts = read_parts(stream); });
+    read_rest();
     parts = deal_out(communicator, std::move(parts));
 
     Handle<abut_history> loaded = create_history(context_),

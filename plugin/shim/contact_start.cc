@@ -226,8 +226,10 @@ namespace abut
     if (i.source_is_outdated)
       i.create_source();
     const std::uint64_t mesh = i.source->mesh_signature();
-    i.history.load(stream, mesh);
-    i.elements.load(stream, i.communicator);
+    shim::ContactElements elements;
+    i.history.load(stream, mesh,
+                   [&] { elements.load(stream, i.communicator); });
+    i.elements = std::move(elements);
     // Displacements are the host's to keep: that of the commit() must come from
     // there, or slips would be measured from an undeformed body.
     if (i.committed.size() == 0
