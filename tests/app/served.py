@@ -13,9 +13,10 @@ class Served:
 
     def __init__(self, program, environment=None):
         self._program, self._environment = str(program), environment
-        self._process = None
+        self._process = self._owner = None
 
     def _start(self):
+        self._owner = os.getpid()
         self._process = subprocess.Popen(
             [self._program], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             env=self._environment, start_new_session=True)
@@ -34,8 +35,8 @@ class Served:
     def code(self, words, folder, timeout, texts, seconds=0, memory=0):
         """Exit code of a run that writes output and errors into two files and
         may take so many seconds of processor time and bytes, or any."""
-        if self._process is None:
-            self._start()
+        if self._process is None or self._owner != os.getpid():
+            self._start()  # one that was there before a fork is the parent's
         request = [len(words), folder, *texts, seconds, memory, *words]
         self._process.stdin.write(
             b"".join(os.fsencode(str(field)) + b"\0" for field in request))
