@@ -24,7 +24,7 @@ same keys, each of which is merged over the top ones and run by itself.
     summary   {key: check} for summary.json
     tables    {file: {"where": {column: value}, "columns": {column: check},
               "rows": check}} for levels.csv and steps.csv; a column is
-              compared as a list
+              compared as a list; or a list of such for a file
     agree     {key: relative tolerance}: summary of every number of ranks
               against that of the first
     orders    {key: {"min": a, "max": b}}: log2 of the ratio of consecutive
@@ -272,8 +272,9 @@ def run_once(program, case, n_ranks, folder):
         check_value(key, summary.get(key), check, faults)
     for key, relation in case.get("relations", {}).items():
         check_relation(key, relation, summary, faults)
-    for name, table in case.get("tables", {}).items():
-        check_table(output / name, table, faults)
+    for name, tables in case.get("tables", {}).items():
+        for table in tables if isinstance(tables, list) else [tables]:
+            check_table(output / name, table, faults)
     return faults, summary
 
 
