@@ -32,7 +32,7 @@ import time
 
 import judge
 from grammar import Mutation, read_reference
-from runs import (QUIET, ROOT, base_scenes, find_cut, has_mesh, n_steps, run,
+from runs import (QUIET, ROOT, base_scenes, find_cut, has_mesh, run, shorten,
                   small, stand_in, words_of)
 from scene import Scene
 
@@ -43,19 +43,6 @@ SANITIZED_EVERY = 10
 COST, WHOLE = 4e4, 0.1
 FINE = {"0 right", "0 cannot be judged", "2", "3"}
 SANITIZER = re.compile(r"ERROR: \w*Sanitizer|runtime error:")
-
-
-def shorten(scene, part):
-    """Cut a scene to the first part of its motion."""
-    steps = max(1, round(part * n_steps(scene)))
-    if scene.get("Time/Scheme", "none") == "none":
-        end = scene.number("Load steps/End time", 1.)
-        end *= steps / n_steps(scene)
-        scene.values["Load steps/End time"] = f"{end:.12g}"
-        scene.values["Load steps/Steps"] = str(steps)
-    else:
-        step = scene.number("Time/Step", 0.)
-        scene.values["Time/End"] = f"{steps * step:.12g}"
 
 
 def cut(scene, level, part, source):

@@ -121,6 +121,19 @@ def n_steps(scene):
     return scene.number("Time/End", 1.) / step if step > 0 else 1.
 
 
+def shorten(scene, part):
+    """Cut a scene to the first part of its motion."""
+    steps = max(1, round(part * n_steps(scene)))
+    if scene.get("Time/Scheme", "none") == "none":
+        end = scene.number("Load steps/End time", 1.)
+        end *= steps / n_steps(scene)
+        scene.values["Load steps/End time"] = f"{end:.12g}"
+        scene.values["Load steps/Steps"] = str(steps)
+    else:
+        step = scene.number("Time/Step", 0.)
+        scene.values["Time/End"] = f"{steps * step:.12g}"
+
+
 def unknowns_of(abut, path, overrides, level):
     """On a level, by `abut check`, or None."""
     words = [abut, "check", path]
@@ -132,33 +145,39 @@ def unknowns_of(abut, path, overrides, level):
     return int(found[1]) if code == 0 and found else None
 
 
-def find_cut(abut, path, overrides=(), most=MOST_UNKNOWNS, cost=math.inf):
+def find_size(abut, path, overrides=(), most=MOST_UNKNOWNS):
     """A level of a scene, not finer than its own, on which it has no more than
-    so many unknowns, from their number on a coarse one; and the part of its
-    motion that it comes through at this cost, unknowns times steps, in space four
-    times as many. Coarser meshes come before shorter motions."""
+    so many unknowns, from their number on a coarse one; and this number, 0 of
+    what has no mesh."""
     overrides = dict(overrides)
     scene = Scene(path)
     if not has_mesh(scene):
-        return 0, 1.
+        return 0, 0
     kind = scene.get("Scene", "obstacle")
     own = int(overrides.get("Refinement/Level") or scene.get(
         "Refinement/Level", "2" if kind == "solid" else "5"))
     level = min(own, 1)
     unknowns = unknowns_of(abut, path, overrides, level)
     if unknowns is None:
-        return level, 1.
+        return level, 0
     # each level has a little less than 2^dim times as many
     dim = int(scene.get("Dimension", "2"))
-    steps = n_steps(scene) * (4 if dim == 3 else 1)
-    most = min(most, cost / steps)
     while level < own and unknowns * 2**dim <= most:
         level, unknowns = level + 1, unknowns * 2**dim
     while level > 0 and unknowns > most:
         level, unknowns = level - 1, unknowns / 2**dim
-    return level, min(1., cost / (unknowns * steps))
+    return level, unknowns
 
 
-def find_level(abut, path, overrides=(), most=MOST_UNKNOWNS):
-    """The level alone."""
-    return find_cut(abut, path, overrides, most)[0]
+def cost_of_motion(scene):
+    """Steps of a scene, in space four times as many."""
+    return n_steps(scene) * (4 if scene.get("Dimension", "2") == "3" else 1)
+
+
+def find_cut(abut, path, most=MOST_UNKNOWNS, cost=math.inf):
+    """A level of a scene as find_size() gives it, and the part of its motion
+    that it comes through at this cost, unknowns times cost_of_motion(). Coarser
+    meshes come before shorter motions."""
+    steps = cost_of_motion(Scene(path))
+    level, unknowns = find_size(abut, path, most=min(most, cost / steps))
+    return level, min(1., cost / (unknowns * steps)) if unknowns else 1.

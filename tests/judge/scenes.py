@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Judge every scene of prm/ and every case of tests/scenes, cut to at most 1000
-unknowns.
+unknowns, the cases to the first part of their motion, too, if it takes long.
 
     scenes.py --abut build/release/abut [--jobs 2] [--only PART_OF_NAME]
               [--every NUMBER]
@@ -15,12 +15,13 @@ import sys
 import tempfile
 
 import judge
-from runs import (QUIET, ROOT, base_scenes, find_level, has_mesh, run, small,
-                  stand_in, words_of)
+from runs import (QUIET, ROOT, base_scenes, cost_of_motion, find_size,
+                  has_mesh, run, shorten, small, stand_in, words_of)
 from scene import Scene
 
 SECONDS = 120
 MOST_UNKNOWNS = 1000
+COST = 4e4  # of a case: unknowns times cost_of_motion()
 # Part of the runs: the others may have no answer on a mesh this small.
 LEAST_JUDGED = 0.6
 
@@ -28,9 +29,11 @@ LEAST_JUDGED = 0.6
 class Case:
     """A scene with what is set on the command line."""
 
-    def __init__(self, name, path, overrides=(), replace=(), ranks=1):
+    def __init__(self, name, path, overrides=(), replace=(), ranks=1,
+                 is_whole=True):
         self.name, self.path, self.ranks = name, path, ranks
         self.overrides, self.replace = dict(overrides), dict(replace)
+        self.is_whole = is_whole
 
     def mesh(self):
         """What its number of unknowns depends on."""
@@ -38,6 +41,18 @@ class Case:
             (k, v) for k, v in self.overrides.items()
             if k.startswith(("Solid/", "Membrane/Degree", "Body", "Mesh",
                              "Refinement/Level"))))
+
+    def shorten(self, unknowns):
+        """The scene of a case is itself judged to its end: here the first part
+        of a motion will do."""
+        scene = Scene(self.path)
+        scene.values.update(self.overrides)
+        cost = unknowns * cost_of_motion(scene)
+        if not self.is_whole and cost > COST:
+            before = dict(scene.values)
+            shorten(scene, COST / cost)
+            self.overrides.update({k: v for k, v in scene.values.items()
+                                   if before.get(k) != v})
 
     def key(self, level):
         """What makes two runs the same."""
@@ -68,7 +83,7 @@ def cases():
                     f"{path.stem} {number + 1}", scene,
                     {k: words(v) for k, v in values.items()},
                     case.get("replace", ()),
-                    min(2, max(case.get("ranks", [1])))))
+                    min(2, max(case.get("ranks", [1]))), is_whole=False))
     return result
 
 
@@ -78,10 +93,10 @@ class Trial:
     def __init__(self, abut):
         self.abut = abut
 
-    def level(self, mesh):
-        """Of a file and what is set of its mesh."""
+    def size(self, mesh):
+        """Level and unknowns of a file and what is set of its mesh."""
         path, overrides = mesh
-        return find_level(self.abut, path, overrides, MOST_UNKNOWNS)
+        return find_size(self.abut, path, overrides, MOST_UNKNOWNS)
 
     def __call__(self, case_and_level):
         case, level = case_and_level
@@ -134,9 +149,10 @@ def main():
     with multiprocessing.Pool(options.jobs) as pool:
         runs = {}
         meshes = sorted({case.mesh() for case in chosen})
-        levels = dict(zip(meshes, pool.map(trial.level, meshes, 1)))
+        sizes = dict(zip(meshes, pool.map(trial.size, meshes, 1)))
         for case in chosen:
-            level = levels[case.mesh()]
+            level, unknowns = sizes[case.mesh()]
+            case.shorten(unknowns)
             runs.setdefault(case.key(level), (case, level))
         for name, level, kind, wrong, reason in pool.imap(trial,
                                                           runs.values()):
