@@ -105,6 +105,28 @@ namespace abut::shim
     return space;
   }
 
+  template <int dim>
+  std::vector<int> bodies_with(const dealii::DoFHandler<dim> &dof_handler,
+                               const BodyNumbers<dim> &bodies,
+                               const std::set<dealii::types::boundary_id> &ids)
+  {
+    std::vector<int> mine(bodies.n_bodies(), 0);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary()
+              && ids.count(cell->face(f)->boundary_id()) > 0)
+            mine[bodies.of(cell)] = 1;
+    dealii::Utilities::MPI::max(mine, dof_handler.get_communicator(), mine);
+    return mine;
+  }
+
+  template std::vector<int>
+  bodies_with(const dealii::DoFHandler<2> &, const BodyNumbers<2> &,
+              const std::set<dealii::types::boundary_id> &);
+  template std::vector<int>
+  bodies_with(const dealii::DoFHandler<3> &, const BodyNumbers<3> &,
+              const std::set<dealii::types::boundary_id> &);
   template class BodyNumbers<2>;
   template class BodyNumbers<3>;
   template solve::NearNullSpace

@@ -7,6 +7,7 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
 
+#include <set>
 #include <vector>
 
 namespace abut::shim
@@ -32,6 +33,13 @@ namespace abut::shim
     std::vector<unsigned int> body_; ///< by index of the coarse cell
     unsigned int n_bodies_ = 0;
   };
+
+  /** [bodies] 1: it has a face of these boundary ids, on any rank. Collective.
+   */
+  template <int dim>
+  std::vector<int> bodies_with(const dealii::DoFHandler<dim> &dof_handler,
+                               const BodyNumbers<dim> &bodies,
+                               const std::set<dealii::types::boundary_id> &ids);
 
   /** Bodies are the connected parts of the mesh. Component, body and place of
    * each owned unknown of a field with support points. One pass over the

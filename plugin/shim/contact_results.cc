@@ -143,6 +143,24 @@ namespace abut
     forces.compress(dealii::VectorOperation::add);
   }
 
+  template <int dim>
+  void ContactAssembler<dim>::add_pressure_forces(la::Vector &forces) const
+  {
+    const Implementation &i = *implementation;
+    i.check_rows("add_pressure_forces()");
+    i.check_size("add_pressure_forces()", "force", forces.size());
+    if (i.surfaces == nullptr)
+      return;
+    std::vector<double> pressures = i.row_pressures();
+    for (int row = 0; row < i.coefficients.n_rows(); ++row)
+      if (i.coefficients.is_tangent(row))
+        pressures[row] = 0.;
+    la::Vector all(forces);
+    all = 0.;
+    i.surfaces->find_forces(pressures, all);
+    forces += all;
+  }
+
   template <int dim> double ContactAssembler<dim>::penetration() const
   {
     const Implementation &i = *implementation;
@@ -277,6 +295,8 @@ namespace abut
   template double ContactAssembler<dim>::complementarity_error() const;        \
   template double ContactAssembler<dim>::allowed_penetration() const;          \
   template void ContactAssembler<dim>::add_forces_on_supports(la::Vector &)    \
+      const;                                                                   \
+  template void ContactAssembler<dim>::add_pressure_forces(la::Vector &)       \
       const;                                                                   \
   template double ContactAssembler<dim>::penetration() const;                  \
   template double ContactAssembler<dim>::imbalance(const la::Vector &, double) \

@@ -199,23 +199,6 @@ namespace abut::shim
       std::vector<double> distance_;
     };
 
-    /** Bodies that have a face of the secondary surface. Collective. */
-    template <int dim>
-    std::vector<int> bodies_of(const dealii::DoFHandler<dim> &dof_handler,
-                               const BodyNumbers<dim> &bodies,
-                               const ContactPair<dim> &pair)
-    {
-      std::vector<int> mine(bodies.n_bodies(), 0);
-      for (const auto &cell : dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned() && cell->at_boundary())
-          for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary()
-                && pair.secondary.count(cell->face(f)->boundary_id()) > 0)
-              mine[bodies.of(cell)] = 1;
-      dealii::Utilities::MPI::max(mine, dof_handler.get_communicator(), mine);
-      return mine;
-    }
-
     /** The deepest of all ranks. Collective. */
     template <int dim>
     ObstacleInBodies<dim> of_all_ranks(const ObstacleInBodies<dim> &mine,
@@ -277,11 +260,18 @@ namespace abut::shim
     const bool is_bounded = view.kind == ABUT_OBSTACLE_SPHERE
                             || view.kind == ABUT_OBSTACLE_BOX
                             || view.kind == ABUT_OBSTACLE_CYLINDER;
-    if (!is_bounded || view.hollow)
+    const bool may_be_thinner = pair.geometric_gap && pair.gap > 0.
+                                && !is_bounded
+                                && view.kind != ABUT_OBSTACLE_PLANE;
+    if (!(is_bounded || may_be_thinner) || view.hollow)
       return found;
+    ContactPair<dim> looked_at(pair);
+    if (may_be_thinner)
+      looked_at.gap = 0.;
     const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
-    const std::vector<int> is_meant = bodies_of(dof_handler, bodies, pair);
-    CellProbe<dim> probe(mapping, dof_handler, displacement, pair);
+    const std::vector<int> is_meant =
+        bodies_with(dof_handler, bodies, pair.secondary);
+    CellProbe<dim> probe(mapping, dof_handler, displacement, looked_at);
     run_everywhere<ContactError>(
         dof_handler.get_communicator(),
         [&]

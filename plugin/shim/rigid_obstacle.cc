@@ -469,6 +469,23 @@ namespace abut
     return least;
   }
 
+  template <int dim> double RigidObstacle<dim>::depth() const
+  {
+    double result = std::numeric_limits<double>::infinity();
+    if (!implementation->shape || implementation->shape->hollow)
+      return result;
+    const abut_obstacle_shape &shape = *implementation->shape;
+    if (shape.kind == ABUT_OBSTACLE_SPHERE
+        || shape.kind == ABUT_OBSTACLE_CYLINDER)
+      result = shape.radius;
+    if (shape.kind == ABUT_OBSTACLE_CYLINDER && shape.length > 0.)
+      result = std::min(result, shape.length / 2.);
+    if (shape.kind == ABUT_OBSTACLE_BOX)
+      for (unsigned int d = 0; d < dim; ++d)
+        result = std::min(result, shape.size[d] / 2.);
+    return result;
+  }
+
   template struct RigidPose<2>;
   template struct RigidPose<3>;
   template class RigidObstacle<2>;

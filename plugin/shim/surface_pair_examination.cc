@@ -314,6 +314,7 @@ namespace abut::shim
                                      const std::vector<Unseen> &unseen)
   {
     const std::vector<Direction> u = displacements_in_reach(displacement);
+    examined_ = u;
     const std::vector<RigidPose<dim>> now = poses();
     find_turns(u, row_pressure, row_state);
     std::vector<std::vector<dealii::Point<dim>>> points(pairs_.size());

@@ -229,28 +229,38 @@ namespace abut::shim
           if (row.place.hessian.empty())
             result.initial_gap_work += weight * row_pressure[i] * view_.gap[i];
         });
+    const bool is_examined = examined_.size() == surface_.nodes.size();
+    std::vector<Tensor<1, 3>> primary_now(pairs_.size());
     for_each_row(
         [&](const Component &row)
         {
           PairResult<dim> &result = results[row.place.pair];
           const Direction total =
               -view_.weight[row.point] * row_pressure[row.row] * row.direction;
-          const auto add =
-              [&](dealii::Tensor<1, dim> &force, Tensor<1, 3> &moment)
+          const auto add = [&](dealii::Tensor<1, dim> &force,
+                               Tensor<1, 3> &moment, Tensor<1, 3> &now)
           {
             return [&](const Node node, const double c)
             {
-              force += c * total;
-              moment += cross(pairs_[row.place.pair].is_displaced()
-                                  ? present_[node]
-                                  : surface_.nodes[node].point,
-                              Direction(c * total));
+              const Direction part = c * total;
+              const dealii::Point<dim> &place =
+                  pairs_[row.place.pair].is_displaced()
+                      ? present_[node]
+                      : surface_.nodes[node].point;
+              force += part;
+              moment += cross(place, part);
+              now += cross(is_examined
+                               ? surface_.nodes[node].point + examined_[node]
+                               : place,
+                           part);
             };
           };
-          for_each_secondary(
-              row.point, add(result.secondary_force, result.secondary_moment));
+          for_each_secondary(row.point, add(result.secondary_force,
+                                            result.secondary_moment,
+                                            result.present_moment));
           for_each_primary(row.point,
-                           add(result.primary_force, result.primary_moment));
+                           add(result.primary_force, result.primary_moment,
+                               primary_now[row.place.pair]));
         });
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
@@ -269,19 +279,24 @@ namespace abut::shim
       result.secondary_moment =
           MPI::sum(result.secondary_moment, communicator_);
       result.primary_moment = MPI::sum(result.primary_moment, communicator_);
+      result.present_moment = MPI::sum(result.present_moment, communicator_);
+      primary_now[p] = MPI::sum(primary_now[p], communicator_);
       if (pairs_[p].data.obstacle)
       {
         result.primary_force = -result.secondary_force;
         result.primary_moment = -result.secondary_moment;
+        primary_now[p] = -result.present_moment;
       }
       const double force = result.secondary_force.norm();
       if (force > 0.)
       {
         result.force_imbalance =
             (result.secondary_force + result.primary_force).norm() / force;
+        const double size = force * pairs_[p].secondary.everywhere.extent;
         result.moment_imbalance =
-            (result.secondary_moment + result.primary_moment).norm()
-            / (force * pairs_[p].secondary.everywhere.extent);
+            (result.secondary_moment + result.primary_moment).norm() / size;
+        result.present_moment_imbalance =
+            (result.present_moment + primary_now[p]).norm() / size;
       }
     }
     return results;

@@ -604,6 +604,7 @@ namespace abut::shim
     const bool has_new_constants = exchange_->update_constants(surface_);
     const std::vector<Direction> u = displacements_in_reach(displacement);
     ++n_finds_;
+    check_gaps();
     slip_poses_ = poses_before(poses(), false);
     const std::vector<Direction> place = place_of_step();
     const std::vector<Direction> way = difference(u, place);

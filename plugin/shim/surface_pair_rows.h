@@ -573,6 +573,11 @@ namespace abut::shim
                    std::vector<std::uint8_t> &taken);
     /** The points of all pairs. Collective. */
     void find_pairs(const std::vector<double> &moved);
+    /** Throw where the gap of a pair leaves nothing of an obstacle or a body.
+     * Collective. */
+    void check_gap(const Pair &pair) const;
+    /** The same of all gaps that are others than at the last call. */
+    void check_gaps();
     /** Whether the pair is one between bodies that a node may belong to or not:
      * obstacles and ties have all theirs. */
     static bool is_group(const Pair &pair)
@@ -633,6 +638,9 @@ namespace abut::shim
     unsigned int n_finds_ = 0, n_kept_ = 0;
     /** [nodes] displacements that facets were gathered at. */
     std::vector<Direction> gathered_;
+    /** [nodes] displacements of the last examine(); of another number of nodes
+     * than there are: none that is known of all. */
+    std::vector<Direction> examined_;
     /** Of pairs that are displaced: where the nodes are and were, and their
      * displacements [nodes * dim], where the points were made. */
     std::vector<dealii::Point<dim>> present_, reference_;
@@ -645,6 +653,7 @@ namespace abut::shim
     /** [pairs] of the present points; empty: they have to be made anew. */
     std::vector<Origin> origins_;
     std::vector<PairCheck> checks_;
+    std::vector<double> checked_gaps_; ///< [pairs] or empty, by check_gaps()
   };
 
   template <int dim>

@@ -132,6 +132,37 @@ for shape in (kind("box", Centre="0.63, 0.52", Size="0.003, 0.001"),
         p.expect_error(run(plate, *shape, "Obstacle 1/Motion=",
                            "Load steps/Steps=1", command=command), "Pair 1",
                        "ABUT-F23", "the body is in the obstacle")
+# A gap that leaves nothing of what it is added to lets everything through: half
+# of what bounded obstacles are thick, all of what a body is; less is meant.
+for shape, half in ((kind("box", Centre="1, 1.02", Size="0.3, 0.04"), 0.02),
+                    (kind("sphere", Centre="1, 1.02", Radius=0.02), 0.02)):
+    for gap, words in ((f"{half}", ("leaves nothing of the obstacle", "0.02")),
+                       (f"{0.4 * half} + {half}*t", ("leaves nothing",))):
+        p.expect_error(run(plate, *shape, f"Pair 1/Initial gap={gap}"),
+                       "Pair 1/Initial gap", *words)
+near(expect(run(plate, "Pair 1/Initial gap=100",
+                "Obstacle 1/Motion=0, -100.01*t", "Load steps/Steps=1"), 0,
+            without=("ABUT-F",))["contact_force"], 2 * modulus * 0.01, 1e-6,
+     "a plane has no end")
+thin = solid(2, block(1, "4, 2 : 0, 0 : 2, 1 : true", "2: 0, 0"),
+             block(2, "4, 1 : 0, 1 : 2, 1.05 : true", "3: 0, -GAP*t - 0.01*t"),
+             "subsection Pair 1\nset Initial gap = GAP\n"
+             "set Secondary = 1: 3\nset Primary = 2: 2\nend\n",
+             section("Refinement", "Level = 0"), section("Load steps",
+                                                         "Steps = 1"))
+for gap, code in ((0.04, 0), (0.06, 2)):
+    result = run(p.write("thin.prm", thin.replace("GAP", str(gap))))
+    p.expect(result.returncode == code and ("primary's body" in result.stderr)
+             == (code == 2), f"gap {gap} of a thin body:\n{result.stderr}")
+# Of a formula nobody knows how thick it is, until it is in the block: near its
+# upper side, or far from it.
+for way, words in ((0.2, "passed through the surface"),
+                   (0.8, "the body is in the obstacle")):
+    p.expect_error(run(plate, *kind(
+        "distance", Expression="abs(y - 1.1) - 0.01", Motion=f"0, -{way}*t"),
+        "Pair 1/Initial gap=0.05", "Load steps/Steps=1"), "Pair 1", "ABUT-F23",
+        words)
+
 # Others come in through another side: during the motion, and where the upper
 # side has a corner in it, but not as deep.
 p.expect_error(run(plate, *kind("box", Centre="2.2, 0.97", Size="0.3, 0.02",

@@ -139,6 +139,25 @@ def slip_of_step():
         p.expect(abs(node["slip_y"]) < 1e-12, f"slip away from the plate: {node}")
 
 
+def corner():
+    """With all sides in the pair the corner at the end of the plate's way has
+    two facets; what the plate does to it is mu p all the same, and only that."""
+    for scheme in ({}, {"Method/Enforcement": "penalty"}):
+        p.solve_with("dragged-block.prm", {
+            **scheme, "Pair 1/Secondary": "1: *", "Output/Pictures": "false",
+            "Output/Nodal values": "true"})
+        force = {(n["x"], n["y"]): n for n in p.table("nodal.csv")}
+        line = [n for n in p.table("pair_1.csv") if n["y"] == 1.]
+        p.expect(len(line) == 17, f"{len(line)} nodes below the plate")
+        for node in line:
+            along = force[node["x"], 1.]["contact_x"]
+            down = force[node["x"], 1.]["contact_y"]
+            p.close(abs(along / down), 0.25, 1e-6, f"slips at {node['x']}")
+            p.expect(node["pressure"] > 0., f"pressure at {node['x']}: {node}")
+            p.close(abs(node["friction"]) / node["pressure"], 0.25, 1e-6,
+                    f"friction by pressure at {node['x']}")
+
+
 def left_out():
     """What is pressed by itself, without growing wider, needs no friction."""
     for end, needless in ((1, True), (2, False)):
@@ -270,6 +289,7 @@ frames_and_ranks()
 cylinder()
 turned_without_friction()
 slip_of_step()
+corner()
 left_out()
 error_of_springs()
 ball()

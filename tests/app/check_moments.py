@@ -49,4 +49,20 @@ for scene, levels, settings in (
         if not scene.startswith("patch") and "mortar" in word:
             order = math.log2(moments[-2] / moments[-1])
             p.expect(1.7 < order, f"{scene}, {word}: moments of order {order}")
+
+# Large strain: what mortar does at a disc and what holds the block are in balance
+# where the block is.
+summary, _ = p.solve_with("finite-disc.prm", {
+    "Output/Pictures": "false", "Output/Nodal values": "true",
+    "Refinement/Level": 3, "Method/Discretisation": "dual mortar"})
+nodes = p.table("nodal.csv")
+moment, there = (sum(
+    (n["x"] + part * n["displacement_x"]) * n["reaction_y"]
+    - (n["y"] + part * n["displacement_y"]) * n["reaction_x"]
+    for n in nodes) for part in (1., 0.))
+print("large strain: moments", summary["pair_1_moment"], moment, there)
+p.close(summary["pair_1_moment"][2], -moment, 1e-6,
+        "moment where the block is")
+p.expect(abs(there - moment) > 1e-3 * abs(moment),
+         "undeformed places are no others")
 p.finish()

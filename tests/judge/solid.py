@@ -637,13 +637,12 @@ class SolidJudge:
                     f"resultant {'xyz'[d]} of pairs on body {body}",
                     abs(force[d] - total[d]), limit.value * size,
                     "the sum of its nodes, those that supports hold as well")
-        if self.points_move():
+        if self.has_moments():
             self.pair_moments(mine, limit)
 
-    def points_move(self):
-        """Of large strain, at obstacles, as the scene has it."""
+    def has_moments(self):
+        """Of large strain, at obstacles."""
         return (self.large and self.plane != "axisymmetric"
-                and self.scene.get("Method/Sliding", "auto") != "small"
                 and all(pair.obstacle for pair in self.pairs)
                 and not self.has_friction()
                 and self.method in ("lagrange", "penalty", "quadratic penalty",

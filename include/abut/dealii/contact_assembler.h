@@ -542,6 +542,12 @@ namespace abut
      * there; for nitsche that of its pressures. Collective. */
     virtual void add_forces_on_supports(la::Vector &forces) const;
 
+    /** Add the forces of pairs at all unknowns, be they prescribed or not, as
+     * far as they are those of pressures: with friction, without the forces
+     * along the surfaces. Hanging nodes by their parents. Nothing for
+     * membranes; for nitsche that of its pressures. Collective. */
+    virtual void add_pressure_forces(la::Vector &forces) const;
+
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation;

@@ -169,11 +169,17 @@ namespace abut
     dealii::Tensor<1, 3> secondary_moment;
     /** The same on the primary side. */
     dealii::Tensor<1, 3> primary_moment;
+    /** The moment on the secondary side with the forces at the places of the
+     * last examine(), those of bodies of large strain, which are in balance
+     * there; before the first, @ref secondary_moment. */
+    dealii::Tensor<1, 3> present_moment;
     /** |sum of the forces| / |force|; 0 where there is no force. */
     double force_imbalance = 0.;
     /** |sum of the moments| / (|force| * diameter of the surface); 0 where
      * there is no force. */
     double moment_imbalance = 0.;
+    /** The same of the moments at the places of the last examine(). */
+    double present_moment_imbalance = 0.;
     /** Work of the contact forces on the gaps that were there before anything
      * moved: the sum of weight, pressure and gap at displacement 0. */
     double initial_gap_work = 0.;

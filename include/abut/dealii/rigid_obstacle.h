@@ -119,6 +119,11 @@ namespace abut
      * Infinite for planes, cones, holes, functions and surfaces of facets. */
     virtual double width(const dealii::Tensor<1, dim> &normal) const;
 
+    /** How deep a point can be in a bounded shape, length > 0: half of what it
+     * is thick. A gap of a pair that is not smaller leaves nothing of it.
+     * Infinite for planes, cones, holes, functions and surfaces of facets. */
+    virtual double depth() const;
+
     /** The time of the last set_time(), 0 before. */
     virtual double time() const;
 

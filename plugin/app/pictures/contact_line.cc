@@ -29,8 +29,10 @@ namespace abut::app
   {
     using Key = dealii::types::global_dof_index;
     using Vector = dealii::Tensor<1, 2>;
-    /** x, y, pressure, gap, status, traction and slip in x and y */
-    using Values = std::array<double, 9>;
+    /** x, y, pressure, gap, status; traction, slip and friction in x and y; how
+     * much of the pressure is along the normal of the facet that has told its
+     * sign, <= 1 */
+    using Values = std::array<double, 12>;
     using Node = std::pair<Key, Values>;
     using Edge = std::pair<Node, Node>;
 
@@ -81,6 +83,20 @@ namespace abut::app
         return result;
       }
 
+      /** Of a node; null: 0. */
+      static Vector at(const la::Vector *field, const std::array<Key, 2> &node)
+      {
+        return field == nullptr
+                   ? Vector()
+                   : Vector({(*field)(node[0]), (*field)(node[1])});
+      }
+
+      static double part_along(const Vector &vector, const Vector &direction)
+      {
+        const double size = vector.norm() * direction.norm();
+        return size > 0. ? std::abs(vector * direction) / size : 0.;
+      }
+
       /** Signed length of a nodal vector, positive outwards. */
       static double length(const la::Vector &field,
                            const std::array<Key, 2> &node,
@@ -99,12 +115,14 @@ namespace abut::app
                 : 0.;
         const double status =
             fields.status != nullptr ? (*fields.status)(node[0]) : 0.;
-        Vector slip;
-        for (unsigned int d = 0; d < 2 && fields.slip != nullptr; ++d)
-          slip[d] = (*fields.slip)(node[d]);
-        return {{x[0], x[1], -length(fields.traction, node, outward), gap,
-                 status, fields.traction(node[0]), fields.traction(node[1]),
-                 slip[0], slip[1]}};
+        const Vector slip = at(fields.slip, node);
+        const Vector friction = at(fields.along, node);
+        const la::Vector &normal =
+            fields.normal != nullptr ? *fields.normal : fields.traction;
+        return {{x[0], x[1], -length(normal, node, outward), gap, status,
+                 fields.traction(node[0]), fields.traction(node[1]), slip[0],
+                 slip[1], friction[0], friction[1],
+                 part_along(at(&normal, node), outward)}};
       }
 
       const dealii::Mapping<2> &mapping;
@@ -114,9 +132,10 @@ namespace abut::app
     };
 
     /** Tell pressure and friction apart, by tangents from neighbour to
-     * neighbour. */
+     * neighbour unless @p friction is known. */
     void split(ContactLine &line, const std::vector<Vector> &traction,
-               const std::vector<Vector> &slip)
+               const std::vector<Vector> &slip,
+               const std::vector<Vector> &friction, const bool is_known)
     {
       for (std::size_t i = 0; i < line.size(); ++i)
       {
@@ -124,8 +143,14 @@ namespace abut::app
                        - line[i > 0 ? i - 1 : 0].place;
         if (along.norm() > 0.)
           along /= along.norm();
-        line[i].friction = traction[i] * along;
         line[i].slip = slip[i] * along;
+        if (is_known)
+        {
+          line[i].friction =
+              std::copysign(friction[i].norm(), friction[i] * along);
+          continue;
+        }
+        line[i].friction = traction[i] * along;
         line[i].pressure = std::copysign(
             (traction[i] - line[i].friction * along).norm(), line[i].pressure);
       }
@@ -141,18 +166,28 @@ namespace abut::app
       {
         for (const auto &[a, b] : edges)
         {
-          node.insert(a);
-          node.insert(b);
+          take(a);
+          take(b);
           neighbors[a.first].push_back(b.first);
           neighbors[b.first].push_back(a.first);
         }
       }
 
+      /** At a corner the sign of the pressure is what the facet across it
+       * says. */
+      void take(const Node &read)
+      {
+        const auto found = node.insert(read).first;
+        if (read.second.back() > found->second.back())
+          found->second = read.second;
+      }
+
       /** Walk from @p start over edges not used so far, which are removed. */
-      ContactLine walk(const Key start, const bool has_friction)
+      ContactLine walk(const Key start, const bool has_friction,
+                       const bool is_known)
       {
         ContactLine line;
-        std::vector<Vector> traction, slip;
+        std::vector<Vector> traction, slip, friction;
         for (Key at = start;;)
         {
           const Values &v = node.at(at);
@@ -164,11 +199,12 @@ namespace abut::app
           line.push_back({arc, place, v[2], v[3], v[4]});
           traction.push_back(Vector({v[5], v[6]}));
           slip.push_back(Vector({v[7], v[8]}));
+          friction.push_back(Vector({v[9], v[10]}));
           std::vector<Key> &next = neighbors.at(at);
           if (next.empty())
           {
             if (has_friction)
-              split(line, traction, slip);
+              split(line, traction, slip, friction, is_known);
             return line;
           }
           const Key to = next.back();
@@ -219,7 +255,8 @@ namespace abut::app
     Graph graph(edges);
     std::vector<ContactLine> lines;
     while (const Key *start = graph.next_start())
-      lines.push_back(graph.walk(*start, fields.slip != nullptr));
+      lines.push_back(
+          graph.walk(*start, fields.slip != nullptr, fields.along != nullptr));
     std::stable_sort(lines.begin(), lines.end(),
                      [](const ContactLine &a, const ContactLine &b)
                      { return a.back().arc > b.back().arc; });

@@ -49,6 +49,11 @@ namespace abut::app
      * Null: it has none, and its length is the pressure, whatever the normals
      * of facets. */
     const la::Vector *slip = nullptr;
+    /** Of a traction that has a part along the line, what is pressure and what
+     * is friction; null: told apart by the line's tangents, which at a corner
+     * are those of neither side. */
+    const la::Vector *normal = nullptr;
+    const la::Vector *along = nullptr;
   };
 
   /** The pieces of the boundary with ids @p ids, in walking order, longest

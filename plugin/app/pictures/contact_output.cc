@@ -59,7 +59,8 @@ namespace abut::app
       dealii::Tensor<1, dim> traction;
       for (unsigned int d = 0; d < dim; ++d)
         traction[d] = inputs.solution_values[q][d];
-      const double along = traction * inputs.normals[q];
+      const double along =
+          part == Part::all ? 0. : traction * inputs.normals[q];
       results[q][0] = part == Part::pressure
                           ? -along
                           : (traction - along * inputs.normals[q]).norm();

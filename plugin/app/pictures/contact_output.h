@@ -38,7 +38,8 @@ namespace abut::app
   };
 
   /** From tractions on the body, the pressure, which is what is along the
-   * normal of a facet, or the friction, the length of the rest. For faces. */
+   * normal of a facet, the friction, the length of the rest, or the length of
+   * all. For faces. */
   template <int dim>
   class TractionPart : public dealii::DataPostprocessorScalar<dim>
   {
@@ -46,7 +47,8 @@ namespace abut::app
     enum class Part
     {
       pressure,
-      friction
+      friction,
+      all
     };
 
     TractionPart(const std::string &name, Part part);

@@ -31,7 +31,10 @@ namespace abut::app
                       "that takes the place of a primary surface; 0: none.");
     prm.declare_entry("Initial gap", "0", Patterns::Anything(),
                       "Added to the gap of the meshes: a length or a formula "
-                      "in t. Positive: clearance, negative: interference.");
+                      "in t. Positive: clearance, negative: interference. A "
+                      "clearance must leave something of a bounded obstacle "
+                      "and of the bodies of a pair: it is smaller than half of "
+                      "what the first and than what the second are thick.");
     prm.declare_entry("Mesh gap", "true", Patterns::Bool(),
                       "Whether the gap between the meshes counts. If not, "
                       "`Initial gap` is all of it: for curved surfaces that "

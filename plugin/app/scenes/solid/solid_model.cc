@@ -327,10 +327,26 @@ namespace abut::app
     if (pairs->empty())
       return {};
     const la::Vector status = run.contact.status();
-    return {contact_traction(elasticity.mapping, elasticity.dof_handler,
-                             elasticity.constraints, elasticity.hanging,
-                             data.materials, pairs->surfaces(),
-                             unbalanced_forces(), &status),
+    const auto per_area = [&](const la::Vector &force)
+    {
+      return contact_traction(elasticity.mapping, elasticity.dof_handler,
+                              elasticity.constraints, elasticity.hanging,
+                              data.materials, pairs->surfaces(), force,
+                              &status);
+    };
+    const la::Vector forces = unbalanced_forces();
+    la::Vector pressures(forces), friction = elasticity.vector();
+    // Of laws whose forces are stresses no force is that of a pressure alone.
+    if (pairs->has_friction() && !abut_law_needs_stress(run.method.options.law))
+    {
+      pressures = 0.;
+      run.contact.add_pressure_forces(pressures);
+      friction = forces;
+      friction -= pressures;
+    }
+    return {per_area(forces),
+            per_area(pressures),
+            per_area(friction),
             elasticity.ghosted_field(run.contact.pressure()),
             elasticity.ghosted_field(run.contact.gap()),
             elasticity.ghosted_field(

@@ -81,15 +81,25 @@ namespace abut::app
       write_contact(displacement);
   }
 
+  template <int dim> bool SolidOutput<dim>::tells_friction_apart() const
+  {
+    return model.pairs->has_friction()
+           && !abut_law_needs_stress(model.run.method.options.law);
+  }
+
   template <int dim>
   void SolidOutput<dim>::write_contact(const la::Vector &displacement)
   {
     const ContactFields contact_values = model.contact_fields();
     const SignedLength<dim> pressures("pressure", -1.);
     const bool has_friction = model.pairs->has_friction();
+    // Facets would take, at an edge, the friction of one for the pressure of
+    // the other, and are only asked where nodes do not know.
+    const bool is_split = tells_friction_apart();
     using Traction = TractionPart<dim>;
     const Traction normal("pressure", Traction::Part::pressure);
-    const Traction tangential("friction", Traction::Part::friction);
+    const Traction of_facet("friction", Traction::Part::friction);
+    const Traction of_node("friction", Traction::Part::all);
     const Traction slips("slip", Traction::Part::friction);
     const GapOfRows<dim> gaps("gap");
     const FirstComponent<dim> states("status");
@@ -105,8 +115,8 @@ namespace abut::app
                         {"traction", &contact_values.traction}},
                        {}};
     fields.derived = {
-        {&contact_values.traction,
-         has_friction
+        {&contact_values.normal,
+         has_friction && !is_split
              ? static_cast<const dealii::DataPostprocessor<dim> *>(&normal)
              : &pressures},
         {&contact_values.row_gap, &gaps},
@@ -115,7 +125,9 @@ namespace abut::app
         {&displacement, &ids}};
     if (has_friction)
     {
-      fields.derived.emplace_back(&contact_values.traction, &tangential);
+      fields.derived.emplace_back(is_split ? &contact_values.along
+                                           : &contact_values.traction,
+                                  is_split ? &of_node : &of_facet);
       fields.derived.emplace_back(&contact_values.slip, &slips);
     }
     fields.faces = model.pairs->surfaces();
@@ -146,13 +158,17 @@ namespace abut::app
     std::vector<PressureCurve> curves;
     if constexpr (dim == 2)
     {
+      const bool is_split = tells_friction_apart();
       for (const ContactPair<dim> &pair : model.pairs->pairs())
         curves.push_back(
             {pair.name,
              contact_lines(model.elasticity.mapping,
                            model.elasticity.dof_handler, pair.secondary,
                            {fields.traction, &fields.row_gap, &fields.status,
-                            pair.friction != nullptr ? &fields.slip : nullptr}),
+                            pair.friction != nullptr ? &fields.slip : nullptr,
+                            is_split ? &fields.normal : nullptr,
+                            is_split && pair.friction != nullptr ? &fields.along
+                                                                 : nullptr}),
              pair.friction != nullptr});
     }
     return curves;

@@ -252,6 +252,8 @@ namespace abut::app
       return parameters.obstacles[pair.obstacle - 1].parameter("Expression");
     if (message.find("its largest traction") != std::string::npos)
       return pair.parameter("Largest friction");
+    if (message.find("its gap of") != std::string::npos)
+      return pair.parameter("Initial gap");
     return pair.parameter(message.find("friction") != std::string::npos
                               ? "Friction"
                               : "Secondary");

@@ -167,6 +167,7 @@ namespace abut::app
     { return std::vector<double>(tensor.begin_raw(), tensor.end_raw()); };
     unsigned int number = 0;
     double force_imbalance = 0., moment_imbalance = 0.;
+    const bool is_large = model.has_large_strain();
     const std::vector<PairCheck> checks = contact.pair_checks();
     for (const PairResult<dim> &pair : contact.pair_results())
     {
@@ -176,7 +177,8 @@ namespace abut::app
       report.set(key + "_covered_area", pair.covered_area);
       report.set(key + "_contact_area", pair.contact_area);
       report.set(key + "_force", vector(pair.secondary_force));
-      report.set(key + "_moment", vector(pair.secondary_moment));
+      report.set(key + "_moment", vector(is_large ? pair.present_moment
+                                                  : pair.secondary_moment));
       report.set(key + "_primary_force", vector(pair.primary_force));
       report.set(key + "_initial_gap_work", pair.initial_gap_work);
       report.set(key + "_pressure", pair.pressure);
@@ -207,7 +209,9 @@ namespace abut::app
         report.set(key + "_dissipation", pair.dissipation);
       }
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
-      moment_imbalance = std::max(moment_imbalance, pair.moment_imbalance);
+      moment_imbalance =
+          std::max(moment_imbalance, is_large ? pair.present_moment_imbalance
+                                              : pair.moment_imbalance);
     }
     return {force_imbalance, moment_imbalance};
   }
