@@ -88,7 +88,11 @@ extern "C"
   X(BLOW_UP, 44, "a motion blows up",                                          \
     "time steps below the limit of the scheme, or an implicit scheme")         \
   X(ENERGY_LOSS, 45, "a time scheme loses energy",                             \
-    "shorter time steps; a scheme that damps less")
+    "shorter time steps; a scheme that damps less")                            \
+  X(NEWTON, 46, "Newton's method finds no way",                                \
+    "smaller load steps; a tangent that is the derivative of the residual")    \
+  X(PARTNERS, 47, "loaded points lose their facets or jump to others",         \
+    "mortar; ends that are round or not loaded; smaller load steps")
 
   /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
   typedef enum abut_failure

@@ -3,11 +3,13 @@
 // on from what rows of the same number had; what their forces change by because
 // their directions do is a part of the tangent.
 #include "contact_implementation.h"
+#include "partner_changes.h"
 
 #include "solve/row_stiffness.h"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace abut
 {
@@ -67,10 +69,13 @@ namespace abut
     geometry.reset();
     substitution.reset();
     substituted_increment = la::Vector();
+    partner_changes = PartnerChanges();
     if (!moves())
       return;
     // The solver keeps what it was made of until it gets the next one.
     has_new_matrix = true;
+    if (!method.turning_terms)
+      return;
     const std::vector<shim::MatrixLine> lines =
         source->geometric_lines(row_pressures().data());
     if (!MPI::logical_or(!lines.empty(), communicator))
@@ -185,6 +190,7 @@ namespace abut
         make_rows();
       if (has_friction)
         result.slip_reference = surfaces->slip_reference(committed);
+      note_changes(kept);
     }
     catch (...)
     {
@@ -193,6 +199,27 @@ namespace abut
     }
     surfaces->put_back(kept);
     return result;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::note_changes(
+      const typename shim::SurfacePairRows<dim>::Kept &before)
+  {
+    std::set<std::int64_t> pressing;
+    for (int row = 0; row < coefficients.n_rows(); ++row)
+      if (!coefficients.is_tangent(row) && request.pressure[row] > 0.)
+        pressing.insert(coefficients.ids()[row]);
+    const auto now = surfaces->keep();
+    const auto placed = [this](const auto &points)
+    {
+      shim::PlacedPoints<dim> result = {{}, points.places};
+      check(abut_points_get(points.points, &result.view));
+      return result;
+    };
+    const PartnerChanges changes =
+        shim::count_changes<dim>(placed(before), placed(now), pressing);
+    partner_changes.lost = std::max(partner_changes.lost, changes.lost);
+    partner_changes.jumped = std::max(partner_changes.jumped, changes.jumped);
   }
 
   template <int dim>

@@ -141,6 +141,8 @@ namespace abut
     /** The rows at this displacement, while the present ones stay. Collective.
      */
     RowsElsewhere rows_at(const la::Vector &displacement);
+    /** Compare the surfaces' points with those of the rows. */
+    void note_changes(const typename shim::SurfacePairRows<dim>::Kept &before);
     /** What the forces of the rows' pressures change by because rows move.
      * Collective. */
     void find_geometry();
@@ -257,6 +259,7 @@ namespace abut
     la::Vector substituted;           ///< v that the iteration has come to
     la::Vector substituted_increment; ///< of the last solve(); empty: none
     la::Vector present_displacement;  ///< with geometry
+    PartnerChanges partner_changes;   ///< of this rank, since linearise()
     std::vector<double> gap;          ///< [rows] at the present displacement
     bool has_friction = false;        ///< some pair has, on all ranks
     la::Vector committed; ///< displacement of the last commit(); empty: 0

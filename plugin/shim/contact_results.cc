@@ -38,6 +38,15 @@ namespace abut
   }
 
   template <int dim>
+  PartnerChanges ContactAssembler<dim>::partner_changes() const
+  {
+    PartnerChanges result = implementation->partner_changes;
+    for (std::uint64_t *count : {&result.lost, &result.jumped})
+      *count = MPI::sum(*count, implementation->communicator);
+    return result;
+  }
+
+  template <int dim>
   typename ContactAssembler<dim>::PointCount
   ContactAssembler<dim>::point_count() const
   {
@@ -287,6 +296,7 @@ namespace abut
   template std::vector<StepMotion> ContactAssembler<dim>::step_motion(         \
       const la::Vector &) const;                                               \
   template DetectionReport ContactAssembler<dim>::detection_report() const;    \
+  template PartnerChanges ContactAssembler<dim>::partner_changes() const;      \
   template typename ContactAssembler<dim>::PointCount                          \
   ContactAssembler<dim>::point_count() const;                                  \
   template double ContactAssembler<dim>::contact_force() const;                \

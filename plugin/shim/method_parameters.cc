@@ -428,6 +428,11 @@ namespace abut
         "and for mortar between bodies. `auto`: large for "
         "bodies of large strain where that can be, step for "
         "bodies that move by inertia, else small.");
+    prm.declare_entry("Turning terms", "true", Patterns::Bool(),
+                      "Whether the tangent has what forces and gaps of points "
+                      "that move change by because directions and partners "
+                      "do. Without, Newton's method is of first order, or "
+                      "finds no way: there to see that (doc/failures.md).");
     prm.declare_entry("System", "auto",
                       Patterns::Selection("auto|condensed|saddle point"),
                       "Linear system: `condensed` eliminates the pressures "
@@ -485,6 +490,7 @@ namespace abut
     multiplier_degree = prm.get_integer("Multiplier degree");
     quadrature_degree = prm.get_integer("Quadrature degree");
     segments = prm.get_bool("Segments");
+    turning_terms = prm.get_bool("Turning terms");
     prm.leave_subsection();
     AssertThrow(system != System::saddle_point
                     || abut_law_is_exact(options.law),

@@ -409,6 +409,9 @@ namespace abut
      */
     virtual DetectionReport detection_report() const;
 
+    /** What evaluate() has seen since the last linearise(). Collective. */
+    virtual PartnerChanges partner_changes() const;
+
     /** Largest penetration max(0, -g), length. */
     virtual double penetration() const;
 

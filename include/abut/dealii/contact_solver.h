@@ -272,14 +272,15 @@ namespace abut
         if (is_settled(u) || step + 1 == parameters_.max_steps)
           return true;
       }
-      return stop(NewtonReason::step_limit,
-                  "Newton's method has not converged after "
-                      + std::to_string(parameters_.max_steps)
-                      + " linearisations, the estimated relative error is "
-                      + short_number(result_.error)
-                      + ". Use smaller load steps, or check that the tangent "
-                        "is the derivative of the residual."
-                      + about_negative_steps() + about_sliding(u));
+      return stop_astray(
+          NewtonReason::step_limit,
+          "Newton's method has not converged after "
+              + std::to_string(parameters_.max_steps)
+              + " linearisations, the estimated relative error is "
+              + short_number(result_.error)
+              + ". Use smaller load steps, or check that the tangent "
+                "is the derivative of the residual.",
+          u);
     }
 
     /** Whether forces are in balance at @p u, where the displacement has come
@@ -583,13 +584,46 @@ namespace abut
     {
       if (!std::isfinite(result_.residual))
         return stop_not_finite();
-      return stop(NewtonReason::line_search,
-                  "No step lowers the residual, " + short_number(before)
-                      + " before and " + short_number(result_.residual)
-                      + " after the shortest one tried. Check that the tangent "
-                        "is the derivative of the residual, and use smaller "
-                        "load steps."
-                      + about_negative_steps() + about_sliding(u));
+      return stop_astray(
+          NewtonReason::line_search,
+          "No step lowers the residual, " + short_number(before)
+              + " before and " + short_number(result_.residual)
+              + " after the shortest one tried. Check that the tangent "
+                "is the derivative of the residual, and use smaller "
+                "load steps.",
+          u);
+    }
+
+    /** Stop without an answer, with what may be behind it. */
+    bool stop_astray(const NewtonReason reason, const std::string &seen,
+                     const la::Vector &u)
+    {
+      const PartnerChanges changes = contact_.partner_changes();
+      const bool known = changes.lost + changes.jumped > 0;
+      return stop(reason,
+                  seen + about_negative_steps() + about_sliding(u)
+                      + about_partners(changes),
+                  known ? ABUT_FAILURE_PARTNERS : ABUT_FAILURE_NEWTON);
+    }
+
+    /** A sentence, if there are any. */
+    static std::string about_partners(const PartnerChanges &changes)
+    {
+      if (changes.lost + changes.jumped == 0)
+        return "";
+      std::string seen = " Of the points that press,";
+      if (changes.lost > 0)
+        seen += " " + std::to_string(changes.lost)
+                + " came past the end of what is opposite them on the way of "
+                  "the last linearisation"
+                + (changes.jumped > 0 ? " and" : "");
+      if (changes.jumped > 0)
+        seen += " " + std::to_string(changes.jumped)
+                + " jumped between facets that are no neighbours, or of other "
+                  "normals";
+      return seen
+             + ": take mortar, which follows smoothly (Method/Discretisation = "
+               "dual mortar), or round such corners and ends.";
     }
 
     /** Whether to search again on the deformed bodies. */

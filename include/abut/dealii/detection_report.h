@@ -49,6 +49,19 @@ namespace abut
       return result;
     }
   };
+  /** What trials of a line search have done to points between bodies, nodes or
+   * points of quadrature, that move with them and pressed when the problem was
+   * linearised: the most that one of them has done. Mortar has no such points.
+   */
+  struct PartnerChanges
+  {
+    /** They have nothing opposite them, as past the end of a surface. */
+    std::uint64_t lost = 0;
+    /** They have another facet opposite them without a common node, or one
+     * along whose normal they press by more than 30 degrees beside the one
+     * before. */
+    std::uint64_t jumped = 0;
+  };
 } // namespace abut
 
 #endif

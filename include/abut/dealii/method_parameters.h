@@ -137,6 +137,11 @@ namespace abut
     /** Whether points move with the bodies. */
     Sliding sliding = Sliding::automatic;
 
+    /** Whether the tangent has what forces and gaps of points that move change
+     * by because directions and partners do. Without it Newton's method is of
+     * first order, or finds no way. */
+    bool turning_terms = true;
+
     /** Whether pairs that are known to fail, with a code ABUT-F.., are solved
      * where they would be refused, to measure how they fail;
      * ContactAssembler::examine() then has an error with the code. Not a

@@ -6,7 +6,7 @@
  * `abut atlas`: scenes of known failures and their cures, run and compared with
  * what they are expected to show.
  *
- * atlas_entry reads a pair of scenes and what is expected of it, run_figures
+ * atlas_entry reads a pair of scenes and what is expected of it, RunFigures
  * the numbers that a run left, atlas_report writes the page.
  */
 

@@ -31,7 +31,7 @@
  * and the report tables the numbers named.
  */
 
-#include "run_figures.h"
+#include "app/report/run_figures.h"
 
 #include <abut/failure.h>
 

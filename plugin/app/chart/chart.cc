@@ -238,12 +238,14 @@ namespace abut::app
       static double value(const RunRecord &record, const std::string &parameter,
                           const std::string &key)
       {
-        const auto number = record.summary.cost(key);
+        const bool of_rows = key.find('(') != std::string::npos;
+        const auto number =
+            of_rows ? record.figures.value(key) : record.summary.cost(key);
         if (number)
           return *number;
-        throw InputError(parameter, "the runs have no number '" + key
-                                        + "' in summary.json."
-                                        + record.summary.explain(key));
+        throw InputError(parameter, "the runs have no number '" + key + "'"
+                                        + (of_rows ? "." : " in summary.json.")
+                                        + record.figures.explain(key));
       }
 
       ChartRow run_point(const Point &point)
@@ -293,7 +295,7 @@ namespace abut::app
       void fill(ChartRow &row, const RunRecord &record) const
       {
         const auto number = [&record](const std::string &key)
-        { return record.summary.number(key).value_or(ChartRow::unknown); };
+        { return record.figures.value(key).value_or(ChartRow::unknown); };
         row.ended = record.ended;
         row.reason = record.reason;
         row.code = record.code;

@@ -200,7 +200,13 @@ namespace abut::app
         "Key of summary.json. l2_error, h1_error, energy_norm_error and others "
         "that are errors by themselves need an exact solution in the scene; "
         "any other, such as contact_force or point_1[2] (the third component), "
-        "needs a reference. Empty: no error is charted.");
+        "needs a reference. So does a function of a column of levels.csv, "
+        "which "
+        "has a row per load step: mean, ripple (standard deviation by the size "
+        "of the mean) or largest (in size), of all rows or those after a time "
+        "up to another one, of a column or the ratio of two, such as "
+        "ripple(pair_1_force_y, 1, 2) or largest(pair_1_force_x / "
+        "pair_1_force_y, 1, 2). Empty: no error is charted.");
     prm.declare_entry("Reference", "", Patterns::Anything(),
                       "Right value of the quantity. In its place a section "
                       "`Finer run` may hold settings of the scene for a run "
@@ -208,6 +214,9 @@ namespace abut::app
     prm.declare_entry("Scale", "0", NumberPattern::from(0.),
                       "The error is divided by it. 0: by the size of the "
                       "reference, or not at all.");
+    prm.declare_entry("Label", "", Patterns::Anything(),
+                      "What the pictures say about the error. Empty: the "
+                      "quantity.");
     prm.leave_subsection();
   }
 
@@ -257,6 +266,7 @@ namespace abut::app
     prm.enter_subsection("Error");
     error.quantity = prm.get("Quantity");
     error.scale = prm.get_double("Scale");
+    error.label = prm.get("Label");
     if (!prm.get("Reference").empty())
       error.reference =
           parse_number_or_nan(prm.get("Reference"), "Error/Reference");

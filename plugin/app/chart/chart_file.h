@@ -36,6 +36,7 @@ namespace abut::app
     std::optional<double> reference;
     std::vector<Assignment> finer_run; /**< settings; empty: none */
     double scale = 0;                  /**< 0: size of the reference, or 1 */
+    std::string label;                 /**< of pictures; empty: the quantity */
 
     /** Whether the quantity is an error by itself, against a solution that the
      * scene knows. */

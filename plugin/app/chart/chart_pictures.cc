@@ -41,6 +41,8 @@ namespace abut::app
     std::string error_label(const ChartFile &chart)
     {
       const ChartError &error = chart.error;
+      if (!error.label.empty())
+        return error.label;
       if (error.is_error())
         return error.quantity + (error.scale > 0 ? ", relative" : "");
       return "relative error of " + error.quantity;

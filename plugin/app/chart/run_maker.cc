@@ -158,6 +158,7 @@ namespace abut::app
     if (record.ended != "ok" && record.reason.empty())
       record.reason = last_words(options.log);
     record.summary = RunSummary(folder / "summary.json");
+    record.figures = RunFigures(folder);
     store.finish(record, repeat);
     return record;
   }

@@ -117,6 +117,7 @@ namespace abut::app
         || (record.ended == "out of time" && record.limit < limit))
       return std::nullopt;
     record.summary = RunSummary(here / "summary.json");
+    record.figures = RunFigures(here);
     return record;
   }
 

@@ -11,7 +11,7 @@
  * result.
  */
 
-#include "app/report/run_summary.h"
+#include "app/report/run_figures.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -30,6 +30,7 @@ namespace abut::app
     double seconds = 0;   /**< on the wall, from start to end */
     int code = 0;         /**< exit code, or minus the signal */
     RunSummary summary{}; /**< of what it wrote */
+    RunFigures figures{}; /**< the same, and what its rows give */
   };
 
   /** The folder `runs` of a chart, locked while this exists. */

@@ -146,8 +146,8 @@ namespace abut::app
     const auto never = [](const SceneValues &) { return false; };
     EffectRules rules = {
         effective_if("Method/Multiplier degree", Weight::data, never, instead)};
-    for (const char *name :
-         {"Discretisation", "Quadrature degree", "Segments", "Sliding"})
+    for (const char *name : {"Discretisation", "Quadrature degree", "Segments",
+                             "Sliding", "Turning terms"})
       rules.push_back(setting(std::string("Method/") + name, never, instead));
     return rules;
   }

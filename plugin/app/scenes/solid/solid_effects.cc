@@ -53,6 +53,11 @@ namespace abut::app
       return false;
     }
 
+    bool has_large_strain(const SceneValues &values)
+    {
+      return values("Body 1/Material") != "hooke";
+    }
+
     bool has_two_bodies_in_contact(const SceneValues &values)
     {
       return any_pair(values, [&](const std::string &section)
@@ -218,6 +223,15 @@ namespace abut::app
       for (const char *name : {"Search/Algorithm", "Search/Bucket*",
                                "Search/Skin", "Method/Segments"})
         rules.push_back(setting(name, has_two_bodies_in_contact, no_partner));
+      rules.push_back(setting(
+          "Method/Turning terms",
+          [](const SceneValues &values)
+          {
+            const std::string sliding = values("Method/Sliding");
+            return sliding == "large"
+                   || (sliding != "step" && has_large_strain(values));
+          },
+          "it belongs to points that move: Method/Sliding = large."));
       rules.push_back(capacity_effect());
       const std::string no_contact = "there is no contact: Solid/Pairs is 0.";
       rules.push_back(
@@ -231,11 +245,6 @@ namespace abut::app
       rules.push_back(
           setting("Output/Inf-sup constant", has_pairs, no_contact));
       return rules;
-    }
-
-    bool has_large_strain(const SceneValues &values)
-    {
-      return values("Body 1/Material") != "hooke";
     }
 
     EffectRules of_load_steps()
