@@ -52,6 +52,10 @@ namespace abut::shim
             constraints_(constraints),
             communicator_(dof_handler.get_communicator()),
             n_components_(dof_handler.get_fe().n_components()),
+            first_own_(dof_handler.n_locally_owned_dofs() == 0
+                           ? 0
+                           : *dof_handler.locally_owned_dofs().begin()),
+            end_own_(first_own_ + dof_handler.n_locally_owned_dofs()),
             unknown_(triangulation_.n_vertices() * n_components_,
                      dealii::numbers::invalid_dof_index),
             is_constrained_(dof_handler.n_dofs()),
@@ -80,8 +84,11 @@ namespace abut::shim
       std::string why_not() const;
       void find_unknowns();
       void find_constrained();
-      void find_middles();
-      void find_levels();
+      template <typename Object>
+      void note_middle(const Object &object, unsigned int level);
+      bool find_middles();
+      void note_coarsest_cells();
+      bool is_uniform() const;
       void mark_hanging();
       void mark_fixed();
       bool is_own(unsigned int vertex) const;
@@ -96,6 +103,8 @@ namespace abut::shim
       std::vector<std::uint8_t> fixed(const Draft &mesh) const;
       void add_parents(const Draft &coarse, unsigned int vertex, double weight,
                        MeshHierarchy::Mesh &mesh);
+      bool add_plain_parents(const Draft &coarse, unsigned int vertex,
+                             MeshHierarchy::Mesh &mesh) const;
       void add_weights(const Draft &fine, const Draft &coarse,
                        MeshHierarchy::Mesh &mesh);
 
@@ -104,6 +113,7 @@ namespace abut::shim
       const dealii::AffineConstraints<double> &constraints_;
       const MPI_Comm communicator_;
       const unsigned int n_components_;
+      const dealii::types::global_dof_index first_own_, end_own_;
       /** [vertices * components] */
       std::vector<dealii::types::global_dof_index> unknown_;
       std::vector<std::uint8_t> is_constrained_; ///< [unknowns of all ranks]
@@ -153,11 +163,6 @@ namespace abut::shim
                  == nullptr
           || n_components_ > 3 || !has_known_nodes(fe.base_element(0)))
         return "it works with FE_Q of degree 1 and 2";
-      for (const auto &cell : triangulation_.cell_iterators())
-        if (cell->has_children()
-            && cell->refinement_case()
-                   != dealii::RefinementCase<dim>::isotropic_refinement)
-          return "cells are cut in some directions only";
       return "";
     }
 
@@ -192,36 +197,60 @@ namespace abut::shim
     bool HierarchyMaker<dim>::is_own(const unsigned int v) const
     {
       const auto unknown = unknown_[v * n_components_];
-      return unknown != dealii::numbers::invalid_dof_index
-             && dof_handler_.locally_owned_dofs().is_element(unknown);
+      return unknown >= first_own_ && unknown < end_own_;
     }
 
-    /** The vertex in the middle of an edge, face or cell that is refined. */
+    /** The vertex in the middle of an edge, face or cell of a level that is
+     * refined: there it was made, and all cells that it is a corner in are of
+     * the next level or finer. */
+    template <int dim>
     template <typename Object>
-    void note_middle(const Object &object, std::vector<Parents> &middle)
+    void HierarchyMaker<dim>::note_middle(const Object &object,
+                                          const unsigned int level)
     {
       const unsigned int n = object->n_vertices();
-      Parents &parents = middle[object->child(0)->vertex_index(n - 1)];
+      const unsigned int vertex = object->child(0)->vertex_index(n - 1);
+      Parents &parents = middle_[vertex];
       if (parents.n > 0)
         return;
+      level_[vertex] = static_cast<std::uint8_t>(level + 1);
       parents.n = n;
       for (unsigned int v = 0; v < n; ++v)
         parents.vertex[v] = object->vertex_index(v);
     }
 
-    template <int dim> void HierarchyMaker<dim>::find_middles()
+    /** Returns whether all cells are cut in all directions. */
+    template <int dim> bool HierarchyMaker<dim>::find_middles()
     {
+      const auto isotropic = dealii::RefinementCase<dim>::isotropic_refinement;
+      for (const auto &cell : triangulation_.cell_iterators_on_level(0))
+        for (const unsigned int v : cell->vertex_indices())
+          level_[cell->vertex_index(v)] = 0;
       // What is refined belongs to a cell that is.
+      for (unsigned int l = 0; l + 1 < triangulation_.n_levels(); ++l)
+        for (const auto &cell : triangulation_.cell_iterators_on_level(l))
+        {
+          if (!cell->has_children())
+            continue;
+          if (cell->refinement_case() != isotropic)
+            return false;
+          for (const unsigned int line : cell->line_indices())
+            note_middle(cell->line(line), l);
+          if constexpr (dim == 3)
+            for (const unsigned int face : cell->face_indices())
+              note_middle(cell->face(face), l);
+          note_middle(cell, l);
+        }
+      return true;
+    }
+
+    /** What other ranks must know of the vertices in the middles of cells. */
+    template <int dim> void HierarchyMaker<dim>::note_coarsest_cells()
+    {
       for (const auto &cell : triangulation_.cell_iterators())
       {
         if (!cell->has_children())
           continue;
-        for (const unsigned int line : cell->line_indices())
-          note_middle(cell->line(line), middle_);
-        if constexpr (dim == 3)
-          for (const unsigned int face : cell->face_indices())
-            note_middle(cell->face(face), middle_);
-        note_middle(cell, middle_);
         typename dealii::Triangulation<dim>::cell_iterator coarsest = cell;
         while (coarsest->level() > 0)
           coarsest = coarsest->parent();
@@ -230,14 +259,11 @@ namespace abut::shim
       }
     }
 
-    template <int dim> void HierarchyMaker<dim>::find_levels()
+    /** Whether all active cells are of one level, so that nothing hangs. */
+    template <int dim> bool HierarchyMaker<dim>::is_uniform() const
     {
-      for (const auto &cell : triangulation_.cell_iterators())
-        for (const unsigned int v : cell->vertex_indices())
-        {
-          std::uint8_t &level = level_[cell->vertex_index(v)];
-          level = std::min<std::uint8_t>(level, cell->level());
-        }
+      return triangulation_.n_active_cells()
+             == triangulation_.n_cells(triangulation_.n_levels() - 1);
     }
 
     template <int dim> void HierarchyMaker<dim>::mark_hanging()
@@ -247,6 +273,8 @@ namespace abut::shim
         if (object->has_children())
           hangs_[object->child(0)->vertex_index(object->n_vertices() - 1)] = 1;
       };
+      if (is_uniform())
+        return;
       // That of artificial cells may be refined elsewhere.
       for (const auto &cell : triangulation_.active_cell_iterators())
       {
@@ -268,8 +296,7 @@ namespace abut::shim
           continue;
         bool all = true;
         for (unsigned int c = 0; c < n_components_ && all; ++c)
-          all = hangs_[v]
-                || constraints_.is_constrained(unknown_[v * n_components_ + c]);
+          all = hangs_[v] || is_constrained_[unknown_[v * n_components_ + c]];
         is_wholly_fixed_[v] = all;
       }
     }
@@ -295,11 +322,11 @@ namespace abut::shim
     std::vector<unsigned int> HierarchyMaker<dim>::own_vertices() const
     {
       constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
-      const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
-      std::vector<unsigned int> by_unknown(owned.n_elements(), none), result;
+      std::vector<unsigned int> by_unknown(end_own_ - first_own_, none), result;
+      result.reserve(by_unknown.size() / n_components_);
       for (unsigned int v = 0; v < triangulation_.n_vertices(); ++v)
         if (is_own(v))
-          by_unknown[owned.index_within_set(unknown_[v * n_components_])] = v;
+          by_unknown[unknown_[v * n_components_] - first_own_] = v;
       for (const unsigned int v : by_unknown)
         if (v != none)
           result.push_back(v);
@@ -459,6 +486,37 @@ namespace abut::shim
         add_parents(coarse, parents.vertex[k], weight / parents.n, mesh);
     }
 
+    /** The same for a vertex whose parents are all nodes of the coarse mesh;
+     * false: they are not, and nothing was added. */
+    template <int dim>
+    bool HierarchyMaker<dim>::add_plain_parents(const Draft &coarse,
+                                                const unsigned int vertex,
+                                                MeshHierarchy::Mesh &mesh) const
+    {
+      const auto is_node = [&](const unsigned int v) {
+        return coarse.node[v] >= 0 && !hangs_[v] && level_[v] <= coarse.level;
+      };
+      if (is_node(vertex))
+      {
+        mesh.parent.push_back(coarse.node[vertex]);
+        mesh.weight.push_back(1.);
+        return true;
+      }
+      const Parents &parents = middle_[vertex];
+      bool are_nodes = level_[vertex] > coarse.level && parents.n > 0;
+      for (unsigned int k = 0; k < parents.n; ++k)
+        are_nodes = are_nodes && is_node(parents.vertex[k]);
+      if (!are_nodes)
+        return false;
+      for (unsigned int k = 0; k < parents.n; ++k)
+        if (!is_wholly_fixed_[parents.vertex[k]])
+        {
+          mesh.parent.push_back(coarse.node[parents.vertex[k]]);
+          mesh.weight.push_back(1. / parents.n);
+        }
+      return true;
+    }
+
     template <int dim>
     void HierarchyMaker<dim>::add_weights(const Draft &fine,
                                           const Draft &coarse,
@@ -474,7 +532,7 @@ namespace abut::shim
       mesh.start = {0};
       for (const unsigned int v : fine.vertex)
       {
-        if (!is_wholly_fixed_[v])
+        if (!is_wholly_fixed_[v] && !add_plain_parents(coarse, v, mesh))
           add_parents(coarse, v, 1., mesh);
         mesh.start.push_back(static_cast<std::int64_t>(mesh.parent.size()));
       }
@@ -530,12 +588,13 @@ namespace abut::shim
     {
       MeshHierarchy result;
       result.n_components = n_components_;
-      result.missing = first_message(communicator_, why_not());
+      std::string missing = why_not();
+      if (missing.empty() && !find_middles())
+        missing = "cells are cut in some directions only";
+      result.missing = first_message(communicator_, missing);
       if (!result.missing.empty())
         return result;
       find_unknowns();
-      find_middles();
-      find_levels();
       mark_hanging();
       mark_fixed();
       std::vector<Draft> meshes = drafts();
@@ -543,7 +602,10 @@ namespace abut::shim
       const std::size_t first = is_quadratic ? 0 : 1;
       if (dealii::Utilities::MPI::n_mpi_processes(communicator_) > 1
           && meshes.size() > first)
+      {
+        note_coarsest_cells();
         learn_of_others(meshes, first);
+      }
       if (is_quadratic)
         take_quadratic_nodes(meshes[0], result);
       else

@@ -22,17 +22,38 @@ namespace abut::shim
     /** Support points and weights by relevant unknown, before constraints. */
     template <int dim> struct Collection
     {
-      dealii::IndexSet relevant;
+      explicit Collection(const dealii::IndexSet &unknowns)
+          : relevant(unknowns),
+            points(relevant.n_elements()),
+            weights(relevant.n_elements(),
+                    std::numeric_limits<double>::quiet_NaN()),
+            is_interval_(relevant.is_contiguous()),
+            first_(points.empty() ? 0 : relevant.nth_index_in_set(0))
+      {
+      }
+
+      const dealii::IndexSet relevant;
       std::vector<Point<dim>> points;
       std::vector<double> weights; ///< NaN: not a candidate
+
+      global_dof_index unknown(const std::size_t i) const
+      {
+        return is_interval_ ? first_ + i : relevant.nth_index_in_set(i);
+      }
 
       void add(const global_dof_index dof, const Point<dim> &point,
                const double weight)
       {
-        const auto i = relevant.index_within_set(dof);
+        // Index sets take long to find one of a number.
+        const auto i =
+            is_interval_ ? dof - first_ : relevant.index_within_set(dof);
         points[i] = point;
         weights[i] = std::isnan(weights[i]) ? weight : weights[i] + weight;
       }
+
+    private:
+      const bool is_interval_;
+      const global_dof_index first_;
     };
 
     /** Nodes of a cell with the integrals of their shape functions: the
@@ -131,17 +152,18 @@ namespace abut::shim
     {
       la::Vector result(dof_handler.locally_owned_dofs(),
                         dof_handler.get_communicator());
-      const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+      const auto range = result.local_range();
+      double *const own = la::data(result);
       for (std::size_t i = 0; i < collection.weights.size(); ++i)
       {
         if (std::isnan(collection.weights[i]))
           continue;
-        const global_dof_index dof = collection.relevant.nth_index_in_set(i);
+        const global_dof_index dof = collection.unknown(i);
         const double weight = collection.weights[i];
         const auto *parents = constraints.get_constraint_entries(dof);
         const bool is_own = parents == nullptr || parents->empty();
-        if (is_own && owned.is_element(dof))
-          la::data(result)[owned.index_within_set(dof)] += weight;
+        if (is_own && dof >= range.first && dof < range.second)
+          own[dof - range.first] += weight;
         else if (is_own)
           result(dof) += weight;
         else
@@ -160,12 +182,9 @@ namespace abut::shim
       const dealii::AffineConstraints<double> &constraints,
       const std::set<dealii::types::boundary_id> &boundary_ids)
   {
-    Collection<dim> collection;
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler,
-                                                    collection.relevant);
-    collection.points.resize(collection.relevant.n_elements());
-    collection.weights.assign(collection.relevant.n_elements(),
-                              std::numeric_limits<double>::quiet_NaN());
+    dealii::IndexSet relevant;
+    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    Collection<dim> collection(relevant);
     if (boundary_ids.empty())
       collect_in_domain(mapping, dof_handler, collection);
     else
@@ -174,16 +193,17 @@ namespace abut::shim
         condense_weights(dof_handler, constraints, collection);
 
     NodalCandidates<dim> candidates;
-    const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+    const auto range = weights.local_range();
+    const double *const own = la::data(weights);
     for (std::size_t i = 0; i < collection.weights.size(); ++i)
     {
-      const global_dof_index dof = collection.relevant.nth_index_in_set(i);
-      if (std::isnan(collection.weights[i]) || !owned.is_element(dof))
+      const global_dof_index dof = collection.unknown(i);
+      if (std::isnan(collection.weights[i]) || dof < range.first
+          || dof >= range.second)
         continue;
       if (!constraints.is_constrained(dof))
         candidates.free.push_back(
-            {dof, collection.points[i],
-             la::data(weights)[owned.index_within_set(dof)]});
+            {dof, collection.points[i], own[dof - range.first]});
       else if (constraints.get_constraint_entries(dof)->empty())
         candidates.prescribed.push_back(
             {dof, collection.points[i], collection.weights[i]});

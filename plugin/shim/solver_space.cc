@@ -20,10 +20,11 @@ namespace abut::shim
     {
       space = make_near_null_space(mapping, dof_handler);
       const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
-      space.prescribed.assign(owned.n_elements(), 0);
+      std::vector<std::uint8_t> &prescribed = space.prescribed.change();
+      prescribed.assign(owned.n_elements(), 0);
       for (const auto &line : constraints.get_lines())
         if (line.entries.empty() && owned.is_element(line.index))
-          space.prescribed[owned.index_within_set(line.index)] = 1;
+          prescribed[owned.index_within_set(line.index)] = 1;
     }
     if (solve::wants_meshes(parameters, dof_handler.n_dofs(),
                             space.n_components))

@@ -655,56 +655,8 @@ namespace abut::shim
     std::vector<PairCheck> checks_;
     std::vector<double> checked_gaps_; ///< [pairs] or empty, by check_gaps()
   };
-
-  template <int dim>
-  template <typename Function>
-  void SurfacePairRows<dim>::for_each_row(const Function &function) const
-  {
-    for (std::size_t i = 0; i < places_.size(); ++i)
-      for (std::int32_t row = view_.component_start[i];
-           row < view_.component_start[i + 1]; ++row)
-      {
-        const double sign =
-            abut_point_sign(view_.kind[i], row - view_.component_start[i]);
-        Direction direction;
-        for (unsigned int d = 0; d < dim; ++d)
-          direction[d] = -sign * view_.frame[row * std::size_t(dim) + d];
-        function(
-            Component{i, static_cast<std::size_t>(row), places_[i], direction});
-      }
-  }
-
-  template <int dim>
-  template <typename Function>
-  void SurfacePairRows<dim>::for_each_component(const Function &function) const
-  {
-    for_each_row(
-        [&](const Component &row)
-        {
-          if (!is_tangent(row))
-            function(row);
-        });
-  }
-
-  template <int dim>
-  template <typename Function>
-  void SurfacePairRows<dim>::for_each_secondary(const std::size_t point,
-                                                const Function &function) const
-  {
-    const std::int64_t first = view_.start[point];
-    for (auto e = first; e < first + view_.n_secondary[point]; ++e)
-      function(view_.node[e], view_.coefficient[e]);
-  }
-
-  template <int dim>
-  template <typename Function>
-  void SurfacePairRows<dim>::for_each_primary(const std::size_t point,
-                                              const Function &function) const
-  {
-    for (auto e = view_.start[point] + view_.n_secondary[point];
-         e < view_.start[point + 1]; ++e)
-      function(view_.node[e], view_.coefficient[e]);
-  }
 } // namespace abut::shim
+
+#include "surface_pair_loops.h"
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef ABUT_SOLVE_NEAR_NULL_SPACE_H
 #define ABUT_SOLVE_NEAR_NULL_SPACE_H
 
+#include "common_array.h"
 #include "mesh_hierarchy.h"
 
 #include <deal.II/base/point.h>
@@ -24,14 +25,14 @@ namespace abut::solve
     unsigned int n_bodies = 1;
     /** [owned] component of each unknown, n_components where it is of another
      * field; empty for a scalar field. */
-    std::vector<std::uint8_t> component;
+    CommonArray<std::uint8_t> component;
     /** [owned] body of each unknown from 0; empty: all in body 0. */
-    std::vector<int> body;
+    CommonArray<int> body;
     /** [owned] where each unknown sits, from which rotations are known;
      * planes have z = 0. Empty: only translations are known. */
-    std::vector<dealii::Point<3>> point;
+    CommonArray<dealii::Point<3>> point;
     /** [owned] nonzero where the value is prescribed; empty: not known. */
-    std::vector<std::uint8_t> prescribed;
+    CommonArray<std::uint8_t> prescribed;
     /** [n_bodies] for messages; empty: body 1, body 2, ... */
     std::vector<std::string> names;
     /** The coarser meshes, for geometric multigrid; null: not known. */

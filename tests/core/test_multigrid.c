@@ -248,6 +248,108 @@ test_what_changed_is_made_anew_and_no_more(void **state)
   grid_close(&g);
 }
 
+/* The matrix of a grid and a coupling of nodes p and q, with its own part of
+ * their diagonals. */
+static void
+couple(const grid *g, int32_t p, int32_t q, grid *result)
+{
+  *result = *g;
+  const size_t m = (size_t)g->start[g->n] + 2;
+  result->start = calloc((size_t)g->n + 1, sizeof(int32_t));
+  result->column = calloc(m, sizeof(int32_t));
+  result->value = calloc(m, sizeof(double));
+  int32_t n = 0;
+  for (int32_t i = 0; i < g->n; ++i)
+  {
+    for (int32_t e = g->start[i]; e < g->start[i + 1]; ++e)
+    {
+      const bool own = g->column[e] == i && (i == p || i == q);
+      result->column[n] = g->column[e];
+      result->value[n++] = g->value[e] + (own ? 0.5 : 0);
+    }
+    if (i == p || i == q)
+    {
+      result->column[n] = i == p ? q : p;
+      result->value[n++] = -0.5;
+    }
+    result->start[i + 1] = n;
+  }
+  result->matrix =
+      (abut_multigrid_matrix){sizeof(result->matrix), g->n, result->start,
+                              result->column, result->value};
+}
+
+/* Entry (k, j) of P^T A P of the second mesh, where nothing is held. */
+static double
+galerkin_entry(const grid *g, int32_t k, int32_t j)
+{
+  const abut_multigrid_mesh *mesh = &g->mesh[0];
+  double sum = 0;
+  for (int32_t i = 0; i < g->n; ++i)
+    for (int64_t f = mesh->start[i]; f < mesh->start[i + 1]; ++f)
+      for (int32_t e = g->start[i]; mesh->parent[f] == k && e < g->start[i + 1];
+           ++e)
+      {
+        const int32_t c = g->column[e];
+        for (int64_t h = mesh->start[c]; h < mesh->start[c + 1]; ++h)
+          if (mesh->parent[h] == j)
+            sum += mesh->weight[f] * mesh->weight[h] * g->value[e];
+      }
+  return sum;
+}
+
+static void
+assert_galerkin(const grid *g, const abut_multigrid *mg)
+{
+  const abut_multigrid_level *coarse = &mg->level[1];
+  double *row = calloc((size_t)coarse->n, sizeof(double));
+  for (int32_t k = 0; k < coarse->n; ++k)
+  {
+    memset(row, 0, (size_t)coarse->n * sizeof(double));
+    for (int64_t e = coarse->matrix.start[k]; e < coarse->matrix.start[k + 1];
+         ++e)
+      row[coarse->matrix.node[e]] += (double)coarse->matrix.weight[e];
+    for (int32_t j = 0; j < coarse->n; ++j)
+      if (!coarse->fixed[k] && !coarse->fixed[j])
+        assert_true(fabs(row[j] - galerkin_entry(g, k, j)) < 1e-5);
+  }
+  free(row);
+}
+
+/* Nodes that no node of the coarse mesh touches may be coupled: the rows of the
+ * children that stand where coarse nodes do say nothing of that. */
+static void
+test_coarse_rows_have_all_columns(void **state)
+{
+  (void)state;
+  grid g, coupled;
+  grid_open(&g, 2, 1, 4, 1);
+  abut_context *context = fixture_context();
+  const int32_t side = g.side[0], p = 3 * side + 3, q = 11 * side + 13;
+  couple(&g, p, q, &coupled);
+  abut_multigrid *plain = open_multigrid(context, &g);
+  abut_multigrid *mg = open_multigrid(context, &coupled);
+  assert_ok(abut_multigrid_hold(plain, NULL, NULL));
+  assert_galerkin(&g, plain);
+  /* While one of them is held nothing is missing. */
+  uint8_t *held = calloc((size_t)g.n, 1);
+  held[p] = 1;
+  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_in_range(grid_iterations(&coupled, mg, held, 1e-10), 5, 12);
+  assert_ok(abut_multigrid_hold(mg, NULL, NULL));
+  assert_galerkin(&coupled, mg);
+  assert_in_range(grid_iterations(&coupled, mg, NULL, 1e-10), 5, 12);
+
+  free(held);
+  free(coupled.start);
+  free(coupled.column);
+  free(coupled.value);
+  assert_ok(abut_multigrid_destroy(&plain));
+  assert_ok(abut_multigrid_destroy(&mg));
+  assert_ok(abut_context_destroy(&context));
+  grid_close(&g);
+}
+
 /* A matrix in two parts: of couplings between some of the nodes a part is in
  * `more`, all else in `less`. */
 typedef struct halves
@@ -569,6 +671,7 @@ main(void)
       cmocka_unit_test(test_cycle_is_symmetric_and_leaves_held),
       cmocka_unit_test(test_coarse_matrix_is_that_of_galerkin),
       cmocka_unit_test(test_what_changed_is_made_anew_and_no_more),
+      cmocka_unit_test(test_coarse_rows_have_all_columns),
       cmocka_unit_test(test_terms_are_part_of_the_matrix),
       cmocka_unit_test(test_one_rank_is_none),
       cmocka_unit_test(test_one_mesh_is_solved),

@@ -248,9 +248,12 @@ namespace abut::tests
     residual.reinit(owned, communicator);
     space.n_components = dim;
     space.n_bodies = 2;
-    space.component.resize(owned.n_elements());
-    space.body.resize(owned.n_elements());
-    space.point.resize(owned.n_elements());
+    std::vector<std::uint8_t> &component = space.component.change();
+    std::vector<int> &body_of = space.body.change();
+    std::vector<dealii::Point<3>> &places = space.point.change();
+    component.resize(owned.n_elements());
+    body_of.resize(owned.n_elements());
+    places.resize(owned.n_elements());
     space.names = {"lower block", "upper block"};
 
     const dealii::QGauss<dim> quadrature(2);
@@ -275,10 +278,10 @@ namespace abut::tests
         {
           const auto k = owned.index_within_set(dofs[i]);
           const auto node = fe.system_to_component_index(i);
-          space.component[k] = node.first;
-          space.body[k] = body;
+          component[k] = node.first;
+          body_of[k] = body;
           for (unsigned int d = 0; d < dim; ++d)
-            space.point[k][d] = cell->vertex(node.second)[d];
+            places[k][d] = cell->vertex(node.second)[d];
         }
       if (!cell->is_locally_owned())
         continue;

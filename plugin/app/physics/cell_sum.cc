@@ -73,6 +73,12 @@ namespace abut::app
                                const Dofs &dofs)
   {
     const std::size_t n = dofs.size();
+    constexpr int corners = 1 << dim;
+    if (n == corners)
+    {
+      add_to_short_rows<corners>(matrix, dofs);
+      return;
+    }
     int offset = 0;
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -91,6 +97,50 @@ namespace abut::app
         place_[j] = place;
         rows_.value[place] += matrix(i, j);
       }
+    }
+  }
+
+  /** The same for cells with n unknowns and short rows of ascending columns:
+   * one look at a row finds the places of all of them. */
+  template <int dim>
+  template <int n>
+  bool CellSum<dim>::add_to_short_row(const double *const entries,
+                                      const int row,
+                                      const std::array<int, n> &columns)
+  {
+    const int *const begin = rows_.column + rows_.start[row];
+    const int length = rows_.start[row + 1] - rows_.start[row];
+    std::array<int, n> n_less{};
+    for (int k = 0; k < length; ++k)
+      for (int j = 0; j < n; ++j)
+        n_less[j] += begin[k] < columns[j] ? 1 : 0;
+    bool found = true;
+    for (int j = 0; j < n; ++j)
+      found = found && n_less[j] < length && begin[n_less[j]] == columns[j];
+    if (!found)
+      return false;
+    double *const values = rows_.value + rows_.start[row];
+    for (int j = 0; j < n; ++j)
+      values[n_less[j]] += entries[j];
+    return true;
+  }
+
+  template <int dim>
+  template <int n>
+  void CellSum<dim>::add_to_short_rows(const dealii::FullMatrix<double> &matrix,
+                                       const Dofs &dofs)
+  {
+    std::array<int, n> columns;
+    for (int j = 0; j < n; ++j)
+      columns[j] = static_cast<int>(dofs[j] - first_);
+    for (int i = 0; i < n; ++i)
+    {
+      const int row = columns[i];
+      if (rows_.start[row + 1] - rows_.start[row] <= few
+          && add_to_short_row<n>(&matrix(i, 0), row, columns))
+        continue;
+      for (int j = 0; j < n; ++j)
+        rows_.value[find(row, columns[j], -1)] += matrix(i, j);
     }
   }
 

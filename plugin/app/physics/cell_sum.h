@@ -6,6 +6,8 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <array>
+
 namespace abut::app
 {
   /** Sums up matrices and vectors of cells as
@@ -41,6 +43,12 @@ namespace abut::app
   private:
     bool is_plain(const Dofs &dofs) const;
     void add_plain(const dealii::FullMatrix<double> &matrix, const Dofs &dofs);
+    template <int n>
+    bool add_to_short_row(const double *entries, int row,
+                          const std::array<int, n> &columns);
+    template <int n>
+    void add_to_short_rows(const dealii::FullMatrix<double> &matrix,
+                           const Dofs &dofs);
     int find(int row, int column, int guess) const;
 
     const dealii::AffineConstraints<double> &constraints_;

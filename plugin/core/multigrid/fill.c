@@ -80,13 +80,7 @@ make_pattern(abut_multigrid *mg, const abut_multigrid_matrix *a,
     return;
   abut_multigrid_clear_places(mg, n);
   for (int32_t i = 0; i < n; ++i)
-  {
-    int32_t *columns = rows->node + rows->start[i];
-    abut_multigrid_collect(mg, a, host, i, columns);
-    if (mg->block == 1)
-      abut_row_in_order(columns, rows->start[i + 1] - rows->start[i], i,
-                        mg->list);
-  }
+    abut_multigrid_collect(mg, a, host, i, rows->node + rows->start[i]);
 }
 
 void
@@ -123,6 +117,77 @@ fill_row(abut_multigrid *mg, const abut_multigrid_matrix *a,
       level->diagonal[i] = e;
   }
   abut_multigrid_add_row(mg, a, host, i, level->matrix.weight + first * b * b);
+}
+
+/* The row of node i where each has one unknown, straight into its place: what
+ * is before the diagonal first, see abut_row_in_order(). A second entry of the
+ * diagonal is added to the first. */
+static void
+copy_row(abut_multigrid *mg, const abut_multigrid_matrix *a,
+         const abut_host_numbers *host, int32_t i)
+{
+  abut_multigrid_level *level = &mg->level[0];
+  const int32_t row = mg->unknown[i];
+  const int32_t begin = row < a->n ? a->start[row] : 0;
+  const int32_t end = row < a->n ? a->start[row + 1] : 0;
+  const int64_t first = level->matrix.start[i];
+  int32_t n_before = 0, n_own = 0;
+  for (int32_t e = begin; e < end; ++e)
+  {
+    n_before += host->node[a->column[e]] < i;
+    n_own += a->column[e] == row;
+  }
+  int64_t before = first, own = first + n_before, after = own + n_own;
+  level->diagonal[i] = n_own > 0 ? own : -1;
+  for (int32_t e = begin; e < end; ++e)
+  {
+    const int32_t node = host->node[a->column[e]];
+    int64_t *const next = node < i ? &before : node > i ? &after : &own;
+    level->matrix.node[*next] = node;
+    level->matrix.weight[*next] = (float)a->value[e];
+    *next += 1;
+  }
+  for (int32_t k = 1; k < n_own; ++k)
+  {
+    level->matrix.weight[first + n_before] +=
+        level->matrix.weight[first + n_before + k];
+    level->matrix.weight[first + n_before + k] = 0;
+  }
+}
+
+/* The same of all rows. */
+static void
+copy_rows(abut_multigrid *mg, const abut_multigrid_matrix *a,
+          const abut_host_numbers *host)
+{
+  abut_multigrid_level *level = &mg->level[0];
+  abut_node_rows *rows = &level->matrix;
+  const int32_t n = level->n;
+  rows->start = abut_pool_take(&mg->matrices, (int64_t)n + 1, sizeof(int64_t));
+  level->diagonal = abut_pool_take(&mg->matrices, n, sizeof(int64_t));
+  if (mg->matrices.failed)
+    return;
+  for (int32_t i = 0; i < n; ++i)
+  {
+    const int32_t row = mg->unknown[i];
+    rows->start[i + 1] =
+        rows->start[i] + (row < a->n ? a->start[row + 1] - a->start[row] : 0);
+  }
+  rows->node = abut_pool_take(&mg->matrices, rows->start[n], sizeof(int32_t));
+  rows->weight =
+      abut_pool_take(&mg->matrices, rows->start[n] + 1, sizeof(float));
+  for (int32_t i = 0; i < n && !mg->matrices.failed; ++i)
+    copy_row(mg, a, host, i);
+}
+
+/* Pattern and numbers of blocks. */
+static void
+fill_rows(abut_multigrid *mg, const abut_multigrid_matrix *a,
+          const abut_host_numbers *host)
+{
+  make_pattern(mg, a, host);
+  for (int32_t i = 0; i < mg->level[0].n && !mg->matrices.failed; ++i)
+    fill_row(mg, a, host, i);
 }
 
 abut_status
@@ -164,9 +229,10 @@ abut_multigrid_fill(abut_multigrid *mg, const abut_multigrid_matrix *matrix)
     return abut_fail(mg->context, ABUT_OUT_OF_MEMORY, set_matrix_call,
                      "no memory");
   }
-  make_pattern(mg, matrix, &host);
-  for (int32_t i = 0; i < mg->level[0].n && !mg->matrices.failed; ++i)
-    fill_row(mg, matrix, &host, i);
+  if (mg->block == 1)
+    copy_rows(mg, matrix, &host);
+  else
+    fill_rows(mg, matrix, &host);
   abut_pool_release(&work);
   return mg->matrices.failed
              ? abut_fail(mg->context, ABUT_OUT_OF_MEMORY, set_matrix_call,

@@ -34,14 +34,28 @@ row_of(const row_set *set, int32_t node)
   return set->at == NULL ? node : set->at[node];
 }
 
-/* Make the list of the fine columns of coarse row k; returns how many. */
-static int32_t
-list_columns(abut_multigrid *mg, const abut_multigrid_level *fine,
-             const row_set *set, int32_t k)
+/* The child that stands where its parent k does; -1: there is none. */
+static int64_t
+find_same(const abut_multigrid_level *fine, int32_t k)
 {
-  int32_t n = 0;
   for (int64_t f = fine->children.start[k]; f < fine->children.start[k + 1];
        ++f)
+    if (fine->children.weight[f] == 1)
+      return f;
+  return -1;
+}
+
+/* Make the list of the fine columns of coarse row k, or of the child in its
+ * place alone if there is one; returns how many. */
+static int32_t
+list_columns(abut_multigrid *mg, const abut_multigrid_level *fine,
+             const row_set *set, int32_t k, bool alone)
+{
+  const int64_t same = alone ? find_same(fine, k) : -1;
+  const int64_t first = same < 0 ? fine->children.start[k] : same;
+  const int64_t end = same < 0 ? fine->children.start[k + 1] : same + 1;
+  int32_t n = 0;
+  for (int64_t f = first; f < end; ++f)
   {
     const int32_t q = row_of(set, fine->children.node[f]);
     for (int64_t e = q < 0 ? 0 : set->rows->start[q];
@@ -83,25 +97,40 @@ append_parents(abut_multigrid *mg, const abut_multigrid_level *fine, int32_t k,
   return ABUT_SUCCESS;
 }
 
+/* No more fine columns than that has the row of coarse node k. */
+static int64_t
+most_columns(const abut_multigrid_level *fine, const row_set *set, int32_t k)
+{
+  int64_t n = 0;
+  for (int64_t f = fine->children.start[k]; f < fine->children.start[k + 1];
+       ++f)
+  {
+    const int32_t q = row_of(set, fine->children.node[f]);
+    n += q < 0 ? 0 : set->rows->start[q + 1] - set->rows->start[q];
+  }
+  return n < fine->n ? n : fine->n;
+}
+
 /* Pattern of n rows of level l + 1 with numbers `row`, NULL: all; where their
  * diagonal blocks stand; work for abut_galerkin_rows(). */
 static void
 make_pattern(abut_multigrid *mg, int32_t l, const row_set *set, int32_t n,
              const int32_t *row, abut_pool *pool, abut_node_rows *rows,
-             int64_t *diagonal, float **sum)
+             int64_t *diagonal, float **sum, bool alone)
 {
   const abut_multigrid_level *fine = &mg->level[l];
   const int32_t size = mg->block * mg->block;
   abut_array columns = {NULL, 0, sizeof(int32_t)};
   int64_t n_columns = 0;
-  int32_t most = 0;
+  int64_t most = 0;
   abut_status status = pool->failed ? ABUT_OUT_OF_MEMORY : ABUT_SUCCESS;
   abut_multigrid_clear_places(mg, mg->level[l + 1].n);
   for (int32_t q = 0; q < n && status == ABUT_SUCCESS; ++q)
   {
     const int32_t k = row == NULL ? q : row[q];
-    const int32_t n_fine = list_columns(mg, fine, set, k);
-    most = most > n_fine ? most : n_fine;
+    const int32_t n_fine = list_columns(mg, fine, set, k, alone);
+    const int64_t room = most_columns(fine, set, k);
+    most = most > room ? most : room;
     status = append_parents(mg, fine, k, n_fine, &columns, &n_columns);
     if (mg->block == 1 && status == ABUT_SUCCESS)
       abut_row_in_order((int32_t *)columns.data + rows->start[q],
@@ -115,10 +144,34 @@ make_pattern(abut_multigrid *mg, int32_t l, const row_set *set, int32_t n,
   pool->failed |= status != ABUT_SUCCESS;
   rows->node = abut_pool_take(pool, n_columns, sizeof(int32_t));
   rows->weight = abut_pool_take(pool, n_columns * size + 1, sizeof(float));
-  *sum = abut_pool_take(pool, (int64_t)most * size, sizeof(float));
+  *sum = abut_pool_take(pool, most * size, sizeof(float));
   if (!pool->failed && n_columns > 0)
     memcpy(rows->node, columns.data, (size_t)n_columns * sizeof(int32_t));
   abut_array_release(mg->context, &columns);
+}
+
+/* Where nodes are in the middle of their parents and nothing hangs, the child
+ * that stands where its parent does has all columns that all children have: a
+ * ninth of the work in the plane. That is no more than likely, and so
+ * abut_galerkin_rows() looks. */
+static void
+make_matrix_pattern(abut_multigrid *mg, int32_t l, bool alone)
+{
+  abut_multigrid_level *coarse = &mg->level[l + 1];
+  const row_set set = matrix_of(&mg->level[l]);
+  make_pattern(mg, l, &set, coarse->n, NULL, &mg->matrices, &coarse->matrix,
+               coarse->diagonal, &coarse->sum, alone);
+}
+
+static bool
+are_middles(const abut_multigrid_level *fine)
+{
+  const abut_node_rows *parents = &fine->parents;
+  bool same = true;
+  for (int32_t i = 0; i < fine->n; ++i)
+    for (int64_t e = parents->start[i] + 1; e < parents->start[i + 1]; ++e)
+      same &= parents->weight[e] == parents->weight[e - 1];
+  return same;
 }
 
 void
@@ -129,9 +182,10 @@ abut_galerkin_pattern(abut_multigrid *mg, int32_t l)
   coarse->matrix.start =
       abut_pool_take(pool, (int64_t)coarse->n + 1, sizeof(int64_t));
   coarse->diagonal = abut_pool_take(pool, coarse->n, sizeof(int64_t));
-  const row_set set = matrix_of(&mg->level[l]);
-  make_pattern(mg, l, &set, coarse->n, NULL, pool, &coarse->matrix,
-               coarse->diagonal, &coarse->sum);
+  /* Copies have parts of rows, which may have other columns. */
+  const bool alone = mg->level[l].ranks == NULL && are_middles(&mg->level[l]);
+  if (!pool->failed)
+    make_matrix_pattern(mg, l, alone);
 }
 
 /* Number the coarse nodes with children that have terms. */
@@ -168,7 +222,7 @@ abut_terms_pattern(abut_multigrid *mg, int32_t l)
   number_terms(mg, fine, &mg->level[l + 1]);
   const row_set set = terms_of(fine);
   make_pattern(mg, l, &set, terms->n, terms->row, &mg->terms, &terms->rows,
-               terms->diagonal, &terms->sum);
+               terms->diagonal, &terms->sum, false);
 }
 
 /* Add the row of child i over fine columns, of which there are n; returns how
@@ -208,11 +262,13 @@ add_child(abut_multigrid *mg, const abut_multigrid_level *fine,
   return n;
 }
 
-/* Hand the fine columns on to their parents, without those that are held. */
-ABUT_INLINE void
+/* Hand the fine columns on to their parents, without those that are held;
+ * returns whether the row has all of these. */
+ABUT_INLINE bool
 add_to_parents(abut_multigrid *mg, const abut_multigrid_level *fine,
                const int32_t b, int32_t n, float *sum, float *row)
 {
+  bool has_all = true;
   for (int32_t p = 0; p < n; ++p)
   {
     const int32_t j = mg->list[p];
@@ -224,12 +280,19 @@ add_to_parents(abut_multigrid *mg, const abut_multigrid_level *fine,
     for (int64_t g = fine->parents.start[j]; g < fine->parents.start[j + 1];
          ++g)
     {
-      float *to = row + (int64_t)mg->place[fine->parents.node[g]] * b * b;
+      const int32_t at = mg->place[fine->parents.node[g]];
+      if (at < 0)
+      {
+        has_all = false;
+        continue;
+      }
+      float *to = row + (int64_t)at * b * b;
       const float weight = fine->parents.weight[g];
       for (int32_t r = 0; r < b * b; ++r)
         to[r] += weight * from[r];
     }
   }
+  return has_all;
 }
 
 /* Cut off what is fixed on the coarse level from the row of node k, number q
@@ -249,8 +312,9 @@ cut_fixed(const abut_multigrid_level *coarse, const abut_node_rows *rows,
   }
 }
 
-/* Row number q of `rows`, that of coarse node k. */
-ABUT_INLINE void
+/* Row number q of `rows`, that of coarse node k; false: it lacks columns.
+ * mg->place is -1 before and after. */
+ABUT_INLINE bool
 make_row(abut_multigrid *mg, const int32_t b, int32_t l, const row_set *set,
          const abut_node_rows *rows, int32_t q, int32_t k, float *sum)
 {
@@ -269,21 +333,26 @@ make_row(abut_multigrid *mg, const int32_t b, int32_t l, const row_set *set,
     mg->place[rows->node[e]] = (int32_t)(e - first);
   float *row = rows->weight + first * b * b;
   memset(row, 0, (size_t)(end - first) * (size_t)(b * b) * sizeof(float));
-  add_to_parents(mg, fine, b, n, sum, row);
+  const bool has_all = add_to_parents(mg, fine, b, n, sum, row);
   cut_fixed(&mg->level[l + 1], rows, b, q, k);
+  for (int64_t e = first; e < end; ++e)
+    mg->place[rows->node[e]] = -1;
+  return has_all;
 }
 
-ABUT_INLINE void
+ABUT_INLINE bool
 make_rows(abut_multigrid *mg, const int32_t b, int32_t l)
 {
   const row_set set = matrix_of(&mg->level[l]);
   const abut_multigrid_level *coarse = &mg->level[l + 1];
-  for (int32_t k = 0; k < coarse->n; ++k)
+  bool has_all = true;
+  for (int32_t k = 0; k < coarse->n && has_all; ++k)
     if (coarse->dirty[k])
     {
-      make_row(mg, b, l, &set, &coarse->matrix, k, k, coarse->sum);
+      has_all = make_row(mg, b, l, &set, &coarse->matrix, k, k, coarse->sum);
       mg->n_renewed += 1;
     }
+  return has_all;
 }
 
 ABUT_INLINE void
@@ -291,19 +360,32 @@ make_terms(abut_multigrid *mg, const int32_t b, int32_t l)
 {
   const row_set set = terms_of(&mg->level[l]);
   const abut_node_terms *terms = &mg->level[l + 1].terms;
+  abut_multigrid_clear_places(mg, mg->level[l + 1].n);
   for (int32_t q = 0; q < terms->n; ++q)
-    make_row(mg, b, l, &set, &terms->rows, q, terms->row[q], terms->sum);
+    (void)make_row(mg, b, l, &set, &terms->rows, q, terms->row[q], terms->sum);
 }
 
-void
+static bool
+make_dirty_rows(abut_multigrid *mg, int32_t l)
+{
+  abut_multigrid_clear_places(mg, mg->level[l + 1].n);
+  return mg->block == 1   ? make_rows(mg, 1, l)
+         : mg->block == 2 ? make_rows(mg, 2, l)
+                          : make_rows(mg, 3, l);
+}
+
+abut_status
 abut_galerkin_rows(abut_multigrid *mg, int32_t l)
 {
-  if (mg->block == 1)
-    make_rows(mg, 1, l);
-  else if (mg->block == 2)
-    make_rows(mg, 2, l);
-  else
-    make_rows(mg, 3, l);
+  if (make_dirty_rows(mg, l))
+    return ABUT_SUCCESS;
+  /* The child in the place of its parent was not enough. */
+  make_matrix_pattern(mg, l, false);
+  if (mg->matrices.failed)
+    return ABUT_OUT_OF_MEMORY;
+  memset(mg->level[l + 1].dirty, 1, (size_t)mg->level[l + 1].n);
+  (void)make_dirty_rows(mg, l);
+  return ABUT_SUCCESS;
 }
 
 void

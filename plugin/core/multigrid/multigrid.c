@@ -442,6 +442,26 @@ prepare_finest(abut_multigrid *mg)
   abut_multigrid_bound(mg, 0, POWER_STEPS);
 }
 
+/* Make what depends on the rows of the finest level that are dirty. */
+static abut_status
+renew_coarse(abut_multigrid *mg, bool has_terms)
+{
+  for (int32_t l = 0; l + 1 < mg->n_levels; ++l)
+  {
+    if (!mark_coarse(mg, l))
+      continue;
+    const abut_status status = abut_galerkin_rows(mg, l);
+    if (status != ABUT_SUCCESS)
+      return abut_fail(mg->context, status, hold_call, "no memory");
+    if (has_terms)
+      abut_terms_rows(mg, l);
+    abut_multigrid_invert(mg, l + 1);
+    if (l + 2 < mg->n_levels && !mg->sweeps)
+      abut_multigrid_bound(mg, l + 1, POWER_STEPS);
+  }
+  return ABUT_SUCCESS;
+}
+
 static bool
 holds_numbers(const abut_multigrid *mg, const double *added)
 {
@@ -485,18 +505,9 @@ abut_multigrid_hold(abut_multigrid *mg, const uint8_t *held,
   /* What is eliminated has no stiffness left, and must be held here. */
   if (has_terms)
     abut_multigrid_bound(mg, 0, POWER_STEPS);
-  for (int32_t l = 0; l + 1 < mg->n_levels; ++l)
-  {
-    if (!mark_coarse(mg, l))
-      continue;
-    abut_galerkin_rows(mg, l);
-    if (has_terms)
-      abut_terms_rows(mg, l);
-    abut_multigrid_invert(mg, l + 1);
-    if (l + 2 < mg->n_levels && !mg->sweeps)
-      abut_multigrid_bound(mg, l + 1, POWER_STEPS);
-  }
-  const abut_status status = abut_multigrid_factorise(mg);
+  abut_status status = renew_coarse(mg, has_terms);
+  if (status == ABUT_SUCCESS)
+    status = abut_multigrid_factorise(mg);
   mg->is_ready = status == ABUT_SUCCESS;
   return status;
 }

@@ -172,8 +172,9 @@ abut_status abut_multigrid_fill(abut_multigrid *mg,
 /* Pattern of the matrix of level l + 1. */
 void abut_galerkin_pattern(abut_multigrid *mg, int32_t l);
 
-/* Its rows that are marked dirty. */
-void abut_galerkin_rows(abut_multigrid *mg, int32_t l);
+/* Its rows that are marked dirty; all, and they are marked, if the pattern
+ * lacks what they need. */
+abut_status abut_galerkin_rows(abut_multigrid *mg, int32_t l);
 
 /* The same of what is added: rows of level l + 1, all of them. */
 void abut_terms_pattern(abut_multigrid *mg, int32_t l);
