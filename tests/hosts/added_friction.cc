@@ -97,13 +97,13 @@ namespace
     {
       const auto &dofs = blocks_.dof_handler();
       const dealii::IndexSet owned = dofs.locally_owned_dofs();
-      dealii::DynamicSparsityPattern pattern(dofs.n_dofs());
+      const dealii::IndexSet all = dealii::complete_index_set(dofs.n_dofs());
+      dealii::DynamicSparsityPattern pattern(dofs.n_dofs(), dofs.n_dofs(), all);
       dealii::DoFTools::make_sparsity_pattern(dofs, pattern,
                                               blocks_.constraints(), false);
       contact().add_to_sparsity(pattern);
-      dealii::SparsityTools::distribute_sparsity_pattern(
-          pattern, owned, MPI_COMM_WORLD,
-          dealii::complete_index_set(dofs.n_dofs()));
+      dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned,
+                                                         MPI_COMM_WORLD, all);
       matrix.reinit(owned, owned, pattern, MPI_COMM_WORLD);
     }
 

@@ -13,7 +13,7 @@ namespace Step41
     obstacle.lower = std::make_shared<Obstacle<dim>>();
     contact.set_obstacle(obstacle);
     contact.assume_constant_matrix(true);
-    contact.reinit(StaticMappingQ1<dim>::mapping, dof_handler, constraints);
+    contact.reinit(mapping, dof_handler, constraints);
     contact.detect(solution);
 
     TrilinosWrappers::MPI::Vector residual(solution), increment(solution);

@@ -37,11 +37,13 @@ def main():
         text = remove_function(text, name)
     text = replace(text, "#include <deal.II/numerics/data_out.h>\n",
                    "#include <deal.II/numerics/data_out.h>\n"
+                   "#include <deal.II/fe/mapping_q1.h>\n"
                    "#include <abut/dealii/contact_assembler.h>\n"
                    "#include <iomanip>\n")
     text = replace(text, "    IndexSet                  active_set;\n",
                    "    IndexSet                  active_set;\n"
                    "    unsigned int              level = 7;\n"
+                   "    const MappingQ1<dim>      mapping;\n"
                    "    abut::ContactAssembler<dim> contact{MPI_COMM_WORLD};\n\n"
                    "  public:\n"
                    "    void set_level(const unsigned int l) { level = l; }\n"
