@@ -5,6 +5,7 @@
 
 #include "agree.h"
 #include "bodies.h"
+#include "self_contact.h"
 
 #include <abut/dealii/rigid_obstacle.h>
 
@@ -71,7 +72,8 @@ namespace abut::shim
     }
   } // namespace
 
-  template <int dim> void SurfacePairRows<dim>::check_gap(const Pair &pair) const
+  template <int dim>
+  void SurfacePairRows<dim>::check_gap(const Pair &pair) const
   {
     const ContactPair<dim> &data = pair.data;
     const auto refuse = [&](const std::string &of, const double depth)
@@ -91,6 +93,10 @@ namespace abut::shim
     // Nodes deeper than half of a thin body belong to its other side.
     if (pair.thickness > 0. && data.gap >= pair.thickness / 2.)
       refuse("the thinnest part of the primary's body", pair.thickness / 2.);
+    // Parts of one surface have one body, which reaches around what they meet
+    // in.
+    if (SelfContact<dim>::is_split(data))
+      return;
     for (const bool is_primary : {true, false})
     {
       const SurfaceSide<dim> &side = is_primary ? pair.primary : pair.secondary;

@@ -117,10 +117,17 @@ class SolidJudge:
     def round_off(self, part=1e-13):
         """Of forces, where bodies move and are hardly deformed, or touch by the
         round-off of their places."""
-        young = max(self.scene.number(f"Body {body}/Young modulus", 1.)
-                    for body in range(1, self.n_bodies + 1))
-        return (part * young * (self.largest + 1e-3 * self.nodes.extent)
+        stiffness = max(self.stiffness(body)
+                        for body in range(1, self.n_bodies + 1))
+        return (part * stiffness * (self.largest + 1e-3 * self.nodes.extent)
                 * self.nodes.extent**(self.dim - 2))
+
+    def stiffness(self, body):
+        """Of a body that cannot grow wider, which of one that hardly changes
+        its volume is far more than its Young modulus."""
+        young = self.scene.number(f"Body {body}/Young modulus", 1.)
+        ratio = self.scene.number(f"Body {body}/Poisson ratio", 0.3)
+        return young * (1. - ratio) / ((1. + ratio) * (1. - 2. * ratio))
 
     def imbalance(self):
         """Of forces that are in balance: of large strain also Newton's

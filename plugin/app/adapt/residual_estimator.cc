@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace abut::app
@@ -186,10 +187,17 @@ namespace abut::app
       estimator.on_face(cell, f, neighbor, neighbor_f, subface, scratch, out);
     };
     double sum = 0;
+    std::set<unsigned int> unknown;
     const auto copier = [&](const Contributions &contributions)
     {
       for (const auto &[cell, value] : contributions)
       {
+        // Where a cell is turned inside out its material has no stress.
+        if (std::isnan(value))
+        {
+          unknown.insert(cell);
+          continue;
+        }
         squared[cell] += float(value);
         sum += value;
       }
@@ -203,6 +211,15 @@ namespace abut::app
             | dealii::MeshWorker::assemble_ghost_faces_both
             | dealii::MeshWorker::assemble_boundary_faces,
         boundary_worker, face_worker);
+    const float largest = dealii::Utilities::MPI::max(
+        squared.size() > 0 ? *std::max_element(squared.begin(), squared.end())
+                           : 0.f,
+        dof_handler.get_communicator());
+    for (const unsigned int cell : unknown)
+    {
+      sum += largest - squared[cell];
+      squared[cell] = largest;
+    }
     return std::sqrt(
         dealii::Utilities::MPI::sum(sum, dof_handler.get_communicator()));
   }

@@ -69,7 +69,9 @@ namespace abut::app
    * finer parts.
    *
    * @param squared eta_K^2 per active cell, zero on cells of other ranks; made
-   * for GridRefinement's fixed fraction, whose sum is then the bulk criterion
+   * for GridRefinement's fixed fraction, whose sum is then the bulk criterion;
+   * where terms are no numbers, as the stress of a cell that is turned inside
+   * out, the largest of all cells
    * @return the global estimate, square root of the sum over all ranks.
    *
    * Collective. About as expensive as one assembly of the matrix. */
