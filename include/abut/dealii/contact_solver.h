@@ -500,7 +500,7 @@ namespace abut
             || is_at_end(scales))
           break;
         if (halving == parameters_.max_halvings)
-          return give_up(scales.before, u);
+          return give_up(scales, u);
         part /= 2.;
         trial_ = u;
         trial_.add(part, step_);
@@ -580,18 +580,32 @@ namespace abut
       return "";
     }
 
-    bool give_up(const double before, const la::Vector &u)
+    bool give_up(const Scales &scales, const la::Vector &u)
     {
       if (!std::isfinite(result_.residual))
         return stop_not_finite();
       return stop_astray(
           NewtonReason::line_search,
-          "No step lowers the residual, " + short_number(before)
+          "No step lowers the residual, " + short_number(scales.before)
               + " before and " + short_number(result_.residual)
-              + " after the shortest one tried. Check that the tangent "
+              + " after the shortest one tried" + about_defect(scales)
+              + ". Check that the tangent "
                 "is the derivative of the residual, and use smaller "
                 "load steps.",
           u);
+    }
+
+    /** A part of a sentence, if the law of points that move is not satisfied:
+     * what stands in for it beside the residual. */
+    std::string about_defect(const Scales &scales) const
+    {
+      const double before = as_force(scales, scales.defect),
+                   after = as_force(scales, defect_);
+      return before + after > 0.
+                 ? ", together with what the law of contact is off by, "
+                       + short_number(before) + " before and "
+                       + short_number(after) + " after as a force"
+                 : "";
     }
 
     /** Stop without an answer, with what may be behind it. */
