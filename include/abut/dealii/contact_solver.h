@@ -41,6 +41,7 @@
 #include <abut/dealii/contact_assembler.h>
 #include <abut/dealii/contact_loop.h>
 #include <abut/dealii/contact_solver_types.h>
+#include <abut/dealii/partner_words.h>
 
 #include <algorithm>
 #include <cmath>
@@ -595,49 +596,24 @@ namespace abut
           u);
     }
 
-    /** A part of a sentence, if the law of points that move is not satisfied:
-     * what stands in for it beside the residual. */
+    /** What the law of points that move is off by, as a part of a sentence. */
     std::string about_defect(const Scales &scales) const
     {
-      const double before = as_force(scales, scales.defect),
-                   after = as_force(scales, defect_);
-      return before + after > 0.
-                 ? ", together with what the law of contact is off by, "
-                       + short_number(before) + " before and "
-                       + short_number(after) + " after as a force"
-                 : "";
+      if (scales.defect + defect_ == 0.)
+        return "";
+      return ", together with what the law of contact is off by, "
+             + short_number(as_force(scales, scales.defect)) + " before and "
+             + short_number(as_force(scales, defect_)) + " after as a force";
     }
 
     /** Stop without an answer, with what may be behind it. */
     bool stop_astray(const NewtonReason reason, const std::string &seen,
                      const la::Vector &u)
     {
-      const PartnerChanges changes = contact_.partner_changes();
-      const bool known = changes.lost + changes.jumped > 0;
+      const std::string jumps = in_words(contact_.partner_changes());
       return stop(reason,
-                  seen + about_negative_steps() + about_sliding(u)
-                      + about_partners(changes),
-                  known ? ABUT_FAILURE_PARTNERS : ABUT_FAILURE_NEWTON);
-    }
-
-    /** A sentence, if there are any. */
-    static std::string about_partners(const PartnerChanges &changes)
-    {
-      if (changes.lost + changes.jumped == 0)
-        return "";
-      std::string seen = " Of the points that press,";
-      if (changes.lost > 0)
-        seen += " " + std::to_string(changes.lost)
-                + " came past the end of what is opposite them on the way of "
-                  "the last linearisation"
-                + (changes.jumped > 0 ? " and" : "");
-      if (changes.jumped > 0)
-        seen += " " + std::to_string(changes.jumped)
-                + " jumped between facets that are no neighbours, or of other "
-                  "normals";
-      return seen
-             + ": take mortar, which follows smoothly (Method/Discretisation = "
-               "dual mortar), or round such corners and ends.";
+                  seen + about_negative_steps() + about_sliding(u) + jumps,
+                  jumps.empty() ? ABUT_FAILURE_NEWTON : ABUT_FAILURE_PARTNERS);
     }
 
     /** Whether to search again on the deformed bodies. */

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_DEALII_PARTNER_WORDS_H
+#define ABUT_DEALII_PARTNER_WORDS_H
+
+#include <abut/dealii/detection_report.h>
+
+#include <string>
+
+namespace abut
+{
+  /** A sentence, with a blank before it, that says what points that press have
+   * lost, and what to take instead; empty if there are none. */
+  inline std::string in_words(const PartnerChanges &changes)
+  {
+    if (changes.lost + changes.jumped == 0)
+      return "";
+    std::string seen = " Of the points that press,";
+    if (changes.lost > 0)
+      seen += " " + std::to_string(changes.lost)
+              + " came past the end of what is opposite them on the way of "
+                "the last linearisation"
+              + (changes.jumped > 0 ? " and" : "");
+    if (changes.jumped > 0)
+      seen += " " + std::to_string(changes.jumped)
+              + " jumped between facets that are no neighbours, or of other "
+                "normals";
+    return seen
+           + ": take mortar, which follows smoothly (Method/Discretisation = "
+             "dual mortar), or round such corners and ends.";
+  }
+} // namespace abut
+
+#endif
