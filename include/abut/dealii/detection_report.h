@@ -48,6 +48,21 @@ namespace abut
       result.seconds -= before.seconds;
       return result;
     }
+
+    /** Add what another solve has taken and changed. */
+    DetectionReport &operator+=(const DetectionReport &other)
+    {
+      searches += other.searches;
+      reuses += other.reuses;
+      rebuilds += other.rebuilds;
+      refits += other.refits;
+      gatherings += other.gatherings;
+      seconds += other.seconds;
+      gained += other.gained;
+      lost += other.lost;
+      exchanged += other.exchanged;
+      return *this;
+    }
   };
   /** What trials of a line search have done to points between bodies, nodes or
    * points of quadrature, that move with them and pressed when the problem was

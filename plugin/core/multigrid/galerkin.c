@@ -34,13 +34,15 @@ row_of(const row_set *set, int32_t node)
   return set->at == NULL ? node : set->at[node];
 }
 
-/* The child that stands where its parent k does; -1: there is none. */
+/* The child that stands where its parent k does; -1: there is none, or it is
+ * fixed and its row has the diagonal only. */
 static int64_t
-find_same(const abut_multigrid_level *fine, int32_t k)
+find_same(const abut_multigrid_level *fine, int32_t b, int32_t k)
 {
   for (int64_t f = fine->children.start[k]; f < fine->children.start[k + 1];
        ++f)
-    if (fine->children.weight[f] == 1)
+    if (fine->children.weight[f] == 1
+        && !fine->fixed[(int64_t)fine->children.node[f] * b])
       return f;
   return -1;
 }
@@ -51,7 +53,7 @@ static int32_t
 list_columns(abut_multigrid *mg, const abut_multigrid_level *fine,
              const row_set *set, int32_t k, bool alone)
 {
-  const int64_t same = alone ? find_same(fine, k) : -1;
+  const int64_t same = alone ? find_same(fine, mg->block, k) : -1;
   const int64_t first = same < 0 ? fine->children.start[k] : same;
   const int64_t end = same < 0 ? fine->children.start[k + 1] : same + 1;
   int32_t n = 0;
@@ -154,15 +156,6 @@ make_pattern(abut_multigrid *mg, int32_t l, const row_set *set, int32_t n,
  * that stands where its parent does has all columns that all children have: a
  * ninth of the work in the plane. That is no more than likely, and so
  * abut_galerkin_rows() looks. */
-static void
-make_matrix_pattern(abut_multigrid *mg, int32_t l, bool alone)
-{
-  abut_multigrid_level *coarse = &mg->level[l + 1];
-  const row_set set = matrix_of(&mg->level[l]);
-  make_pattern(mg, l, &set, coarse->n, NULL, &mg->matrices, &coarse->matrix,
-               coarse->diagonal, &coarse->sum, alone);
-}
-
 static bool
 are_middles(const abut_multigrid_level *fine)
 {
@@ -184,8 +177,9 @@ abut_galerkin_pattern(abut_multigrid *mg, int32_t l)
   coarse->diagonal = abut_pool_take(pool, coarse->n, sizeof(int64_t));
   /* Copies have parts of rows, which may have other columns. */
   const bool alone = mg->level[l].ranks == NULL && are_middles(&mg->level[l]);
-  if (!pool->failed)
-    make_matrix_pattern(mg, l, alone);
+  const row_set set = matrix_of(&mg->level[l]);
+  make_pattern(mg, l, &set, coarse->n, NULL, pool, &coarse->matrix,
+               coarse->diagonal, &coarse->sum, alone);
 }
 
 /* Number the coarse nodes with children that have terms. */
@@ -374,14 +368,37 @@ make_dirty_rows(abut_multigrid *mg, int32_t l)
                           : make_rows(mg, 3, l);
 }
 
+/* The child in the place of its parent was not enough. False: no memory, and
+ * all is as before. */
+static bool
+complete_pattern(abut_multigrid *mg, int32_t l)
+{
+  abut_multigrid_level *coarse = &mg->level[l + 1];
+  abut_pool *pool = &mg->matrices;
+  abut_node_rows rows = {
+      abut_pool_take(pool, (int64_t)coarse->n + 1, sizeof(int64_t)), NULL,
+      NULL};
+  int64_t *diagonal = abut_pool_take(pool, coarse->n, sizeof(int64_t));
+  float *sum = NULL;
+  const row_set set = matrix_of(&mg->level[l]);
+  make_pattern(mg, l, &set, coarse->n, NULL, pool, &rows, diagonal, &sum,
+               false);
+  const bool failed = pool->failed;
+  pool->failed = false;
+  if (failed)
+    return false;
+  coarse->matrix = rows;
+  coarse->diagonal = diagonal;
+  coarse->sum = sum;
+  return true;
+}
+
 abut_status
 abut_galerkin_rows(abut_multigrid *mg, int32_t l)
 {
   if (make_dirty_rows(mg, l))
     return ABUT_SUCCESS;
-  /* The child in the place of its parent was not enough. */
-  make_matrix_pattern(mg, l, false);
-  if (mg->matrices.failed)
+  if (!complete_pattern(mg, l))
     return ABUT_OUT_OF_MEMORY;
   memset(mg->level[l + 1].dirty, 1, (size_t)mg->level[l + 1].n);
   (void)make_dirty_rows(mg, l);

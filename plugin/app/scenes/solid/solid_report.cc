@@ -232,18 +232,7 @@ namespace abut::app
   {
     DetectionReport all;
     for (const ContactResult &result : run.results)
-    {
-      const DetectionReport &some = result.detection;
-      all.searches += some.searches;
-      all.reuses += some.reuses;
-      all.rebuilds += some.rebuilds;
-      all.refits += some.refits;
-      all.gatherings += some.gatherings;
-      all.seconds += some.seconds;
-      all.gained += some.gained;
-      all.lost += some.lost;
-      all.exchanged += some.exchanged;
-    }
+      all += result.detection;
     report.set("searches", all.searches);
     report.set("search_reuses", all.reuses);
     report.set("bucket_rebuilds", all.rebuilds);
