@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deformation.h"
 
+#include "principal_values.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
@@ -23,7 +25,7 @@ namespace abut::shim
     double principal(const dealii::SymmetricTensor<2, dim> &strain)
     {
       double largest = 0.;
-      for (const double value : dealii::eigenvalues(strain))
+      for (const double value : principal_values(strain))
         largest = std::max(largest, std::abs(value));
       return largest;
     }

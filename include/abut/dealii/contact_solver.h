@@ -34,8 +34,7 @@
  * at once, which would fold the first layer of cells: they are a part of the
  * first linearised increment, K du = -R with du = the change there.
  *
- * Everything is in this header, so that programs that load Abut at run time
- * can use it as well as those that link it.
+ * Everything is in this header: programs that load Abut can use it, too.
  */
 
 #include <abut/dealii/contact_assembler.h>
@@ -576,8 +575,7 @@ namespace abut
           return " Bodies have slid on each other by "
                  + short_number(pair.slip / pair.facet)
                  + " facets, but contact has the partners of the undeformed "
-                   "ones: let points follow where they can (Method/Sliding = "
-                   "large).";
+                   "ones: let points follow (Method/Sliding = large).";
       return "";
     }
 
@@ -590,9 +588,8 @@ namespace abut
           "No step lowers the residual, " + short_number(scales.before)
               + " before and " + short_number(result_.residual)
               + " after the shortest one tried" + about_defect(scales)
-              + ". Check that the tangent "
-                "is the derivative of the residual, and use smaller "
-                "load steps.",
+              + ". Check that the tangent is the derivative of the residual, "
+                "and use smaller load steps.",
           u);
     }
 

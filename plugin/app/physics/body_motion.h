@@ -17,7 +17,7 @@
 namespace abut::app
 {
   /** What stands in the balance of a motion at a time. */
-  struct MotionRecord
+  struct BodyMotionRecord
   {
     double time = 0.;
     abut_time_energy energy = {};
@@ -78,7 +78,7 @@ namespace abut::app
      * K u at unknowns with mass, without contact. Collective. */
     void start(const la::Vector &displacement, const la::Vector &velocity);
 
-    /** MotionRecord::not_kept of the start, with steps of length @p dt.
+    /** BodyMotionRecord::not_kept of the start, with steps of length @p dt.
      * Collective. */
     double energy_not_kept(double dt) const
     {
@@ -149,7 +149,7 @@ namespace abut::app
 
     /** Of the step that has ended or of the start, without contact and time.
      */
-    const MotionRecord &record() const
+    const BodyMotionRecord &record() const
     {
       return record_;
     }
@@ -241,7 +241,7 @@ namespace abut::app
      * ghosts; null: none) leads to. */
     std::vector<la::Vector> turns_at(const la::Vector *displacement) const;
     void measure_works();
-    MotionRecord measure(const la::Vector &u, const la::Vector &v) const;
+    BodyMotionRecord measure(const la::Vector &u, const la::Vector &v) const;
     double damping_energy(const la::Vector &way) const;
     double energy_not_kept(double dt, const la::Vector &acceleration) const;
 
@@ -267,7 +267,7 @@ namespace abut::app
     // At its end.
     la::Vector next_displacement_, next_velocity_, next_acceleration_;
     la::Vector next_held_, unbalanced_;
-    MotionRecord record_;
+    BodyMotionRecord record_;
   };
 } // namespace abut::app
 

@@ -145,10 +145,10 @@ namespace abut::app
   }
 
   template <int dim>
-  MotionRecord BodyMotion<dim>::measure(const la::Vector &u,
-                                        const la::Vector &v) const
+  BodyMotionRecord BodyMotion<dim>::measure(const la::Vector &u,
+                                            const la::Vector &v) const
   {
-    MotionRecord result;
+    BodyMotionRecord result;
     la::Vector product = problem_.vector();
     mass_->vmult(product, v);
     result.energy.kinetic = 0.5 * (product * v);
@@ -221,8 +221,8 @@ namespace abut::app
   template double BodyMotion<2>::energy_not_kept(double,
                                                  const la::Vector &) const;
   template void BodyMotion<2>::measure_works();
-  template MotionRecord BodyMotion<2>::measure(const la::Vector &,
-                                               const la::Vector &) const;
+  template BodyMotionRecord BodyMotion<2>::measure(const la::Vector &,
+                                                   const la::Vector &) const;
   template std::vector<double> BodyMotion<2>::total_mass() const;
   template double BodyMotion<2>::cancelling_forces() const;
   template double BodyMotion<2>::stable_step() const;
@@ -233,8 +233,8 @@ namespace abut::app
   template double BodyMotion<3>::energy_not_kept(double,
                                                  const la::Vector &) const;
   template void BodyMotion<3>::measure_works();
-  template MotionRecord BodyMotion<3>::measure(const la::Vector &,
-                                               const la::Vector &) const;
+  template BodyMotionRecord BodyMotion<3>::measure(const la::Vector &,
+                                                   const la::Vector &) const;
   template std::vector<double> BodyMotion<3>::total_mass() const;
   template double BodyMotion<3>::cancelling_forces() const;
   template double BodyMotion<3>::stable_step() const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "stretches.h"
 
+#include "shim/principal_values.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -27,7 +29,7 @@ namespace abut::app
       const double around = 1. + material.hoop_strain(du, u, x);
       double square = around * around;
       for (const double value :
-           dealii::eigenvalues(symmetrize(transpose(f) * f)))
+           shim::principal_values(symmetrize(transpose(f) * f)))
         square = std::min(square, value);
       return {std::sqrt(std::max(0., square)), determinant(f) * around};
     }

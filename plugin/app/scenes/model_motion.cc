@@ -194,7 +194,7 @@ namespace abut::app
   template <int dim> void ModelMotion<dim>::end_step()
   {
     motion.end_step(run.u, on_supports);
-    const MotionRecord contact = present.bodies;
+    const BodyMotionRecord contact = present.bodies;
     present.bodies = motion.record();
     present.bodies.contact_force = contact.contact_force;
     present.bodies.energy.contact = contact.energy.contact;
@@ -218,7 +218,7 @@ namespace abut::app
   }
 
   template <int dim>
-  void ModelMotion<dim>::judge(const MotionRecord &record,
+  void ModelMotion<dim>::judge(const BodyMotionRecord &record,
                                abut_time_verdict &verdict)
   {
     abut_time_energy given = record.energy;
@@ -337,7 +337,7 @@ namespace abut::app
     report.set("energy_loss", balance.loss);
     warn_of_loss();
     report.set("initial_energy", records.front().balance());
-    const MotionRecord &last = records.back().bodies;
+    const BodyMotionRecord &last = records.back().bodies;
     report.set("kinetic_energy", last.energy.kinetic);
     report.set("strain_energy", last.energy.strain);
     report.set("contact_energy", last.energy.contact);

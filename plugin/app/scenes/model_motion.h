@@ -142,7 +142,7 @@ namespace abut::app
     /** The state at a time. */
     struct Record
     {
-      MotionRecord bodies;
+      BodyMotionRecord bodies;
       /** By side, as in ContactAction. */
       std::vector<std::vector<double>> force, place;
       std::vector<double> friction;
@@ -174,7 +174,7 @@ namespace abut::app
     double work_of_obstacles() const;
     /** Tell the limit of an explicit scheme, and warn above it. Collective. */
     void look_at_step();
-    void judge(const MotionRecord &record, abut_time_verdict &verdict);
+    void judge(const BodyMotionRecord &record, abut_time_verdict &verdict);
     void warn_of_loss() const;
     /** What to try where energy was made: nothing that the motion has. */
     std::string cure_of_gain() const;
