@@ -21,7 +21,8 @@ namespace
   }
 } // namespace
 
-int main()
+int
+main()
 {
   constexpr double round_off = 1e-15;
   unsigned int n = 0, n_wrong = 0;

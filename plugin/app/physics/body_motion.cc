@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "body_motion.h"
 
+#include "time_status.h"
+
 #include <deal.II/base/exceptions.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 
 #include <cmath>
-#include <stdexcept>
 
 namespace abut::app
 {
@@ -14,13 +15,6 @@ namespace abut::app
   {
     /** Steps that differ by less than this part are of one length. */
     constexpr double same_length = 1e-9;
-
-    void check(const abut_status status)
-    {
-      if (status != ABUT_SUCCESS)
-        throw std::runtime_error(
-            "The motion has become infinite or is no number any more.");
-    }
 
     /** M on the unknowns with mass, the identity on the others. */
     struct MassOperator
@@ -234,7 +228,7 @@ namespace abut::app
                                      la::Matrix &matrix) const
   {
     abut_time_weights weights;
-    check(abut_time_weigh(&settings_.scheme, dt_, stage, &weights));
+    check_motion(abut_time_weigh(&settings_.scheme, dt_, stage, &weights));
     const double mass = weights.mass + settings_.mass_damping * weights.damping;
     const double stiffness =
         weights.stiffness + settings_.stiffness_damping * weights.damping;
@@ -288,7 +282,7 @@ namespace abut::app
     predicted_ = displacement_;
     const abut_time_state from =
         state(displacement_, step_velocity_, acceleration_);
-    check(abut_time_begin(&from, la::data(predicted_)));
+    check_motion(abut_time_begin(&from, la::data(predicted_)));
     u = predicted_;
     if (has_constant_tangent())
       problem_.constraints.distribute(u);
@@ -319,7 +313,8 @@ namespace abut::app
         state(displacement_, step_velocity_, acceleration_);
     la::Vector projected(predicted_);
     projected += way_of_projection(u);
-    check(abut_time_project(&from, la::data(predicted_), la::data(projected)));
+    check_motion(
+        abut_time_project(&from, la::data(predicted_), la::data(projected)));
     if (is_explicit())
       return false;
     stage_ = ABUT_TIME_STEP;
@@ -331,8 +326,8 @@ namespace abut::app
   la::Vector BodyMotion<dim>::projection_residual(const la::Vector &u) const
   {
     abut_time_weights weights;
-    check(abut_time_weigh(&settings_.scheme, dt_, ABUT_TIME_PROJECTION,
-                          &weights));
+    check_motion(abut_time_weigh(&settings_.scheme, dt_, ABUT_TIME_PROJECTION,
+                                 &weights));
     la::Vector result = problem_.vector();
     mass_->vmult(result, way_of_projection(u));
     result *= weights.mass;
@@ -375,7 +370,7 @@ namespace abut::app
     // The state is not changed.
     la::Vector before(displacement_), v(step_velocity_), a(acceleration_);
     const abut_time_state from = state(before, v, a);
-    check(abut_time_evaluate(&from, la::data(u), &arguments));
+    check_motion(abut_time_evaluate(&from, la::data(u), &arguments));
     return result;
   }
 
@@ -390,14 +385,15 @@ namespace abut::app
     // The state is not changed.
     la::Vector before(displacement_), v(step_velocity_), a(acceleration_);
     const abut_time_state from = state(before, v, a);
-    check(abut_time_evaluate(&from, la::data(unknown), &arguments));
+    check_motion(abut_time_evaluate(&from, la::data(unknown), &arguments));
     elastic.add(settings_.stiffness_damping, damping);
     inertia.add(settings_.mass_damping, damping);
     la::Vector result = problem_.internal_forces(elastic);
     mass_->vmult(product, inertia);
     result += product;
     abut_time_weights weights;
-    check(abut_time_weigh(&settings_.scheme, dt_, ABUT_TIME_STEP, &weights));
+    check_motion(
+        abut_time_weigh(&settings_.scheme, dt_, ABUT_TIME_STEP, &weights));
     result.add(-weights.load, problem_.external, -weights.load_before, load_);
     return result;
   }
@@ -457,7 +453,7 @@ namespace abut::app
     next_acceleration_ = acceleration_;
     const abut_time_state to =
         state(next_displacement_, next_velocity_, next_acceleration_);
-    check(abut_time_end(&to, la::data(unknown)));
+    check_motion(abut_time_end(&to, la::data(unknown)));
     record_ = measure(next_displacement_, next_velocity_);
     record_.not_kept = energy_not_kept(dt_, next_acceleration_);
     measure_works();

@@ -3,6 +3,8 @@
 // explicit steps.
 #include "body_motion.h"
 
+#include "time_status.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature.h>
 #include <deal.II/fe/fe_values.h>
@@ -198,18 +200,18 @@ namespace abut::app
         n > 0 ? static_cast<std::int64_t>(owned.nth_index_in_set(0)) : 0;
     la::Vector x = problem_.vector(), y = problem_.vector();
     abut_time_limit limit;
-    check(abut_time_limit_begin(&limit, first, n, la::data(x)));
+    check_motion(abut_time_limit_begin(&limit, first, n, la::data(x)));
     problem_.constraints.set_zero(x);
     while (limit.goes_on != 0)
     {
       double sums[2];
       problem_.stiffness.vmult(y, x);
-      check(
+      check_motion(
           abut_time_limit_sums(n, mass.data(), la::data(x), la::data(y), sums));
       dealii::Utilities::MPI::sum(sums, problem_.dof_handler.get_communicator(),
                                   sums);
-      check(abut_time_limit_next(&limit, sums, n, mass.data(), la::data(y),
-                                 la::data(x)));
+      check_motion(abut_time_limit_next(&limit, sums, n, mass.data(),
+                                        la::data(y), la::data(x)));
     }
     return limit.step;
   }
