@@ -26,6 +26,8 @@ namespace abut::shim
 
     /** Initial overlap, in sizes of a facet, that is worth a word. */
     constexpr double large_overlap = 0.3;
+    /** Surfaces that meet on less of a facet's width are between nodes. */
+    constexpr double narrow_zone = 0.5;
 
     template <int dim>
     Tensor<1, 3> cross(const dealii::Point<dim> &x, const Tensor<1, dim> &f)
@@ -147,6 +149,21 @@ namespace abut::shim
                     + text(result.overlap / sizes.median)
                     + " times the size of a facet. If that is not meant as "
                       "interference, move the bodies apart."));
+    if (!pair.data.obstacle && !pair.is_present() && result.covered_area > 0.)
+    {
+      // Of graded meshes the smallest facets are likely to be those that meet.
+      const double smallest =
+          std::max(sizes.smallest, pair.primary.everywhere.smallest);
+      const double width = std::pow(result.covered_area, 1. / (dim - 1));
+      if (width < narrow_zone * smallest)
+        result.warnings.push_back(coded(
+            ABUT_FAILURE_UNSEEN,
+            "The surfaces meet on a width of " + text(width)
+                + ", where the smallest facet of one of them is "
+                + text(smallest)
+                + ": only its nodes feel that, and it sinks in far less than "
+                  "it should. Refine this surface there."));
+    }
     const std::string bends = turning_facets(pair);
     if (!bends.empty())
       result.warnings.push_back(coded(

@@ -19,7 +19,8 @@ same keys, each of which is merged over the top ones and run by itself.
     exit      exit code; default 0
     stderr    regular expression that must match exactly one line of stderr
     stdout    regular expression that must be found in the output
-    absent    {"stdout": ..., "files": [...]}: what must not be there
+    absent    {"stdout": ..., "stderr": ..., "files": [...]}: what must not be
+              there
     files     names of files that must have been written and not be empty
     summary   {key: check} for summary.json
     tables    {file: {"where": {column: value}, "columns": {column: check},
@@ -229,10 +230,11 @@ def check_streams(case, done, faults):
     if "stdout" in case:
         faults.expect(re.search(case["stdout"], done.stdout) is not None,
                       f"nothing in the output matches {case['stdout']!r}")
-    absent = case.get("absent", {}).get("stdout")
-    if absent:
-        faults.expect(re.search(absent, done.stdout) is None,
-                      f"the output matches {absent!r}")
+    for stream in ("stdout", "stderr"):
+        absent = case.get("absent", {}).get(stream)
+        if absent:
+            faults.expect(re.search(absent, getattr(done, stream)) is None,
+                          f"{stream} matches {absent!r}")
 
 
 def check_files(case, output, faults):
