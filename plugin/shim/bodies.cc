@@ -56,12 +56,7 @@ namespace abut::shim
     space.n_components = dim;
     const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
     space.n_bodies = bodies.n_bodies();
-    std::vector<std::uint8_t> &component = space.component.change();
-    std::vector<int> &body_of = space.body.change();
-    std::vector<dealii::Point<3>> &places = space.point.change();
-    component.resize(owned.n_elements());
-    body_of.resize(owned.n_elements());
-    places.resize(owned.n_elements());
+    space.resize(owned.n_elements());
 
     // Other fields than the displacement may have no support points.
     const dealii::FiniteElement<dim> &element = fe.base_element(0);
@@ -91,18 +86,15 @@ namespace abut::shim
       {
         if (!owned.is_element(dofs[i]))
           continue;
-        const auto k = owned.index_within_set(dofs[i]);
         const bool is_displacement =
             fe.is_primitive(i) && fe.system_to_component_index(i).first < dim;
-        component[k] =
-            is_displacement ? fe.system_to_component_index(i).first : dim;
-        body_of[k] = static_cast<int>(body);
         const unsigned int node =
             is_displacement ? fe.system_to_base_index(i).second : 0;
         const dealii::Point<dim> point =
             is_linear ? vertices[node] : values.quadrature_point(node);
-        for (unsigned int d = 0; d < dim; ++d)
-          places[k][d] = point[d];
+        space.set(owned.index_within_set(dofs[i]),
+                  is_displacement ? fe.system_to_component_index(i).first : dim,
+                  static_cast<int>(body), point);
       }
     }
     return space;

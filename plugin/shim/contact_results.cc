@@ -9,6 +9,22 @@ namespace abut
 {
   namespace MPI = dealii::Utilities::MPI;
 
+  namespace
+  {
+    /** At all unknowns, from pressures by row; as many as @p like has.
+     * Collective. */
+    template <int dim>
+    la::Vector forces_of(const shim::SurfacePairRows<dim> &surfaces,
+                         const std::vector<double> &pressures,
+                         const la::Vector &like)
+    {
+      la::Vector result(like);
+      result = 0.;
+      surfaces.find_forces(pressures, result);
+      return result;
+    }
+  } // namespace
+
   template <int dim> double ContactAssembler<dim>::contact_force() const
   {
     const Implementation &i = *implementation;
@@ -142,9 +158,7 @@ namespace abut
     i.check_size("add_forces_on_supports()", "force", forces.size());
     if (i.surfaces == nullptr)
       return;
-    la::Vector all(forces);
-    all = 0.;
-    i.surfaces->find_forces(i.row_pressures(), all);
+    const la::Vector all = forces_of(*i.surfaces, i.row_pressures(), forces);
     const dealii::IndexSet &owned = i.dof_handler->locally_owned_dofs();
     for (const auto &line : i.constraints->get_lines())
       if (owned.is_element(line.index))
@@ -164,10 +178,7 @@ namespace abut
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
       if (i.coefficients.is_tangent(row))
         pressures[row] = 0.;
-    la::Vector all(forces);
-    all = 0.;
-    i.surfaces->find_forces(pressures, all);
-    forces += all;
+    forces += forces_of(*i.surfaces, pressures, forces);
   }
 
   template <int dim> double ContactAssembler<dim>::penetration() const

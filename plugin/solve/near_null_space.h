@@ -37,6 +37,25 @@ namespace abut::solve
     std::vector<std::string> names;
     /** The coarser meshes, for geometric multigrid; null: not known. */
     std::shared_ptr<const MeshHierarchy> meshes;
+
+    /** Room for the owned unknowns of a displacement. */
+    void resize(const std::size_t n)
+    {
+      component.change().resize(n);
+      body.change().resize(n);
+      point.change().resize(n);
+    }
+
+    /** What owned unknown @p k is. */
+    template <int dim>
+    void set(const std::size_t k, const unsigned int its_component,
+             const int its_body, const dealii::Point<dim> &place)
+    {
+      component.change()[k] = static_cast<std::uint8_t>(its_component);
+      body.change()[k] = its_body;
+      for (unsigned int d = 0; d < dim; ++d)
+        point.change()[k][d] = place[d];
+    }
   };
 } // namespace abut::solve
 

@@ -248,12 +248,7 @@ namespace abut::tests
     residual.reinit(owned, communicator);
     space.n_components = dim;
     space.n_bodies = 2;
-    std::vector<std::uint8_t> &component = space.component.change();
-    std::vector<int> &body_of = space.body.change();
-    std::vector<dealii::Point<3>> &places = space.point.change();
-    component.resize(owned.n_elements());
-    body_of.resize(owned.n_elements());
-    places.resize(owned.n_elements());
+    space.resize(owned.n_elements());
     space.names = {"lower block", "upper block"};
 
     const dealii::QGauss<dim> quadrature(2);
@@ -276,12 +271,9 @@ namespace abut::tests
       for (unsigned int i = 0; i < n; ++i)
         if (owned.is_element(dofs[i]))
         {
-          const auto k = owned.index_within_set(dofs[i]);
           const auto node = fe.system_to_component_index(i);
-          component[k] = node.first;
-          body_of[k] = body;
-          for (unsigned int d = 0; d < dim; ++d)
-            places[k][d] = cell->vertex(node.second)[d];
+          space.set(owned.index_within_set(dofs[i]), node.first, body,
+                    cell->vertex(node.second));
         }
       if (!cell->is_locally_owned())
         continue;

@@ -240,7 +240,7 @@ namespace abut::app
       {
         const bool of_rows = key.find('(') != std::string::npos;
         const auto number =
-            of_rows ? record.figures.value(key) : record.summary.cost(key);
+            of_rows ? record.figures.value(key) : record.figures.cost(key);
         if (number)
           return *number;
         throw InputError(parameter, "the runs have no number '" + key + "'"
@@ -350,7 +350,7 @@ namespace abut::app
       void count_work(const RunRecord &record, ChartRow &row) const
       {
         const auto number = [&record](const char *key)
-        { return record.summary.number(key).value_or(ChartRow::unknown); };
+        { return record.figures.value(key).value_or(ChartRow::unknown); };
         row.matvecs = number("matvecs");
         row.linear_iterations = number("linear_iterations");
         row.nonlinear_iterations = number("nonlinear_iterations");

@@ -157,7 +157,6 @@ namespace abut::app
     judge(child, record);
     if (record.ended != "ok" && record.reason.empty())
       record.reason = last_words(options.log);
-    record.summary = RunSummary(folder / "summary.json");
     record.figures = RunFigures(folder);
     store.finish(record, repeat);
     return record;

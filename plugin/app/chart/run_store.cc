@@ -116,7 +116,6 @@ namespace abut::app
     if (record.setting != setting || record.code < 0
         || (record.ended == "out of time" && record.limit < limit))
       return std::nullopt;
-    record.summary = RunSummary(here / "summary.json");
     record.figures = RunFigures(here);
     return record;
   }

@@ -29,8 +29,7 @@ namespace abut::app
     double limit = 0;     /**< processor seconds that it had */
     double seconds = 0;   /**< on the wall, from start to end */
     int code = 0;         /**< exit code, or minus the signal */
-    RunSummary summary{}; /**< of what it wrote */
-    RunFigures figures{}; /**< the same, and what its rows give */
+    RunFigures figures{}; /**< of what it wrote */
   };
 
   /** The folder `runs` of a chart, locked while this exists. */

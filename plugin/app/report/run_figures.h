@@ -38,6 +38,13 @@ namespace abut::app
      * first one, up to the second. */
     std::optional<double> value(const std::string &name) const;
 
+    /** The same of summary.json without the sections that measure and write,
+     * see RunSummary::cost(). */
+    std::optional<double> cost(const std::string &key) const
+    {
+      return summary.cost(key);
+    }
+
     /** What is wrong with a name that value() has nothing for, see
      * RunSummary::explain(). */
     std::string explain(const std::string &name) const;

@@ -58,25 +58,43 @@ abut_multigrid_clear_places(abut_multigrid *mg, int32_t n)
     mg->place[i] = -1;
 }
 
+/* Memory for where the rows of the finest level begin, and its diagonals;
+ * false: there is none. */
+static bool
+take_starts(abut_multigrid *mg)
+{
+  abut_multigrid_level *level = &mg->level[0];
+  level->matrix.start =
+      abut_pool_take(&mg->matrices, (int64_t)level->n + 1, sizeof(int64_t));
+  level->diagonal = abut_pool_take(&mg->matrices, level->n, sizeof(int64_t));
+  return !mg->matrices.failed;
+}
+
+/* The same for what is in the rows, which have their places. */
+static bool
+take_entries(abut_multigrid *mg)
+{
+  abut_node_rows *rows = &mg->level[0].matrix;
+  const int64_t n = rows->start[mg->level[0].n];
+  rows->node = abut_pool_take(&mg->matrices, n, sizeof(int32_t));
+  rows->weight = abut_pool_take(&mg->matrices, n * mg->block * mg->block + 1,
+                                sizeof(float));
+  return !mg->matrices.failed;
+}
+
 static void
 make_pattern(abut_multigrid *mg, const abut_multigrid_matrix *a,
              const abut_host_numbers *host)
 {
-  abut_multigrid_level *level = &mg->level[0];
-  abut_node_rows *rows = &level->matrix;
-  const int32_t n = level->n;
-  rows->start = abut_pool_take(&mg->matrices, (int64_t)n + 1, sizeof(int64_t));
-  level->diagonal = abut_pool_take(&mg->matrices, n, sizeof(int64_t));
-  if (mg->matrices.failed)
+  abut_node_rows *rows = &mg->level[0].matrix;
+  const int32_t n = mg->level[0].n;
+  if (!take_starts(mg))
     return;
   abut_multigrid_clear_places(mg, n);
   for (int32_t i = 0; i < n; ++i)
     rows->start[i + 1] =
         rows->start[i] + abut_multigrid_collect(mg, a, host, i, NULL);
-  rows->node = abut_pool_take(&mg->matrices, rows->start[n], sizeof(int32_t));
-  rows->weight = abut_pool_take(
-      &mg->matrices, rows->start[n] * mg->block * mg->block + 1, sizeof(float));
-  if (mg->matrices.failed)
+  if (!take_entries(mg))
     return;
   abut_multigrid_clear_places(mg, n);
   for (int32_t i = 0; i < n; ++i)
@@ -160,23 +178,19 @@ static void
 copy_rows(abut_multigrid *mg, const abut_multigrid_matrix *a,
           const abut_host_numbers *host)
 {
-  abut_multigrid_level *level = &mg->level[0];
-  abut_node_rows *rows = &level->matrix;
-  const int32_t n = level->n;
-  rows->start = abut_pool_take(&mg->matrices, (int64_t)n + 1, sizeof(int64_t));
-  level->diagonal = abut_pool_take(&mg->matrices, n, sizeof(int64_t));
-  if (mg->matrices.failed)
+  const int32_t n = mg->level[0].n;
+  if (!take_starts(mg))
     return;
+  int64_t *start = mg->level[0].matrix.start;
   for (int32_t i = 0; i < n; ++i)
   {
     const int32_t row = mg->unknown[i];
-    rows->start[i + 1] =
-        rows->start[i] + (row < a->n ? a->start[row + 1] - a->start[row] : 0);
+    start[i + 1] =
+        start[i] + (row < a->n ? a->start[row + 1] - a->start[row] : 0);
   }
-  rows->node = abut_pool_take(&mg->matrices, rows->start[n], sizeof(int32_t));
-  rows->weight =
-      abut_pool_take(&mg->matrices, rows->start[n] + 1, sizeof(float));
-  for (int32_t i = 0; i < n && !mg->matrices.failed; ++i)
+  if (!take_entries(mg))
+    return;
+  for (int32_t i = 0; i < n; ++i)
     copy_row(mg, a, host, i);
 }
 

@@ -322,6 +322,12 @@ namespace abut::app
     return "";
   }
 
+  template <int dim> bool SolidModel<dim>::tells_friction_apart() const
+  {
+    return pairs->has_friction()
+           && !abut_law_needs_stress(run.method.options.law);
+  }
+
   template <int dim> ContactFields SolidModel<dim>::contact_fields() const
   {
     if (pairs->empty())
@@ -334,19 +340,20 @@ namespace abut::app
                               data.materials, pairs->surfaces(), force,
                               &status);
     };
-    const la::Vector forces = unbalanced_forces();
-    la::Vector pressures(forces), friction = elasticity.vector();
-    // Of laws whose forces are stresses no force is that of a pressure alone.
-    if (pairs->has_friction() && !abut_law_needs_stress(run.method.options.law))
+    la::Vector forces = unbalanced_forces();
+    const la::Vector traction = per_area(forces);
+    la::Vector normal(traction), along;
+    if (tells_friction_apart())
     {
-      pressures = 0.;
+      la::Vector pressures = elasticity.vector();
       run.contact.add_pressure_forces(pressures);
-      friction = forces;
-      friction -= pressures;
+      normal = per_area(pressures);
+      forces -= pressures;
+      along = per_area(forces);
     }
-    return {per_area(forces),
-            per_area(pressures),
-            per_area(friction),
+    return {traction,
+            normal,
+            along,
             elasticity.ghosted_field(run.contact.pressure()),
             elasticity.ghosted_field(run.contact.gap()),
             elasticity.ghosted_field(

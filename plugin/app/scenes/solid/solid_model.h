@@ -132,6 +132,10 @@ namespace abut::app
     /** Of the present solution. */
     ContactFields contact_fields() const;
 
+    /** Whether forces of pressures and of friction are known by themselves: of
+     * laws whose forces are stresses no force is that of a pressure alone. */
+    bool tells_friction_apart() const;
+
     /** Forces at all unknowns but hanging ones that supports and contact hold
      * in the present solution, inertia included. */
     la::Vector unbalanced_forces() const;

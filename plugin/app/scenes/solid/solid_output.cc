@@ -81,12 +81,6 @@ namespace abut::app
       write_contact(displacement);
   }
 
-  template <int dim> bool SolidOutput<dim>::tells_friction_apart() const
-  {
-    return model.pairs->has_friction()
-           && !abut_law_needs_stress(model.run.method.options.law);
-  }
-
   template <int dim>
   void SolidOutput<dim>::write_contact(const la::Vector &displacement)
   {
@@ -95,7 +89,7 @@ namespace abut::app
     const bool has_friction = model.pairs->has_friction();
     // Facets would take, at an edge, the friction of one for the pressure of
     // the other, and are only asked where nodes do not know.
-    const bool is_split = tells_friction_apart();
+    const bool is_split = model.tells_friction_apart();
     using Traction = TractionPart<dim>;
     const Traction normal("pressure", Traction::Part::pressure);
     const Traction of_facet("friction", Traction::Part::friction);
@@ -158,7 +152,7 @@ namespace abut::app
     std::vector<PressureCurve> curves;
     if constexpr (dim == 2)
     {
-      const bool is_split = tells_friction_apart();
+      const bool is_split = model.tells_friction_apart();
       for (const ContactPair<dim> &pair : model.pairs->pairs())
         curves.push_back(
             {pair.name,

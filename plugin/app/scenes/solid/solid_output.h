@@ -18,7 +18,7 @@ namespace abut::app
   {
     la::Vector traction; ///< force per area on either side
     la::Vector normal;   ///< the part of it that is of pressures
-    la::Vector along;    ///< the rest, friction
+    la::Vector along;    ///< the rest, friction; empty if not told apart
     la::Vector pressure; ///< p n on the secondary side
     la::Vector gap;      ///< in all components; 0 without a row
     la::Vector row_gap;  ///< of mark_rows()
@@ -55,9 +55,6 @@ namespace abut::app
     void write_contact(const la::Vector &displacement);
     std::vector<PressureCurve>
     pressure_curves(const ContactFields &fields) const;
-
-    /** Whether forces of pressures and of friction are known by themselves. */
-    bool tells_friction_apart() const;
 
     const SolidModel<dim> &model;
     FieldSeries series, contact_series;
