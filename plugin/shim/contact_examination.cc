@@ -145,7 +145,8 @@ namespace abut
     template <int dim>
     void judge_sliding(const PairResult<dim> &pair, const PairCheck &check,
                        const bool is_obstacle, const bool touches_itself,
-                       const Scale &scale, Findings &findings)
+                       const bool is_mortar, const Scale &scale,
+                       Findings &findings)
     {
       const double facet =
           check.size_ratio > 0.
@@ -173,7 +174,12 @@ namespace abut
                 + scale.compared(pair.gap_error)
                 + ": gaps are those of the undeformed places, to one side of a "
                   "corner. Give each side of a corner an obstacle and a pair "
-                  "of its own.");
+                  "of its own"
+                + (is_mortar
+                       ? ", and on a curved one let points move: mortar "
+                         "does not follow obstacles, nodes and quadrature "
+                         "points do (Method/Discretisation)."
+                       : "."));
     }
 
     /** Whether turned forces have a resultant with a component that is another
@@ -468,8 +474,8 @@ namespace abut
                            && !i.pairs[p].tied && !is_obstacle;
       if (!follows)
         judge_sliding(pairs[p], checks[p], is_obstacle,
-                      i.pairs[p].secondary == i.pairs[p].primary, scale,
-                      findings);
+                      i.pairs[p].secondary == i.pairs[p].primary,
+                      i.surfaces->has_mean_gaps(p), scale, findings);
       judge_turn(pairs[p], allow_large_strain, findings);
       judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
                    findings);

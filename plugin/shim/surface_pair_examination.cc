@@ -317,8 +317,13 @@ namespace abut::shim
     examined_ = u;
     const std::vector<RigidPose<dim>> now = poses();
     find_turns(u, row_pressure, row_state);
-    std::vector<std::vector<dealii::Point<dim>>> points(pairs_.size());
-    std::vector<std::vector<double>> gaps(pairs_.size());
+    // What distances from an obstacle are, or what they change by on a way.
+    struct Distances
+    {
+      std::vector<dealii::Point<dim>> from, to;
+      std::vector<double> expected;
+    };
+    std::vector<Distances> distances(pairs_.size());
     for (Pair &pair : pairs_)
     {
       pair.slip = pair.gap_error = pair.missed_depth = 0.;
@@ -344,32 +349,53 @@ namespace abut::shim
           };
           for_each_secondary(row.point, add);
           for_each_primary(row.point, add);
-          if (pair.data.obstacle)
-            motion -= way_of(row.place.position, slip_poses_[row.place.pair],
-                             now[row.place.pair]);
+          const Direction way =
+              pair.data.obstacle
+                  ? way_of(row.place.position, slip_poses_[row.place.pair],
+                           now[row.place.pair])
+                  : Direction();
+          motion -= way;
           const Direction tangential =
               motion - (motion * row.direction) * row.direction;
           pair.slip = std::max(pair.slip, tangential.norm());
-          // Of weighted rows, gaps are means.
-          if (!pair.data.obstacle || !pair.data.geometric_gap
-              || discretisation_info(pair.discretisation).is_weighted)
+          if (!pair.data.obstacle)
             return;
-          points[row.place.pair].push_back(row.place.position + since);
-          gaps[row.place.pair].push_back(row_gap[row.row] - pair.data.gap);
+          Distances &looked_at = distances[row.place.pair];
+          if (pair.data.geometric_gap && !has_mean_gaps(row.place.pair))
+          {
+            looked_at.to.push_back(row.place.position + since);
+            looked_at.expected.push_back(row_gap[row.row] - pair.data.gap);
+            return;
+          }
+          // Of gaps that are means, or no distances, what they change by is
+          // looked at, at the node if there is one.
+          const Node node = row.place.node;
+          const Direction moved =
+              node < 0
+                  ? since
+                  : u[node]
+                        - (pair.is_displaced() ? made_at(node) : Direction());
+          looked_at.from.push_back(row.place.position + way);
+          looked_at.to.push_back(row.place.position + moved);
+          looked_at.expected.push_back(-(unit_direction(row) * (moved - way)));
         });
     run_everywhere<ContactError>(
         communicator_,
         [&]
         {
-          std::vector<double> distance;
+          std::vector<double> from, to;
           for (std::size_t p = 0; p < pairs_.size(); ++p)
           {
-            if (points[p].empty())
+            if (distances[p].to.empty())
               continue;
-            pairs_[p].data.obstacle->distance(points[p], distance);
-            for (std::size_t i = 0; i < distance.size(); ++i)
+            pairs_[p].data.obstacle->distance(distances[p].to, to);
+            from.assign(to.size(), 0.);
+            if (!distances[p].from.empty())
+              pairs_[p].data.obstacle->distance(distances[p].from, from);
+            for (std::size_t i = 0; i < to.size(); ++i)
               pairs_[p].gap_error = std::max(
-                  pairs_[p].gap_error, std::abs(distance[i] - gaps[p][i]));
+                  pairs_[p].gap_error,
+                  std::abs(to[i] - from[i] - distances[p].expected[i]));
           }
         });
     for (const Unseen &found : unseen)

@@ -137,6 +137,12 @@ namespace abut::shim
       return pairs_[pair].narrow;
     }
 
+    /** Whether gaps of a pair are weighted means around its nodes. */
+    bool has_mean_gaps(std::size_t pair) const
+    {
+      return discretisation_info(pairs_[pair].discretisation).is_weighted;
+    }
+
     /** How deep nodes of the secondary that have rows are in the other side,
      * length >= 0, by the last penetrations(): rows of mortar hold them in the
      * mean of the facets around them alone. */

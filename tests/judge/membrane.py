@@ -269,6 +269,8 @@ class MembraneJudge:
         worst = (0., 0.)
         limit = THRESHOLDS["penetration, nodes"]
         law = of_gaps(self.scene, self.summary, max(map(abs, self.u)))
+        # displacements have a unit of their own
+        part = THRESHOLDS["penetration, membrane"].value * max(map(abs, self.u))
         n = 4 if self.dim == 2 else 3
         hanging = self.between_sizes(self.single_sides())[2]
         for side, factor in ((self.lower, 1.), (self.upper, -1.)):
@@ -281,7 +283,7 @@ class MembraneJudge:
                 u = [factor * self.u[i] for i in cell.nodes]
                 points = [self.nodes.place[i] for i in cell.nodes]
                 allowed = (law + scale
-                           + limit.value * self.size_of(cell))
+                           + max(part, limit.value * self.size_of(cell)))
                 # nodes that hang follow others, which have the rows
                 allowed += max([at_node[i] - factor * self.u[i]
                                 for i in cell.nodes if i in hanging] + [0.])

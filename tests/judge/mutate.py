@@ -32,15 +32,16 @@ import time
 
 import judge
 from grammar import Mutation, read_reference
-from runs import (QUIET, ROOT, base_scenes, find_cut, has_mesh, run, shorten,
-                  small, stand_in, words_of)
+from runs import (QUIET, ROOT, base_scenes, find_cut, has_mesh, n_steps, run,
+                  shorten, small, stand_in, words_of)
 from scene import Scene
 
 SECONDS = 20  # of processor time
 SANITIZED_EVERY = 10
-# Unknowns times steps of a base scene, and how many of those that have more go
-# through their whole motion all the same.
-COST, WHOLE = 4e4, 0.1
+# Unknowns times steps of a base scene; how many of those that have up to MORE
+# times as many go through their whole motion all the same, and how many times
+# the steps of its base a changed scene may have.
+COST, WHOLE, MORE = 4e4, 0.1, 5.
 FINE = {"0 right", "0 cannot be judged", "2", "3"}
 SANITIZER = re.compile(r"ERROR: \w*Sanitizer|runtime error:")
 
@@ -49,10 +50,28 @@ def cut(scene, level, part, source):
     """A base scene on a coarse mesh that writes what the judge reads."""
     for key, value in {**small(level), **QUIET}.items():
         scene.values[key] = str(value)
-    if part < 1 and source.random() > WHOLE:
+    if part < 1 and (source.random() > WHOLE or part * MORE < 1):
         shorten(scene, part)
     if scene.get("Time/Scheme", "none") != "none":
         scene.values["Output/Every"] = "1000000"
+
+
+def cut_again(scene, base, steps):
+    """A changed scene that would have many more unknowns or steps than its
+    base."""
+    dim = int(scene.get("Dimension", "2"))
+    for name in ("Solid/Degree", "Membrane/Degree"):
+        if int(scene.get(name, "1")) > int(base.get(name, "1")):
+            level = int(scene.get("Refinement/Level", "0"))
+            if level > 0:
+                scene.values["Refinement/Level"] = str(level - 1)
+            else:
+                shorten(scene, 0.5**dim)
+    if n_steps(scene) > MORE * steps:
+        shorten(scene, MORE * steps / n_steps(scene))
+    if scene.get("Refinement/Target error") != base.get(
+            "Refinement/Target error"):
+        scene.values["Refinement/Most meshes"] = "4"
 
 
 def make_case(seed, levels, reference):
@@ -69,7 +88,9 @@ def make_case(seed, levels, reference):
         del scene.values[key]
     if has_mesh(scene) and source.random() < 0.15:
         scene.values["Refinement/Adaptive cycles"] = "2"
+    steps = n_steps(scene)
     mutation = Mutation(scene, reference, source)
+    cut_again(scene, base, steps)
     return {"seed": seed, "base": name,
             "ranks": 2 if source.random() < 0.1 else 1,
             "changes": mutation.changes,

@@ -91,6 +91,16 @@ class Obstacle:
     def distance(self, x):
         return self.sign * self.shape(self.own(x))
 
+    def clearance(self, x, gap):
+        """Distance beyond an initial gap, which is added to the distance as
+        the scene has it: along the axis of a height, by the formula."""
+        return self.distance(x) + gap / self.steepness(self.own(x))
+
+    @staticmethod
+    def steepness(_):
+        """What distances of the scene are by those along the normal."""
+        return 1.
+
     # Shapes: signed distances in their own frame
 
     def _plane(self):
@@ -165,8 +175,8 @@ class Obstacle:
 
         def level(x):
             return formula(x, self.time)
-        return lambda x: sign * (x[along] - level(x)) / math.sqrt(
-            1 + self._slope(level, x)**2)
+        self.steepness = lambda x: math.sqrt(1 + self._slope(level, x)**2)
+        return lambda x: sign * (x[along] - level(x)) / self.steepness(x)
 
     def _distance(self):
         formula = Formula(self._text("Expression"))
@@ -174,10 +184,8 @@ class Obstacle:
         def value(x):
             return formula(x, self.time)
 
-        def distance(x):
-            slope = self._slope(value, x)
-            return value(x) / slope if slope > 0 else value(x)
-        return distance
+        self.steepness = lambda x: self._slope(value, x) or 1.
+        return lambda x: value(x) / self.steepness(x)
 
     def surface_points(self):
         """Points all over a closed shape, in the world; none of others."""

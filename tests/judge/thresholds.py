@@ -15,6 +15,9 @@ THRESHOLDS = {
         "the difference of two polygons"),
     "penetration, nodes": Threshold(
         0.2, "of a facet, likewise: rows at nodes see nothing between them"),
+    "penetration, membrane": Threshold(
+        0.05, "of the largest displacement, if that is more: the displacement "
+        "of a membrane has a unit of its own, and facets tell nothing of it"),
     "tension": Threshold(
         1e-6, "of the largest pressure: contact cannot pull; what is left is "
         "the tolerance of the linear solver"),

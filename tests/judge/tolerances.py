@@ -11,9 +11,10 @@ def of_balance(scene, summary, large=False):
         return None
     if not summary.get("linear_iterations"):
         least = THRESHOLDS["balance, direct"]
-        # of large strain the error of displacements, in the energy norm
+        # of large strain the error of displacements, in the energy norm, and
+        # of multipliers that are updated
         newton = scene.number("Load steps/Newton tolerance", 1e-8)
-        return (Threshold(max(least.value, 10 * newton), least.reason)
+        return (Threshold(max(least.value, 100 * newton), least.reason)
                 if large else least)
     least = THRESHOLDS["balance, iterative"]
     asked = scene.number("Method/Final linear tolerance", 1e-10) / 1e-10

@@ -34,10 +34,9 @@ namespace abut::app
       }
       // Across an edge of the surface it is the other facet's vector.
       const double length = std::sqrt(square);
-      results[q][0] =
-          outward
-          * (std::abs(along) < 0.5 * length ? along
-                                            : std::copysign(length, along));
+      results[q][0] = std::abs(along) < 0.5 * length
+                          ? 0.
+                          : outward * std::copysign(length, along);
     }
   }
 

@@ -31,7 +31,9 @@ namespace abut::app
                       "that takes the place of a primary surface; 0: none.");
     prm.declare_entry("Initial gap", "0", Patterns::Anything(),
                       "Added to the gap of the meshes: a length or a formula "
-                      "in t. Positive: clearance, negative: interference. A "
+                      "in t. Positive: clearance, negative: interference. Of "
+                      "an obstacle of kind height or distance it is measured "
+                      "as that is, along the axis or by the formula. A "
                       "clearance must leave something of a bounded obstacle "
                       "and of the bodies of a pair: it is smaller than half of "
                       "what the first and than what the second are thick.");
