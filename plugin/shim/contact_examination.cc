@@ -175,11 +175,10 @@ namespace abut
                 + ": gaps are those of the undeformed places, to one side of a "
                   "corner. Give each side of a corner an obstacle and a pair "
                   "of its own"
-                + (is_mortar
-                       ? ", and on a curved one let points move: mortar "
-                         "does not follow obstacles, nodes and quadrature "
-                         "points do (Method/Discretisation)."
-                       : "."));
+                + (is_mortar ? ", and on a curved one let points move: mortar "
+                               "does not follow obstacles, node to segment and "
+                               "quadrature point do (Method/Discretisation)."
+                             : "."));
     }
 
     /** Whether turned forces have a resultant with a component that is another

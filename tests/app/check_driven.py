@@ -120,6 +120,16 @@ refused("rigid-plate.prm", {
     "Obstacle 1/Force": "0, -1e-11*t", "Load steps/Smallest step": "0.5"},
     "Obstacle 1", "too few digits", code=3)
 
+# A force that comes and goes: sin(pi) is round-off of what it was.
+summary, rows = run("rigid-plate.prm", {
+    "Obstacle 1/Motion": "", "Obstacle 1/Free directions": "y",
+    "Obstacle 1/Force": "0, -20*sin(pi*t)", "Body 1/Poisson ratio": "0",
+    "Load steps/Steps": "4"})
+p.close(max(row["contact_force"] for row in rows), 20, 1e-9,
+        "force at its largest")
+p.expect(abs(summary["contact_force"]) < 1e-10,
+         f"force that has gone: {summary['contact_force']}")
+
 # Two obstacles, one on each side.
 summary, _ = run("rigid-plate.prm", {
     "Solid/Obstacles": "2", "Solid/Pairs": "2", "Obstacle 1/Motion": "",

@@ -196,8 +196,23 @@ def check_idle_ranks():
         p.close(many[key], one[key], 1e-8, f"more ranks than cells: {key}")
 
 
+def check_jumps():
+    """Points that jump are counted wherever they are: what is said is the
+    same."""
+    said = []
+    for ranks in (0, 3):
+        result = p.call("run", p.source / "prm/failures/jumping-node.prm",
+                        "--output", "out", "--quiet", ranks=ranks)
+        p.expect(result.returncode == 3, f"jumping node on {ranks} ranks: "
+                 f"exit code {result.returncode}")
+        said += re.findall(r"Of the points that press, \d+ jumped",
+                           result.stderr)
+    p.expect(len(said) == 2 and said[0] == said[1], f"jumps: {said}")
+
+
 check_pushed()
 check_rolled()
+check_jumps()
 check_apart()
 check_volume()
 check_idle_ranks()

@@ -39,6 +39,8 @@ class MotionJudge:
         self.gain()
         judge_driven_motion(self, GAMMAS)
         reason = self.unknown_forces()
+        if self.solid.says("ABUT-F30"):
+            reason = "the run says that forces are out of balance"
         if reason:
             self.solid.findings.leave("momentum of each step", reason)
         else:

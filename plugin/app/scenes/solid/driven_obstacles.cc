@@ -81,8 +81,8 @@ namespace abut::app
         coordinates.push_back({o, direction, parameters.obstacles[o].mass});
     const std::size_t n = coordinates.size();
     for (Values *values :
-         {&u, &v, &a, &load, &place, &force, &predicted, &step_velocity,
-          &contact, &contact_before, &next_u, &next_v, &next_a})
+         {&u, &v, &a, &load, &place, &force, &most_force, &predicted,
+          &step_velocity, &contact, &contact_before, &next_u, &next_v, &next_a})
       values->assign(n, 0.);
     for (const Coordinate &coordinate : coordinates)
       massless.push_back(coordinate.mass == 0. ? 1 : 0);
@@ -213,6 +213,7 @@ namespace abut::app
     {
       const Coordinate &c = coordinates[i];
       force[i] = given[c.obstacle][c.direction] + c.mass * weight[c.direction];
+      most_force[i] = std::max(most_force[i], std::abs(force[i]));
     }
     is_new_step = true;
   }
@@ -498,8 +499,10 @@ namespace abut::app
       const Coordinate &c = coordinates[i];
       contact[i] = on_obstacles[c.obstacle][c.direction];
       forces.rest.push_back(given[i] + contact[i] - stopping[i]);
-      forces.round_off.push_back(round_off_part * stiffness[i]
-                                 * (std::abs(place[i]) + std::abs(u[i])));
+      forces.round_off.push_back(
+          round_off_part
+          * (stiffness[i] * (std::abs(place[i]) + std::abs(u[i]))
+             + most_force[i]));
     }
     forces.contact = contact;
     forces.size.assign(n, 0.);

@@ -186,6 +186,7 @@ namespace abut::app
     Values u, v, a, load;
     // Of the step in work.
     Values place, force, predicted, step_velocity, contact, contact_before;
+    Values most_force; ///< largest magnitudes so far; round-off is beside them
     Values next_u, next_v, next_a;
     double work_of_step = 0., error_of_step = 0., worst = 0.;
     unsigned int n_tried = 0;
