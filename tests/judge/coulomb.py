@@ -109,7 +109,13 @@ class PairFriction:
             if any(any(solid.held[i]) for i in self.nodes):
                 return "supports hold nodes, which hand their share on"
             first = self.facets[0].normal
-            if any(norm(sub(f.normal, first)) > 1e-9 for f in self.facets):
+            facets = list(self.facets)
+            if solid.discretisation == "node to segment":
+                # the normals are those of the facets across
+                facets += [f for f in self.pair.facets(self.pair.primary,
+                                                       solid.facets)]
+            if any(abs(abs(dot(f.normal, first)) - 1.) > 1e-9
+                   for f in facets):
                 return "its normals differ from node to node"
             return scale(first, -1.)
         if solid.scene.get(f"Obstacle {self.pair.obstacle}/Kind",

@@ -6,6 +6,7 @@ import math
 from driven import judge_driven_motion
 from formula import Formula, split
 from thresholds import THRESHOLDS
+from verdict import says
 
 # Weight gamma of the new acceleration in the velocity of a step.
 GAMMAS = {"hht": lambda number: 0.5 - number("Alpha", -0.1),
@@ -39,7 +40,7 @@ class MotionJudge:
         self.gain()
         judge_driven_motion(self, GAMMAS)
         reason = self.unknown_forces()
-        if self.solid.says("ABUT-F30"):
+        if says(self.solid.summary, "ABUT-F30"):
             reason = "the run says that forces are out of balance"
         if reason:
             self.solid.findings.leave("momentum of each step", reason)
@@ -122,11 +123,12 @@ class MotionJudge:
         number = lambda name, default: self.scene.number(f"Time/{name}",
                                                          default)
         gamma = GAMMAS[self.scene.get("Time/Scheme")](number)
-        worst = size = 0.
+        worst = size = longest = 0.
         for mass, (column, forces) in zip(self.solid.summary["mass"],
                                           self.forces()):
             for before, now in zip(self.rows, self.rows[1:]):
                 step = now["time"] - before["time"]
+                longest = max(longest, step)
                 given = ([step * (1 - gamma) * f for f in forces(before)]
                          + [step * gamma * f for f in forces(now)])
                 worst = max(worst, abs(now[column] - before[column]
@@ -135,8 +137,10 @@ class MotionJudge:
                 size = max(size, sum(map(abs, given)), math.sqrt(
                     2 * mass * max(0., now["kinetic_energy"])))
         limit = THRESHOLDS["momentum"]
+        # of forces of what is stiff and has moved
+        noise = longest * self.solid.round_off()
         self.solid.findings.check("momentum of each step", worst,
-                                  limit.value * size, limit.reason)
+                                  limit.value * size + noise, limit.reason)
 
 
 class MembraneMotionJudge(MotionJudge):

@@ -274,12 +274,17 @@ def main():
     if options.repeat is not None:
         return repeat(trial, next(iter(cases)))
     output = options.results and open(options.results, "a", encoding="utf-8")
-    with multiprocessing.Pool(options.jobs) as pool:
-        for result in pool.imap_unordered(trial, cases):
-            results[result["seed"]] = result
-            if output:
-                output.write(json.dumps(result) + "\n")
-                output.flush()
+    cases = list(cases)
+    for several, jobs in ((False, options.jobs),
+                          (True, max(1, options.jobs // 2))):
+        # ranks wait for each other, and far longer beside other runs
+        part = [case for case in cases if (case["ranks"] > 1) == several]
+        with multiprocessing.Pool(jobs) as pool:
+            for result in pool.imap_unordered(trial, part):
+                results[result["seed"]] = result
+                if output:
+                    output.write(json.dumps(result) + "\n")
+                    output.flush()
     again = f" --list {options.list}" if options.list else ""
     return table([results[seed] for seed in seeds],
                  f"tests/judge/mutate.py --abut {options.abut}{again}")

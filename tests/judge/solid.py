@@ -17,10 +17,12 @@ from surfaces import Facet, Tree, Volume, set_chords
 from thresholds import ADHESIVE, THRESHOLDS
 from tolerances import of_balance, of_energy, of_gaps
 from vectors import add, cross, dot, invert, norm, scale, sub
-from verdict import CannotJudge, Wrong
+from verdict import CannotJudge, Wrong, says
 
 # More cells than this are not integrated again: minutes.
 MOST_CELLS = 20000
+# Surfaces whose gaps are left out fit each other to this part of a facet.
+FITTING = 0.5
 
 
 class Pair:
@@ -83,14 +85,9 @@ class SolidJudge:
         self.lever = ([add(x, u) for x, u in zip(self.nodes.place, self.u)]
                       if self.large else self.nodes.place)
 
-    def says(self, *words):
-        """Whether the run warns of something with one of the words."""
-        return any(word in text for text in self.summary["warnings"]
-                   for word in words)
-
     def judge(self):
         blank = ("gap",)
-        if self.says("inside out at a corner"):
+        if says(self.summary, "inside out at a corner"):
             # there is no stress there, and the run says so
             blank += ("stress", "von_mises_stress", "stress_out_of_plane")
         self.fields = Fields(self.folder, "fields", self.nodes, blank)
@@ -389,7 +386,7 @@ class SolidJudge:
         contact, contact_size = self.works(self.contact)
         self.work_size = load_size + reaction_size + contact_size
         stored = self.summary["energy"] + load + driven_work(self)
-        limit = of_energy(self.scene, self.summary)
+        limit = of_energy(self.scene, self.summary, self.large)
         if limit is None:
             self.findings.leave("works", "the target error sets the tolerances")
             return
@@ -473,7 +470,7 @@ class SolidJudge:
             self.findings.leave(f"penetration of pair {pair.number}",
                                 "it is tied")
             return
-        if self.says("ABUT-F35", "ABUT-F36"):
+        if says(self.summary, "ABUT-F35", "ABUT-F36", "ABUT-F37"):
             self.findings.leave(f"penetration of pair {pair.number}",
                                 "the run says that shapes or gaps are off")
             return
@@ -519,7 +516,10 @@ class SolidJudge:
             for place in facet.samples():
                 depth = -obstacle.clearance(facet.at(place), pair.gap)
                 if not pair.mesh_gap:
-                    depth += obstacle.distance(facet.at(place, False))
+                    before = obstacle.distance(facet.at(place, False))
+                    if before > FITTING * facet.size:
+                        continue
+                    depth += before
                 if depth > 0:
                     yield depth, self.limit(pair, facet) + held
         if not pair.mesh_gap:
@@ -546,7 +546,10 @@ class SolidJudge:
                 for place in facet.samples():
                     depth, partner = self.depth(tree, facet, place, True)
                     if before is not None and partner is not None:
-                        depth -= self.depth(before, facet, place, False)[0]
+                        old = self.depth(before, facet, place, False)[0]
+                        if old < -FITTING * facet.size:
+                            continue
+                        depth -= old
                     if partner is None or depth <= pair.gap:
                         continue
                     sides = ((facet, partner) if is_secondary else

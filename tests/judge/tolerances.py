@@ -21,13 +21,15 @@ def of_balance(scene, summary, large=False):
     return Threshold(min(1., least.value * max(1., asked)), least.reason)
 
 
-def of_energy(scene, summary):
-    """The same of works: errors of forces times displacements."""
-    balance = of_balance(scene, summary)
+def of_energy(scene, summary, large=False):
+    """The same of works: errors of forces times displacements, of large strain
+    those of parts of the displacement, which cancel in the whole."""
+    balance = of_balance(scene, summary, large)
     if balance is None:
         return None
     least = THRESHOLDS["energy"]
-    return Threshold(max(least.value, balance.value), least.reason)
+    return Threshold(max(least.value, (10 if large else 1) * balance.value),
+                     least.reason)
 
 
 def of_gaps(scene, summary, length):

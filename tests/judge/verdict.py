@@ -10,6 +10,11 @@ class Wrong(Exception):
     """What was written contradicts itself so that nothing more can be read."""
 
 
+def says(summary, *words):
+    """Whether the run warns of something with one of the words."""
+    return any(word in text for text in summary["warnings"] for word in words)
+
+
 class Findings:
     """Checks in the order in which they were made."""
 
