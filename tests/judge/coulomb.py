@@ -139,8 +139,8 @@ class PairFriction:
     def at_nodes(self, normal):
         solid = self.solid
         told = solid.nodes.vector("slip")
-        force = max(max(norm(solid.contact[i]) for i in self.nodes), 1e-300)
-        length = max(solid.largest, 1e-300)
+        force = max(max(norm(solid.contact[i]) for i in self.nodes), 1e-150)
+        length = max(solid.largest, 1e-150)
         states = solid.nodes.columns["status"]
         worst, dissipated, counts = {}, 0., [0, 0]
 

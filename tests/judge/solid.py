@@ -132,10 +132,10 @@ class SolidJudge:
 
     def imbalance(self):
         """Of forces that are in balance: of large strain also Newton's
-        tolerance, which is of what a step has moved bodies by, a hundredth of
-        their whole way."""
+        tolerance, which is of the forces that it would take to stop bodies
+        within a facet on the way of a step."""
         newton = self.scene.number("Load steps/Newton tolerance", 1e-8)
-        return self.round_off(max(1e-13, 1e-2 * newton if self.large else 0.))
+        return self.round_off(max(1e-13, newton if self.large else 0.))
 
     # Files
 
