@@ -252,6 +252,12 @@ namespace abut::app
       if (time.scheme.keeps_springs && mass_kind == ABUT_TIME_MASS_MODIFIED)
         throw InputError("Time/Mass", "energy momentum keeps the energy of "
                                       "nodes with mass: consistent or lumped.");
+      if (time.scheme.projects && mass_kind == ABUT_TIME_MASS_MODIFIED)
+        throw InputError("Time/Mass",
+                         std::string(time.scheme.name)
+                             + " moves what would penetrate by its mass, and "
+                               "needs mass where bodies meet: consistent or "
+                               "lumped.");
       if (time.scheme.impulses && mass_kind == ABUT_TIME_MASS_MODIFIED)
         throw InputError("Time/Mass",
                          "velocity level needs mass where bodies meet: lumped "
