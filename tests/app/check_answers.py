@@ -147,6 +147,18 @@ for shape in (kind("box", Centre="0.63, 0.52", Size="0.003, 0.001"),
         p.expect_error(run(plate, *shape, "Obstacle 1/Motion=",
                            "Load steps/Steps=1", command=command), "Pair 1",
                        "ABUT-F23", "the body is in the obstacle")
+# Gaps that leave out where the obstacle is do not see it come.
+for words in ([], ["Obstacle 1/Motion=0, -0.01"],
+              ["Obstacle 1/Motion=", "Obstacle 1/Free directions=y",
+               "Obstacle 1/Force=0, -1"],
+              kind("height", Expression="1 - 0.01*t", Axis="0, -1")
+              + ["Obstacle 1/Motion="]):
+    p.expect_error(run(plate, "Pair 1/Mesh gap=false", *words),
+                   "Pair 1/Mesh gap", "Obstacle 1", "moves")
+near(expect(run(plate, "Pair 1/Mesh gap=false", "Obstacle 1/Motion=",
+                "Pair 1/Initial gap=-0.01*t"), 0)["contact_force"],
+     2 * modulus * 0.01, 1e-6, "pressed by the initial gap")
+
 # A gap that leaves nothing of what it is added to lets everything through: half
 # of what bounded obstacles are thick, all of what a body is; less is meant.
 for shape, half in ((kind("box", Centre="1, 1.02", Size="0.3, 0.04"), 0.02),

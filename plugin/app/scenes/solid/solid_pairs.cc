@@ -13,6 +13,43 @@ namespace abut::app
 {
   using dealii::types::boundary_id;
 
+  namespace
+  {
+    template <int dim>
+    bool moves(const RigidObstacleParameters &obstacle, const std::string &name,
+               const unsigned int n_components)
+    {
+      const auto given = obstacle.values.find(name);
+      if (given == obstacle.values.end() || given->second.empty())
+        return false;
+      const Expression<dim> formula(given->second, obstacle.parameter(name),
+                                    n_components);
+      if (name == "Expression" || formula.depends_on_time())
+        return formula.depends_on_time();
+      for (unsigned int d = 0; d < n_components; ++d)
+        if (formula.value(dealii::Point<dim>(), d) != 0.)
+          return true;
+      return false;
+    }
+
+    /** Gaps that leave out where an obstacle is leave out that it moves. */
+    template <int dim>
+    void refuse_unseen_motion(const PairParameters &pair,
+                              const RigidObstacleParameters &obstacle)
+    {
+      if (pair.mesh_gap
+          || (obstacle.free.empty() && !moves<dim>(obstacle, "Motion", dim)
+              && !moves<dim>(obstacle, "Rotation angle", 1)
+              && !moves<dim>(obstacle, "Expression", 1)))
+        return;
+      throw InputError(pair.parameter("Mesh gap"),
+                       "false leaves out where " + obstacle.section
+                           + " is, and so that it moves: press with Initial "
+                             "gap = -0.01*t or by what supports the body, or "
+                             "let the gap count.");
+    }
+  } // namespace
+
   template <int dim>
   SolidPairs<dim>::SolidPairs(const SolidParameters &parameters,
                               const RunOptions &options)
@@ -33,6 +70,8 @@ namespace abut::app
       made.friction = make_friction(pair);
       if (pair.obstacle > 0)
       {
+        refuse_unseen_motion<dim>(pair,
+                                  parameters.obstacles[pair.obstacle - 1]);
         made.obstacle = obstacles[pair.obstacle - 1];
         obstacles[pair.obstacle - 1]->set_time(0.);
         made.first_pose = made.obstacle->pose();
