@@ -339,14 +339,14 @@ namespace abut::shim
           if (pair.data.tied || row_state == nullptr
               || row_state[row.row] == ABUT_STATE_OPEN)
             return;
+          const auto since_made = [&](const Node node) {
+            return u[node]
+                   - (pair.is_displaced() ? made_at(node) : Direction());
+          };
           // Of the place, and since the point was made there.
           Direction motion = way_of_partners(row, u), since;
           const auto add = [&](const Node node, const double c)
-          {
-            since += c
-                     * (u[node]
-                        - (pair.is_displaced() ? made_at(node) : Direction()));
-          };
+          { since += c * since_made(node); };
           for_each_secondary(row.point, add);
           for_each_primary(row.point, add);
           const Direction way =
@@ -369,12 +369,8 @@ namespace abut::shim
           }
           // Of gaps that are means, or no distances, what they change by is
           // looked at, at the node if there is one.
-          const Node node = row.place.node;
           const Direction moved =
-              node < 0
-                  ? since
-                  : u[node]
-                        - (pair.is_displaced() ? made_at(node) : Direction());
+              row.place.node < 0 ? since : since_made(row.place.node);
           looked_at.from.push_back(row.place.position + way);
           looked_at.to.push_back(row.place.position + moved);
           looked_at.expected.push_back(-(unit_direction(row) * (moved - way)));

@@ -112,8 +112,7 @@ class PairFriction:
             facets = list(self.facets)
             if solid.discretisation == "node to segment":
                 # the normals are those of the facets across
-                facets += [f for f in self.pair.facets(self.pair.primary,
-                                                       solid.facets)]
+                facets += self.pair.facets(self.pair.primary, solid.facets)
             if any(abs(abs(dot(f.normal, first)) - 1.) > 1e-9
                    for f in facets):
                 return "its normals differ from node to node"

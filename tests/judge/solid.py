@@ -21,8 +21,6 @@ from verdict import CannotJudge, Wrong, says
 
 # More cells than this are not integrated again: minutes.
 MOST_CELLS = 20000
-# Surfaces whose gaps are left out fit each other to this part of a facet.
-FITTING = 0.5
 
 
 class Pair:
@@ -470,7 +468,8 @@ class SolidJudge:
             self.findings.leave(f"penetration of pair {pair.number}",
                                 "it is tied")
             return
-        of_no_use = self.summary.get("largest_strain", 0.) > 0.5
+        of_no_use = (self.summary.get("largest_strain", 0.)
+                     > THRESHOLDS["strain"].value)
         if of_no_use or says(self.summary, "ABUT-F36",
                              "in the body between nodes"):
             self.findings.leave(f"penetration of pair {pair.number}",
@@ -519,7 +518,7 @@ class SolidJudge:
                 depth = -obstacle.clearance(facet.at(place), pair.gap)
                 if not pair.mesh_gap:
                     before = obstacle.distance(facet.at(place, False))
-                    if before > FITTING * facet.size:
+                    if before > THRESHOLDS["fitting"].value * facet.size:
                         continue
                     depth += before
                 if depth > 0:
@@ -549,7 +548,7 @@ class SolidJudge:
                     depth, partner = self.depth(tree, facet, place, True)
                     if before is not None and partner is not None:
                         old = self.depth(before, facet, place, False)[0]
-                        if old < -FITTING * facet.size:
+                        if old < -THRESHOLDS["fitting"].value * facet.size:
                             continue
                         depth -= old
                     if partner is None or depth <= pair.gap:

@@ -18,6 +18,11 @@ THRESHOLDS = {
     "penetration, membrane": Threshold(
         0.05, "of the largest displacement, if that is more: the displacement "
         "of a membrane has a unit of its own, and facets tell nothing of it"),
+    "fitting": Threshold(
+        0.5, "of a facet: surfaces whose gaps are left out are no farther apart "
+        "where they are looked at"),
+    "strain": Threshold(
+        0.5, "shapes of small-strain theory are of no use beyond"),
     "tension": Threshold(
         1e-6, "of the largest pressure: contact cannot pull; what is left is "
         "the tolerance of the linear solver"),

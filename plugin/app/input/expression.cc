@@ -296,6 +296,13 @@ namespace abut::app
     return components[component].constant;
   }
 
+  template <int dim>
+  bool Expression<dim>::is_zero(const unsigned int component) const
+  {
+    return is_constant(component)
+           && this->value(dealii::Point<dim>(), component) == 0.;
+  }
+
   template <int dim> bool Expression<dim>::depends_on_time() const
   {
     return uses_time;

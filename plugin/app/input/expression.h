@@ -63,6 +63,9 @@ namespace abut::app
     /** Whether the component depends on neither place nor time. */
     bool is_constant(unsigned int component = 0) const;
 
+    /** Whether it is 0 everywhere and at all times, by its formula. */
+    bool is_zero(unsigned int component = 0) const;
+
     /** Whether any component contains the variable t. */
     bool depends_on_time() const;
 

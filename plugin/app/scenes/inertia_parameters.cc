@@ -52,25 +52,15 @@ namespace abut::app
 
   void InertiaParameters::check() const
   {
-    const std::string name = scheme.name;
-    const bool is_explicit = scheme.beta == 0.;
-    if (is_explicit && mass != ABUT_TIME_MASS_LUMPED)
-      throw InputError("Time/Mass", name
-                                        + " is explicit and needs a lumped "
-                                          "mass.");
-    if (scheme.projects != 0 && mass == ABUT_TIME_MASS_MODIFIED)
-      throw InputError("Time/Mass", name
-                                        + " moves what would penetrate by its "
-                                          "mass, and needs mass where bodies "
-                                          "meet: consistent or lumped.");
+    check_mass(mass);
     if (stiffness_damping > 0. && mass == ABUT_TIME_MASS_MODIFIED)
       throw InputError("Time/Stiffness damping",
                        "nodes without mass have no velocity of their own that "
                        "could be damped: set Time/Mass = consistent or "
                        "lumped.");
-    if (stiffness_damping > 0. && is_explicit)
+    if (stiffness_damping > 0. && scheme.beta == 0.)
       throw InputError("Time/Stiffness damping",
-                       name
+                       std::string(scheme.name)
                            + " would need shorter steps for it: use Time/Mass "
                              "damping, or hht.");
   }

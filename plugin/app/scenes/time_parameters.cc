@@ -125,6 +125,28 @@ namespace abut::app
     check_step();
   }
 
+  void TimeParameters::check_mass(const abut_time_mass mass) const
+  {
+    const std::string name = scheme.name;
+    const bool is_modified = mass == ABUT_TIME_MASS_MODIFIED;
+    if (scheme.beta == 0. && mass != ABUT_TIME_MASS_LUMPED)
+      throw InputError("Time/Mass",
+                       name + " is explicit and needs a lumped mass.");
+    if (scheme.keeps_springs != 0 && is_modified)
+      throw InputError("Time/Mass", "energy momentum keeps the energy of "
+                                    "nodes with mass: consistent or lumped.");
+    if (scheme.projects != 0 && is_modified)
+      throw InputError("Time/Mass",
+                       name
+                           + " moves what would penetrate by its mass, and "
+                             "needs mass where bodies meet: consistent or "
+                             "lumped.");
+    if (scheme.impulses != 0 && is_modified)
+      throw InputError("Time/Mass",
+                       "velocity level needs mass where bodies meet: lumped "
+                       "or consistent.");
+  }
+
   void TimeParameters::check_step() const
   {
     if (end / step > most_steps)

@@ -42,6 +42,9 @@ namespace abut::app
      * 0 */
     void parse(dealii::ParameterHandler &prm, bool finds_step = false);
 
+    /** Throws InputError if the scheme does not go with where mass sits. */
+    void check_mass(abut_time_mass mass) const;
+
     /** Throws InputError if the step does not fit the end. */
     void check_step() const;
 

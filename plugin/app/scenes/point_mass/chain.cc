@@ -188,8 +188,7 @@ namespace abut::app
       if (!prm.get("Cap").empty())
         cap = formula_in_x(prm.get("Cap"), "Friction/Cap");
       prm.leave_subsection();
-      has_friction = !coefficient->is_constant()
-                     || coefficient->value(dealii::Point<2>()) != 0;
+      has_friction = !coefficient->is_zero();
     }
 
     void ChainScene::parse(ParameterHandler &prm)

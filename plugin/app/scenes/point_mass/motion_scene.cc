@@ -245,23 +245,7 @@ namespace abut::app
         mass_kind = ABUT_TIME_MASS_MODIFIED;
       if (word == "modified with centre")
         mass_rule = ABUT_MASS_CENTRE;
-      if (time.scheme.beta == 0. && mass_kind != ABUT_TIME_MASS_LUMPED)
-        throw InputError("Time/Mass", std::string(time.scheme.name)
-                                          + " is explicit and needs a lumped "
-                                            "mass.");
-      if (time.scheme.keeps_springs && mass_kind == ABUT_TIME_MASS_MODIFIED)
-        throw InputError("Time/Mass", "energy momentum keeps the energy of "
-                                      "nodes with mass: consistent or lumped.");
-      if (time.scheme.projects && mass_kind == ABUT_TIME_MASS_MODIFIED)
-        throw InputError("Time/Mass",
-                         std::string(time.scheme.name)
-                             + " moves what would penetrate by its mass, and "
-                               "needs mass where bodies meet: consistent or "
-                               "lumped.");
-      if (time.scheme.impulses && mass_kind == ABUT_TIME_MASS_MODIFIED)
-        throw InputError("Time/Mass",
-                         "velocity level needs mass where bodies meet: lumped "
-                         "or consistent.");
+      time.check_mass(mass_kind);
     }
 
     void MotionScene::parse(ParameterHandler &prm)

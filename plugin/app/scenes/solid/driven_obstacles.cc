@@ -119,7 +119,7 @@ namespace abut::app
       return;
     const Expression<dim> motion(text, given.parameter("Motion"), dim);
     for (const unsigned int d : given.free)
-      if (!motion.is_constant(d) || motion.value(dealii::Point<dim>(), d) != 0.)
+      if (!motion.is_zero(d))
         throw InputError(given.parameter("Motion"),
                          std::string("forces move the obstacle along ")
                              + "xyz"[d] + " ("

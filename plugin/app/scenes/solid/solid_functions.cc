@@ -131,8 +131,7 @@ namespace abut::app
             *given.at(bodies.number(body, id)).function;
         std::vector<bool> moves(dim, true);
         for (unsigned int c = 0; load.n_components == dim && c < dim; ++c)
-          moves[c] =
-              !load.is_constant(c) || load.value(dealii::Point<dim>(), c) != 0.;
+          moves[c] = !load.is_zero(c);
         if (is_held(id, moves))
           throw InputError(parameters.bodies[body].parameter(name),
                            "the load on boundary " + std::to_string(id)

@@ -24,12 +24,10 @@ namespace abut::app
         return false;
       const Expression<dim> formula(given->second, obstacle.parameter(name),
                                     n_components);
-      if (name == "Expression" || formula.depends_on_time())
-        return formula.depends_on_time();
+      bool is_zero = true;
       for (unsigned int d = 0; d < n_components; ++d)
-        if (formula.value(dealii::Point<dim>(), d) != 0.)
-          return true;
-      return false;
+        is_zero = is_zero && formula.is_zero(d);
+      return name == "Expression" ? formula.depends_on_time() : !is_zero;
     }
 
     /** Gaps that leave out where an obstacle is leave out that it moves. */
@@ -82,10 +80,8 @@ namespace abut::app
 
   template <int dim> bool is_frictional(const PairParameters &pair)
   {
-    const Expression<dim> coefficient(pair.friction,
-                                      pair.parameter("Friction"));
-    return !coefficient.is_constant()
-           || coefficient.evaluate({dealii::Point<dim>()})[0] != 0.;
+    return !Expression<dim>(pair.friction, pair.parameter("Friction"))
+                .is_zero();
   }
 
   template <int dim>
