@@ -380,6 +380,9 @@ def main():
     seeds = [seed for seed in SEEDS if not p.part or seed % 2 == p.part % 2]
     for seed in p.some(seeds, 2):
         for scheme in list(BOUNDS)[:3]:
+            # Its small steps take as long as all the rest: each second one.
+            if scheme.startswith("central") and (seed - 1) // 2 % 2 == 1:
+                continue
             check_bodies(p, Impact(seed), scheme)
         check_masses(p, Masses(seed))
     p.finish()

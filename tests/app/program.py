@@ -2,6 +2,7 @@
 """What the tests of the program share: calling it and comparing results."""
 import argparse
 import csv
+import fcntl
 import json
 import math
 import os
@@ -64,10 +65,14 @@ class Program:
                        f"--inh-caps={NO_OVERRIDE}"] + command
         if ranks > 0:
             command = ["mpirun", "--oversubscribe", "-n", str(ranks)] + command
-        return subprocess.run([*before, *command], cwd=self.folder, text=True,
-                              capture_output=True, timeout=timeout,
-                              preexec_fn=at_start,
-                              env={**os.environ, **(environment or {})})
+        with open(self.abut, "rb") as program:
+            # Ranks wait in loops: two such runs of two tests stop each other.
+            if ranks > 1:
+                fcntl.flock(program, fcntl.LOCK_EX)
+            return subprocess.run([*before, *command], cwd=self.folder,
+                                  text=True, capture_output=True,
+                                  timeout=timeout, preexec_fn=at_start,
+                                  env={**os.environ, **(environment or {})})
 
     def write(self, name, text):
         (self.folder / name).write_text(text)

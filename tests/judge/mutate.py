@@ -20,7 +20,6 @@ import argparse
 import collections
 import fnmatch
 import json
-import multiprocessing
 import pathlib
 import random
 import re
@@ -32,8 +31,8 @@ import time
 
 import judge
 from grammar import Mutation, read_reference
-from runs import (QUIET, ROOT, base_scenes, find_cut, has_mesh, n_steps, run,
-                  shorten, small, stand_in, words_of)
+from runs import (QUIET, ROOT, base_scenes, find_cut, has_mesh, in_pools,
+                  n_steps, run, shorten, small, stand_in, words_of)
 from scene import Scene
 
 SECONDS = 20  # of processor time
@@ -274,17 +273,12 @@ def main():
     if options.repeat is not None:
         return repeat(trial, next(iter(cases)))
     output = options.results and open(options.results, "a", encoding="utf-8")
-    cases = list(cases)
-    for several, jobs in ((False, options.jobs),
-                          (True, max(1, options.jobs // 2))):
-        # ranks wait for each other, and far longer beside other runs
-        part = [case for case in cases if (case["ranks"] > 1) == several]
-        with multiprocessing.Pool(jobs) as pool:
-            for result in pool.imap_unordered(trial, part):
-                results[result["seed"]] = result
-                if output:
-                    output.write(json.dumps(result) + "\n")
-                    output.flush()
+    for result in in_pools(trial, cases, options.jobs,
+                           lambda case: case["ranks"]):
+        results[result["seed"]] = result
+        if output:
+            output.write(json.dumps(result) + "\n")
+            output.flush()
     again = f" --list {options.list}" if options.list else ""
     return table([results[seed] for seed in seeds],
                  f"tests/judge/mutate.py --abut {options.abut}{again}")

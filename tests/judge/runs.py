@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs of the program within limits, and scenes cut to a small size."""
 import math
+import multiprocessing
 import os
 import pathlib
 import re
@@ -48,6 +49,18 @@ def stand_in(abut, served):
     said before processes are forked, each of which has its own."""
     if served:
         STAND_INS[str(abut)] = Served(served.resolve(), environment())
+
+
+def in_pools(trial, cases, jobs, ranks_of):
+    """Results of the cases as they come, so many at once. Ranks wait for each
+    other in loops, and far longer beside other ranks: what runs on several comes
+    last, and has the processors for itself."""
+    cases = list(cases)
+    for several in False, True:
+        part = [case for case in cases if (ranks_of(case) > 1) == several]
+        with multiprocessing.Pool(max(1, jobs // 2) if several
+                                  else jobs) as pool:
+            yield from pool.imap_unordered(trial, part)
 
 
 def has_mesh(scene):

@@ -16,12 +16,12 @@ import tempfile
 
 import judge
 from runs import (QUIET, ROOT, base_scenes, cost_of_motion, find_size,
-                  has_mesh, run, shorten, small, stand_in, words_of)
+                  has_mesh, in_pools, run, shorten, small, stand_in, words_of)
 from scene import Scene
 
 SECONDS = 120
 MOST_UNKNOWNS = 1000
-COST = 4e4  # of a case: unknowns times cost_of_motion()
+COST = 1.5e4  # of a case: unknowns times cost_of_motion()
 # Part of the runs: the others may have no answer on a mesh this small.
 LEAST_JUDGED = 0.6
 
@@ -145,23 +145,22 @@ def main():
     trial = Trial(options.abut.resolve())
     chosen = [case for case in cases()
               if options.only in case.name][::options.every]
-    n_right = faults = 0
+    runs = {}
     with multiprocessing.Pool(options.jobs) as pool:
-        runs = {}
         meshes = sorted({case.mesh() for case in chosen})
         sizes = dict(zip(meshes, pool.map(trial.size, meshes, 1)))
-        for case in chosen:
-            level, unknowns = sizes[case.mesh()]
-            case.shorten(unknowns)
-            runs.setdefault(case.key(level), (case, level))
-        for name, level, kind, wrong, reason in pool.imap(trial,
-                                                          runs.values()):
-            n_right += kind == "right"
-            # a mesh this small may have no answer, but must not crash
-            faults += kind == "WRONG" or kind not in ("right", "cannot", 2, 3)
-            print(f"{kind!s:6} {name}, level {level}: "
-                  f"{'; '.join(wrong) or ' '.join(reason.split())}",
-                  flush=True)
+    for case in chosen:
+        level, unknowns = sizes[case.mesh()]
+        case.shorten(unknowns)
+        runs.setdefault(case.key(level), (case, level))
+    n_right = faults = 0
+    for name, level, kind, wrong, reason in in_pools(
+            trial, runs.values(), options.jobs, lambda run: run[0].ranks):
+        n_right += kind == "right"
+        # a mesh this small may have no answer, but must not crash
+        faults += kind == "WRONG" or kind not in ("right", "cannot", 2, 3)
+        print(f"{kind!s:6} {name}, level {level}: "
+              f"{'; '.join(wrong) or ' '.join(reason.split())}", flush=True)
     print(f"{n_right} of {len(runs)} runs judged right")
     least = LEAST_JUDGED * len(runs)
     if not options.only and n_right < least:
