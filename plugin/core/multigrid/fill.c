@@ -70,16 +70,77 @@ take_starts(abut_multigrid *mg)
   return !mg->matrices.failed;
 }
 
-/* The same for what is in the rows, which have their places. */
+/* The same for the nodes of the rows, which have their places. */
 static bool
 take_entries(abut_multigrid *mg)
 {
   abut_node_rows *rows = &mg->level[0].matrix;
   const int64_t n = rows->start[mg->level[0].n];
   rows->node = abut_pool_take(&mg->matrices, n, sizeof(int32_t));
-  rows->weight = abut_pool_take(&mg->matrices, n * mg->block * mg->block + 1,
-                                sizeof(float));
   return !mg->matrices.failed;
+}
+
+/* And for n blocks. */
+static bool
+take_blocks(abut_multigrid *mg, int64_t n)
+{
+  mg->level[0].matrix.weight = abut_pool_take(
+      &mg->matrices, n * mg->block * mg->block + 1, sizeof(float));
+  return !mg->matrices.failed;
+}
+
+/* Let the nodes of row i that are not below i come first, i the first of all;
+ * returns how many. */
+static int32_t
+put_upper_first(int32_t *node, int64_t n, int32_t i, int32_t *work)
+{
+  int64_t n_below = 0;
+  int32_t n_upper = 0;
+  for (int64_t e = 0; e < n; ++e)
+    if (node[e] < i)
+      work[n_below++] = node[e];
+    else
+    {
+      node[n_upper] = node[e];
+      if (node[e] == i)
+      {
+        node[n_upper] = node[0];
+        node[0] = i;
+      }
+      n_upper += 1;
+    }
+  for (int64_t e = 0; e < n_below; ++e)
+    node[n_upper + e] = work[e];
+  return n_upper;
+}
+
+/* The matrix is symmetric: of the largest one half is enough, which is read
+ * once for both. Ranks have parts of rows, sweeps want them whole, and so does
+ * who factorises. */
+static bool
+take_half(abut_multigrid *mg)
+{
+  abut_multigrid_level *level = &mg->level[0];
+  level->upper = NULL;
+  level->below = NULL;
+  if (mg->block == 1 || level->ranks != NULL || mg->n_levels == 1)
+    return take_blocks(mg, level->matrix.start[level->n]);
+  const int64_t n = (int64_t)level->n * mg->block;
+  int64_t *upper =
+      abut_pool_take(&mg->matrices, (int64_t)level->n + 1, sizeof(int64_t));
+  level->below = abut_pool_take(&mg->matrices, n + 1, sizeof(float));
+  if (mg->matrices.failed)
+    return false;
+  level->upper = upper;
+  for (int32_t i = 0; i < level->n; ++i)
+  {
+    const int64_t first = level->matrix.start[i];
+    upper[i + 1] =
+        upper[i]
+        + put_upper_first(level->matrix.node + first,
+                          level->matrix.start[i + 1] - first, i, mg->list);
+  }
+  return take_blocks(mg, upper[level->n]);
 }
 
 static void
@@ -99,6 +160,7 @@ make_pattern(abut_multigrid *mg, const abut_multigrid_matrix *a,
   abut_multigrid_clear_places(mg, n);
   for (int32_t i = 0; i < n; ++i)
     abut_multigrid_collect(mg, a, host, i, rows->node + rows->start[i]);
+  (void)take_half(mg);
 }
 
 void
@@ -114,25 +176,31 @@ abut_multigrid_add_row(abut_multigrid *mg, const abut_multigrid_matrix *a,
     {
       const int32_t column = a->column[e];
       const int64_t at = mg->place[host->node[column]];
+      if (at < 0)
+        continue;
       blocks[(at * b + c) * b + host->component[column]] += (float)a->value[e];
     }
   }
 }
 
-/* The numbers of the row of node i. */
+/* The numbers of the row of node i; in half a matrix those that it has. */
 static void
 fill_row(abut_multigrid *mg, const abut_multigrid_matrix *a,
          const abut_host_numbers *host, int32_t i)
 {
   abut_multigrid_level *level = &mg->level[0];
   const int32_t b = mg->block;
-  const int64_t first = level->matrix.start[i];
+  const int64_t *begins =
+      level->upper != NULL ? level->upper : level->matrix.start;
+  const int64_t first = begins[i], n = begins[i + 1] - first;
+  const int64_t m = level->matrix.start[i + 1] - level->matrix.start[i];
+  const int32_t *node = level->matrix.node + level->matrix.start[i];
   level->diagonal[i] = -1;
-  for (int64_t e = first; e < level->matrix.start[i + 1]; ++e)
+  for (int64_t e = 0; e < m; ++e)
   {
-    mg->place[level->matrix.node[e]] = (int32_t)(e - first);
-    if (level->matrix.node[e] == i)
-      level->diagonal[i] = e;
+    mg->place[node[e]] = e < n ? (int32_t)e : -1;
+    if (node[e] == i)
+      level->diagonal[i] = first + e;
   }
   abut_multigrid_add_row(mg, a, host, i, level->matrix.weight + first * b * b);
 }
@@ -188,7 +256,7 @@ copy_rows(abut_multigrid *mg, const abut_multigrid_matrix *a,
     start[i + 1] =
         start[i] + (row < a->n ? a->start[row + 1] - a->start[row] : 0);
   }
-  if (!take_entries(mg))
+  if (!take_entries(mg) || !take_blocks(mg, start[n]))
     return;
   for (int32_t i = 0; i < n; ++i)
     copy_row(mg, a, host, i);

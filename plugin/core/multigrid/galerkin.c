@@ -14,18 +14,19 @@ typedef struct row_set
 {
   const abut_node_rows *rows;
   const int32_t *at; /* number of a node's row, -1: none; NULL: all have one */
+  const int64_t *upper; /* as that of a level */
 } row_set;
 
 static row_set
 matrix_of(const abut_multigrid_level *level)
 {
-  return (row_set){&level->matrix, NULL};
+  return (row_set){&level->matrix, NULL, level->upper};
 }
 
 static row_set
 terms_of(const abut_multigrid_level *level)
 {
-  return (row_set){&level->terms.rows, level->terms.at};
+  return (row_set){&level->terms.rows, level->terms.at, NULL};
 }
 
 ABUT_INLINE int32_t
@@ -219,14 +220,44 @@ abut_terms_pattern(abut_multigrid *mg, int32_t l)
                terms->diagonal, &terms->sum, false);
 }
 
+/* Where the sum of fine column j stands, of which there are n. */
+ABUT_INLINE float *
+sum_of(abut_multigrid *mg, const int32_t b, int32_t j, int32_t *n, float *sum)
+{
+  int32_t p = mg->fine_place[j];
+  if (p < 0)
+  {
+    p = mg->fine_place[j] = *n;
+    mg->list[*n] = j;
+    *n += 1;
+    for (int32_t r = 0; r < b * b; ++r)
+      sum[(int64_t)p * b * b + r] = 0;
+  }
+  return sum + (int64_t)p * b * b;
+}
+
+/* Block of row i in column j < i of half a matrix, turned: that of row j in
+ * column i; NULL: there is none. */
+ABUT_INLINE const float *
+turned_block(const row_set *set, const int32_t b, int32_t i, int32_t j)
+{
+  const int64_t first = set->upper[j], n = set->upper[j + 1] - first;
+  const int32_t *node = set->rows->node + set->rows->start[j];
+  for (int64_t e = 0; e < n; ++e)
+    if (node[e] == i)
+      return set->rows->weight + (first + e) * b * b;
+  return NULL;
+}
+
 /* Add the row of child i over fine columns, of which there are n; returns how
  * many there are now. Rows that are held are left out, and nodes of which
  * nothing is free not even looked at. */
 ABUT_INLINE int32_t
 add_child(abut_multigrid *mg, const abut_multigrid_level *fine,
-          const abut_node_rows *rows, const int32_t b, int32_t q, int32_t i,
+          const row_set *set, const int32_t b, int32_t q, int32_t i,
           float weight, int32_t n, float *sum)
 {
+  const abut_node_rows *rows = set->rows;
   float factor[3];
   bool any = false;
   for (int32_t r = 0; r < b; ++r)
@@ -236,22 +267,27 @@ add_child(abut_multigrid *mg, const abut_multigrid_level *fine,
   }
   if (!any)
     return n;
-  for (int64_t e = rows->start[q]; e < rows->start[q + 1]; ++e)
+  const int64_t *begins = set->upper != NULL ? set->upper : rows->start;
+  const int64_t first = begins[q], n_here = begins[q + 1] - first;
+  const int64_t n_all = rows->start[q + 1] - rows->start[q];
+  const int32_t *node = rows->node + rows->start[q];
+  for (int64_t e = 0; e < n_here; ++e)
   {
-    const int32_t j = rows->node[e];
-    int32_t p = mg->fine_place[j];
-    if (p < 0)
-    {
-      p = mg->fine_place[j] = n;
-      mg->list[n++] = j;
-      for (int32_t r = 0; r < b * b; ++r)
-        sum[(int64_t)p * b * b + r] = 0;
-    }
-    float *to = sum + (int64_t)p * b * b;
-    const float *block = rows->weight + e * b * b;
+    float *to = sum_of(mg, b, node[e], &n, sum);
+    const float *block = rows->weight + (first + e) * b * b;
     for (int32_t r = 0; r < b; ++r)
       for (int32_t c = 0; c < b; ++c)
         to[r * b + c] += factor[r] * block[r * b + c];
+  }
+  for (int64_t e = n_here; e < n_all; ++e)
+  {
+    const float *block = turned_block(set, b, i, node[e]);
+    if (block == NULL)
+      continue;
+    float *to = sum_of(mg, b, node[e], &n, sum);
+    for (int32_t r = 0; r < b; ++r)
+      for (int32_t c = 0; c < b; ++c)
+        to[r * b + c] += factor[r] * block[c * b + r];
   }
   return n;
 }
@@ -319,8 +355,8 @@ make_row(abut_multigrid *mg, const int32_t b, int32_t l, const row_set *set,
   {
     const int32_t i = fine->children.node[f], from = row_of(set, i);
     if (from >= 0)
-      n = add_child(mg, fine, set->rows, b, from, i, fine->children.weight[f],
-                    n, sum);
+      n = add_child(mg, fine, set, b, from, i, fine->children.weight[f], n,
+                    sum);
   }
   const int64_t first = rows->start[q], end = rows->start[q + 1];
   for (int64_t e = first; e < end; ++e)

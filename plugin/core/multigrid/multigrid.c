@@ -583,7 +583,9 @@ abut_multigrid_describe_sized(const abut_multigrid *mg,
   {
     const abut_multigrid_level *level = &mg->level[l];
     if (mg->has_matrix)
-      made.n_entries += level->matrix.start[level->n] * mg->block * mg->block;
+      made.n_entries +=
+          (level->upper != NULL ? level->upper : level->matrix.start)[level->n]
+          * mg->block * mg->block;
     if (level->terms.n > 0)
       made.n_entries +=
           level->terms.rows.start[level->terms.n] * mg->block * mg->block;

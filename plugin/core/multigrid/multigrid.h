@@ -60,8 +60,13 @@ typedef struct abut_multigrid_level
   abut_node_rows children; /* the same by nodes of the next coarser level */
 
   abut_node_rows matrix; /* blocks; of coarse levels the truncated ones */
-  int64_t *diagonal;     /* [n] place of the diagonal block, -1: none */
-  float *sum;            /* work, as that of the terms */
+  int64_t *upper;    /* [n + 1] of a matrix with half of its blocks: those of
+                        row i begin here, its first nodes, none of which is
+                        below i, are theirs; NULL: it has all blocks */
+  float *below;      /* [n * block + 1] of such a matrix: what the rows before
+                        add to a product; 0 at rest */
+  int64_t *diagonal; /* [n] place of the diagonal block, -1: none */
+  float *sum;        /* work, as that of the terms */
   abut_node_terms terms; /* what is added to the matrix */
   uint8_t *held;         /* [n * block] fixed, held or without stiffness */
   uint8_t *dirty;        /* [n] rows that differ from those at the last hold */
@@ -156,7 +161,8 @@ int32_t abut_multigrid_collect(abut_multigrid *mg,
                                const abut_host_numbers *host, int32_t i,
                                int32_t *columns);
 
-/* Add the numbers of these rows to blocks whose columns stand at places. */
+/* Add the numbers of these rows to blocks whose columns stand at places; those
+ * at -1 are passed over. */
 void abut_multigrid_add_row(abut_multigrid *mg,
                             const abut_multigrid_matrix *matrix,
                             const abut_host_numbers *host, int32_t i,

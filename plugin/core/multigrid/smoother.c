@@ -59,6 +59,55 @@ add_row_times(const abut_node_rows *rows, const int32_t b, int32_t q,
   }
 }
 
+/* t = row i of half a matrix times v, with what the rows before have added, and
+ * let it add to the rows behind: for blocks of 3 as above. What the diagonal
+ * block, which is among those of the row, adds to its own row is dropped. */
+ABUT_INLINE void
+half_row_times_3(const abut_multigrid_level *level, int32_t i, const float *v,
+                 float *t)
+{
+  static const float lane[4] = {1, 1, 1, 0};
+  float sum[3][4] = {{0}};
+  const float *own = v + (int64_t)i * 3;
+  const int32_t *node = level->matrix.node + level->matrix.start[i];
+  const int64_t first = level->upper[i], n = level->upper[i + 1] - first;
+  for (int64_t e = 0; e < n; ++e)
+  {
+    const float *a = level->matrix.weight + (first + e) * 9;
+    const float *x = v + (int64_t)node[e] * 3;
+    float *below = level->below + (int64_t)node[e] * 3;
+    for (int32_t r = 0; r < 3; ++r)
+      for (int32_t c = 0; c < 4; ++c)
+        sum[r][c] += a[r * 3 + c] * x[c];
+    for (int32_t c = 0; c < 4; ++c)
+      below[c] +=
+          lane[c] * (a[c] * own[0] + a[3 + c] * own[1] + a[6 + c] * own[2]);
+  }
+  for (int32_t r = 0; r < 3; ++r)
+    t[r] = sum[r][0] + sum[r][1] + sum[r][2];
+}
+
+ABUT_INLINE void
+half_row_times_2(const abut_multigrid_level *level, int32_t i, const float *v,
+                 float *t)
+{
+  const float *own = v + (int64_t)i * 2;
+  const int32_t *node = level->matrix.node + level->matrix.start[i];
+  const int64_t first = level->upper[i], n = level->upper[i + 1] - first;
+  t[0] = t[1] = 0;
+  for (int64_t e = 0; e < n; ++e)
+  {
+    const float *a = level->matrix.weight + (first + e) * 4;
+    const float *x = v + (int64_t)node[e] * 2;
+    float *below = level->below + (int64_t)node[e] * 2;
+    for (int32_t r = 0; r < 2; ++r)
+    {
+      t[r] += a[r * 2] * x[0] + a[r * 2 + 1] * x[1];
+      below[r] += a[r] * own[0] + a[2 + r] * own[1];
+    }
+  }
+}
+
 /* Whether nothing of node i is free. */
 ABUT_INLINE bool
 is_out(const abut_multigrid_level *level, const int32_t b, int32_t i)
@@ -67,6 +116,31 @@ is_out(const abut_multigrid_level *level, const int32_t b, int32_t i)
   for (int32_t r = 0; r < b; ++r)
     out &= level->held[(int64_t)i * b + r] != 0;
   return out;
+}
+
+/* The same for blocks of b; rows come one after the other, from the first on. A
+ * row of which nothing is free adds nothing, as v is 0 there. */
+ABUT_INLINE void
+half_row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
+               bool out, const float *v, float *t)
+{
+  float before[3] = {0, 0, 0}, *below = level->below + (int64_t)i * b;
+  for (int32_t r = 0; r < b; ++r)
+  {
+    before[r] = below[r];
+    below[r] = 0;
+  }
+  if (out)
+    return;
+  if (b == 3)
+    half_row_times_3(level, i, v, t);
+  else
+    half_row_times_2(level, i, v, t);
+  for (int32_t r = 0; r < b; ++r)
+  {
+    t[r] += before[r];
+    below[r] = 0;
+  }
 }
 
 /* t = row i of the matrix, with what is added to it, times v. Rows of which
@@ -78,9 +152,13 @@ own_row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
 {
   for (int32_t r = 0; r < b; ++r)
     t[r] = 0;
-  if (is_out(level, b, i))
+  const bool out = is_out(level, b, i);
+  if (b > 1 && level->upper != NULL)
+    half_row_times(level, b, i, out, v, t);
+  if (out)
     return;
-  add_row_times(&level->matrix, b, i, v, t);
+  if (b == 1 || level->upper == NULL)
+    add_row_times(&level->matrix, b, i, v, t);
   if (level->terms.n > 0 && level->terms.at[i] >= 0)
     add_row_times(&level->terms.rows, b, level->terms.at[i], v, t);
 }
