@@ -82,7 +82,6 @@ def check_drag(angle, *words, on_obstacle=False, ranks=0, mu=MU):
 
 
 dual = check_drag(0.)
-check_drag(90.)
 check_drag(-130.)
 # Forces of the first step are round-off sooner. With more friction a corner of the
 # block lifts, and tractions beside it are along a surface that is not flat.

@@ -44,9 +44,12 @@ def ranked(command, ranks):
 
 
 def run(scene, *more, settings=(), ranks=1, seconds=SECONDS):
-    command = ranked([p.abut, *words(scene, *more, settings=settings)], ranks)
-    return subprocess.run(command, cwd=p.folder, text=True,
-                          capture_output=True, timeout=seconds)
+    """To its end."""
+    command = words(scene, *more, settings=settings)
+    if ranks == 1:
+        return p.call(*command, timeout=seconds)
+    return subprocess.run(ranked([p.abut, *command], ranks), cwd=p.folder,
+                          text=True, capture_output=True, timeout=seconds)
 
 
 def checkpoints():

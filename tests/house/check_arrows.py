@@ -29,12 +29,13 @@ ROOMS = [
     ("shim", "solve"),
     ("module", "shim"),
     ("app/input", ""),
+    ("app/process", ""),
     ("app/restart", "app/input"),
     ("app/report", "app/input app/restart"),
     ("app/mesh", "app/input"),
     ("app/physics", "app/input shim"),
     ("app/adapt", "app/input app/restart app/report app/physics"),
-    ("app/pictures", "app/input app/restart app/report app/mesh "
+    ("app/pictures", "app/input app/process app/restart app/report app/mesh "
                      "app/physics"),
     ("app/scenes", " ".join("app/" + room for room in BELOW_SCENES.split())
      + " solve shim"),
@@ -45,10 +46,11 @@ ROOMS = [
     ("app/scenes/scene_kinds.cc",
      "app/scenes app/scenes/obstacle app/scenes/solid app/scenes/point_mass "
      "app/scenes/search"),
-    ("app/chart", "app/input app/report app/pictures app/scenes shim"),
-    ("app/atlas", "app/input app/report app/pictures"),
-    ("app/command", "app/input app/restart app/report app/scenes app/chart "
-                    "app/atlas"),
+    ("app/chart", "app/input app/process app/report app/pictures app/scenes "
+                  "shim"),
+    ("app/atlas", "app/input app/process app/report app/pictures"),
+    ("app/command", "app/input app/process app/restart app/report app/scenes "
+                    "app/chart app/atlas"),
 ]
 
 

@@ -2,7 +2,7 @@
 #include "atlas.h"
 
 #include "app/input/output_folder.h"
-#include "app/pictures/child_process.h"
+#include "app/process/loaded_program.h"
 
 #include <fstream>
 #include <iostream>
@@ -34,15 +34,13 @@ namespace abut::app
       // What an earlier run has left must not be taken for this one's.
       std::filesystem::remove_all(folder);
       make_output_folder(folder);
-      std::vector<std::string> words = {
-          std::filesystem::read_symlink("/proc/self/exe").string(),
-          "run",
-          scene.file.string(),
-          "--quiet",
-          "--output",
-          folder.string(),
-          "--set",
-          "Output/Pictures=false"};
+      std::vector<std::string> words = {"run",
+                                        scene.file.string(),
+                                        "--quiet",
+                                        "--output",
+                                        folder.string(),
+                                        "--set",
+                                        "Output/Pictures=false"};
       if (!value.empty())
       {
         words.push_back("--set");
@@ -53,7 +51,7 @@ namespace abut::app
       options.log = folder / "log.txt";
       options.environment = serial_environment();
       options.limit = time_limit;
-      const ChildResult child = run_child(words, options);
+      const ChildResult child = run_this_program(words, options);
       run.exit_code =
           child.ended == ChildResult::Ended::exited ? child.code : -child.code;
       run.figures = RunFigures(folder);

@@ -2,7 +2,7 @@
 #include "run_maker.h"
 
 #include "app/input/short_number.h"
-#include "app/pictures/child_process.h"
+#include "app/process/loaded_program.h"
 #include "app/report/report.h"
 
 #include <abut/version.h>
@@ -83,9 +83,7 @@ namespace abut::app
   } // namespace
 
   RunMaker::RunMaker(const std::string &scene_file)
-      : scene_file(scene_file),
-        executable(fs::read_symlink("/proc/self/exe").string()),
-        environment(serial_environment())
+      : scene_file(scene_file), environment(serial_environment())
   {
     identity = std::string("abut " ABUT_VERSION " ")
                + hash_of_file("/proc/self/exe") + ", deal.II "
@@ -134,8 +132,8 @@ namespace abut::app
                            const unsigned int repeat, const double limit) const
   {
     const fs::path folder = store.begin(setting.text, repeat);
-    std::vector<std::string> words = {executable, "run",      scene_file,
-                                      "--quiet",  "--output", folder.string()};
+    std::vector<std::string> words = {"run", scene_file, "--quiet", "--output",
+                                      folder.string()};
     for (const Assignment &assignment : setting.overrides)
     {
       // A curve need not use what the axis changes.
@@ -150,7 +148,7 @@ namespace abut::app
     record.setting = setting.text;
     record.limit = limit;
     const auto start = std::chrono::steady_clock::now();
-    const ChildResult child = run_child(words, options);
+    const ChildResult child = run_this_program(words, options);
     record.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
             .count();

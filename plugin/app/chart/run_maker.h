@@ -50,7 +50,6 @@ namespace abut::app
                    unsigned int repeat, double limit) const;
 
     std::string scene_file;
-    std::string executable;
     std::string identity; /**< of the program */
     std::vector<std::string> environment;
   };

@@ -3,6 +3,7 @@
  * not leave the others waiting: a failed rank enters a barrier on a
  * communicator of its own, and if not all do so within seconds, it ends them
  * all. */
+#include "app/process/loaded_program.h"
 #include "program.h"
 
 #include <deal.II/base/mpi.h>
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <new>
+#include <string>
 #include <thread>
 
 namespace
@@ -52,49 +54,58 @@ namespace
     }
     return code;
   }
+
+  /** What main() does, here and in processes that are forked from this one. */
+  int run(int argc, char *argv[])
+  {
+    // deal.II starts PETSc too, which would take our words for options of its
+    // own and print those that it does not know.
+    int n_names = 1;
+    char *name[] = {argv[0], nullptr};
+    char **names = name;
+    // Without mpirun Open MPI starts a daemon for processes that might be added
+    // later, which takes a tenth of a second. There are none.
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, names, 1);
+    MPI_Comm end_of_run;
+    MPI_Comm_dup(MPI_COMM_WORLD, &end_of_run);
+    ExitCode code;
+    try
+    {
+      code = abut::app::run_program(
+          MPI_COMM_WORLD, std::vector<std::string>(argv + 1, argv + argc));
+    }
+    catch (const abut::app::InputError &error)
+    {
+      code = fail(end_of_run, ExitCode::bad_input,
+                  std::string("error: ") + error.what());
+    }
+    catch (const std::bad_alloc &)
+    {
+      code = fail(end_of_run, ExitCode::bad_input,
+                  "error: there is not enough memory for this mesh. Take a "
+                  "coarser one, or more ranks on more machines.");
+    }
+    catch (const std::exception &error)
+    {
+      code = fail(end_of_run, ExitCode::internal_error,
+                  std::string("internal error: ") + error.what());
+    }
+    catch (...)
+    {
+      code = fail(end_of_run, ExitCode::internal_error,
+                  "internal error: unknown exception");
+    }
+    MPI_Comm_free(&end_of_run);
+    return static_cast<int>(code);
+  }
 } // namespace
 
 int
 main(int argc, char *argv[])
 {
-  // deal.II starts PETSc too, which would take our words for options of its own
-  // and print those that it does not know.
-  int n_names = 1;
-  char *name[] = {argv[0], nullptr};
-  char **names = name;
-  // Without mpirun Open MPI starts a daemon for processes that might be added
-  // later, which takes a tenth of a second. There are none.
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, names, 1);
-  MPI_Comm end_of_run;
-  MPI_Comm_dup(MPI_COMM_WORLD, &end_of_run);
-  ExitCode code;
-  try
-  {
-    code = abut::app::run_program(
-        MPI_COMM_WORLD, std::vector<std::string>(argv + 1, argv + argc));
-  }
-  catch (const abut::app::InputError &error)
-  {
-    code = fail(end_of_run, ExitCode::bad_input,
-                std::string("error: ") + error.what());
-  }
-  catch (const std::bad_alloc &)
-  {
-    code = fail(end_of_run, ExitCode::bad_input,
-                "error: there is not enough memory for this mesh. Take a "
-                "coarser one, or more ranks on more machines.");
-  }
-  catch (const std::exception &error)
-  {
-    code = fail(end_of_run, ExitCode::internal_error,
-                std::string("internal error: ") + error.what());
-  }
-  catch (...)
-  {
-    code = fail(end_of_run, ExitCode::internal_error,
-                "internal error: unknown exception");
-  }
-  MPI_Comm_free(&end_of_run);
-  return static_cast<int>(code);
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command == "chart" || command == "atlas")
+    abut::app::keep_loaded(run);
+  return run(argc, argv);
 }

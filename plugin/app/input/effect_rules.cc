@@ -41,9 +41,9 @@ namespace abut::app
     }
   } // namespace
 
-  SceneValues::SceneValues(const dealii::ParameterHandler &prm,
+  SceneValues::SceneValues(const std::vector<DeclaredParameter> &parameters,
                            const ParameterFile &file)
-      : file(file), parameters(declared_parameters(prm))
+      : file(file), parameters(parameters)
   {
   }
 

@@ -22,8 +22,10 @@ namespace abut::app
   class SceneValues
   {
   public:
-    /** Those of @p prm; @p file tells which came from the command line. */
-    SceneValues(const dealii::ParameterHandler &prm, const ParameterFile &file);
+    /** Those of @p parameters; @p file tells which came from the command
+     * line. Both are kept by reference. */
+    SceneValues(const std::vector<DeclaredParameter> &parameters,
+                const ParameterFile &file);
 
     /** The value of @p path; empty if there is no such parameter. */
     std::string operator()(const std::string &path) const;
@@ -46,7 +48,7 @@ namespace abut::app
 
   private:
     const ParameterFile &file;
-    std::vector<DeclaredParameter> parameters;
+    const std::vector<DeclaredParameter> &parameters;
   };
 
   /** What a parameter without effect is. */

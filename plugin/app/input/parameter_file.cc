@@ -95,9 +95,9 @@ namespace abut::app
       throw InputError(path, "there is no such parameter." + advice);
     }
 
-    void set_value(ParameterHandler &prm, const DeclaredParameter &parameter,
-                   const std::string &value)
+    void set_value(ParameterHandler &prm, const DeclaredParameter &parameter)
     {
+      const std::string &value = parameter.value;
       std::vector<std::string> sections =
           Utilities::split_string_list(parameter.path, '/');
       const std::string name = sections.back();
@@ -280,20 +280,23 @@ namespace abut::app
     return result;
   }
 
-  void ParameterFile::apply(ParameterHandler &prm) const
+  std::vector<DeclaredParameter>
+  ParameterFile::apply(ParameterHandler &prm) const
   {
-    const std::vector<DeclaredParameter> declared = declared_parameters(prm);
+    std::vector<DeclaredParameter> declared = declared_parameters(prm);
     for (const Assignment &assignment : assignments)
     {
-      const DeclaredParameter *found = nullptr;
-      for (const DeclaredParameter &parameter : declared)
+      DeclaredParameter *found = nullptr;
+      for (DeclaredParameter &parameter : declared)
         if (parameter.path == assignment.path)
           found = &parameter;
       if (found == nullptr)
         throw_undeclared(assignment.path, declared);
       // The last assignment counts; the others are not looked at.
-      set_value(prm, *found, get(assignment.path, ""));
+      found->value = get(assignment.path, "");
+      set_value(prm, *found);
     }
+    return declared;
   }
 
   std::vector<double> parse_numbers(const std::string &text,

@@ -90,9 +90,10 @@ namespace abut::app
     /** The values that count, by path. */
     std::map<std::string, std::string> values() const;
 
-    /** Set all values in @p prm. Throws InputError for a parameter or section
-     * that is not declared and for a value that its pattern refuses. */
-    void apply(dealii::ParameterHandler &prm) const;
+    /** Set all values in @p prm and return what is declared there, with its
+     * values now. Throws InputError for a parameter or section that is not
+     * declared and for a value that its pattern refuses. */
+    std::vector<DeclaredParameter> apply(dealii::ParameterHandler &prm) const;
 
     /** A line of a file. */
     struct Place

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gnuplot.h"
 
-#include "child_process.h"
+#include "app/process/child_process.h"
 
 #include <deal.II/base/mpi.h>
 

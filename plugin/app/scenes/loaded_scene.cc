@@ -7,7 +7,6 @@
 #include "common_parameters.h"
 
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/utilities.h>
 
 #include <utility>
 
@@ -49,7 +48,7 @@ namespace abut::app
     scene = scene_kind.create(dimension);
     scene->count(file);
     declare_all(prm, scene_kind, *scene);
-    file.apply(prm);
+    declared = file.apply(prm);
   }
 
   void LoadedScene::find_law()
@@ -61,9 +60,13 @@ namespace abut::app
       const std::string law = file.get("Method/" + name, "");
       if (law.empty())
         continue;
+      const std::string path = options.input_file(law).string();
       prm.enter_subsection("Method");
-      prm.set(name, options.input_file(law).string());
+      prm.set(name, path);
       prm.leave_subsection();
+      for (DeclaredParameter &parameter : declared)
+        if (parameter.path == "Method/" + name)
+          parameter.value = path;
     }
   }
 
@@ -71,7 +74,7 @@ namespace abut::app
   {
     // Sections that libraries declare begin their messages with the parameter.
     std::string path;
-    for (const DeclaredParameter &parameter : declared_parameters(prm))
+    for (const DeclaredParameter &parameter : declared)
       if (message.compare(0, parameter.path.size(), parameter.path) == 0
           && parameter.path.size() > path.size())
         path = parameter.path;
@@ -94,7 +97,8 @@ namespace abut::app
     {
       throw blamed(dealii_message(error));
     }
-    not_used = values_without_effect(scene->effects(), SceneValues(prm, file));
+    not_used =
+        values_without_effect(scene->effects(), SceneValues(declared, file));
   }
 
   void LoadedScene::describe(Report &report) const
@@ -114,18 +118,13 @@ namespace abut::app
     RunOptions options;
     options.scene_file = file.path();
     RunIdentity result = program_identity();
-    for (const DeclaredParameter &parameter : declared_parameters(prm))
+    for (const DeclaredParameter &parameter : declared)
     {
       // How often checkpoints are written changes no result.
       if (parameter.path.rfind("Checkpoint/", 0) == 0)
         continue;
-      std::vector<std::string> section =
-          dealii::Utilities::split_string_list(parameter.path, '/');
-      const std::string name = section.back();
-      section.pop_back();
-      const std::string value = prm.get(section, name);
-      result[parameter.path] = value;
-      const std::string content = content_of(options, value);
+      result[parameter.path] = parameter.value;
+      const std::string content = content_of(options, parameter.value);
       if (!content.empty())
         result["content of " + parameter.path] = content;
     }
@@ -139,7 +138,7 @@ namespace abut::app
 
   bool LoadedScene::declares(const std::string &path) const
   {
-    for (const DeclaredParameter &parameter : declared_parameters(prm))
+    for (const DeclaredParameter &parameter : declared)
       if (parameter.path == path)
         return true;
     return false;

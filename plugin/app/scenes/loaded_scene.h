@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace abut::app
 {
@@ -53,6 +54,7 @@ namespace abut::app
     std::vector<std::string> not_used; ///< values that this run does not use
     unsigned int dimension;
     dealii::ParameterHandler prm;
+    std::vector<DeclaredParameter> declared; ///< with their values
   };
 } // namespace abut::app
 

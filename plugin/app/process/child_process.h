@@ -43,11 +43,17 @@ namespace abut::app
     }
   };
 
+  /** What main() does. */
+  using MainFunction = int (*)(int argc, char *argv[]);
+
   /** Run @p words, the first being the program, and wait for its end. The child
-   * does not outlive this process (on Linux). Throws std::runtime_error when
-   * the system has no room for another process. */
+   * does not outlive this process (on Linux). Where @p program is given it does
+   * that instead of becoming another program: for processes without threads.
+   * Throws std::runtime_error when the system has no room for another process.
+   */
   ChildResult run_child(const std::vector<std::string> &words,
-                        const ChildOptions &options);
+                        const ChildOptions &options,
+                        MainFunction program = nullptr);
 
   /** The environment of this process for a serial child: without what MPI's
    * start has put into it, and with one thread. */

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 
@@ -35,12 +36,13 @@ namespace abut::app
       return result;
     }
 
-    /** What the child does before it becomes another program. Between fork and
-     * exec only calls that are safe in signal handlers are allowed: no memory
-     * may be allocated. */
-    [[noreturn]] void become(char *const *words, char *const *environment,
-                             const char *folder, const char *log,
-                             const rlim_t limit, const pid_t parent)
+    /** What the child does before it becomes another program, or @p program if
+     * that is not null. Between fork and exec only calls that are safe in
+     * signal handlers are allowed: no memory may be allocated. */
+    [[noreturn]] void become(const MainFunction program, char **words,
+                             char *const *environment, const char *folder,
+                             const char *log, const rlim_t limit,
+                             const pid_t parent)
     {
 #ifdef __linux__
       prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -62,8 +64,17 @@ namespace abut::app
         setrlimit(RLIMIT_CORE, &core);
       }
       environ = const_cast<char **>(environment);
-      execvp(words[0], words);
-      _exit(cannot_begin);
+      if (program == nullptr)
+      {
+        execvp(words[0], words);
+        _exit(cannot_begin);
+      }
+      std::signal(SIGINT, SIG_DFL);
+      std::signal(SIGTERM, SIG_DFL);
+      int n = 0;
+      while (words[n] != nullptr)
+        ++n;
+      std::exit(program(n, words));
     }
 
     /** Wait for the end; after @p seconds (0: never) bring it about. Returns
@@ -96,9 +107,9 @@ namespace abut::app
   } // namespace
 
   ChildResult run_child(const std::vector<std::string> &words,
-                        const ChildOptions &options)
+                        const ChildOptions &options, const MainFunction program)
   {
-    const std::vector<char *> arguments = pointers(words);
+    std::vector<char *> arguments = pointers(words);
     const std::vector<char *> variables = pointers(options.environment);
     char *const *environment =
         options.environment.empty() ? environ : variables.data();
@@ -111,8 +122,8 @@ namespace abut::app
       throw std::runtime_error("cannot start '" + words[0]
                                + "': the system has no room for a process");
     if (process == 0)
-      become(arguments.data(), environment, folder.c_str(), log.c_str(), limit,
-             parent);
+      become(program, arguments.data(), environment, folder.c_str(),
+             log.c_str(), limit, parent);
     int status = 0;
     const bool killed = wait_for(process, 10 * options.limit, status);
     using Ended = ChildResult::Ended;
