@@ -220,16 +220,16 @@ steps = ["Load steps/Steps=8", "Refinement/Level=3"]
 cycles = ["Refinement/Adaptive cycles=6", "Refinement/Refine fraction=0.4"]
 
 
-def check_one_rank(name, settings):
-    expected = alone(name, settings)
+def check_one_rank():
+    expected = alone(bodies, steps)
     for number in (1, 5):
-        killed(name, number, expected, settings)
-    stopped(name, 2, signal.SIGTERM, expected, settings)
-    stopped(name, 3, signal.SIGINT, expected, settings)
-    check_refusals(name, settings)
-    check_new_begin(name, expected, settings)
+        killed(bodies, number, expected, steps)
+    stopped(bodies, 2, signal.SIGTERM, expected, steps)
+    stopped(bodies, 3, signal.SIGINT, expected, steps)
+    check_refusals(bodies, steps)
+    check_new_begin(bodies, expected, steps)
     # One checkpoint less often: the step in work is lost, no figure.
-    killed(name, 1, expected, [*settings, "Checkpoint/Every steps=3"])
+    killed(bodies, 1, expected, [*steps, "Checkpoint/Every steps=3"])
 
 
 def check_two_ranks(name, settings):
@@ -416,7 +416,7 @@ def check_short():
 if p.short:
     check_short()
 elif p.part == 1:
-    check_one_rank(bodies, steps)
+    check_one_rank()
     check_left_semaphores()
     check_motion()
     check_driven()
@@ -429,7 +429,9 @@ elif p.part == 1:
                   "Load steps/Steps=22", "Load steps/End time=1.1")
     check_ironing("ironing-3d", ((6, signal.SIGKILL),), "Load steps/Steps=8",
                   "Load steps/End time=1.5")
-    check_one_rank(membrane, cycles)
+    expected = alone(membrane, cycles)
+    killed(membrane, 5, expected, cycles)
+    stopped(membrane, 2, signal.SIGTERM, expected, cycles)
     check_target()
     check_files()
     scene = p.write("search.prm", (p.source / "prm/search-flat.prm").read_text())

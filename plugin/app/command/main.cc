@@ -9,7 +9,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <new>
 #include <string>
@@ -63,9 +62,6 @@ namespace
     int n_names = 1;
     char *name[] = {argv[0], nullptr};
     char **names = name;
-    // Without mpirun Open MPI starts a daemon for processes that might be added
-    // later, which takes a tenth of a second. There are none.
-    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, names, 1);
     MPI_Comm end_of_run;
     MPI_Comm_dup(MPI_COMM_WORLD, &end_of_run);
