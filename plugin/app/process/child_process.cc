@@ -44,13 +44,7 @@ namespace abut::app
                              const char *log, const rlim_t limit,
                              const pid_t parent)
     {
-#ifdef __linux__
-      prctl(PR_SET_PDEATHSIG, SIGKILL);
-      if (getppid() != parent) // it has ended before the line above
-        _exit(cannot_begin);
-#else
-      (void)parent;
-#endif
+      end_with(parent);
       if (folder[0] != 0 && chdir(folder) != 0)
         _exit(cannot_begin);
       const int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
@@ -105,6 +99,17 @@ namespace abut::app
       return text.compare(0, beginning.size(), beginning) == 0;
     }
   } // namespace
+
+  void end_with(const pid_t parent)
+  {
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) // it has ended before the line above
+      _exit(cannot_begin);
+#else
+    (void)parent;
+#endif
+  }
 
   ChildResult run_child(const std::vector<std::string> &words,
                         const ChildOptions &options, const MainFunction program)

@@ -6,6 +6,8 @@
  * Other programs, run to their end.
  */
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -45,6 +47,10 @@ namespace abut::app
 
   /** What main() does. */
   using MainFunction = int (*)(int argc, char *argv[]);
+
+  /** For a process just forked: end when @p parent ends (on Linux). Safe in
+   * signal handlers. */
+  void end_with(pid_t parent);
 
   /** Run @p words, the first being the program, and wait for its end. The child
    * does not outlive this process (on Linux). Where @p program is given it does

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "loaded_program.h"
 
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 
@@ -22,45 +18,36 @@ namespace abut::app
      * none. */
     int line_to_loaded = -1;
 
-    /** How many bytes follow, and texts, each ended by a zero byte. */
+    /** A message of texts, each ended by a zero byte. False: it is too long, or
+     * nobody is at the other end. */
     bool send(const int line, const std::vector<std::string> &texts)
     {
       std::string all;
       for (const std::string &text : texts)
         all.append(text).push_back('\0');
-      const std::uint64_t size = all.size();
-      all.insert(0, reinterpret_cast<const char *>(&size), sizeof(size));
-      for (std::size_t done = 0; done < all.size();)
-      {
-        const ssize_t n =
-            ::send(line, all.data() + done, all.size() - done, MSG_NOSIGNAL);
-        if (n < 0 && errno != EINTR)
-          return false;
-        done += n > 0 ? static_cast<std::size_t>(n) : 0;
-      }
-      return true;
+      return ::send(line, all.data(), all.size(), MSG_NOSIGNAL)
+             == static_cast<ssize_t>(all.size());
     }
 
-    bool receive(const int line, char *data, const std::size_t size)
+    /** recv() that goes on after a signal. */
+    ssize_t receive(const int line, std::string &all, const int flags)
     {
-      for (std::size_t done = 0; done < size;)
-      {
-        const ssize_t n = recv(line, data + done, size - done, 0);
-        if (n == 0 || (n < 0 && errno != EINTR))
-          return false;
-        done += n > 0 ? static_cast<std::size_t>(n) : 0;
-      }
-      return true;
+      ssize_t n;
+      do
+        n = recv(line, all.data(), all.size(), flags);
+      while (n < 0 && errno == EINTR);
+      return n;
     }
 
     /** False: nobody is left at the other end. */
     bool receive(const int line, std::vector<std::string> &texts)
     {
-      std::uint64_t size = 0;
-      if (!receive(line, reinterpret_cast<char *>(&size), sizeof(size)))
+      std::string all;
+      const ssize_t size = receive(line, all, MSG_PEEK | MSG_TRUNC);
+      if (size <= 0)
         return false;
-      std::string all(size, '\0');
-      if (!receive(line, all.data(), size))
+      all.resize(static_cast<std::size_t>(size));
+      if (receive(line, all, 0) != size)
         return false;
       texts.clear();
       for (std::size_t begin = 0; begin < all.size();)
@@ -76,13 +63,7 @@ namespace abut::app
     [[noreturn]] void stand_by(const int line, const MainFunction program,
                                const pid_t parent)
     {
-#ifdef __linux__
-      prctl(PR_SET_PDEATHSIG, SIGKILL);
-      if (getppid() != parent)
-        _exit(0);
-#else
-      (void)parent;
-#endif
+      end_with(parent);
       // What ends the run that is on is for that to say.
       std::signal(SIGINT, SIG_IGN);
       std::signal(SIGTERM, SIG_IGN);
@@ -133,7 +114,7 @@ namespace abut::app
   void keep_loaded(const MainFunction program)
   {
     int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
       return;
     const pid_t parent = getpid();
     const pid_t process = fork();

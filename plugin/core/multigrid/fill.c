@@ -117,20 +117,23 @@ put_upper_first(int32_t *node, int64_t n, int32_t i, int32_t *work)
 /* The matrix is symmetric: of the largest one half is enough, which is read
  * once for both. Ranks have parts of rows, sweeps want them whole, and so does
  * who factorises. */
-static bool
+static void
 take_half(abut_multigrid *mg)
 {
   abut_multigrid_level *level = &mg->level[0];
   level->upper = NULL;
   level->below = NULL;
   if (mg->block == 1 || level->ranks != NULL || mg->n_levels == 1)
-    return take_blocks(mg, level->matrix.start[level->n]);
+  {
+    (void)take_blocks(mg, level->matrix.start[level->n]);
+    return;
+  }
   const int64_t n = (int64_t)level->n * mg->block;
   int64_t *upper =
       abut_pool_take(&mg->matrices, (int64_t)level->n + 1, sizeof(int64_t));
   level->below = abut_pool_take(&mg->matrices, n + 1, sizeof(float));
   if (mg->matrices.failed)
-    return false;
+    return;
   level->upper = upper;
   for (int32_t i = 0; i < level->n; ++i)
   {
@@ -140,7 +143,7 @@ take_half(abut_multigrid *mg)
         + put_upper_first(level->matrix.node + first,
                           level->matrix.start[i + 1] - first, i, mg->list);
   }
-  return take_blocks(mg, upper[level->n]);
+  (void)take_blocks(mg, upper[level->n]);
 }
 
 static void
@@ -160,7 +163,7 @@ make_pattern(abut_multigrid *mg, const abut_multigrid_matrix *a,
   abut_multigrid_clear_places(mg, n);
   for (int32_t i = 0; i < n; ++i)
     abut_multigrid_collect(mg, a, host, i, rows->node + rows->start[i]);
-  (void)take_half(mg);
+  take_half(mg);
 }
 
 void

@@ -59,9 +59,9 @@ add_row_times(const abut_node_rows *rows, const int32_t b, int32_t q,
   }
 }
 
-/* t = row i of half a matrix times v, with what the rows before have added, and
- * let it add to the rows behind: for blocks of 3 as above. What the diagonal
- * block, which is among those of the row, adds to its own row is dropped. */
+/* t += row i of half a matrix times v, and let it add to the rows behind: for
+ * blocks of 3 as above. What the diagonal block, which is among those of the
+ * row, adds to its own row is dropped. */
 ABUT_INLINE void
 half_row_times_3(const abut_multigrid_level *level, int32_t i, const float *v,
                  float *t)
@@ -84,7 +84,7 @@ half_row_times_3(const abut_multigrid_level *level, int32_t i, const float *v,
           lane[c] * (a[c] * own[0] + a[3 + c] * own[1] + a[6 + c] * own[2]);
   }
   for (int32_t r = 0; r < 3; ++r)
-    t[r] = sum[r][0] + sum[r][1] + sum[r][2];
+    t[r] += sum[r][0] + sum[r][1] + sum[r][2];
 }
 
 ABUT_INLINE void
@@ -94,7 +94,6 @@ half_row_times_2(const abut_multigrid_level *level, int32_t i, const float *v,
   const float *own = v + (int64_t)i * 2;
   const int32_t *node = level->matrix.node + level->matrix.start[i];
   const int64_t first = level->upper[i], n = level->upper[i + 1] - first;
-  t[0] = t[1] = 0;
   for (int64_t e = 0; e < n; ++e)
   {
     const float *a = level->matrix.weight + (first + e) * 4;
@@ -124,23 +123,15 @@ ABUT_INLINE void
 half_row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
                bool out, const float *v, float *t)
 {
-  float before[3] = {0, 0, 0}, *below = level->below + (int64_t)i * b;
+  float *below = level->below + (int64_t)i * b;
   for (int32_t r = 0; r < b; ++r)
-  {
-    before[r] = below[r];
-    below[r] = 0;
-  }
-  if (out)
-    return;
-  if (b == 3)
+    t[r] = below[r];
+  if (!out && b == 3)
     half_row_times_3(level, i, v, t);
-  else
+  else if (!out)
     half_row_times_2(level, i, v, t);
   for (int32_t r = 0; r < b; ++r)
-  {
-    t[r] += before[r];
     below[r] = 0;
-  }
 }
 
 /* t = row i of the matrix, with what is added to it, times v. Rows of which
@@ -155,11 +146,9 @@ own_row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
   const bool out = is_out(level, b, i);
   if (b > 1 && level->upper != NULL)
     half_row_times(level, b, i, out, v, t);
-  if (out)
-    return;
-  if (b == 1 || level->upper == NULL)
+  else if (!out)
     add_row_times(&level->matrix, b, i, v, t);
-  if (level->terms.n > 0 && level->terms.at[i] >= 0)
+  if (!out && level->terms.n > 0 && level->terms.at[i] >= 0)
     add_row_times(&level->terms.rows, b, level->terms.at[i], v, t);
 }
 
