@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace abut::shim
 {
@@ -123,9 +124,13 @@ namespace abut::shim
         dof_handler_.get_triangulation().n_global_active_cells(),
         on_faces ? dim - 1 : dim);
     const auto flags = dealii::update_values | dealii::update_quadrature_points;
-    dealii::FEValues<dim> in_cell(mapping_, fe, regular_points<dim>(n), flags);
-    dealii::FEFaceValues<dim> on_face(mapping_, fe, regular_points<dim - 1>(n),
-                                      flags);
+    // Which of them is used: to make one takes longer than a step of few cells.
+    std::optional<dealii::FEValues<dim>> in_cell;
+    std::optional<dealii::FEFaceValues<dim>> on_face;
+    if (on_faces)
+      on_face.emplace(mapping_, fe, regular_points<dim - 1>(n), flags);
+    else
+      in_cell.emplace(mapping_, fe, regular_points<dim>(n), flags);
     dealii::FEValues<dim> at_nodes(
         mapping_, fe, dealii::Quadrature<dim>(fe.get_unit_support_points()),
         dealii::update_quadrature_points);
@@ -171,8 +176,8 @@ namespace abut::shim
               continue;
             if (!on_faces)
             {
-              in_cell.reinit(cell);
-              look(cell, in_cell, [](unsigned int) { return true; });
+              in_cell->reinit(cell);
+              look(cell, *in_cell, [](unsigned int) { return true; });
               continue;
             }
             for (const unsigned int f : cell->face_indices())
@@ -180,8 +185,8 @@ namespace abut::shim
                   && obstacle_.boundary_ids.count(cell->face(f)->boundary_id())
                          > 0)
               {
-                on_face.reinit(cell, f);
-                look(cell, on_face,
+                on_face->reinit(cell, f);
+                look(cell, *on_face,
                      [&](const unsigned int i)
                      { return fe.has_support_on_face(i, f); });
               }

@@ -5,6 +5,7 @@
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "cell_sum.h"
+#include "nodal_places.h"
 #include "stiffness_cache.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -222,6 +223,7 @@ namespace abut::app
         this->mapping, element, dealii::QGauss<dim>(this->fe.degree + 1),
         dealii::update_values | dealii::update_quadrature_points
             | dealii::update_JxW_values);
+    const NodalPlaces<dim> places(this->fe);
     dealii::Vector<double> force(this->fe.n_dofs_per_cell());
     std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
     for (const auto &cell : this->dof_handler.active_cell_iterators())
@@ -244,9 +246,8 @@ namespace abut::app
         for (unsigned int q = 0; q < points.size(); ++q)
         {
           const double dx = values.JxW(q) * material.measure(points[q]);
-          for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
-            force(this->fe.component_to_system_index(c, i)) +=
-                f[q] * dx * values.shape_value(i, q);
+          for (unsigned int i = 0; i < places.n_nodes(); ++i)
+            force(places(c, i)) += f[q] * dx * values.shape_value(i, q);
         }
       }
       cell->get_dof_indices(dofs);
@@ -265,6 +266,7 @@ namespace abut::app
         this->mapping, element, dealii::QGauss<dim - 1>(this->fe.degree + 1),
         dealii::update_values | dealii::update_JxW_values
             | dealii::update_normal_vectors | dealii::update_quadrature_points);
+    const NodalPlaces<dim> places(this->fe);
     dealii::Vector<double> force(this->fe.n_dofs_per_cell());
     std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
     for (const auto &cell : this->dof_handler.active_cell_iterators())
@@ -300,9 +302,8 @@ namespace abut::app
                   (t.empty() ? 0. : t[c][q])
                   - (p.empty() ? 0. : p[q] * values.normal_vector(q)[c]);
               const double dx = values.JxW(q) * material.measure(points[q]);
-              for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
-                force(this->fe.component_to_system_index(c, i)) +=
-                    stress * dx * values.shape_value(i, q);
+              for (unsigned int i = 0; i < places.n_nodes(); ++i)
+                force(places(c, i)) += stress * dx * values.shape_value(i, q);
             }
           cell->get_dof_indices(dofs);
           this->constraints.distribute_local_to_global(force, dofs, load);

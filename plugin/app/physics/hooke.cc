@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "hooke.h"
 
+#include "nodal_places.h"
+
 namespace abut::app
 {
   template <int dim>
@@ -165,8 +167,8 @@ namespace abut::app
   {
     const double mu = this->mu();
     const bool rings = this->is_axisymmetric();
-    const unsigned int n_nodes = fe.base_element(0).n_dofs_per_cell();
-    for (unsigned int i = 0; i < n_nodes; ++i)
+    const NodalPlaces<dim> places(fe);
+    for (unsigned int i = 0; i < places.n_nodes(); ++i)
       for (unsigned int j = 0; j <= i; ++j)
       {
         dealii::Tensor<2, dim> product;
@@ -202,8 +204,8 @@ namespace abut::app
                   lambda
                       * ((a == 0 ? hoop_i[b] : 0.) + (b == 0 ? hoop_j[a] : 0.))
                   + (a == 0 && b == 0 ? (lambda + 2. * mu) * hoop : 0.);
-            const unsigned int row = fe.component_to_system_index(a, i);
-            const unsigned int column = fe.component_to_system_index(b, j);
+            const unsigned int row = places(a, i);
+            const unsigned int column = places(b, j);
             result(row, column) = entry;
             result(column, row) = entry;
           }

@@ -2,6 +2,7 @@
 #include "material.h"
 
 #include "cell_volume.h"
+#include "nodal_places.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -132,7 +133,7 @@ namespace abut::app
                                    dealii::FullMatrix<double> &result) const
   {
     result = 0.;
-    const unsigned int n_nodes = fe.base_element(0).n_dofs_per_cell();
+    const NodalPlaces<dim> places(fe);
     CellState<dim> undeformed;
     if (is_linear())
     {
@@ -151,12 +152,11 @@ namespace abut::app
         const auto [component, node] = fe.system_to_component_index(column);
         const NominalStress<dim> change = moduli.change(
             component, values.shape_grad(node, q), values.shape_value(node, q));
-        for (unsigned int i = 0; i < n_nodes; ++i)
+        for (unsigned int i = 0; i < places.n_nodes(); ++i)
         {
           const auto force = nodal_force(values, change, i, q);
           for (unsigned int c = 0; c < dim; ++c)
-            result(fe.component_to_system_index(c, i), column) +=
-                weight * force[c];
+            result(places(c, i), column) += weight * force[c];
         }
       }
     }
@@ -172,6 +172,7 @@ namespace abut::app
     if (of_cell == nullptr)
       return;
     // Derivative of the cell's volume by its values.
+    const NodalPlaces<dim> places(fe);
     dealii::Vector<double> slope(fe.n_dofs_per_cell());
     double volume = 0.;
     for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
@@ -180,7 +181,7 @@ namespace abut::app
       const double weight = values.JxW(q) * measure(x);
       volume += weight;
       add_nodal_forces(
-          values, fe,
+          values, places,
           of_cell->change_slope(state.gradient[q], state.value[q], x), q,
           weight, slope);
     }
@@ -221,12 +222,13 @@ namespace abut::app
                                   dealii::Vector<double> &forces) const
   {
     forces = 0.;
+    const NodalPlaces<dim> places(fe);
     const auto material = in_cell(values, state);
     for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
     {
       const dealii::Point<dim> &x = values.quadrature_point(q);
       add_nodal_forces(
-          values, fe,
+          values, places,
           material->nominal_stress(state.gradient[q], state.value[q], x), q,
           values.JxW(q) * measure(x), forces);
     }
@@ -234,18 +236,17 @@ namespace abut::app
 
   template <int dim>
   void Material<dim>::add_nodal_forces(const dealii::FEValues<dim> &values,
-                                       const dealii::FiniteElement<dim> &fe,
+                                       const NodalPlaces<dim> &places,
                                        const NominalStress<dim> &stress,
                                        const unsigned int q,
                                        const double volume,
                                        dealii::Vector<double> &forces) const
   {
-    const unsigned int n_nodes = fe.base_element(0).n_dofs_per_cell();
-    for (unsigned int i = 0; i < n_nodes; ++i)
+    for (unsigned int i = 0; i < places.n_nodes(); ++i)
     {
       const auto force = nodal_force(values, stress, i, q);
       for (unsigned int c = 0; c < dim; ++c)
-        forces(fe.component_to_system_index(c, i)) += volume * force[c];
+        forces(places(c, i)) += volume * force[c];
     }
   }
 

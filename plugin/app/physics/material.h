@@ -22,6 +22,7 @@
 
 namespace abut::app
 {
+  template <int dim> class NodalPlaces;
   /** What a two-dimensional model says of the third direction. Axisymmetric
    * models have radius x >= 0 and axis x = 0. */
   enum class PlaneModel
@@ -226,7 +227,7 @@ namespace abut::app
 
     /** Add what a stress at point @p q of a volume does to all nodes. */
     void add_nodal_forces(const dealii::FEValues<dim> &values,
-                          const dealii::FiniteElement<dim> &fe,
+                          const NodalPlaces<dim> &places,
                           const NominalStress<dim> &stress, unsigned int q,
                           double volume, dealii::Vector<double> &forces) const;
 
