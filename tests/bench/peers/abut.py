@@ -8,8 +8,9 @@ import hexmesh
 import process
 import vtu_file
 
-# Files hold single precision; nodes are much farther apart.
-NEAR = 1e-5
+# Files hold single precision, and refinement puts nodes of a curved body a bit
+# elsewhere; they are much farther apart, in units of the size of facets.
+NEAR = 0.1
 
 PROGRAM = None  # set by compare.py
 
@@ -43,13 +44,19 @@ def _supports(problem, number, ids):
 def _body(problem, number, folder):
     """The section of a body, and its boundary ids by name."""
     mesh = os.path.join(folder, f"body-{number + 1}.msh")
-    ids = gmsh_file.write(mesh, problem["bodies"][number])
+    ids = gmsh_file.write(
+        mesh, problem.get("coarse", problem["bodies"])[number])
+    sphere = problem.get("sphere", {"faces": []})
+    curved = "; ".join(
+        f"{ids[face]}: sphere: " + ", ".join(map(repr, sphere["centre"]))
+        for face in sphere["faces"])
     pressure = "; ".join(f"{ids[load['face']]}: {load['pressure']!r}"
                          for load in problem["loads"]
                          if load["body"] == number)
     return f"""subsection Body {number + 1}
   subsection Mesh
     set File = {mesh}
+    set Curved sides = {curved}
   end
   set Young modulus = {problem["young"]!r}
   set Poisson ratio = {problem["poisson"]!r}
@@ -79,7 +86,7 @@ def _scene(problem, folder):
 set Scene = solid
 set Dimension = 3
 subsection Refinement
-  set Level = 0
+  set Level = {problem.get("levels", 0)}
 end
 subsection Solid
   set Bodies = {len(problem["bodies"])}
@@ -91,7 +98,7 @@ end
 
 def _displacements(problem, path):
     points, fields = vtu_file.read(path)
-    places = [hexmesh.Places(body["nodes"], NEAR)
+    places = [hexmesh.Places(body["nodes"], NEAR * problem["size"])
               for body in problem["bodies"]]
     moved = [[None] * len(body["nodes"]) for body in problem["bodies"]]
     for point, body, value in zip(points, fields["body"],
@@ -108,7 +115,8 @@ def _pressure(problem, path):
     number, face = problem["contact"]["secondary"]
     body = problem["bodies"][number]
     nodes = hexmesh.face_nodes(body, face)
-    places = hexmesh.Places([body["nodes"][node] for node in nodes], NEAR)
+    places = hexmesh.Places([body["nodes"][node] for node in nodes],
+                            NEAR * problem["size"])
     pressure = dict.fromkeys(nodes, 0.0)
     for point, traction in zip(points, fields["traction"]):
         found = places.find(point)

@@ -34,8 +34,8 @@ def _plate(problem):
     """The rigid plane z = 0 as one cell that is held everywhere."""
     nodes = problem["bodies"][0]["nodes"]
     end = 1.5 * max(max(point) for point in nodes)
-    return hexmesh.block([-0.5 * end, end], [-0.5 * end, end],
-                         [-0.5 * end, 0.0])
+    across = [-0.5 * end, end]
+    return hexmesh.block(hexmesh.grid(across, across, [-0.5 * end, 0.0]))
 
 
 def _wrap(numbers):

@@ -35,14 +35,37 @@ def graded(fine_end, fine_cells, end, cells):
     return points
 
 
-def block(xs, ys, zs, place=lambda x, y, z: (x, y, z)):
-    """A body of the product grid; `place` moves each node."""
-    nx, ny, nz = len(xs) - 1, len(ys) - 1, len(zs) - 1
+def _middle(a, b):
+    """Of two numbers, or of lists of them, entry by entry."""
+    if isinstance(a, list):
+        return [_middle(*pair) for pair in zip(a, b)]
+    return (a + b) / 2
+
+
+def _with_middles(items):
+    halves = [_middle(*pair) for pair in zip(items, items[1:])]
+    return [item for pair in zip(items, halves)
+            for item in pair] + items[-1:]
+
+
+def grid(xs, ys, zs, place=lambda x, y, z: (x, y, z)):
+    """Nodes [z][y][x] of the product grid; `place` moves each."""
+    return [[[list(place(x, y, z)) for x in xs] for y in ys] for z in zs]
+
+
+def bisected(nodes):
+    """The grid with twice as many cells each way."""
+    return _with_middles([_with_middles([_with_middles(row) for row in layer])
+                          for layer in nodes])
+
+
+def block(nodes):
+    """A body of the cells between the nodes of a grid."""
+    nz, ny, nx = len(nodes) - 1, len(nodes[0]) - 1, len(nodes[0][0]) - 1
 
     def number(i, j, k):
         return i + (nx + 1) * (j + (ny + 1) * k)
 
-    nodes = [list(place(x, y, z)) for z in zs for y in ys for x in xs]
     cells = []
     faces = {side: [] for side in
              ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")}
@@ -60,7 +83,8 @@ def block(xs, ys, zs, place=lambda x, y, z: (x, y, z)):
                         ("ymax", j == ny - 1, 4), ("xmin", i == 0, 5)):
                     if at:
                         faces[side].append([cell, face])
-    return {"nodes": nodes, "cells": cells, "faces": faces}
+    return {"nodes": [node for layer in nodes for row in layer
+                      for node in row], "cells": cells, "faces": faces}
 
 
 def face_nodes(body, name):

@@ -4,7 +4,9 @@
 A problem: `bodies` (see hexmesh), `young`, `poisson`, `supports` [{body, face,
 components, values}] with values as expressions of x, y, z (functions of
 Python's math), `loads` [{body, face, pressure}], `contact` {secondary: [body,
-face], primary: [body, face] or None for the rigid plane z = 0}, `size`: facet
+face], primary: [body, face] or None for the rigid plane z = 0}, perhaps
+`coarse`: bodies whose cells, bisected `levels` times, are the same but for a
+hundredth of a cell, with `sphere`: the faces that lie on one, `size`: facet
 size in contact, `pressure`: the largest pressure expected, and what figures.py
 needs to judge the answers.
 """
@@ -38,25 +40,44 @@ def far_field():
     return [f"x*{radial}", f"y*{radial}", down]
 
 
-def hertz(cells, width=12.0):
+def _lower(x, y):
+    """Height of the sphere."""
+    return RADIUS - math.sqrt(RADIUS ** 2 - x * x - y * y)
+
+
+def _cap(nodes, reach):
+    """A body with its contact face within `reach`."""
+    body = hexmesh.block(nodes)
+    hexmesh.split_face(body, "zmin", "contact",
+                       lambda x, y, z: max(x, y) < reach)
+    return body
+
+
+def hertz(across, up, levels, width=12.0):
     """A quarter of a sphere's lowest part on the rigid plane z = 0.
 
-    `cells` each way, nearly half of them within 1.25 contact radii; the body
-    is `width` contact radii wide. On its outer faces the displacements are
+    So many cells across and up, nearly half of them within 1.25 contact radii;
+    the body is `width` contact radii wide. They are those of a coarse mesh
+    bisected `levels` times: whoever refines meshes, as Abut does, may start
+    from that one (`coarse`). On its outer faces the displacements are
     prescribed that the half-space has there.
     """
     a, force, p0 = hertz_numbers()
     length = width * a
-    fine = max(2, round(0.45 * cells))
-    axis = hexmesh.graded(1.25 * a, fine, length, cells)
-
-    def place(x, y, z):
-        lower = RADIUS - math.sqrt(RADIUS ** 2 - x * x - y * y)
-        return x, y, lower + (length - lower) * z / length
-
-    body = hexmesh.block(axis, axis, axis, place)
-    hexmesh.split_face(body, "zmin", "contact",
-                       lambda x, y, z: math.hypot(x, y) < 2.5 * a)
+    axes, fine = [], []
+    for cells in (across, up):
+        cells //= 2 ** levels
+        fine.append(max(2, round(0.45 * cells)))
+        axes.append(hexmesh.graded(1.25 * a, fine[-1], length, cells))
+    reach = next(x for x in axes[0] if x >= 2.5 * a)
+    nodes = hexmesh.grid(
+        axes[0], axes[0], axes[1], lambda x, y, z:
+        (x, y, _lower(x, y) + (length - _lower(x, y)) * z / length))
+    coarse = _cap(nodes, reach)
+    for _ in range(levels):
+        nodes = hexmesh.bisected(nodes)
+        nodes[0] = [[[x, y, _lower(x, y)] for x, y, _ in row]
+                    for row in nodes[0]]
     outside = far_field()
     supports = [{"body": 0, "face": "xmin", "components": [0],
                  "values": ["0"]},
@@ -64,10 +85,14 @@ def hertz(cells, width=12.0):
                  "values": ["0"]}]
     supports += [{"body": 0, "face": face, "components": [0, 1, 2],
                   "values": outside} for face in ("xmax", "ymax", "zmax")]
-    return {"name": "hertz", "bodies": [body], "young": YOUNG,
-            "poisson": POISSON, "supports": supports, "loads": [],
+    return {"name": "hertz", "bodies": [_cap(nodes, reach)],
+            "young": YOUNG, "poisson": POISSON, "supports": supports,
+            "loads": [],
             "contact": {"secondary": [0, "contact"], "primary": None},
-            "size": 1.25 * a / fine, "pressure": p0, "force": force / 4}
+            "size": 1.25 * a / (fine[0] * 2 ** levels), "pressure": p0,
+            "force": force / 4, "levels": levels, "coarse": [coarse],
+            "sphere": {"faces": ["zmin", "contact"],
+                       "centre": [0.0, 0.0, RADIUS]}}
 
 
 def _two_blocks(upper, lower):
@@ -75,8 +100,8 @@ def _two_blocks(upper, lower):
     planes x = 0 and y = 0 are planes of symmetry."""
     def cube(cells, bottom):
         axis = hexmesh.uniform(0, 1, cells)
-        return hexmesh.block(axis, axis, hexmesh.uniform(
-            bottom, bottom + 0.5, cells // 2))
+        return hexmesh.block(hexmesh.grid(axis, axis, hexmesh.uniform(
+            bottom, bottom + 0.5, cells // 2)))
     supports = []
     for body in (0, 1):
         for component, face in enumerate(("xmin", "ymin")):
@@ -112,16 +137,14 @@ def pressed_blocks(upper, lower):
     return problem
 
 
-SIZES = {"hertz": [9, 18, 26],
+SIZES = {"hertz": [(8, 8, 0), (16, 16, 1), (28, 24, 2)],
          "uniform blocks": [(8, 10), (16, 20), (22, 28)],
          "pressed blocks": [(8, 10), (16, 20), (22, 28)]}
 
 
 def make(name, size):
     """The problem `name` with SIZES[name][size]."""
-    if name == "hertz":
-        return hertz(SIZES[name][size])
-    maker = {"uniform blocks": uniform_blocks,
+    maker = {"hertz": hertz, "uniform blocks": uniform_blocks,
              "pressed blocks": pressed_blocks}[name]
     return maker(*SIZES[name][size])
 
