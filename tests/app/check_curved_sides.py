@@ -124,6 +124,88 @@ for sides, level in ((curved(), 2), ("0, 1: flat", 2), ("", 0)):
                           "Refinement/Coarsest level=0")
     p.expect("Curved sides" not in result.stderr, f"{sides}: {result.stderr}")
 
+# A shallow arc of seven chords, half of a cylinder pressed on a plane: they meet at
+# less than a degree, and make pressures that Hertz' p0^2 = P E*/(pi R), which needs
+# nothing but the force, has not. Where the pressure is large beside that, nothing is
+# said.
+RADIUS, ACROSS = 10., 7
+
+
+def cap():
+    """Ids 1 below, 2 x = 0, 3 above."""
+    rows = [[(i / ACROSS, RADIUS - math.sqrt(RADIUS**2 - (i / ACROSS)**2)
+              if j == 0 else j / ACROSS) for i in range(ACROSS + 1)]
+            for j in range(ACROSS + 1)]
+
+    def node(i, j):
+        return j * (ACROSS + 1) + i + 1
+
+    n = range(ACROSS)
+    cells = [(0, "quad", [node(i, j), node(i + 1, j), node(i + 1, j + 1),
+                          node(i, j + 1)]) for j in n for i in n]
+    cells += [(1, "line", [node(i, 0), node(i + 1, 0)]) for i in n]
+    cells += [(2, "line", [node(0, i), node(0, i + 1)]) for i in n]
+    cells += [(3, "line", [node(i, ACROSS), node(i + 1, ACROSS)]) for i in n]
+    text = f"{len(rows) * (ACROSS + 1)} {len(cells)} 0 0 0\n"
+    text += "".join(f"{node(i, j)} {x:.15g} {y:.15g} 0\n"
+                    for j, row in enumerate(rows)
+                    for i, (x, y) in enumerate(row))
+    text += "".join(f"{i + 1} {number} {kind} {' '.join(map(str, nodes))}\n"
+                    for i, (number, kind, nodes) in enumerate(cells))
+    return p.write("cap.inp", text)
+
+
+CAP = """
+set Scene = solid
+set Dimension = 2
+subsection Solid
+  set Bodies = 1
+  set Pairs = 1
+  set Obstacles = 1
+end
+subsection Body 1
+  subsection Mesh
+    set File = {file}
+    set Curved sides = {sides}
+  end
+  set Young modulus = 1
+  set Poisson ratio = 0
+  set Support = 2: 0, free
+  set Pressure = 3: {pressure}
+end
+subsection Obstacle 1
+  set Kind = plane
+end
+subsection Pair 1
+  set Secondary = 1: 1
+  set Obstacle = 1
+end
+subsection Refinement
+  set Level = 4
+end
+"""
+
+
+def pressed(sides, pressure):
+    """Messages, and the largest pressure by Hertz'."""
+    scene = p.write("cap.prm", CAP.format(file=cap(), sides=sides,
+                                          pressure=pressure))
+    result, summary = run(scene, [])
+    hertz = math.sqrt(2 * summary["contact_force"] / (math.pi * RADIUS))
+    return result.stderr, summary["pair_1_pressure"] / hertz
+
+
+said, ratio = pressed("1: circle: 0, 10", 0.0035)
+# The block is no half-space.
+p.expect("F21" not in said and abs(ratio - 1) < 0.05, f"arc: {ratio} {said}")
+said, ratio = pressed("", 0.0035)
+p.expect("ABUT-F21: Pair 1" in said and "Curved sides" in said and ratio > 1.1,
+         f"chords: {ratio} {said}")
+said, _ = pressed("1: flat", 0.0035)
+p.expect("F21" not in said, f"corners that are meant: {said}")
+said, _ = pressed("", 0.2)
+p.expect("F21" not in said, f"pressed flat: {said}")
+
 # The same on two ranks, with adaptive meshes.
 adaptive = ["Refinement/Level=2", "Refinement/Adaptive cycles=2"]
 _, one = press_fit(curved(), *adaptive)

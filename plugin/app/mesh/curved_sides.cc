@@ -26,10 +26,6 @@ namespace abut::app
      * are written with six digits, too. */
     constexpr double node_tolerance = 1e-4;
 
-    /** Angles between facets, in degrees, that approximate a curve: less is
-     * round-off of a plane, more is a corner. */
-    constexpr double least_bend = 2., largest_bend_of_curve = 50.;
-
     /** A round surface: what has the same distance from a point or axis. */
     template <int dim> struct RoundSurface
     {
@@ -169,51 +165,6 @@ namespace abut::app
           id = std::max(id, used + 1);
       return id;
     }
-
-    template <int dim>
-    dealii::Tensor<1, dim>
-    face_normal(const typename dealii::Triangulation<dim>::cell_iterator &cell,
-                const unsigned int f)
-    {
-      const auto face = cell->face(f);
-      dealii::Tensor<1, dim> normal;
-      if constexpr (dim == 2)
-        normal = dealii::cross_product_2d(face->vertex(1) - face->vertex(0));
-      else
-        normal = dealii::cross_product_3d(face->vertex(3) - face->vertex(0),
-                                          face->vertex(2) - face->vertex(1));
-      return normal / normal.norm();
-    }
-
-    /** A coarse facet beside an edge (in 2D a vertex). */
-    template <int dim> struct Neighbour
-    {
-      dealii::Tensor<1, dim> normal;
-      dealii::Point<dim> place; ///< of the edge
-      boundary_id id;
-    };
-
-    template <int dim>
-    using Edges = std::map<unsigned int, std::vector<Neighbour<dim>>>;
-
-    template <int dim>
-    void
-    add_facet(const typename dealii::Triangulation<dim>::cell_iterator &cell,
-              const unsigned int f, Edges<dim> &edges)
-    {
-      const auto face = cell->face(f);
-      dealii::Tensor<1, dim> normal = face_normal<dim>(cell, f);
-      if (normal * (face->center() - cell->center()) < 0.)
-        normal *= -1.;
-      if constexpr (dim == 2)
-        for (unsigned int v = 0; v < 2; ++v)
-          edges[face->vertex_index(v)].push_back(
-              {normal, face->vertex(v), face->boundary_id()});
-      else
-        for (unsigned int l = 0; l < face->n_lines(); ++l)
-          edges[face->line(l)->index()].push_back(
-              {normal, face->line(l)->vertex(0), face->boundary_id()});
-    }
   } // namespace
 
   template <int dim>
@@ -242,43 +193,9 @@ namespace abut::app
     }
   }
 
-  template <int dim>
-  Bend<dim> largest_bend(const dealii::Triangulation<dim> &triangulation,
-                         const std::set<dealii::types::material_id> &material,
-                         const std::set<boundary_id> &ids)
-  {
-    Edges<dim> edges;
-    for (const auto &cell : triangulation.cell_iterators_on_level(0))
-      if (material.count(cell->material_id()) > 0)
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary()
-              && cell->face(f)->manifold_id()
-                     == dealii::numbers::flat_manifold_id
-              && ids.count(cell->face(f)->boundary_id()) > 0)
-            add_facet<dim>(cell, f, edges);
-    Bend<dim> largest;
-    for (const auto &edge : edges)
-    {
-      const std::vector<Neighbour<dim>> &facets = edge.second;
-      if (facets.size() != 2)
-        continue;
-      const double cosine = facets[0].normal * facets[1].normal;
-      const double degrees =
-          std::acos(std::clamp(cosine, -1., 1.)) * 180. / dealii::numbers::PI;
-      if (degrees > std::max(least_bend, largest.degrees)
-          && degrees < largest_bend_of_curve)
-        largest = {facets[0].place, degrees, facets[0].id};
-    }
-    return largest;
-  }
-
 #define ABUT_INSTANTIATE(dim)                                                  \
   template void set_curved_sides<dim>(                                         \
-      const std::string &, const std::string &, dealii::Triangulation<dim> &); \
-  template Bend<dim> largest_bend<dim>(                                        \
-      const dealii::Triangulation<dim> &,                                      \
-      const std::set<dealii::types::material_id> &,                            \
-      const std::set<dealii::types::boundary_id> &);
+      const std::string &, const std::string &, dealii::Triangulation<dim> &);
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

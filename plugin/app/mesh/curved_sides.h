@@ -6,10 +6,8 @@
  * Curved boundaries of meshes whose description knows corners only, as files.
  */
 
-#include <deal.II/base/point.h>
 #include <deal.II/grid/tria.h>
 
-#include <set>
 #include <string>
 
 namespace abut::app
@@ -24,23 +22,6 @@ namespace abut::app
   template <int dim>
   void set_curved_sides(const std::string &text, const std::string &parameter,
                         dealii::Triangulation<dim> &triangulation);
-
-  /** Where facets of a coarse mesh meet at an angle. */
-  template <int dim> struct Bend
-  {
-    dealii::Point<dim> place;          ///< a corner of the edge
-    double degrees = 0.;               ///< between the normals; 0: nowhere
-    dealii::types::boundary_id id = 0; ///< of one of the two facets
-  };
-
-  /** The largest angle, of those that approximate a curve rather than make a
-   * corner, between neighbours among the coarse faces of cells with one of the
-   * @p material ids and one of the boundary @p ids that refinement keeps
-   * straight. Not collective; the same on all ranks. */
-  template <int dim>
-  Bend<dim> largest_bend(const dealii::Triangulation<dim> &triangulation,
-                         const std::set<dealii::types::material_id> &material,
-                         const std::set<dealii::types::boundary_id> &ids);
 } // namespace abut::app
 
 #endif

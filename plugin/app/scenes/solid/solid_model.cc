@@ -4,7 +4,6 @@
 #include "app/adapt/elastic_estimator.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
-#include "app/mesh/curved_sides.h"
 #include "app/physics/contact_traction.h"
 #include "app/physics/elastic_traction.h"
 #include "app/pictures/contact_output.h"
@@ -156,27 +155,52 @@ namespace abut::app
     look_for_chords();
   }
 
-  template <int dim> void SolidModel<dim>::look_for_chords() const
+  template <int dim>
+  std::set<dealii::types::material_id>
+  SolidModel<dim>::bodies_with_chords() const
   {
-    std::set<dealii::types::material_id> from_files;
+    std::set<dealii::types::material_id> result;
     for (unsigned int body = 0; body < bodies.size(); ++body)
       if (!bodies[body].mesh.file.empty()
           && bodies[body].refinements + parameters.refinement.last_mesh() > 0)
-        from_files.insert(body);
-    const Bend<dim> bend =
-        largest_bend(this->triangulation, from_files, pairs->surfaces());
-    if (bend.degrees == 0.)
-      return;
+        result.insert(body);
+    return result;
+  }
+
+  template <int dim>
+  std::string SolidModel<dim>::text_of_bend(const Bend<dim> &bend,
+                                            const std::string &effect) const
+  {
     std::ostringstream message;
-    message << "Facets of the mesh file of " << bodies.name(bend.id)
+    message << "facets of the mesh file of " << bodies.name(bend.id)
             << " meet at an angle of " << short_number(bend.degrees, 3)
             << " degrees at (" << bend.place
-            << "), and refinement keeps them straight: finer meshes will "
-               "converge to the contact of a polygon. Name the circle, "
-               "cylinder or sphere in "
+            << "), and refinement keeps them straight: " << effect
+            << ". Name the circle, cylinder or sphere in "
             << bodies[bodies.body_of(bend.id)].mesh.section
             << "/Curved sides; 'flat' there says that it is a corner.";
-    run.report.warn(coded(ABUT_FAILURE_COARSE_CURVE, message.str()));
+    return message.str();
+  }
+
+  template <int dim> void SolidModel<dim>::look_for_chords()
+  {
+    const auto from_files = bodies_with_chords();
+    if (from_files.empty())
+      return;
+    chords.emplace(this->triangulation, from_files);
+    const std::set<boundary_id> surfaces = pairs->surfaces();
+    // Less is told of where it matters, once there are pressures.
+    const Bend<dim> bend =
+        chords->largest(2., [&](const boundary_id id, const CoarseFacet &)
+                        { return surfaces.count(id) > 0; });
+    if (bend.degrees == 0.)
+      return;
+    chords.reset();
+    run.report.warn(
+        coded(ABUT_FAILURE_COARSE_CURVE,
+              "A round side may be taken for a polygon: "
+                  + text_of_bend(bend, "finer meshes will converge to the "
+                                       "contact of a polygon")));
   }
 
   template <int dim> void SolidModel<dim>::setup_mesh()

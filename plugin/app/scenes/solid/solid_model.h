@@ -2,6 +2,7 @@
 #ifndef ABUT_APP_SOLID_MODEL_H
 #define ABUT_APP_SOLID_MODEL_H
 
+#include "app/mesh/chords.h"
 #include "app/physics/rigid_modes.h"
 #include "app/scenes/moving_model.h"
 #include "body_parts.h"
@@ -12,6 +13,9 @@
 #include "solid_points.h"
 
 #include <memory>
+#include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace abut::app
@@ -136,6 +140,11 @@ namespace abut::app
      * laws whose forces are stresses no force is that of a pressure alone. */
     bool tells_friction_apart() const;
 
+    /** Facets that meet at an angle, what that does, and what to do about it.
+     */
+    std::string text_of_bend(const Bend<dim> &bend,
+                             const std::string &effect) const;
+
     /** Forces at all unknowns but hanging ones that supports and contact hold
      * in the present solution, inertia included. */
     la::Vector unbalanced_forces() const;
@@ -152,6 +161,8 @@ namespace abut::app
     std::unique_ptr<ExactSolution<dim>> exact;
     ElasticData<dim> data;
     std::vector<OutputPoint<dim>> points; ///< of `Output/Points`
+    /** Sides that refinement keeps straight, if any have not been told of. */
+    std::optional<Chords<dim>> chords;
 
   protected:
     std::pair<la::Vector, la::Vector> initial_motion() const override
@@ -186,8 +197,10 @@ namespace abut::app
      * that flies has come far beside what it is deformed by: the part of the
      * tolerance that is asked for then. Collective. */
     double part_of_flight() const;
+    /** Bodies whose meshes are from files, and refined. */
+    std::set<dealii::types::material_id> bodies_with_chords() const;
     /** Whether refinement keeps the chords of a round side in contact. */
-    void look_for_chords() const;
+    void look_for_chords();
     bool is_held(const BodyPart<dim> &part,
                  const std::vector<PairResult<dim>> &results) const;
 

@@ -10,8 +10,10 @@
 #include "app/scenes/modelled.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <set>
 
 namespace abut::app
 {
@@ -24,6 +26,10 @@ namespace abut::app
 
     /** Part of a pressure that goes astray. */
     constexpr double visible_transfer_error = 1e-3;
+
+    /** Part of the largest pressure that straight facets may make, and that
+     * from which on a facet counts as pressed. */
+    constexpr double visible_chords = 0.1, pressed = 0.05;
 
     /** Poisson ratio from which on locking is looked for, and the part of the
      * strain energy that is worth a word. */
@@ -160,6 +166,52 @@ namespace abut::app
     }
   }
 
+  template <int dim> void SolidReport<dim>::report_chords() const
+  {
+    if (!model.chords)
+      return;
+    const la::Vector traction = model.contact_fields().traction;
+    unsigned int number = 0;
+    for (const PairResult<dim> &result : contact.pair_results())
+    {
+      const ContactPair<dim> &pair = pairs.pairs().at(number++);
+      if (!(result.pressure > 0.))
+        continue;
+      std::set<dealii::types::boundary_id> ids = pair.secondary;
+      ids.insert(pair.primary.begin(), pair.primary.end());
+      const std::set<CoarseFacet> facets = coarse_facets_above(
+          elasticity.dof_handler, ids, traction, pressed * result.pressure);
+      const Bend<dim> bend = model.chords->largest(
+          0., [&](const dealii::types::boundary_id id, const CoarseFacet &facet)
+          { return ids.count(id) > 0 && facets.count(facet) > 0; });
+      if (bend.degrees == 0.)
+        continue;
+      // A blunt wedge on a half-space has E*/pi times half of the angle times
+      // arcosh(a/x) at x from its tip (Johnson, Contact Mechanics, 5.2): E*/pi
+      // times the angle at a quarter of its half width, and more nearer to it.
+      double compliance = 0.;
+      std::set<unsigned int> seen;
+      for (const auto id : ids)
+        if (const unsigned int body = bodies.body_of(id);
+            seen.insert(body).second)
+          compliance += 1. / model.data.materials.at(body)->stiffness();
+      const double part =
+          bend.degrees * dealii::numbers::PI / 180.
+          / (dealii::numbers::PI * compliance * result.pressure);
+      if (part > visible_chords)
+        report.warn(coded(
+            ABUT_FAILURE_COARSE_CURVE,
+            "Pair " + std::to_string(number) + ": in contact, "
+                + model.text_of_bend(
+                    bend,
+                    "the pressure there may be off by "
+                        + (part < 0.5 ? "some " + short_number(100. * part, 2)
+                                            + " % of its largest value"
+                                      : std::string("half of it and more"))
+                        + ", the more the finer the mesh")));
+    }
+  }
+
   template <int dim>
   std::pair<double, double> SolidReport<dim>::report_pairs() const
   {
@@ -247,6 +299,7 @@ namespace abut::app
   template <int dim> void SolidReport<dim>::report_contact() const
   {
     const auto [force_imbalance, moment_imbalance] = report_pairs();
+    report_chords();
     if (pairs.has_friction() && !run.results.empty())
       report_friction();
     if ((method.discretisation

@@ -33,6 +33,8 @@ namespace abut::app
     void report_numerics() const;
     /** Returns the largest imbalance of forces and of moments of a pair. */
     std::pair<double, double> report_pairs() const;
+    /** What angles of coarse facets do to pressures. */
+    void report_chords() const;
     void report_friction() const;
     void report_contact() const;
     /** What it took to find out who touches whom, and what changed. */
