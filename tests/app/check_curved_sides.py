@@ -4,7 +4,9 @@ sides` names and converges to Lame's formulas; without them it keeps chords, whi
 the program says."""
 import math
 
+from block_scene import section, solid
 from program import Program, set_words
+from ucd import ucd
 
 p = Program()
 
@@ -33,31 +35,26 @@ def ring(name, inner, outer, n, layers=1, shift=(0, 0), bad=0.):
     def side(number, *corners):
         """A boundary face: an edge of the section or a wall over it."""
         if dim == 2:
-            cells.append((number, "line", [node(*c, 0) for c in corners]))
+            cells.append((number, "line", *(node(*c, 0) for c in corners)))
             return
         (a, b), k = corners, 0
-        cells.append((number, "quad", [node(*a, k), node(*b, k),
-                                       node(*b, k + 1), node(*a, k + 1)]))
+        cells.append((number, "quad", node(*a, k), node(*b, k),
+                      node(*b, k + 1), node(*a, k + 1)))
 
     for i in range(n):
         around = [(i, 0), (i, 1), (i + 1, 1), (i + 1, 0)]
         if dim == 2:
-            cells.append((0, "quad", [node(*c, 0) for c in around]))
+            cells.append((0, "quad", *(node(*c, 0) for c in around)))
         else:
-            cells.append((0, "hex", [node(*c, k) for k in range(2)
-                                     for c in around]))
+            cells.append((0, "hex", *(node(*c, k) for k in range(2)
+                                      for c in around)))
             for k in range(2):
-                cells.append((4, "quad", [node(*c, k) for c in around]))
+                cells.append((4, "quad", *(node(*c, k) for c in around)))
         side(0, (i, 0), (i + 1, 0))
         side(1, (i, 1), (i + 1, 1))
     side(3, (0, 0), (0, 1))
     side(2, (n, 0), (n, 1))
-    text = f"{len(points)} {len(cells)} 0 0 0\n"
-    text += "".join(f"{i + 1} {x:.12g} {y:.12g} {z:.12g}\n"
-                    for i, (x, y, z) in enumerate(points))
-    text += "".join(f"{i + 1} {number} {kind} {' '.join(map(str, nodes))}\n"
-                    for i, (number, kind, nodes) in enumerate(cells))
-    return p.write(name, text)
+    return p.write(name, ucd(points, cells))
 
 
 def curved(center="0, 0"):
@@ -124,88 +121,6 @@ for sides, level in ((curved(), 2), ("0, 1: flat", 2), ("", 0)):
                           "Refinement/Coarsest level=0")
     p.expect("Curved sides" not in result.stderr, f"{sides}: {result.stderr}")
 
-# A shallow arc of seven chords, half of a cylinder pressed on a plane: they meet at
-# less than a degree, and make pressures that Hertz' p0^2 = P E*/(pi R), which needs
-# nothing but the force, has not. Where the pressure is large beside that, nothing is
-# said.
-RADIUS, ACROSS = 10., 7
-
-
-def cap():
-    """Ids 1 below, 2 x = 0, 3 above."""
-    rows = [[(i / ACROSS, RADIUS - math.sqrt(RADIUS**2 - (i / ACROSS)**2)
-              if j == 0 else j / ACROSS) for i in range(ACROSS + 1)]
-            for j in range(ACROSS + 1)]
-
-    def node(i, j):
-        return j * (ACROSS + 1) + i + 1
-
-    n = range(ACROSS)
-    cells = [(0, "quad", [node(i, j), node(i + 1, j), node(i + 1, j + 1),
-                          node(i, j + 1)]) for j in n for i in n]
-    cells += [(1, "line", [node(i, 0), node(i + 1, 0)]) for i in n]
-    cells += [(2, "line", [node(0, i), node(0, i + 1)]) for i in n]
-    cells += [(3, "line", [node(i, ACROSS), node(i + 1, ACROSS)]) for i in n]
-    text = f"{len(rows) * (ACROSS + 1)} {len(cells)} 0 0 0\n"
-    text += "".join(f"{node(i, j)} {x:.15g} {y:.15g} 0\n"
-                    for j, row in enumerate(rows)
-                    for i, (x, y) in enumerate(row))
-    text += "".join(f"{i + 1} {number} {kind} {' '.join(map(str, nodes))}\n"
-                    for i, (number, kind, nodes) in enumerate(cells))
-    return p.write("cap.inp", text)
-
-
-CAP = """
-set Scene = solid
-set Dimension = 2
-subsection Solid
-  set Bodies = 1
-  set Pairs = 1
-  set Obstacles = 1
-end
-subsection Body 1
-  subsection Mesh
-    set File = {file}
-    set Curved sides = {sides}
-  end
-  set Young modulus = 1
-  set Poisson ratio = 0
-  set Support = 2: 0, free
-  set Pressure = 3: {pressure}
-end
-subsection Obstacle 1
-  set Kind = plane
-end
-subsection Pair 1
-  set Secondary = 1: 1
-  set Obstacle = 1
-end
-subsection Refinement
-  set Level = 4
-end
-"""
-
-
-def pressed(sides, pressure):
-    """Messages, and the largest pressure by Hertz'."""
-    scene = p.write("cap.prm", CAP.format(file=cap(), sides=sides,
-                                          pressure=pressure))
-    result, summary = run(scene, [])
-    hertz = math.sqrt(2 * summary["contact_force"] / (math.pi * RADIUS))
-    return result.stderr, summary["pair_1_pressure"] / hertz
-
-
-said, ratio = pressed("1: circle: 0, 10", 0.0035)
-# The block is no half-space.
-p.expect("F21" not in said and abs(ratio - 1) < 0.05, f"arc: {ratio} {said}")
-said, ratio = pressed("", 0.0035)
-p.expect("ABUT-F21: Pair 1" in said and "Curved sides" in said and ratio > 1.1,
-         f"chords: {ratio} {said}")
-said, _ = pressed("1: flat", 0.0035)
-p.expect("F21" not in said, f"corners that are meant: {said}")
-said, _ = pressed("", 0.2)
-p.expect("F21" not in said, f"pressed flat: {said}")
-
 # The same on two ranks, with adaptive meshes.
 adaptive = ["Refinement/Level=2", "Refinement/Adaptive cycles=2"]
 _, one = press_fit(curved(), *adaptive)
@@ -221,37 +136,25 @@ _, moved = press_fit(curved("2, -1"), "Refinement/Level=2",
 _, still = press_fit(curved(), "Refinement/Level=2")
 p.close(moved["contact_force"] / still["contact_force"], 1, 1e-9, "moved")
 
+def body(file, sides, *lines):
+    return section("Body 1", section("Mesh", f"File = {file}",
+                                     f"Curved sides = {sides}"), *lines)
+
+
 # A tube in 3D: a cylinder under pressure, no strain along it.
-TUBE = """
-set Scene = solid
-set Dimension = 3
-subsection Solid
-  set Bodies = 1
-  set Pairs = 0
-end
-subsection Body 1
-  subsection Mesh
-    set File = {file}
-    set Curved sides = {sides}
-  end
-  set Young modulus = 1000
-  set Poisson ratio = 0.3
-  set Support = 2: 0, free, free; 3: free, 0, free; 4: free, free, 0
-  set Pressure = 0: 1
-end
-subsection Refinement
-  set Level = {level}
-end
-subsection Exact solution
-  set Displacement = 0.0013/3*(0.4+4/(x^2+y^2))*x, 0.0013/3*(0.4+4/(x^2+y^2))*y, 0
-end
-"""
+OUTWARD = "0.0013/3*(0.4+4/(x^2+y^2))"
 
 
 def tube(sides, level):
-    name = ring("tube.inp", 1, 2, 2, layers=2)
-    scene = p.write("tube.prm", TUBE.format(file=name, sides=sides,
-                                            level=level))
+    scene = p.write("tube.prm", solid(
+        3, body(ring("tube.inp", 1, 2, 2, layers=2), sides,
+                "Young modulus = 1000", "Poisson ratio = 0.3",
+                "Support = 2: 0, free, free; 3: free, 0, free; "
+                "4: free, free, 0", "Pressure = 0: 1"),
+        section("Refinement", f"Level = {level}"),
+        section("Exact solution",
+                f"Displacement = {OUTWARD}*x, {OUTWARD}*y, 0"),
+        bodies=1).replace("Pairs = 1", "Pairs = 0"))
     _, summary = run(scene, [])
     return summary["l2_error"]
 
@@ -260,6 +163,56 @@ axis = "0, 1: cylinder: 0, 0, 3: 0, 0, 2"
 coarse, fine = tube(axis, 2), tube(axis, 3)
 p.expect(1.7 < math.log2(coarse / fine) < 2.4, f"tube: {coarse}, {fine}")
 p.expect(tube("", 3) > 5 * fine, "a tube of chords")
+
+# A shallow arc of seven chords, half of a cylinder pressed on a plane: they meet at
+# less than a degree, and make pressures that Hertz' p0^2 = P E*/(pi R), which needs
+# nothing but the force, has not. Where the pressure is large beside that, nothing is
+# said.
+RADIUS, ACROSS = 10., 7
+
+
+def cap():
+    """Ids 1 below, 2 x = 0, 3 above."""
+    nodes = [(i / ACROSS, j / ACROSS) for j in range(ACROSS + 1)
+             for i in range(ACROSS + 1)]
+    nodes = [(x, y if y > 0. else RADIUS - math.sqrt(RADIUS**2 - x**2))
+             for x, y in nodes]
+
+    def node(i, j):
+        return j * (ACROSS + 1) + i + 1
+
+    n = range(ACROSS)
+    items = [(0, "quad", node(i, j), node(i + 1, j), node(i + 1, j + 1),
+              node(i, j + 1)) for j in n for i in n]
+    items += [(1, "line", node(i, 0), node(i + 1, 0)) for i in n]
+    items += [(2, "line", node(0, i), node(0, i + 1)) for i in n]
+    items += [(3, "line", node(i, ACROSS), node(i + 1, ACROSS)) for i in n]
+    return p.write("cap.inp", ucd(nodes, items))
+
+
+def pressed(sides, pressure):
+    """Messages, and the largest pressure by Hertz'."""
+    scene = p.write("cap.prm", solid(
+        2, body(cap(), sides, "Young modulus = 1", "Poisson ratio = 0",
+                "Support = 2: 0, free", f"Pressure = 3: {pressure}"),
+        section("Obstacle 1", "Kind = plane"),
+        section("Pair 1", "Secondary = 1: 1", "Obstacle = 1"),
+        section("Refinement", "Level = 4"), bodies=1, obstacles=1))
+    result, summary = run(scene, [])
+    hertz = math.sqrt(2 * summary["contact_force"] / (math.pi * RADIUS))
+    return result.stderr, summary["pair_1_pressure"] / hertz
+
+
+said, ratio = pressed("1: circle: 0, 10", 0.0035)
+# The block is no half-space.
+p.expect("F21" not in said and abs(ratio - 1) < 0.05, f"arc: {ratio} {said}")
+said, ratio = pressed("", 0.0035)
+p.expect("ABUT-F21: Pair 1" in said and "Curved sides" in said and ratio > 1.1,
+         f"chords: {ratio} {said}")
+said, _ = pressed("1: flat", 0.0035)
+p.expect("F21" not in said, f"corners that are meant: {said}")
+said, _ = pressed("", 0.2)
+p.expect("F21" not in said, f"pressed flat: {said}")
 
 # Mistakes.
 for sides, words in (

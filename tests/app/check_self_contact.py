@@ -5,6 +5,7 @@ import math
 
 from block_scene import section, solid
 from program import Program, set_words
+from ucd import ucd
 
 p = Program()
 QUIET = {"Output/Fields": "false", "Output/Pictures": "false",
@@ -87,17 +88,13 @@ def layer(cells, low, high, first):
 
 
 def blocks():
-    """A mesh file in the format UCD."""
+    """Text of a mesh file."""
     nodes, cells = [], []
     for number, low in ((3, 0), (4, 1)):
         new = layer(number, low, low + 1, len(nodes) + 1)
         nodes += new[0]
         cells += new[1]
-    lines = [f"{len(nodes)} {len(cells)} 0 0 0"]
-    lines += [f"{i + 1} {x:.17g} {y} 0" for i, (x, y) in enumerate(nodes)]
-    lines += [f"{i + 1} 0 quad " + " ".join(map(str, cell))
-              for i, cell in enumerate(cells)]
-    return "\n".join(lines) + "\n"
+    return ucd(nodes, [(0, "quad", *cell) for cell in cells])
 
 
 p.write("blocks.inp", blocks())
@@ -163,11 +160,7 @@ points = [point for size in (1, 1.25, 1.5, 2) for point in flanks(size)]
 rows = [[3 * N * ring + i + 1 for i in (*range(3 * N), 0)] for ring in range(4)]
 quads = [(a[i], b[i], b[i + 1], a[i + 1])
          for a, b in zip(rows, rows[1:]) for i in range(3 * N)]
-p.write("hole.inp", "\n".join(
-    [f"{len(points)} {len(quads)} 0 0 0"]
-    + [f"{i + 1} {x!r} {y!r} 0" for i, (x, y) in enumerate(points)]
-    + [f"{i + 1} 0 quad " + " ".join(map(str, quad))
-       for i, quad in enumerate(quads)]) + "\n")
+p.write("hole.inp", ucd(points, [(0, "quad", *quad) for quad in quads]))
 inside = f"(x - 0.5)^2 + (y - {H / 3!r})^2"
 p.write("hole.prm", solid(
     2, section("Body 1", section(

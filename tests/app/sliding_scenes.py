@@ -5,6 +5,7 @@ import csv
 import math
 
 from block_scene import block, pair, section, solid
+from ucd import ucd
 
 RUBBER = ["Material = neo-hooke", "Young modulus = 1", "Poisson ratio = 0.3"]
 
@@ -108,11 +109,7 @@ def write_die(p, columns, rows, middle, width=1.2, radius=1., height=0.6,
     else:
         items = [(0, "quad", *quad) for quad in quads]
         items += [(side, "line", a, b) for side, a, b in lines]
-    text = [f"{len(nodes)} {len(items)} 0 0 0"]
-    text += [f"{k + 1} {x!r} {y!r} {z!r}" for k, (x, y, z) in enumerate(nodes)]
-    text += [f"{k + 1} {' '.join(map(str, item))}"
-             for k, item in enumerate(items)]
-    return p.write(name, "\n".join(text) + "\n")
+    return p.write(name, ucd(nodes, items))
 
 
 def dies(columns, rows, width, mesh, young, way, *more):

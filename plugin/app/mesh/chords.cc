@@ -46,14 +46,16 @@ namespace abut::app
 
   template <int dim>
   Chords<dim>::Chords(const dealii::Triangulation<dim> &triangulation,
-                      const std::set<dealii::types::material_id> &bodies)
+                      const std::set<dealii::types::material_id> &bodies,
+                      const std::set<boundary_id> &ids)
   {
     for (const auto &cell : triangulation.cell_iterators_on_level(0))
       if (bodies.count(cell->material_id()) > 0)
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary()
               && cell->face(f)->manifold_id()
-                     == dealii::numbers::flat_manifold_id)
+                     == dealii::numbers::flat_manifold_id
+              && ids.count(cell->face(f)->boundary_id()) > 0)
             add(cell, f);
   }
 
@@ -78,21 +80,20 @@ namespace abut::app
   }
 
   template <int dim>
-  Bend<dim> Chords<dim>::largest(const double least,
-                                 const Wanted &is_wanted) const
+  Bend<dim> Chords<dim>::largest(const std::set<CoarseFacet> *among) const
   {
     Bend<dim> result;
     for (const auto &edge : edges_)
     {
       std::vector<const Side *> sides;
       for (const Side &side : edge.second)
-        if (is_wanted(side.id, side.facet))
+        if (among == nullptr || among->count(side.facet) > 0)
           sides.push_back(&side);
       if (sides.size() != 2)
         continue;
       const double degrees =
           degrees_between(sides[0]->normal, sides[1]->normal);
-      if (degrees > std::max(least, result.degrees) && degrees < least_corner)
+      if (degrees > result.degrees && degrees < least_corner)
         result = {sides[0]->place, degrees, sides[0]->id};
     }
     return result;

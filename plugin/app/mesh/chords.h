@@ -14,7 +14,6 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/grid/tria.h>
 
-#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -33,21 +32,18 @@ namespace abut::app
     dealii::types::boundary_id id = 0; ///< of one of the two facets
   };
 
-  /** The edges, in 2D corners, between coarse boundary facets of some bodies
-   * that are straight on all meshes. The same on all ranks. */
+  /** The edges, in 2D corners, between coarse facets of some bodies and
+   * boundary ids that are straight on all meshes. The same on all ranks. */
   template <int dim> class Chords
   {
   public:
-    using Wanted =
-        std::function<bool(dealii::types::boundary_id, const CoarseFacet &)>;
-
     Chords(const dealii::Triangulation<dim> &triangulation,
-           const std::set<dealii::types::material_id> &bodies);
+           const std::set<dealii::types::material_id> &bodies,
+           const std::set<dealii::types::boundary_id> &ids);
 
-    /** The largest angle above @p least degrees, of those that approximate a
-     * curve rather than make a corner, between facets both of which are
-     * wanted. */
-    Bend<dim> largest(double least, const Wanted &is_wanted) const;
+    /** The largest angle of those that approximate a curve rather than make a
+     * corner; @p among, unless it is null: between two of these facets. */
+    Bend<dim> largest(const std::set<CoarseFacet> *among = nullptr) const;
 
   private:
     /** A facet beside an edge. */

@@ -3,6 +3,7 @@
 // explicit steps.
 #include "body_motion.h"
 
+#include "nodal_places.h"
 #include "time_status.h"
 
 #include <deal.II/base/mpi.h>
@@ -38,6 +39,7 @@ namespace abut::app
         problem_.mapping, fe.base_element(0),
         dealii::Quadrature<dim>(fe.base_element(0).get_unit_support_points()),
         dealii::update_quadrature_points);
+    const NodalPlaces<dim> unknowns(fe);
     std::vector<la::Vector> result(dim == 2 ? 1 : 3, problem_.vector());
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
     for (const auto &cell : problem_.dof_handler.active_cell_iterators())
@@ -56,8 +58,7 @@ namespace abut::app
         const auto [component, node] = fe.system_to_component_index(i);
         dealii::Point<dim> place = places.quadrature_point(node);
         for (unsigned int d = 0; displacement != nullptr && d < dim; ++d)
-          place[d] +=
-              (*displacement)(dofs[fe.component_to_system_index(d, node)]);
+          place[d] += (*displacement)(dofs[unknowns(d, node)]);
         for (unsigned int r = 0; r < result.size(); ++r)
           la::data(result[r])[k] = turned(place, dim == 2 ? 2 : r, component);
       }

@@ -2,6 +2,7 @@
 #include "mass.h"
 
 #include "app/input/input_error.h"
+#include "nodal_places.h"
 #include "whole_matrix.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -89,7 +90,8 @@ namespace abut::app
     if (!data.candidates.empty())
       touching = dealii::DoFTools::extract_boundary_dofs(
           problem.dof_handler, dealii::ComponentMask(), data.candidates);
-    const unsigned int n = fe.base_element(0).n_dofs_per_cell();
+    const NodalPlaces<dim> places(fe);
+    const unsigned int n = places.n_nodes();
     std::vector<std::uint8_t> candidate(n);
     const auto compute = [&](const auto &cell,
                              const std::vector<global_dof_index> &dofs,
@@ -102,15 +104,13 @@ namespace abut::app
           scalar_mass(values, data.density(cell->material_id(),
                                            values.get_quadrature_points()));
       for (unsigned int i = 0; i < n; ++i)
-        candidate[i] =
-            touching.is_element(dofs[fe.component_to_system_index(0, i)]);
+        candidate[i] = touching.is_element(dofs[places(0, i)]);
       change_kind<dim>(cell, data.kind, candidate, scalar);
       of_cell = 0.;
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
           for (unsigned int c = 0; c < fe.n_components(); ++c)
-            of_cell(fe.component_to_system_index(c, i),
-                    fe.component_to_system_index(c, j)) = scalar(i, j);
+            of_cell(places(c, i), places(c, j)) = scalar(i, j);
     };
     return whole_matrix<dim>(problem, compute,
                              data.kind == ABUT_TIME_MASS_LUMPED);

@@ -23,6 +23,7 @@
 namespace abut::app
 {
   template <int dim> class NodalPlaces;
+
   /** What a two-dimensional model says of the third direction. Axisymmetric
    * models have radius x >= 0 and axis x = 0. */
   enum class PlaneModel

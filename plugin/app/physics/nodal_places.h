@@ -4,7 +4,6 @@
 
 #include <deal.II/fe/fe.h>
 
-#include <array>
 #include <vector>
 
 namespace abut::app
@@ -16,26 +15,28 @@ namespace abut::app
   {
   public:
     explicit NodalPlaces(const dealii::FiniteElement<dim> &fe)
-        : places_(fe.base_element(0).n_dofs_per_cell())
+        : n_components_(fe.n_components())
     {
-      for (unsigned int node = 0; node < places_.size(); ++node)
-        for (unsigned int c = 0; c < dim; ++c)
-          places_[node][c] = fe.component_to_system_index(c, node);
+      const unsigned int n_nodes = fe.base_element(0).n_dofs_per_cell();
+      for (unsigned int node = 0; node < n_nodes; ++node)
+        for (unsigned int c = 0; c < n_components_; ++c)
+          places_.push_back(fe.component_to_system_index(c, node));
     }
 
     unsigned int operator()(const unsigned int component,
                             const unsigned int node) const
     {
-      return places_[node][component];
+      return places_[node * n_components_ + component];
     }
 
     unsigned int n_nodes() const
     {
-      return places_.size();
+      return places_.size() / n_components_;
     }
 
   private:
-    std::vector<std::array<unsigned int, dim>> places_;
+    unsigned int n_components_;
+    std::vector<unsigned int> places_;
   };
 } // namespace abut::app
 

@@ -156,18 +156,6 @@ namespace abut::app
   }
 
   template <int dim>
-  std::set<dealii::types::material_id>
-  SolidModel<dim>::bodies_with_chords() const
-  {
-    std::set<dealii::types::material_id> result;
-    for (unsigned int body = 0; body < bodies.size(); ++body)
-      if (!bodies[body].mesh.file.empty()
-          && bodies[body].refinements + parameters.refinement.last_mesh() > 0)
-        result.insert(body);
-    return result;
-  }
-
-  template <int dim>
   std::string SolidModel<dim>::text_of_bend(const Bend<dim> &bend,
                                             const std::string &effect) const
   {
@@ -184,16 +172,18 @@ namespace abut::app
 
   template <int dim> void SolidModel<dim>::look_for_chords()
   {
-    const auto from_files = bodies_with_chords();
+    std::set<dealii::types::material_id> from_files;
+    for (unsigned int body = 0; body < bodies.size(); ++body)
+      if (!bodies[body].mesh.file.empty()
+          && bodies[body].refinements + parameters.refinement.last_mesh() > 0)
+        from_files.insert(body);
     if (from_files.empty())
       return;
-    chords.emplace(this->triangulation, from_files);
-    const std::set<boundary_id> surfaces = pairs->surfaces();
-    // Less is told of where it matters, once there are pressures.
-    const Bend<dim> bend =
-        chords->largest(2., [&](const boundary_id id, const CoarseFacet &)
-                        { return surfaces.count(id) > 0; });
-    if (bend.degrees == 0.)
+    chords.emplace(this->triangulation, from_files, pairs->surfaces());
+    // Smaller angles are told of where they matter, once there are pressures.
+    constexpr double visible = 2.;
+    const Bend<dim> bend = chords->largest();
+    if (bend.degrees <= visible)
       return;
     chords.reset();
     run.report.warn(

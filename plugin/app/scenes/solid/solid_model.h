@@ -14,7 +14,6 @@
 
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -197,8 +196,6 @@ namespace abut::app
      * that flies has come far beside what it is deformed by: the part of the
      * tolerance that is asked for then. Collective. */
     double part_of_flight() const;
-    /** Bodies whose meshes are from files, and refined. */
-    std::set<dealii::types::material_id> bodies_with_chords() const;
     /** Whether refinement keeps the chords of a round side in contact. */
     void look_for_chords();
     bool is_held(const BodyPart<dim> &part,

@@ -10,7 +10,6 @@
 #include "app/scenes/modelled.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <set>
@@ -181,9 +180,7 @@ namespace abut::app
       ids.insert(pair.primary.begin(), pair.primary.end());
       const std::set<CoarseFacet> facets = coarse_facets_above(
           elasticity.dof_handler, ids, traction, pressed * result.pressure);
-      const Bend<dim> bend = model.chords->largest(
-          0., [&](const dealii::types::boundary_id id, const CoarseFacet &facet)
-          { return ids.count(id) > 0 && facets.count(facet) > 0; });
+      const Bend<dim> bend = model.chords->largest(&facets);
       if (bend.degrees == 0.)
         continue;
       // A blunt wedge on a half-space has E*/pi times half of the angle times
@@ -195,9 +192,7 @@ namespace abut::app
         if (const unsigned int body = bodies.body_of(id);
             seen.insert(body).second)
           compliance += 1. / model.data.materials.at(body)->stiffness();
-      const double part =
-          bend.degrees * dealii::numbers::PI / 180.
-          / (dealii::numbers::PI * compliance * result.pressure);
+      const double part = bend.degrees / 180. / (compliance * result.pressure);
       if (part > visible_chords)
         report.warn(coded(
             ABUT_FAILURE_COARSE_CURVE,
