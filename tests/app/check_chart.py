@@ -47,9 +47,11 @@ def rows(folder=OUT):
 
 
 def finished(folder=OUT):
-    """Finished runs with the times at which they were written."""
+    """Finished runs with the times at which they were written. The folder of
+    one that is going on is renamed between listing and looking."""
     return {path.parent.name: path.stat().st_mtime_ns
-            for path in folder.glob("runs/*/run.json")}
+            for path in folder.glob("runs/*/run.json")
+            if path.parent.suffix != ".part"}
 
 
 def run(file, *words, code=0):
