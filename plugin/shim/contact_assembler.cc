@@ -167,7 +167,7 @@ namespace abut
     i.committed = la::Vector();
     i.slip_reference.clear();
     i.start_pressure.clear();
-    i.reference_matrix = nullptr;
+    i.reference.reset();
     i.law_compliance = la::Vector();
     i.report = LinearReport();
   }
@@ -246,35 +246,40 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::relax(const la::Matrix &matrix,
+  void ContactAssembler<dim>::relax(const Tangent &tangent,
                                     const la::Vector &residual,
                                     const unsigned int n_sweeps,
                                     la::Vector &displacement)
   {
     Implementation &i = *implementation;
     i.check_rows("relax()");
-    i.check_size("relax()", "matrix", matrix.m());
     i.check_size("relax()", "residual", residual.size());
     i.check_size("relax()", "displacement", displacement.size());
     AssertThrow(!i.is_started, ExcMessage("Call relax() between detect() and "
                                           "the first solve()."));
     if (abut_law_needs_open_start(i.method.options.law))
       i.push_inside(displacement);
-    else
-      i.start_state =
-          i.source->relax(matrix, residual, i.gap, n_sweeps, displacement);
+    else if (i.surfaces == nullptr)
+    {
+      AssertThrow(tangent.has_matrix(),
+                  ExcMessage("Sweeps over the unknowns need the matrix of the "
+                             "tangent, not a HostOperator: do without them."));
+      i.check_size("relax()", "matrix", tangent.matrix().m());
+      i.start_state = i.source->relax(tangent.matrix(), residual, i.gap,
+                                      n_sweeps, displacement);
+    }
     i.start_displacement = displacement;
     i.compute_gap(displacement);
   }
 
   template <int dim>
-  LinearReport ContactAssembler<dim>::solve(const la::Matrix &matrix,
+  LinearReport ContactAssembler<dim>::solve(const Tangent &tangent,
                                             const la::Vector &residual,
                                             la::Vector &increment)
   {
     Implementation &i = *implementation;
     i.check_rows("solve()");
-    i.check_size("solve()", "matrix", matrix.m());
+    const solve::Stiffness matrix = i.stiffness_of("solve()", tangent);
     i.check_size("solve()", "residual", residual.size());
     i.check_size("solve()", "increment", increment.size());
     i.prepare_solver(matrix);
@@ -350,21 +355,20 @@ namespace abut
 
   template <int dim>
   LinearReport ContactAssembler<dim>::solve_linearised(
-      const la::Matrix &matrix, const la::Vector &residual, la::Vector &step)
+      const Tangent &tangent, const la::Vector &residual, la::Vector &step)
   {
     Implementation &i = *implementation;
     i.check_rows("solve_linearised()");
-    i.check_size("solve_linearised()", "matrix", matrix.m());
     i.check_size("solve_linearised()", "residual", residual.size());
     const la::Vector start(i.start_displacement);
     la::Vector end(start);
     const LinearReport cost =
-        iterate_contact(*this, matrix, end,
+        iterate_contact(*this, tangent, end,
                         [&](const la::Vector &present, la::Vector &forces)
                         {
                           la::Vector way(present);
                           way -= start;
-                          matrix.vmult(forces, way);
+                          tangent.vmult(forces, way);
                           forces += residual;
                           i.constraints->set_zero(forces);
                         });
@@ -401,12 +405,11 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::set_reference_stiffness(const la::Matrix &matrix)
+  void ContactAssembler<dim>::set_reference_stiffness(const Tangent &tangent)
   {
     Implementation &i = *implementation;
     i.check_mesh("set_reference_stiffness()");
-    i.check_size("set_reference_stiffness()", "matrix", matrix.m());
-    i.reference_matrix = &matrix;
+    i.reference = i.stiffness_of("set_reference_stiffness()", tangent);
     i.law_compliance = la::Vector();
     i.has_new_matrix = true;
   }

@@ -526,15 +526,16 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::check_supports(const la::Matrix &matrix) const
+  void ContactAssembler<dim>::check_supports(const Tangent &tangent) const
   {
     const Implementation &i = *implementation;
     i.check_rows("check_supports()");
-    i.check_size("check_supports()", "matrix", matrix.m());
+    const solve::Stiffness stiffness =
+        i.stiffness_of("check_supports()", tangent);
     if (i.surfaces == nullptr)
       return;
     solve::FloatingBodies floating;
-    floating.reinit(matrix, i.coefficients, i.near_null_space());
+    floating.reinit(stiffness, i.coefficients, i.near_null_space());
     floating.check_all(i.coefficients);
   }
 
@@ -545,8 +546,7 @@ namespace abut
       const la::Vector &) const;                                               \
   template void ContactAssembler<dim>::Implementation::examine_membrane(       \
       const la::Vector &, double, ContactExamination &);                       \
-  template void ContactAssembler<dim>::check_supports(const la::Matrix &)      \
-      const;                                                                   \
+  template void ContactAssembler<dim>::check_supports(const Tangent &) const;  \
   template ContactExamination ContactAssembler<dim>::examine(                  \
       const la::Vector &, const la::Vector *, bool);                           \
   template double ContactAssembler<dim>::Implementation::soft_on_purpose()     \

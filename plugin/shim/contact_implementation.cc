@@ -459,15 +459,15 @@ namespace abut
   }
 
   template <int dim>
-  void
-  ContactAssembler<dim>::Implementation::take_matrix(const la::Matrix &matrix)
+  void ContactAssembler<dim>::Implementation::take_matrix(
+      const solve::Stiffness &matrix)
   {
     la::Vector compliance = solve::compliance(matrix);
     row_stiffness = solve::row_stiffness(compliance, coefficients);
     if (law_compliance.size() == 0)
     {
-      if (reference_matrix != nullptr)
-        compliance = solve::compliance(*reference_matrix);
+      if (reference)
+        compliance = solve::compliance(*reference);
       law_compliance.swap(compliance);
       if (moves()) // directions turn, and the law must not
         surfaces->make_isotropic(law_compliance);
@@ -486,8 +486,9 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::begin(const la::Matrix &matrix,
-                                                    const la::Vector &residual)
+  void
+  ContactAssembler<dim>::Implementation::begin(const solve::Stiffness &matrix,
+                                               const la::Vector &residual)
   {
     stiffness = solve::row_stiffness(law_compliance, coefficients);
     if (surfaces != nullptr)
@@ -544,9 +545,9 @@ namespace abut
   {
     if (!bodies)
     {
-      // Nitsche's method has its own multigrid.
+      // Nitsche's method and hosts have their own multigrid.
       SolverParameters parameters = solver_parameters;
-      if (is_nitsche())
+      if (is_nitsche() || !solver_has_matrix)
         parameters.linear = SolverParameters::Linear::iterative;
       bodies = shim::make_solver_space(*mapping, *dof_handler, *constraints,
                                        surfaces != nullptr, parameters);
@@ -555,15 +556,53 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::prepare_solver(
-      const la::Matrix &of_host)
+  solve::Stiffness ContactAssembler<dim>::Implementation::stiffness_of(
+      const std::string &call, const Tangent &tangent) const
   {
+    if (!tangent.has_matrix())
+      return {tangent, dof_handler->locally_owned_dofs(), communicator};
+    check_size(call, "matrix", tangent.matrix().m());
+    return tangent.matrix();
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::check_host() const
+  {
+    const auto need = [](const bool is_wanted, const std::string &what)
+    {
+      AssertThrow(!is_wanted, ExcMessage(what
+                                         + " needs the matrix of the tangent, "
+                                           "not a HostOperator."));
+    };
+    using Linear = SolverParameters::Linear;
+    need(is_nitsche(), "Nitsche's method");
+    need(method.system == System::saddle_point, "Method/System = saddle point");
+    need(moves(), "Contact at points that move (Method/Sliding)");
+    need(solver_parameters.linear == Linear::direct,
+         "Solver/Linear solver = direct");
+    need(solver_parameters.linear == Linear::geometric,
+         "Solver/Linear solver = geometric");
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::prepare_solver(
+      const solve::Stiffness &of_host)
+  {
+    if (of_host.has_matrix() != solver_has_matrix)
+    {
+      solver.reset();
+      bodies.reset();
+    }
+    solver_has_matrix = of_host.has_matrix();
+    if (!solver_has_matrix)
+      check_host();
     const bool is_renewed = solver != nullptr && constant_matrix;
     if (is_renewed && !has_new_matrix)
       return;
     has_new_matrix = false;
     take_matrix(of_host);
-    const la::Matrix &matrix = with_geometry(of_host);
+    const solve::Stiffness matrix =
+        solver_has_matrix ? with_geometry(of_host.matrix()) : of_host;
     if (is_renewed)
     {
       solver->renew(matrix, coefficients, row_stiffness);
@@ -576,7 +615,7 @@ namespace abut
             std::make_unique<solve::NitscheSolver>(solver_parameters, nitsche);
       else
         solver = solve::make_row_solver(method.system, solver_parameters,
-                                        coefficients);
+                                        coefficients, solver_has_matrix);
       solver->set_near_null_space(near_null_space());
     }
     solver->reinit(matrix, coefficients, row_stiffness);

@@ -90,7 +90,7 @@ namespace abut
     bool is_nitsche() const;
     /** The gap as the law wants it. */
     const double *law_gap();
-    void set_scales(const la::Matrix &matrix, const la::Vector &residual);
+    void set_scales(const solve::Stiffness &matrix, const la::Vector &residual);
     /** Of the present iteration. Collective. */
     double length_scale() const;
     /** The same, or 0 where nothing has moved and all gaps are 0. Collective.
@@ -102,7 +102,7 @@ namespace abut
     /** Find the local stiffness of the rows in a new matrix, which is that of
      * the law only if it is the first one: a law must not change from one
      * linearisation to the next. Collective. */
-    void take_matrix(const la::Matrix &matrix);
+    void take_matrix(const solve::Stiffness &matrix);
     /** Length by pressure: inverse mean of the rows' stiffness. */
     double softness() const;
     /** Make what has been reached the start of the next iteration. */
@@ -160,10 +160,16 @@ namespace abut
     /** See ContactAssembler::evaluate(), with rows of that displacement.
      * Collective. */
     double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
-    void begin(const la::Matrix &matrix, const la::Vector &residual);
+    void begin(const solve::Stiffness &matrix, const la::Vector &residual);
+    /** The tangent with its unknowns. Throws where it is not of as many as in
+     * reinit(). */
+    solve::Stiffness stiffness_of(const std::string &call,
+                                  const Tangent &tangent) const;
+    /** Throws if a matrix is needed. */
+    void check_host() const;
     /** Made once for each mesh. Collective. */
     const solve::NearNullSpace &near_null_space() const;
-    void prepare_solver(const la::Matrix &matrix);
+    void prepare_solver(const solve::Stiffness &matrix);
     /** Build the preconditioner that was loaded, if there is one. */
     void restore_preconditioner();
     void push_inside(la::Vector &displacement);
@@ -186,10 +192,10 @@ namespace abut
     double soft_on_purpose() const;
     /** How far a row's pressure and a gap are from the law, length. */
     double law_defect(int row, double gap_there) const;
-    /** The matrix that stiffness is taken from. */
-    const la::Matrix &stiffness_matrix(const la::Matrix &present) const
+    /** The one that penalties are multiples of. */
+    solve::Stiffness stiffness_matrix(const solve::Stiffness &present) const
     {
-      return reference_matrix != nullptr ? *reference_matrix : present;
+      return reference.value_or(present);
     }
 
     const MPI_Comm communicator;
@@ -201,8 +207,8 @@ namespace abut
     SearchParameters search;
     SolverParameters solver_parameters;
     bool constant_matrix = false;
-    const la::Matrix *reference_matrix = nullptr; ///< null: the present one
-    double given_length = 0.;                     ///< 0: none
+    std::optional<solve::Stiffness> reference; ///< none: the present one
+    double given_length = 0.;                  ///< 0: none
 
     /** Before all that is made with it, and so destroyed after it. */
     shim::Handle<abut_context> context = shim::create_context();
@@ -288,6 +294,7 @@ namespace abut
 
     /** Null until the first solve with the present rows. */
     std::unique_ptr<solve::RowSolver> solver;
+    bool solver_has_matrix = true;    ///< or is one for hosts without
     std::uint64_t rows_signature = 0; ///< of the rows of the last detect()
     bool is_started = false;
     bool was_added = false; ///< by add(): the host solves

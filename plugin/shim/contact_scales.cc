@@ -13,9 +13,8 @@ namespace abut
   namespace MPI = dealii::Utilities::MPI;
 
   template <int dim>
-  void
-  ContactAssembler<dim>::Implementation::set_scales(const la::Matrix &matrix,
-                                                    const la::Vector &residual)
+  void ContactAssembler<dim>::Implementation::set_scales(
+      const solve::Stiffness &matrix, const la::Vector &residual)
   {
     // Internal forces at the start measure the load when the residual is
     // small because the start is good.
@@ -111,7 +110,7 @@ namespace abut
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template void ContactAssembler<dim>::Implementation::set_scales(             \
-      const la::Matrix &, const la::Vector &);                                 \
+      const solve::Stiffness &, const la::Vector &);                           \
   template double ContactAssembler<dim>::Implementation::softness() const;     \
   template double ContactAssembler<dim>::Implementation::length_scale(         \
       const la::Vector &) const;                                               \

@@ -1,45 +1,52 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "condensation.h"
 
+#include "condensed_solver.h"
+#include "host_solver.h"
+
 #include <cmath>
 
 namespace abut::solve
 {
-  Condensation::Condensation(const SolverParameters &parameters)
-      : parameters_(parameters), solver_(parameters)
+  Condensation::Condensation(const SolverParameters &parameters,
+                             const bool has_matrix)
+      : parameters_(parameters)
   {
+    if (has_matrix)
+      solver_ = std::make_unique<CondensedSolver>(parameters);
+    else
+      solver_ = std::make_unique<HostSolver>(parameters);
   }
 
   void Condensation::set_near_null_space(const NearNullSpace &space)
   {
     space_ = space;
-    solver_.set_near_null_space(space);
+    solver_->set_near_null_space(space);
   }
 
-  void Condensation::reinit(const la::Matrix &stiffness,
+  void Condensation::reinit(const Stiffness &stiffness,
                             const PointOperator &rows,
                             const std::vector<double> &row_stiffness)
   {
-    solver_.reinit(stiffness, rows, row_stiffness);
+    solver_->reinit(stiffness, rows, row_stiffness);
     take(stiffness, rows, row_stiffness);
     saddle_point_.reset();
   }
 
-  void Condensation::renew(const la::Matrix &stiffness,
+  void Condensation::renew(const Stiffness &stiffness,
                            const PointOperator &rows,
                            const std::vector<double> &row_stiffness)
   {
-    solver_.renew(stiffness, rows, row_stiffness);
+    solver_->renew(stiffness, rows, row_stiffness);
     take(stiffness, rows, row_stiffness);
     if (saddle_point_ != nullptr)
       saddle_point_->renew(stiffness, rows, row_stiffness);
   }
 
-  void Condensation::take(const la::Matrix &stiffness,
-                          const PointOperator &rows,
+  void Condensation::take(const Stiffness &stiffness, const PointOperator &rows,
                           const std::vector<double> &row_stiffness)
   {
-    stiffness_ = &stiffness;
+    stiffness_ = stiffness;
     rows_ = &rows;
     row_stiffness_ = row_stiffness;
     floating_.reinit(stiffness, rows, space_);
@@ -47,14 +54,18 @@ namespace abut::solve
 
   void Condensation::make_saddle_point()
   {
+    if (!stiffness_.has_matrix())
+      throw SolverFailure("Constraints share all their unknowns, which makes "
+                          "the system a saddle point. That needs a matrix: "
+                          "give solve() one, or use dual multipliers.");
     saddle_point_ = std::make_unique<SaddlePoint>(parameters_);
     saddle_point_->set_near_null_space(space_);
-    saddle_point_->reinit(*stiffness_, *rows_, row_stiffness_);
+    saddle_point_->reinit(stiffness_, *rows_, row_stiffness_);
   }
 
   std::vector<PreconditionerState> Condensation::state() const
   {
-    std::vector<PreconditionerState> result = {solver_.state()};
+    std::vector<PreconditionerState> result = {solver_->state()};
     if (saddle_point_ != nullptr)
       for (const PreconditionerState &inner : saddle_point_->state())
         result.push_back(inner);
@@ -63,7 +74,7 @@ namespace abut::solve
 
   void Condensation::restore(const std::vector<PreconditionerState> &state)
   {
-    solver_.restore(state.at(0));
+    solver_->restore(state.at(0));
     if (state.size() == 1)
       return;
     make_saddle_point();
@@ -107,11 +118,11 @@ namespace abut::solve
                                            const la::Vector &lift) const
   {
     la::Vector result(residual);
-    solver_.matrix().multiply_whole(result, lift);
+    solver_->matrix().multiply_whole(result, lift);
     result.add(1., residual);
     result *= -1.;
     rows_->add_transposed(local_.force().data(), result);
-    solver_.matrix().restrict(result);
+    solver_->matrix().restrict(result);
     return result;
   }
 
@@ -131,7 +142,7 @@ namespace abut::solve
       // What does not depend on the pressures of constraints, which are not
       // known yet.
       force.assign(request.gap_change, request.gap_change + rows_->n_rows());
-      solver_.matrix().apply_springs(force);
+      solver_->matrix().apply_springs(force);
       for (int i = 0; i < rows_->n_rows(); ++i)
         force[i] -= local_.force()[i];
     }
@@ -179,7 +190,7 @@ namespace abut::solve
     if (!has_blocks)
       local_.recover(request);
     la::Vector reaction(residual);
-    stiffness_->vmult(reaction, increment);
+    stiffness_.vmult(reaction, increment);
     reaction.add(1., residual);
     add_spring_forces(request, reaction);
     recover_held(reaction, request);
@@ -205,13 +216,13 @@ namespace abut::solve
       report.method += " (constraints share all their unknowns)";
       return report;
     }
-    LinearReport report = solver_.prepare(condensate_);
+    LinearReport report = solver_->prepare(condensate_);
     const la::Vector start = lift();
     const la::Vector rhs = right_hand_side(residual, start);
     const double tolerance = std::max(
-        request.linear_tolerance * solver_.load(rhs), smallest_residual);
-    report += solver_.solve(rhs, tolerance, increment);
-    solver_.matrix().expand(increment);
+        request.linear_tolerance * solver_->load(rhs), smallest_residual);
+    report += solver_->solve(rhs, tolerance, increment);
+    solver_->matrix().expand(increment);
     increment.add(1., start);
     recover(residual, request, increment);
     report.n_matvecs += 2;

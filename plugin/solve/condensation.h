@@ -2,7 +2,7 @@
 #ifndef ABUT_SOLVE_CONDENSATION_H
 #define ABUT_SOLVE_CONDENSATION_H
 
-#include "condensed_solver.h"
+#include "condensate_solver.h"
 #include "floating_bodies.h"
 #include "local_elimination.h"
 #include "row_solver.h"
@@ -26,18 +26,20 @@ namespace abut::solve
    * Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572).
    *
    * Where a constraint has no unknown of its own (standard mortar), the
-   * system is solved as a saddle point; the report says so. */
+   * system is solved as a saddle point, which needs a matrix; the report says
+   * so. */
   class Condensation : public RowSolver
   {
   public:
-    explicit Condensation(const SolverParameters &parameters);
+    /** @p has_matrix: whether the stiffnesses that come are matrices. */
+    Condensation(const SolverParameters &parameters, bool has_matrix);
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
+    void reinit(const Stiffness &stiffness, const PointOperator &rows,
                 const std::vector<double> &row_stiffness) override;
 
-    void renew(const la::Matrix &stiffness, const PointOperator &rows,
+    void renew(const Stiffness &stiffness, const PointOperator &rows,
                const std::vector<double> &row_stiffness) override;
 
     std::vector<PreconditionerState> state() const override;
@@ -49,7 +51,7 @@ namespace abut::solve
                        la::Vector &increment) override;
 
   private:
-    void take(const la::Matrix &stiffness, const PointOperator &rows,
+    void take(const Stiffness &stiffness, const PointOperator &rows,
               const std::vector<double> &row_stiffness);
     void make_saddle_point();
     bool condense();
@@ -65,11 +67,11 @@ namespace abut::solve
 
     SolverParameters parameters_;
     NearNullSpace space_;
-    const la::Matrix *stiffness_ = nullptr;
+    Stiffness stiffness_;
     const PointOperator *rows_ = nullptr;
     std::vector<double> row_stiffness_;
     LocalElimination local_;
-    CondensedSolver solver_;
+    std::unique_ptr<CondensateSolver> solver_;
     FloatingBodies floating_;
     Condensate condensate_;
     std::unique_ptr<SaddlePoint> saddle_point_;

@@ -7,10 +7,10 @@ namespace abut::solve
 {
   namespace MPI = dealii::Utilities::MPI;
 
-  void CondensedMatrix::reinit(const la::Matrix &stiffness,
+  void CondensedMatrix::reinit(const Stiffness &stiffness,
                                const PointOperator &rows)
   {
-    stiffness_ = &stiffness;
+    stiffness_ = stiffness;
     rows_ = &rows;
     row_values_.assign(rows.n_rows(), 0.);
     expanded_.reinit(rows.owned(), rows.communicator());
@@ -109,7 +109,7 @@ namespace abut::solve
   void CondensedMatrix::multiply_whole(la::Vector &dst,
                                        const la::Vector &src) const
   {
-    stiffness_->vmult(dst, src);
+    stiffness_.vmult(dst, src);
     if (!has_springs_)
       return;
     rows_->times(src, row_values_.data());
@@ -200,10 +200,12 @@ namespace abut::solve
     if (has_springs_)
       for_each_spring(visit);
     if (has_springs_ && has_pivots_)
-      for_each_elimination_term(la::sum(*stiffness_, assemble_springs()),
-                                *rows_, condensate_, visit);
+      for_each_elimination_term(
+          la::sum(stiffness_.matrix(), assemble_springs()), *rows_, condensate_,
+          visit);
     else if (has_pivots_)
-      for_each_elimination_term(*stiffness_, *rows_, condensate_, visit);
+      for_each_elimination_term(stiffness_.matrix(), *rows_, condensate_,
+                                visit);
   }
 
   la::Matrix CondensedMatrix::eliminate(const la::Matrix &whole) const
@@ -211,7 +213,7 @@ namespace abut::solve
     la::Matrix result =
         la::sum(whole, elimination_terms(whole, *rows_, condensate_));
     const std::vector<double> diagonal =
-        la::diagonal(la::local_rows(*stiffness_));
+        la::diagonal(la::local_rows(stiffness_.matrix()));
     const la::LocalRows lines = la::local_rows(result);
     for (const int i : pivot_rows_)
     {
@@ -225,8 +227,8 @@ namespace abut::solve
   la::Matrix CondensedMatrix::assemble() const
   {
     if (!has_springs_)
-      return eliminate(*stiffness_);
-    la::Matrix whole = la::sum(*stiffness_, assemble_springs());
+      return eliminate(stiffness_.matrix());
+    la::Matrix whole = la::sum(stiffness_.matrix(), assemble_springs());
     return has_pivots_ ? eliminate(whole) : std::move(whole);
   }
 } // namespace abut::solve

@@ -4,6 +4,7 @@
 
 #include "elimination.h"
 #include "pivots.h"
+#include "stiffness.h"
 
 namespace abut::solve
 {
@@ -16,13 +17,14 @@ namespace abut::solve
    * values at which its constraints hold, E has a block for each point, and Q
    * hands on the forces with those that friction adds to the pressure.
    *
-   * As an operator it needs K and the rows alone; assemble() is for
-   * preconditioners and factorisations. Pivots are held at 0. */
+   * As an operator it needs products with K and the rows alone; assemble(),
+   * for preconditioners and factorisations, needs the matrix. Pivots are held
+   * at 0. */
   class CondensedMatrix
   {
   public:
     /** Take K and rows; both must outlive this object. */
-    void reinit(const la::Matrix &stiffness, const PointOperator &rows);
+    void reinit(const Stiffness &stiffness, const PointOperator &rows);
 
     /** Take what is condensed. Collective. */
     void set(const Condensate &condensate);
@@ -86,7 +88,7 @@ namespace abut::solve
     void visit_spring(int row, int other, double stiffness,
                       const Visit &visit) const;
 
-    const la::Matrix *stiffness_ = nullptr;
+    Stiffness stiffness_;
     const PointOperator *rows_ = nullptr;
     Condensate condensate_;
     std::vector<int> pivot_rows_; ///< rows with a pivot

@@ -23,48 +23,6 @@ namespace abut::solve
      * soft in the multigrid method. */
     constexpr double stiff = 20.;
     constexpr double filtered = 5.;
-
-    /** Numbers in [-1, 1) without structure, by the number of an unknown. */
-    double noise(std::uint64_t number)
-    {
-      number = (number + 1) * 0x9e3779b97f4a7c15ull;
-      number = (number ^ (number >> 31)) * 0xbf58476d1ce4e5b9ull;
-      return static_cast<double>(number >> 11) * 0x1p-52 - 1.;
-    }
-
-    /** Whether x.A y = y.A x for two vectors without structure, in one pass
-     * over the rows. */
-    bool is_symmetric(const la::Matrix &matrix)
-    {
-      const MPI_Comm communicator = matrix.get_mpi_communicator();
-      la::Vector x(matrix.locally_owned_range_indices(), communicator), y(x);
-      const std::uint64_t first = matrix.local_range().first;
-      for (int i = 0; i < la::n_owned(x); ++i)
-      {
-        la::data(x)[i] = noise(2 * (first + i));
-        la::data(y)[i] = noise(2 * (first + i) + 1);
-      }
-      const std::vector<double> all_x = la::gather(matrix, x);
-      const std::vector<double> all_y = la::gather(matrix, y);
-      const la::LocalRows rows = la::local_rows(matrix);
-      // Both products, and the squares of x and A y.
-      double sums[4] = {0., 0., 0., 0.};
-      for (int i = 0; i < rows.n_rows; ++i)
-      {
-        double by_x = 0., by_y = 0.;
-        for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
-        {
-          by_x += rows.value[k] * all_x[rows.column[k]];
-          by_y += rows.value[k] * all_y[rows.column[k]];
-        }
-        sums[0] += all_x[i] * by_y;
-        sums[1] += all_y[i] * by_x;
-        sums[2] += all_x[i] * all_x[i];
-        sums[3] += by_y * by_y;
-      }
-      MPI::sum(sums, communicator, sums);
-      return std::abs(sums[0] - sums[1]) <= 1e-9 * std::sqrt(sums[2] * sums[3]);
-    }
   } // namespace
 
   namespace
@@ -120,23 +78,23 @@ namespace abut::solve
     geometric_.reset();
   }
 
-  void CondensedSolver::reinit(const la::Matrix &stiffness,
+  void CondensedSolver::reinit(const Stiffness &stiffness,
                                const PointOperator &rows,
                                const std::vector<double> &row_stiffness)
   {
-    take(stiffness, rows, row_stiffness);
+    take(stiffness.matrix(), rows, row_stiffness);
     keeper_.forget();
     filter_.reset();
     multigrid_.reset();
     direct_.reset();
   }
 
-  void CondensedSolver::renew(const la::Matrix &stiffness,
+  void CondensedSolver::renew(const Stiffness &stiffness,
                               const PointOperator &rows,
                               const std::vector<double> &row_stiffness)
   {
     // The last one may be gone.
-    stiffness_ = &stiffness;
+    stiffness_ = &stiffness.matrix();
     // Multigrid looks at the matrix that it was built on, which must be an own
     // copy to last.
     if (!keeper_.is_built() || is_direct()
@@ -144,20 +102,18 @@ namespace abut::solve
         || built_.pivot.size() != static_cast<std::size_t>(rows.n_rows()))
       reinit(stiffness, rows, row_stiffness);
     else
-      take(stiffness, rows, row_stiffness);
+      take(stiffness.matrix(), rows, row_stiffness);
   }
 
   void CondensedSolver::take(const la::Matrix &stiffness,
                              const PointOperator &rows,
                              const std::vector<double> &row_stiffness)
   {
+    CondensateSolver::take(stiffness, rows);
     stiffness_ = &stiffness;
     has_new_matrix_ = true;
-    rows_ = &rows;
-    diagonal_ = la::diagonal(la::local_rows(stiffness));
     row_stiffness_ = row_stiffness;
     is_symmetric_ = is_symmetric(stiffness);
-    matrix_.reinit(stiffness, rows);
     choice_.choose(stiffness, space_, is_symmetric_);
   }
 
@@ -404,20 +360,6 @@ namespace abut::solve
       return DirectSolver::name();
     return std::string(is_definite() ? "conjugate gradients" : "FGMRES") + ", "
            + choice_.name() + (filter_ ? " with contact filter" : "");
-  }
-
-  double CondensedSolver::load(const la::Vector &rhs) const
-  {
-    la::Vector force(rhs), springs(rhs);
-    springs = 0.;
-    rows_->add_squares(matrix_.condensate().stiffness.data(), springs);
-    for (int i = 0; i < la::n_owned(force); ++i)
-    {
-      const double softness =
-          diagonal_[i] / (diagonal_[i] + la::data(springs)[i]);
-      la::data(force)[i] *= softness * softness;
-    }
-    return force.l2_norm();
   }
 
   void CondensedSolver::find_friction()

@@ -2,76 +2,50 @@
 #ifndef ABUT_SOLVE_CONDENSED_SOLVER_H
 #define ABUT_SOLVE_CONDENSED_SOLVER_H
 
-#include "condensed_matrix.h"
+#include "condensate_solver.h"
 #include "contact_filter.h"
 #include "direct_solver.h"
 #include "geometric_multigrid.h"
-#include "near_null_space.h"
-#include "preconditioner_state.h"
-
-#include <abut/dealii/solver_parameters.h>
 
 #include <memory>
 
 namespace abut::solve
 {
-  /** Solves with a CondensedMatrix: conjugate gradients (FGMRES if the matrix
-   * is not symmetric) with ML, or a factorisation.
+  /** With a matrix: conjugate gradients (FGMRES if it is not symmetric) with
+   * multigrid, or a factorisation.
    *
    * The operator always is the present one; the multigrid hierarchy, which
    * costs as much as a solve, is kept while few rows change. It is built anew
    * when many have changed or the iteration slows down. Rows that are stiff
    * springs spoil it; then a direct solve on their unknowns is wrapped around
    * it, see ContactFilter. */
-  class CondensedSolver
+  class CondensedSolver : public CondensateSolver
   {
   public:
     explicit CondensedSolver(
         const SolverParameters &parameters,
         const PreconditionerKeeper &keeper = PreconditionerKeeper(1. / 2.));
 
-    /** What is known of the unknowns, for the matrices that come. */
-    void set_near_null_space(const NearNullSpace &space);
+    void set_near_null_space(const NearNullSpace &space) override;
 
-    /** Take a new matrix and rows, which must outlive this object or the next
-     * call, with the local stiffness of each row, see row_stiffness().
-     * Collective. */
-    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
-                const std::vector<double> &row_stiffness);
+    void reinit(const Stiffness &stiffness, const PointOperator &rows,
+                const std::vector<double> &row_stiffness) override;
 
-    /** The same when only values of the matrix are new, and not very
-     * different: a multigrid is kept until it is slow. Collective. */
-    void renew(const la::Matrix &stiffness, const PointOperator &rows,
-               const std::vector<double> &row_stiffness);
+    void renew(const Stiffness &stiffness, const PointOperator &rows,
+               const std::vector<double> &row_stiffness) override;
 
-    /** Take what is condensed, and make the preconditioner or factorisation
-     * fit it. Collective. */
-    LinearReport prepare(const Condensate &condensate);
+    LinearReport prepare(const Condensate &condensate) override;
 
-    /** The matrix of the last prepare(). */
-    const CondensedMatrix &matrix() const
-    {
-      return matrix_;
-    }
-
-    /** Norm of the force @p rhs, springs that are much stiffer than the body
-     * not counted. Tolerances are multiples of it. Collective. */
-    double load(const la::Vector &rhs) const;
-
-    /** Solve for @p x, which starts as 0, with @p rhs = P^T f, to a residual
-     * of norm @p tolerance. Pivots of @p x stay 0. Throws SolverFailure.
-     * Collective. */
-    LinearReport solve(const la::Vector &rhs, double tolerance, la::Vector &x);
+    LinearReport solve(const la::Vector &rhs, double tolerance,
+                       la::Vector &x) override;
 
     /** Build the preconditioner anew if it was kept from another matrix;
      * returns whether it was. Collective. */
     bool refresh();
 
-    /** What the preconditioner was built for. Not collective. */
-    PreconditionerState state() const;
+    PreconditionerState state() const override;
 
-    /** Build that of another solver, see RowSolver::restore(). Collective. */
-    void restore(const PreconditionerState &state);
+    void restore(const PreconditionerState &state) override;
 
     /** One cycle of the preconditioner of the last prepare(). Collective. */
     void precondition(la::Vector &dst, const la::Vector &src) const;
@@ -123,10 +97,8 @@ namespace abut::solve
     SolverParameters parameters_;
     NearNullSpace space_;
     const la::Matrix *stiffness_ = nullptr;
-    const PointOperator *rows_ = nullptr;
-    std::vector<double> diagonal_, row_stiffness_;
+    std::vector<double> row_stiffness_;
     bool is_symmetric_ = true;
-    CondensedMatrix matrix_;
     MultigridChoice choice_;
 
     /** What the preconditioner was built on. */

@@ -4,6 +4,7 @@
 #include <abut/dealii/coded.h>
 #include <abut/dealii/solver_parameters.h>
 
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -37,22 +38,22 @@ namespace abut::solve
     class Motions
     {
     public:
-      Motions(const la::Matrix &stiffness, const NearNullSpace &space)
+      Motions(const Stiffness &stiffness, const NearNullSpace &space,
+              const std::vector<double> &diagonal)
           : space_(space),
             dim_(space.n_components),
             has_points_(MPI::logical_or(!space.point.empty(),
-                                        stiffness.get_mpi_communicator())),
+                                        stiffness.communicator())),
             center_(space.n_bodies),
-            radius_(space.n_bodies, 1.)
+            radius_(space.n_bodies, 1.),
+            is_coupled_(diagonal.size(), 0)
       {
         if (has_points_)
-          find_centers(stiffness.get_mpi_communicator());
-        const la::LocalRows rows = la::local_rows(stiffness);
-        is_coupled_.assign(rows.n_rows, 0);
-        for (int i = 0; i < rows.n_rows; ++i)
-          for (int k = rows.start[i]; k < rows.start[i + 1] && !is_coupled_[i];
-               ++k)
-            is_coupled_[i] = rows.column[k] != i && rows.value[k] != 0.;
+          find_centers(stiffness.communicator());
+        if (stiffness.has_matrix())
+          find_coupled(la::local_rows(stiffness.matrix()));
+        else
+          find_coupled(stiffness, diagonal);
       }
 
       unsigned int n_modes() const
@@ -92,6 +93,30 @@ namespace abut::solve
       }
 
     private:
+      void find_coupled(const la::LocalRows &rows)
+      {
+        for (int i = 0; i < rows.n_rows; ++i)
+          for (int k = rows.start[i]; k < rows.start[i + 1] && !is_coupled_[i];
+               ++k)
+            is_coupled_[i] = rows.column[k] != i && rows.value[k] != 0.;
+      }
+
+      /** By what others do to an unknown. */
+      void find_coupled(const Stiffness &stiffness,
+                        const std::vector<double> &diagonal)
+      {
+        constexpr double round_off = 1e-12;
+        const la::Vector x = noise(stiffness, 0);
+        la::Vector force(x);
+        stiffness.vmult(force, x);
+        for (std::size_t i = 0; i < diagonal.size(); ++i)
+        {
+          const double own = diagonal[i] * la::data(x)[i];
+          is_coupled_[i] =
+              std::abs(la::data(force)[i] - own) > round_off * std::abs(own);
+        }
+      }
+
       void find_centers(const MPI_Comm communicator)
       {
         const std::size_t n = space_.point.size();
@@ -122,6 +147,62 @@ namespace abut::solve
       std::vector<double> radius_;
       std::vector<std::uint8_t> is_coupled_;
     };
+
+    /** What all modes of an unknown do to it, or the forces in them. */
+    using Modes = std::array<double, most_modes>;
+
+    void fill(const Motions &motions, const unsigned int mode,
+              la::Vector &displacement)
+    {
+      for (int i = 0; i < la::n_owned(displacement); ++i)
+        la::data(displacement)[i] = motions.value(mode, i);
+    }
+
+    /** Call visit(unknown, displacements, forces) for each unknown of this
+     * rank, in one pass over the matrix. */
+    template <typename Visit>
+    void for_each_force(const la::Matrix &stiffness, const Motions &motions,
+                        la::Vector mode, const Visit &visit)
+    {
+      const la::LocalRows matrix = la::local_rows(stiffness);
+      std::vector<Modes> modes(matrix.n_columns, Modes{});
+      for (unsigned int m = 0; m < motions.n_modes(); ++m)
+      {
+        fill(motions, m, mode);
+        const std::vector<double> all = la::gather(stiffness, mode);
+        for (std::size_t j = 0; j < all.size(); ++j)
+          modes[j][m] = all[j];
+      }
+      for (int i = 0; i < matrix.n_rows; ++i)
+      {
+        Modes force = {};
+        for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
+          for (unsigned int m = 0; m < most_modes; ++m)
+            force[m] += matrix.value[k] * modes[matrix.column[k]][m];
+        visit(i, modes[i], force);
+      }
+    }
+
+    /** The same by products. */
+    template <typename Visit>
+    void for_each_force(const HostOperator &host, const Motions &motions,
+                        la::Vector mode, const Visit &visit)
+    {
+      std::vector<Modes> modes(la::n_owned(mode), Modes{}), forces(modes);
+      la::Vector force(mode);
+      for (unsigned int m = 0; m < motions.n_modes(); ++m)
+      {
+        fill(motions, m, mode);
+        host.vmult(force, mode);
+        for (std::size_t i = 0; i < modes.size(); ++i)
+        {
+          modes[i][m] = la::data(mode)[i];
+          forces[i][m] = la::data(force)[i];
+        }
+      }
+      for (std::size_t i = 0; i < modes.size(); ++i)
+        visit(i, modes[i], forces[i]);
+    }
 
     /** Eigenvectors of a symmetric n x n matrix with eigenvalues that are no
      * more than @p bound away from 0. Less than that is no round-off but a
@@ -178,7 +259,7 @@ namespace abut::solve
     }
   } // namespace
 
-  void FloatingBodies::reinit(const la::Matrix &stiffness,
+  void FloatingBodies::reinit(const Stiffness &stiffness,
                               const PointOperator &rows,
                               const NearNullSpace &space)
   {
@@ -187,40 +268,20 @@ namespace abut::solve
     if (space.n_components == 1)
       return;
     space_ = space;
-    const Motions motions(stiffness, space);
-    const MPI_Comm communicator = stiffness.get_mpi_communicator();
+    const std::vector<double> diagonal = stiffness.diagonal();
+    const Motions motions(stiffness, space, diagonal);
+    const MPI_Comm communicator = stiffness.communicator();
     const unsigned int n = n_modes_ = motions.n_modes();
     if (supports_hold(motions, space, communicator))
       return;
-    const std::vector<double> diagonal =
-        la::diagonal(la::local_rows(stiffness));
 
     // Per body: energies of pairs of modes, then their products.
     const std::size_t stride = 2 * n * n;
     std::vector<double> sums(space.n_bodies * stride, 0.);
-    la::Vector mode(rows.owned(), communicator);
-    const la::LocalRows matrix = la::local_rows(stiffness);
-    // All modes of an unknown stand together, for one pass over the matrix.
-    std::vector<double> modes(matrix.n_columns * std::size_t(most_modes), 0.);
-    for (unsigned int m = 0; m < n; ++m)
+    la::Vector mode = stiffness.make_vector();
+    const auto add =
+        [&](const std::size_t i, const Modes &own, const Modes &force)
     {
-      for (int i = 0; i < la::n_owned(mode); ++i)
-        la::data(mode)[i] = motions.value(m, i);
-      const std::vector<double> all = la::gather(stiffness, mode);
-      for (std::size_t j = 0; j < all.size(); ++j)
-        modes[j * most_modes + m] = all[j];
-    }
-    for (int i = 0; i < matrix.n_rows; ++i)
-    {
-      double force[most_modes] = {};
-      for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
-      {
-        const double *const x =
-            &modes[matrix.column[k] * std::size_t(most_modes)];
-        for (unsigned int m = 0; m < most_modes; ++m)
-          force[m] += matrix.value[k] * x[m];
-      }
-      const double *const own = &modes[i * std::size_t(most_modes)];
       double *const sum = &sums[motions.body(i) * stride];
       for (unsigned int m = 0; m < n; ++m)
         for (unsigned int k = 0; k < n; ++k)
@@ -228,7 +289,11 @@ namespace abut::solve
           sum[m * n + k] += own[k] * force[m];
           sum[n * n + m * n + k] += own[k] * own[m] * diagonal[i];
         }
-    }
+    };
+    if (stiffness.has_matrix())
+      for_each_force(stiffness.matrix(), motions, mode, add);
+    else
+      for_each_force(stiffness.host(), motions, mode, add);
     MPI::sum(sums, communicator, sums);
     for (unsigned int b = 0; b < space.n_bodies; ++b)
     {

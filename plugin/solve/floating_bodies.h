@@ -5,6 +5,7 @@
 #include "local_elimination.h"
 #include "near_null_space.h"
 #include "point_operator.h"
+#include "stiffness.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -21,8 +22,9 @@ namespace abut::solve
   public:
     /** Find the motions that K leaves free: translations, and rotations if the
      * positions of unknowns are known. Nothing is done for scalar fields. One
-     * pass over K, unless supports obviously hold all bodies. Collective. */
-    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
+     * pass over a matrix, a product for each motion of a host's, unless
+     * supports obviously hold all bodies. Collective. */
+    void reinit(const Stiffness &stiffness, const PointOperator &rows,
                 const NearNullSpace &space);
 
     /** Throw SolverFailure if rows with @p resists nonzero leave a motion

@@ -18,14 +18,15 @@ namespace abut::solve
 
   std::unique_ptr<RowSolver> make_row_solver(const System system,
                                              const SolverParameters &parameters,
-                                             const PointOperator &rows)
+                                             const PointOperator &rows,
+                                             const bool has_matrix)
   {
     if (system == System::saddle_point)
       return std::make_unique<SaddlePoint>(parameters);
     const bool has_friction = dealii::Utilities::MPI::logical_or(
         rows.has_tangents(), rows.communicator());
-    if (are_nodal(rows) && !has_friction)
+    if (has_matrix && are_nodal(rows) && !has_friction)
       return std::make_unique<NodalCondensation>(parameters);
-    return std::make_unique<Condensation>(parameters);
+    return std::make_unique<Condensation>(parameters, has_matrix);
   }
 } // namespace abut::solve

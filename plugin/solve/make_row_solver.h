@@ -14,10 +14,12 @@ namespace abut::solve
   bool are_nodal(const PointOperator &rows);
 
   /** The solver for a set of rows: by elimination unless the user's word
-   * @p system asks for a saddle point. Collective. */
+   * @p system asks for a saddle point, which needs a matrix, as elimination
+   * does not. Collective. */
   std::unique_ptr<RowSolver> make_row_solver(System system,
                                              const SolverParameters &parameters,
-                                             const PointOperator &rows);
+                                             const PointOperator &rows,
+                                             bool has_matrix = true);
 } // namespace abut::solve
 
 #endif

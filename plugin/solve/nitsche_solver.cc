@@ -94,21 +94,21 @@ namespace abut::solve
       floating_.reinit(*stiffness_, *rows_, space_);
   }
 
-  void NitscheSolver::reinit(const la::Matrix &stiffness,
+  void NitscheSolver::reinit(const Stiffness &stiffness,
                              const PointOperator &rows,
                              const std::vector<double> &row_stiffness)
   {
-    stiffness_ = &stiffness;
+    stiffness_ = &stiffness.matrix();
     rows_ = &rows;
     model_.reinit(stiffness, rows, row_stiffness);
     find_floating_bodies();
   }
 
-  void NitscheSolver::renew(const la::Matrix &stiffness,
+  void NitscheSolver::renew(const Stiffness &stiffness,
                             const PointOperator &rows,
                             const std::vector<double> &row_stiffness)
   {
-    stiffness_ = &stiffness;
+    stiffness_ = &stiffness.matrix();
     rows_ = &rows;
     model_.renew(stiffness, rows, row_stiffness);
     find_floating_bodies();

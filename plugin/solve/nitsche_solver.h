@@ -42,10 +42,10 @@ namespace abut::solve
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
+    void reinit(const Stiffness &stiffness, const PointOperator &rows,
                 const std::vector<double> &row_stiffness) override;
 
-    void renew(const la::Matrix &stiffness, const PointOperator &rows,
+    void renew(const Stiffness &stiffness, const PointOperator &rows,
                const std::vector<double> &row_stiffness) override;
 
     LinearReport solve(const la::Vector &residual, const abut_request &request,

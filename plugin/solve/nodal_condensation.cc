@@ -16,20 +16,20 @@ namespace abut::solve
     solver_.set_near_null_space(space);
   }
 
-  void NodalCondensation::reinit(const la::Matrix &stiffness,
+  void NodalCondensation::reinit(const Stiffness &stiffness,
                                  const PointOperator &rows,
                                  const std::vector<double> &)
   {
-    solver_.reinit(stiffness);
-    take(stiffness, rows);
+    solver_.reinit(stiffness.matrix());
+    take(stiffness.matrix(), rows);
   }
 
-  void NodalCondensation::renew(const la::Matrix &stiffness,
+  void NodalCondensation::renew(const Stiffness &stiffness,
                                 const PointOperator &rows,
                                 const std::vector<double> &)
   {
-    solver_.renew(stiffness);
-    take(stiffness, rows);
+    solver_.renew(stiffness.matrix());
+    take(stiffness.matrix(), rows);
   }
 
   void NodalCondensation::take(const la::Matrix &stiffness,

@@ -5,6 +5,7 @@
 #include "near_null_space.h"
 #include "point_operator.h"
 #include "preconditioner_state.h"
+#include "stiffness.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
@@ -31,16 +32,16 @@ namespace abut::solve
      * mesh changes. Not collective. */
     virtual void set_near_null_space(const NearNullSpace &space) = 0;
 
-    /** Take a matrix and the rows that go with it, which must outlive the
+    /** Take a stiffness and the rows that go with it, which must outlive the
      * calls to solve(), and what row_stiffness() gives for both. Columns of
      * rows may be unknowns of other ranks. Collective. */
-    virtual void reinit(const la::Matrix &stiffness, const PointOperator &rows,
+    virtual void reinit(const Stiffness &stiffness, const PointOperator &rows,
                         const std::vector<double> &row_stiffness) = 0;
 
-    /** The same when only the values of the matrix are new, and not very
+    /** The same when only the values of the stiffness are new, and not very
      * different: a preconditioner may be kept as long as it is good.
      * Collective. */
-    virtual void renew(const la::Matrix &stiffness, const PointOperator &rows,
+    virtual void renew(const Stiffness &stiffness, const PointOperator &rows,
                        const std::vector<double> &row_stiffness) = 0;
 
     /** What its preconditioners were built for, for restore(); empty: it keeps

@@ -5,12 +5,10 @@
 
 namespace abut::solve
 {
-  la::Vector compliance(const la::Matrix &stiffness)
+  la::Vector compliance(const Stiffness &stiffness)
   {
-    const std::vector<double> diagonal =
-        la::diagonal(la::local_rows(stiffness));
-    la::Vector result(stiffness.locally_owned_range_indices(),
-                      stiffness.get_mpi_communicator());
+    const std::vector<double> diagonal = stiffness.diagonal();
+    la::Vector result = stiffness.make_vector();
     std::transform(diagonal.begin(), diagonal.end(), la::data(result),
                    [](const double k) { return 1. / k; });
     return result;
@@ -25,7 +23,7 @@ namespace abut::solve
     return result;
   }
 
-  std::vector<double> row_stiffness(const la::Matrix &stiffness,
+  std::vector<double> row_stiffness(const Stiffness &stiffness,
                                     const PointOperator &rows)
   {
     return row_stiffness(compliance(stiffness), rows);

@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_ROW_STIFFNESS_H
 
 #include "point_operator.h"
+#include "stiffness.h"
 
 namespace abut::solve
 {
@@ -10,11 +11,11 @@ namespace abut::solve
    * per length: what penalties are multiples of. It is the pressure that opens
    * the gap by one if each unknown were held by its own stiffness alone: the
    * two sides of a pair act in series. Collective. */
-  std::vector<double> row_stiffness(const la::Matrix &stiffness,
+  std::vector<double> row_stiffness(const Stiffness &stiffness,
                                     const PointOperator &rows);
 
-  /** 1 / K_jj of each unknown of this rank. */
-  la::Vector compliance(const la::Matrix &stiffness);
+  /** 1 / K_jj of each unknown of this rank. Collective. */
+  la::Vector compliance(const Stiffness &stiffness);
 
   /** The same of such a vector, which may be kept for other rows. */
   std::vector<double> row_stiffness(const la::Vector &compliance,

@@ -141,21 +141,20 @@ namespace abut::solve
     leading_.set_near_null_space(space);
   }
 
-  void SaddlePoint::reinit(const la::Matrix &stiffness,
+  void SaddlePoint::reinit(const Stiffness &stiffness,
                            const PointOperator &rows,
                            const std::vector<double> &row_stiffness)
   {
-    stiffness_ = &stiffness;
+    stiffness_ = &stiffness.matrix();
     rows_ = &rows;
     leading_.reinit(stiffness, rows, row_stiffness);
     floating_.reinit(stiffness, rows, space_);
   }
 
-  void SaddlePoint::renew(const la::Matrix &stiffness,
-                          const PointOperator &rows,
+  void SaddlePoint::renew(const Stiffness &stiffness, const PointOperator &rows,
                           const std::vector<double> &row_stiffness)
   {
-    stiffness_ = &stiffness;
+    stiffness_ = &stiffness.matrix();
     rows_ = &rows;
     leading_.renew(stiffness, rows, row_stiffness);
     floating_.reinit(stiffness, rows, space_);

@@ -29,10 +29,10 @@ namespace abut::solve
 
     void set_near_null_space(const NearNullSpace &space) override;
 
-    void reinit(const la::Matrix &stiffness, const PointOperator &rows,
+    void reinit(const Stiffness &stiffness, const PointOperator &rows,
                 const std::vector<double> &row_stiffness) override;
 
-    void renew(const la::Matrix &stiffness, const PointOperator &rows,
+    void renew(const Stiffness &stiffness, const PointOperator &rows,
                const std::vector<double> &row_stiffness) override;
 
     std::vector<PreconditionerState> state() const override;

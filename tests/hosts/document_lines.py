@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Write the C++ lines of doc/your-program.md as a file that compiles: each block
-in a function of its own, whose parameters are what the text takes for granted.
+in a function of its own, whose parameters are what the text takes for granted,
+or by itself where it is a class.
 
     document_lines.py your-program.md OUTPUT
 """
@@ -53,16 +54,25 @@ void pieces(abut::ContactAssembler<dim> &contact, la::Vector &u, la::Matrix &K,
 @2@
 }
 
+@3@
+
+template <int dim>
+void without_matrix(abut::ContactAssembler<dim> &contact, YourOperator &K,
+                    la::Vector &R, la::Vector &du, abut::HostProblem &problem)
+{
+@4@
+}
+
 template <int dim>
 void loaded(ParameterHandler &prm, abut::ContactPair<dim> &pair,
             const abut_obstacle_shape &shape)
 {
-@3@
+@5@
 }
 
 template <int dim> void membrane(abut::ContactAssembler<dim> &contact)
 {
-@4@
+@6@
 }
 """
 TAIL = """
@@ -75,6 +85,8 @@ template void newton(const Mapping<3> &, const DoFHandler<3> &,
                      la::Matrix &, abut::ContactAssembler<3> &);
 template void pieces(abut::ContactAssembler<2> &, la::Vector &, la::Matrix &,
                      la::Vector &, la::Vector &, la::Vector &, double);
+template void without_matrix(abut::ContactAssembler<3> &, YourOperator &,
+                             la::Vector &, la::Vector &, abut::HostProblem &);
 template void loaded(ParameterHandler &, abut::ContactPair<3> &,
                      const abut_obstacle_shape &);
 template void membrane(abut::ContactAssembler<2> &);

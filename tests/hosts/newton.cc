@@ -83,7 +83,7 @@ namespace
       r += rest;
       blocks.constraints.set_zero(r);
     };
-    problem.tangent = [&](const la::Vector &) -> const la::Matrix &
+    problem.tangent = [&](const la::Vector &)
     { return nonlinear.tangent(zero); };
     unsigned int n_systems = 0;
     problem.monitor = [&](const LinearReport &cost)
@@ -188,7 +188,7 @@ namespace
     blocks.contact.set_parameters(hosts::method("penalty", std::nullopt),
                                   direct);
     la::Matrix reference;
-    reference.copy_from(blocks.problem().tangent(blocks.u));
+    reference.copy_from(blocks.problem().tangent(blocks.u).matrix());
     reference *= factor;
     if (factor > 0.)
       blocks.contact.set_reference_stiffness(reference);

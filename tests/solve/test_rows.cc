@@ -362,6 +362,185 @@ namespace
               }
             }
   }
+  /** K by products, with Jacobi's preconditioner. */
+  class Host : public HostOperator
+  {
+  public:
+    explicit Host(const la::Matrix &matrix) : matrix_(matrix)
+    {
+    }
+
+    void vmult(la::Vector &dst, const la::Vector &src) const override
+    {
+      matrix_.vmult(dst, src);
+    }
+
+    void diagonal(la::Vector &result) const override
+    {
+      const std::vector<double> values = la::diagonal(la::local_rows(matrix_));
+      for (std::size_t i = 0; i < values.size(); ++i)
+        la::data(result)[i] = factor * values[i];
+    }
+
+    void precondition(la::Vector &dst, const la::Vector &src) const override
+    {
+      const std::vector<double> values = la::diagonal(la::local_rows(matrix_));
+      for (std::size_t i = 0; i < values.size(); ++i)
+        la::data(dst)[i] = la::data(src)[i] / values[i];
+      if (is_lopsided)
+        for (std::size_t i = 1; i < values.size(); ++i)
+          la::data(dst)[i] += 0.3 * la::data(src)[i - 1];
+    }
+
+    void hold(const std::vector<std::uint8_t> &now) override
+    {
+      held = now;
+    }
+
+    double factor = 1.;       ///< of the diagonal, which is wrong then
+    bool is_lopsided = false; ///< the preconditioner
+    std::vector<std::uint8_t> held;
+
+  private:
+    const la::Matrix &matrix_;
+  };
+
+  /** Pivots that rows of single unknowns hold are told, and no others. */
+  void check_held(const Host &host, const Problem &problem, const Share &share,
+                  const Shape shape)
+  {
+    bool right = true;
+    std::vector<std::uint8_t> expected(share.n, 0);
+    for (const Row &row : problem.rows)
+      for (const auto &[j, value] : row.entries)
+        if (shape == Shape::nodal && row.a == 0. && row.b != 0.
+            && j >= share.first && j < share.first + share.n)
+          expected[j - share.first] = 1;
+    for (int i = 0; i < share.n; ++i)
+      right = right && host.held[i] == expected[i];
+    Expect::that(right, shape_names.at(shape) + " rows: what is held");
+  }
+
+  /** Without a matrix: three systems in a row with other laws, the last two
+   * also with another K. */
+  void hosts()
+  {
+    for (const std::vector<int> &partition : partitions())
+      for (const Shape shape : {Shape::own_unknown, Shape::nodal})
+        for (const auto &[laws, law_name] : law_names)
+        {
+          std::mt19937 random(7);
+          Problem problem = make_problem(partition, 11);
+          add_rows(problem, shape, random);
+          set_laws(problem, laws, random);
+          Share share(problem, communicator);
+          const solve::PointOperator rows(share.owned, share.view, share.nodes,
+                                          communicator);
+          Host host(share.matrix);
+          const solve::Stiffness stiffness(host, share.owned, communicator);
+          const auto solver = solve::make_row_solver(
+              System::automatic, SolverParameters(), rows, false);
+          solver->reinit(stiffness, rows,
+                         solve::row_stiffness(stiffness, rows));
+          for (int repetition = 0; repetition < 3; ++repetition)
+          {
+            const std::string what = shape_names.at(shape) + " rows, "
+                                     + law_name
+                                     + " laws, without a matrix, solve "
+                                     + std::to_string(repetition);
+            compare(*solver, problem, share,
+                    laws == Laws::interior ? 1e-9 : 1e-10, what);
+            check_held(host, problem, share, shape);
+            set_laws(problem, laws, random);
+            share.set_laws(problem);
+            scale_unknowns(problem);
+            share.set_matrix(problem);
+            solver->renew(stiffness, rows,
+                          solve::row_stiffness(stiffness, rows));
+          }
+        }
+  }
+
+  template <typename Error, typename Function>
+  void expect_error(const std::string &words, const Function &function)
+  {
+    std::string message = "nothing was thrown";
+    try
+    {
+      function();
+    }
+    catch (const Error &error)
+    {
+      message = error.what();
+    }
+    Expect::that(message.find(words) != std::string::npos,
+                 "'" + words + "' is said, not: " + message);
+  }
+
+  /** What a host has got wrong is told. */
+  void hosts_at_fault()
+  {
+    std::mt19937 random(7);
+    Problem problem = make_problem(partitions()[0], 11);
+    add_rows(problem, Shape::own_unknown, random);
+    set_laws(problem, Laws::hard, random);
+    Share share(problem, communicator);
+    const solve::PointOperator rows(share.owned, share.view, share.nodes,
+                                    communicator);
+    SolverParameters parameters;
+    parameters.max_iterations = 2;
+    const auto solve_with = [&](Host &host)
+    {
+      const solve::Stiffness stiffness(host, share.owned, communicator);
+      const auto solver =
+          solve::make_row_solver(System::automatic, parameters, rows, false);
+      solver->reinit(stiffness, rows, solve::row_stiffness(share.matrix, rows));
+      solver->solve(share.residual, share.request(1e-13), 1e-14,
+                    share.increment);
+    };
+    Host host(share.matrix);
+    expect_error<SolverFailure>("ended after 2 iterations",
+                                [&] { solve_with(host); });
+    host.is_lopsided = true;
+    expect_error<SolverFailure>("precondition() is not symmetric",
+                                [&] { solve_with(host); });
+    host.is_lopsided = false;
+    host.factor = 2.;
+    expect_error<std::invalid_argument>("where vmult() of its unit vector",
+                                        [&] { solve_with(host); });
+    host.factor = -1.;
+    expect_error<std::invalid_argument>("must be positive",
+                                        [&] { solve_with(host); });
+  }
+
+  /** A saddle point needs a matrix. */
+  void hosts_of_saddle_points()
+  {
+    std::mt19937 random(7);
+    Problem problem = make_problem(partitions()[0], 11);
+    add_rows(problem, Shape::overlapping, random);
+    set_laws(problem, Laws::hard, random);
+    for (Row &row : problem.rows)
+    {
+      row.a = 0.;
+      row.b = 1.;
+    }
+    Share share(problem, communicator);
+    const solve::PointOperator rows(share.owned, share.view, share.nodes,
+                                    communicator);
+    Host host(share.matrix);
+    const solve::Stiffness stiffness(host, share.owned, communicator);
+    const auto solver = solve::make_row_solver(System::automatic,
+                                               SolverParameters(), rows, false);
+    solver->reinit(stiffness, rows, solve::row_stiffness(stiffness, rows));
+    expect_error<SolverFailure>("needs a matrix",
+                                [&]
+                                {
+                                  solver->solve(share.residual,
+                                                share.request(1e-13), 1e-14,
+                                                share.increment);
+                                });
+  }
 } // namespace
 
 int
@@ -374,5 +553,8 @@ main(int argc, char **argv)
                            substitutions();
                            policy();
                            solvers();
+                           hosts();
+                           hosts_at_fault();
+                           hosts_of_saddle_points();
                          });
 }

@@ -44,6 +44,7 @@
 #include <abut/dealii/contact_examination.h>
 #include <abut/dealii/contact_pair.h>
 #include <abut/dealii/detection_report.h>
+#include <abut/dealii/host_operator.h>
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/search_parameters.h>
@@ -261,16 +262,20 @@ namespace abut
     /** Improve the start by @p n_sweeps symmetric projected Gauss-Seidel
      * sweeps, and take the set of active rows from them: nested iteration
      * needs a third of the steps then. Only between detect() and the first
-     * solve(), for symmetric positive definite @p matrix. Changes
+     * solve(), for a symmetric positive definite matrix. Changes
      * @p displacement; its residual must be computed again. Does nothing for
-     * pairs, except with the law `barrier`, whose gaps are opened. */
-    virtual void relax(const la::Matrix &matrix, const la::Vector &residual,
+     * pairs, except with the law `barrier`, whose gaps are opened, and needs no
+     * matrix for either. */
+    virtual void relax(const Tangent &tangent, const la::Vector &residual,
                        unsigned int n_sweeps, la::Vector &displacement);
 
     /** One linearised step with contact: returns the increment of the
-     * displacement, already damped where the method asks for it. @p matrix is
-     * not changed. Throws when the linear solver fails. */
-    virtual LinearReport solve(const la::Matrix &matrix,
+     * displacement, already damped where the method asks for it. @p tangent is
+     * the matrix, which is not changed, or a HostOperator. The latter is solved
+     * by conjugate gradients with its own preconditioner, and throws for what
+     * needs a matrix: Nitsche's method, saddle points, points that move, and
+     * solvers that are not iterative. Throws when the linear solver fails. */
+    virtual LinearReport solve(const Tangent &tangent,
                                const la::Vector &residual,
                                la::Vector &increment);
 
@@ -285,11 +290,11 @@ namespace abut
     /** The contact problem of one linearisation, from the displacement of the
      * last detect() or linearise() to its end, for hosts with a Newton loop of
      * their own: solve() and update() in turn, by products with the one
-     * @p matrix. @p residual is that of the displacement where it began; @p
+     * @p tangent. @p residual is that of the displacement where it began; @p
      * step becomes the whole way from there, hanging nodes and all. reason()
      * tells whether it has an answer. Assemble, call this, shorten the step if
      * you must, and linearise() where you have gone. */
-    virtual LinearReport solve_linearised(const la::Matrix &matrix,
+    virtual LinearReport solve_linearised(const Tangent &tangent,
                                           const la::Vector &residual,
                                           la::Vector &step);
 
@@ -314,15 +319,15 @@ namespace abut
     virtual double evaluate(const la::Vector &displacement,
                             la::Vector &forces) const;
 
-    /** Take the stiffness that penalties are multiples of from this matrix,
+    /** Take the stiffness that penalties are multiples of from this tangent,
      * and not from the first one that solve() or add() is given after
      * reinit(), and measure the load by it: as the larger of the residual R
-     * and K u at the start of an iteration, with K this matrix and not the
+     * and K u at the start of an iteration, with K this tangent and not the
      * present one. For tangents with inertia, whose K u is no internal force,
      * or if the first tangent is not a typical one. It must be of the present
      * unknowns and stay as it is until the next reinit(), which forgets it. Not
      * collective. */
-    virtual void set_reference_stiffness(const la::Matrix &matrix);
+    virtual void set_reference_stiffness(const Tangent &tangent);
 
     /** Length > 0 that tolerances of gaps are a part of. 0, the default: see
      * length_scale(); where nothing has moved, a mean of the gaps. Not
@@ -506,12 +511,12 @@ namespace abut
     virtual double missed_depth(const la::Vector &displacement,
                                 dealii::Vector<float> &depth);
 
-    /** Look for rigid motions that neither @p matrix nor any row resists, be
+    /** Look for rigid motions that neither @p tangent nor any row resists, be
      * it open or closed: then there is no answer, however small the load steps.
      * Throws SolverFailure, which names body and motion. Call after detect();
-     * as many products with @p matrix as bodies have rigid motions. Does
-     * nothing for membranes. Collective. */
-    virtual void check_supports(const la::Matrix &matrix) const;
+     * one pass over a matrix, or one product of a host and one for each rigid
+     * motion. Does nothing for membranes. Collective. */
+    virtual void check_supports(const Tangent &tangent) const;
 
     /** Discrete inf-sup constant of the pressures of all present rows against
      * the displacements of @p matrix, dimensionless:

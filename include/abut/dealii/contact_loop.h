@@ -23,7 +23,7 @@ namespace abut
    *   and the increment; may be empty */
   template <int dim>
   LinearReport iterate_contact(
-      ContactAssembler<dim> &contact, const la::Matrix &matrix, la::Vector &u,
+      ContactAssembler<dim> &contact, const Tangent &tangent, la::Vector &u,
       const std::function<void(const la::Vector &, la::Vector &)> &residual,
       const std::function<void(const LinearReport &, const la::Vector &)>
           &stepped = {})
@@ -34,7 +34,7 @@ namespace abut
     while (goes_on)
     {
       residual(u, forces);
-      const LinearReport cost = contact.solve(matrix, forces, increment);
+      const LinearReport cost = contact.solve(tangent, forces, increment);
       u += increment;
       goes_on = contact.update(u);
       total += cost;

@@ -221,7 +221,7 @@ namespace abut
     /** A linear problem is its own linearisation. */
     bool solve_linear(la::Vector &u)
     {
-      const la::Matrix &tangent = problem_.tangent(u);
+      const Tangent tangent = problem_.tangent(u);
       ++result_.n_steps;
       if (!problem_.residual_is_cheap)
         find_residual(u);
@@ -257,7 +257,7 @@ namespace abut
       last_excess_ = std::numeric_limits<double>::infinity();
       for (unsigned int step = 0; step < parameters_.max_steps; ++step)
       {
-        const la::Matrix &tangent = problem_.tangent(u);
+        const Tangent tangent = problem_.tangent(u);
         ++result_.n_steps;
         add_prescribed_change(u);
         if (!std::isfinite(residual_.l2_norm()))
@@ -299,7 +299,7 @@ namespace abut
     }
 
     /** Forces of the linearisation whose residual_ is that at step_. */
-    void linear_residual(const la::Matrix &tangent, const la::Vector &u,
+    void linear_residual(const Tangent &tangent, const la::Vector &u,
                          la::Vector &forces)
     {
       product_ = u;
@@ -321,7 +321,7 @@ namespace abut
 
     /** The contact problem of the linearisation at @p u, which becomes its
      * solution. */
-    bool solve_linearised(const la::Matrix &tangent, la::Vector &u)
+    bool solve_linearised(const Tangent &tangent, la::Vector &u)
     {
       const bool is_direct = linear_ && problem_.residual_is_cheap;
       if (!is_direct)
@@ -381,7 +381,7 @@ namespace abut
       bool is_positive = true;
     };
 
-    Energy energy(const la::Matrix &tangent, const la::Vector &u)
+    Energy energy(const Tangent &tangent, const la::Vector &u)
     {
       constexpr double least_cosine = 1e-7;
       increment_ = u;
@@ -410,7 +410,7 @@ namespace abut
       double squares[3] = {0., 0., 0.};
     };
 
-    Scales measure(const la::Matrix &tangent, const la::Vector &u)
+    Scales measure(const Tangent &tangent, const la::Vector &u)
     {
       Scales scales;
       scales.defect = defect_;
@@ -479,7 +479,7 @@ namespace abut
 
     /** Go from @p u towards trial_ as far as the residual falls, estimate the
      * error there, and set the next linear tolerance. */
-    bool move(const la::Matrix &tangent, la::Vector &u)
+    bool move(const Tangent &tangent, la::Vector &u)
     {
       find_contact(u, true);
       step_ = trial_;

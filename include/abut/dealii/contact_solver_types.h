@@ -28,9 +28,9 @@ namespace abut
     std::function<void(const la::Vector &u, la::Vector &residual)> residual;
 
     /** Its derivative by u, whose rows and columns that the constraints
-     * eliminate are diagonal. The matrix must stay as it is until the next
-     * call. */
-    std::function<const la::Matrix &(const la::Vector &u)> tangent;
+     * eliminate are diagonal: a matrix, or a HostOperator. It must stay as it
+     * is until the next call. */
+    std::function<Tangent(const la::Vector &u)> tangent;
 
     /** Whether the tangent is the same for all u and until the next reinit():
      * it is asked for once for each solve() then, and preconditioners are

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_HOST_SOLVER_H
+#define ABUT_SOLVE_HOST_SOLVER_H
+
+#include "condensate_solver.h"
+
+namespace abut::solve
+{
+  /** Without a matrix: conjugate gradients (FGMRES if it is not symmetric) with
+   * the host's own preconditioner M for K, cut off at pivots and scaled by what
+   * springs add to the diagonal D of K,
+   *
+   *     S M S,   s = sqrt(D / (D + springs)), 0 at pivots.
+   *
+   * For a few nodes on each other that is as good as M is for K; for surfaces
+   * that press on each other the condition number grows with the number of
+   * cells along them, as M knows nothing of the contact. Unknowns that rows of
+   * single unknowns hold are told to the host. */
+  class HostSolver : public CondensateSolver
+  {
+  public:
+    explicit HostSolver(const SolverParameters &parameters);
+
+    void set_near_null_space(const NearNullSpace &) override
+    {
+    }
+
+    /** Throws std::invalid_argument if the host's diagonal is not positive, or
+     * is not that of its products where a row looks. */
+    void reinit(const Stiffness &stiffness, const PointOperator &rows,
+                const std::vector<double> &row_stiffness) override;
+
+    void renew(const Stiffness &stiffness, const PointOperator &rows,
+               const std::vector<double> &row_stiffness) override;
+
+    LinearReport prepare(const Condensate &condensate) override;
+
+    LinearReport solve(const la::Vector &rhs, double tolerance,
+                       la::Vector &x) override;
+
+    /** One cycle of the preconditioner of the last prepare(). Collective. */
+    void precondition(la::Vector &dst, const la::Vector &src) const;
+
+  private:
+    bool is_definite() const;
+    void check_diagonal() const;
+    void check_entry() const;
+    /** What is wrong with K or M, as far as vectors without structure tell;
+     * empty: nothing. Collective. */
+    std::string faults() const;
+
+    SolverParameters parameters_;
+    Stiffness stiffness_;
+    bool is_symmetric_ = true;
+    std::vector<double> scaling_; ///< [owned] S
+    mutable la::Vector scaled_;
+  };
+} // namespace abut::solve
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_STIFFNESS_H
+#define ABUT_SOLVE_STIFFNESS_H
+
+#include <abut/dealii/host_operator.h>
+#include <abut/dealii/linear_algebra.h>
+
+#include <deal.II/base/index_set.h>
+
+namespace abut::solve
+{
+  /** A tangent with its unknowns, as solvers of rows get it. */
+  class Stiffness : public Tangent
+  {
+  public:
+    /** None. */
+    Stiffness() = default;
+
+    /** A matrix is one without being told so. */
+    Stiffness(const la::Matrix &matrix);
+
+    /** That of the unknowns @p owned. */
+    Stiffness(const Tangent &tangent, const dealii::IndexSet &owned,
+              MPI_Comm communicator);
+
+    MPI_Comm communicator() const
+    {
+      return communicator_;
+    }
+
+    /** A vector of zeros. Collective. */
+    la::Vector make_vector() const;
+
+    /** [owned] diagonal of K. Collective. */
+    std::vector<double> diagonal() const;
+
+  private:
+    dealii::IndexSet owned_;
+    MPI_Comm communicator_ = MPI_COMM_NULL;
+  };
+
+  /** A vector of numbers in [-1, 1) without structure, the same ones for any
+   * ranks; @p series 0 and 1 have others. Collective. */
+  la::Vector noise(const Stiffness &stiffness, unsigned int series);
+
+  /** Whether x.K y = y.K x for two vectors without structure. One pass over the
+   * rows of a matrix, two products of a host. Collective. */
+  bool is_symmetric(const Stiffness &stiffness);
+} // namespace abut::solve
+
+#endif
