@@ -50,6 +50,9 @@ namespace abut::solve
     virtual LinearReport solve(const la::Vector &rhs, double tolerance,
                                la::Vector &x) = 0;
 
+    /** One cycle of the preconditioner of the last prepare(). Collective. */
+    virtual void precondition(la::Vector &dst, const la::Vector &src) const = 0;
+
     /** What the preconditioner was built for. Not collective. */
     virtual PreconditionerState state() const
     {
@@ -72,6 +75,23 @@ namespace abut::solve
     const PointOperator *rows_ = nullptr;
     std::vector<double> diagonal_; ///< [owned] of K
     CondensedMatrix matrix_;
+  };
+
+  /** Its preconditioner as deal.II's solvers want it. */
+  class Cycle
+  {
+  public:
+    explicit Cycle(const CondensateSolver &solver) : solver_(solver)
+    {
+    }
+
+    void vmult(la::Vector &dst, const la::Vector &src) const
+    {
+      solver_.precondition(dst, src);
+    }
+
+  private:
+    const CondensateSolver &solver_;
   };
 } // namespace abut::solve
 

@@ -47,8 +47,7 @@ namespace abut::solve
 
     void restore(const PreconditionerState &state) override;
 
-    /** One cycle of the preconditioner of the last prepare(). Collective. */
-    void precondition(la::Vector &dst, const la::Vector &src) const;
+    void precondition(la::Vector &dst, const la::Vector &src) const override;
 
     /** Whether systems are factorised. */
     bool is_direct() const;
@@ -116,23 +115,6 @@ namespace abut::solve
     bool has_new_matrix_ = true; ///< than the one in it
     std::unique_ptr<ContactFilter> filter_;
     std::unique_ptr<DirectSolver> direct_;
-  };
-
-  /** Its preconditioner as deal.II's solvers want it. */
-  class Cycle
-  {
-  public:
-    explicit Cycle(const CondensedSolver &solver) : solver_(solver)
-    {
-    }
-
-    void vmult(la::Vector &dst, const la::Vector &src) const
-    {
-      solver_.precondition(dst, src);
-    }
-
-  private:
-    const CondensedSolver &solver_;
   };
 } // namespace abut::solve
 

@@ -9,30 +9,11 @@
 
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 namespace abut::solve
 {
   namespace MPI = dealii::Utilities::MPI;
-
-  namespace
-  {
-    /** The preconditioner as deal.II's solvers want it. */
-    class HostCycle
-    {
-    public:
-      explicit HostCycle(const HostSolver &solver) : solver_(solver)
-      {
-      }
-
-      void vmult(la::Vector &dst, const la::Vector &src) const
-      {
-        solver_.precondition(dst, src);
-      }
-
-    private:
-      const HostSolver &solver_;
-    };
-  } // namespace
 
   HostSolver::HostSolver(const SolverParameters &parameters)
       : parameters_(parameters)
@@ -192,12 +173,12 @@ namespace abut::solve
         dealii::SolverCG<la::Vector> solver(control);
         solver.connect_condition_number_slot([&](const double estimate)
                                              { report.condition = estimate; });
-        solver.solve(matrix_, x, rhs, HostCycle(*this));
+        solver.solve(matrix_, x, rhs, Cycle(*this));
       }
       else
         dealii::SolverFGMRES<la::Vector>(
             control, dealii::SolverFGMRES<la::Vector>::AdditionalData(60))
-            .solve(matrix_, x, rhs, HostCycle(*this));
+            .solve(matrix_, x, rhs, Cycle(*this));
     }
     catch (const dealii::SolverControl::NoConvergence &failure)
     {

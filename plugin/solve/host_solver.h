@@ -4,6 +4,9 @@
 
 #include "condensate_solver.h"
 
+#include <string>
+#include <vector>
+
 namespace abut::solve
 {
   /** Without a matrix: conjugate gradients (FGMRES if it is not symmetric) with
@@ -38,8 +41,7 @@ namespace abut::solve
     LinearReport solve(const la::Vector &rhs, double tolerance,
                        la::Vector &x) override;
 
-    /** One cycle of the preconditioner of the last prepare(). Collective. */
-    void precondition(la::Vector &dst, const la::Vector &src) const;
+    void precondition(la::Vector &dst, const la::Vector &src) const override;
 
   private:
     bool is_definite() const;

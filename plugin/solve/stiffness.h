@@ -7,6 +7,8 @@
 
 #include <deal.II/base/index_set.h>
 
+#include <vector>
+
 namespace abut::solve
 {
   /** A tangent with its unknowns, as solvers of rows get it. */

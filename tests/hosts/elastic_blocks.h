@@ -51,10 +51,8 @@ namespace abut::hosts
   {
   public:
     explicit ElasticBlocks(const BlockCase &run)
-        : triangulation(
-            MPI_COMM_WORLD,
-            dealii::Triangulation<dim>::limit_level_difference_at_vertices,
-            Mesh::construct_multigrid_hierarchy),
+        : triangulation(MPI_COMM_WORLD, smoothing,
+                        Mesh::construct_multigrid_hierarchy),
           fe(dealii::FE_Q<dim>(run.degree), dim),
           dof_handler(triangulation),
           run_(run)
@@ -138,12 +136,16 @@ namespace abut::hosts
     std::unique_ptr<ElasticOperator<dim>> stiffness;
 
   private:
+    static constexpr auto smoothing =
+        dealii::Triangulation<dim>::limit_level_difference_at_vertices;
+
     void make_mesh()
     {
       dealii::Triangulation<dim> mesh;
       for (unsigned int block = 0; block < run_.cells.size(); ++block)
       {
-        dealii::Triangulation<dim> part;
+        // Smoothing is copied with the mesh.
+        dealii::Triangulation<dim> part(smoothing);
         dealii::GridGenerator::subdivided_hyper_cube(part, run_.cells[block]);
         dealii::GridTools::shift(
             Tensor<1, dim>(dealii::Point<dim>::unit_vector(dim - 1))

@@ -26,7 +26,6 @@
 #include <deal.II/multigrid/multigrid.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -274,7 +273,8 @@ namespace abut::hosts
     using Cycle =
         dealii::PreconditionMG<dim, LevelVector, ElasticTransfer<dim>>;
 
-    /** On the coarsest level as many iterations as solve to 1e-3. */
+    /** On the coarsest level as many iterations as solve, for blocks of few
+     * cells; a body that floats does no harm. */
     void make_smoothers()
     {
       dealii::MGLevelObject<typename Chebyshev::AdditionalData> data(
@@ -287,12 +287,13 @@ namespace abut::hosts
         data[l].preconditioner->reinit(diagonal);
         for (double &d : data[l].preconditioner->get_vector())
           d = 1. / d;
-        data[l].smoothing_range = l == 0 ? 1e-3 : 15.;
-        data[l].degree = l == 0 ? dealii::numbers::invalid_unsigned_int : 4;
-        data[l].eig_cg_n_iterations = l == 0 ? diagonal.size() : 12;
+        data[l].smoothing_range = l == 0 ? 1000. : 15.;
+        data[l].degree = l == 0 ? 100 : 4;
+        data[l].eig_cg_n_iterations = 12;
       }
       smoother_.initialize(levels_, data);
-      // Now, because the bounds are good for whatever is held later.
+      // Before anything is held: what bounds the spectrum now does so for
+      // whatever is held later.
       for (unsigned int l = 0; l <= levels_.max_level(); ++l)
         smoother_[l].estimate_eigenvalues(levels_[l].diagonal());
     }
@@ -311,20 +312,14 @@ namespace abut::hosts
   template <int dim> class ElasticOperator : public HostOperator
   {
   public:
-    /** On a mesh without hanging nodes, which must outlive it; constraints are
-     * but prescribed displacements. */
+    /** On a mesh without hanging nodes; constraints are but prescribed
+     * displacements. */
     ElasticOperator(const dealii::Mapping<dim> &mapping,
                     const dealii::DoFHandler<dim> &dof_handler,
                     const dealii::AffineConstraints<double> &constraints,
                     const std::vector<Lame> &materials,
                     const bool heeds_holding)
-        : make_cycle_(
-            [&, materials]
-            {
-              return std::make_unique<ElasticCycle<dim>>(mapping, dof_handler,
-                                                         materials, fixed_);
-            }),
-          heeds_holding_(heeds_holding)
+        : heeds_holding_(heeds_holding)
     {
       // Vectors of both kinds have the owned unknowns in the same order.
       const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
@@ -338,6 +333,8 @@ namespace abut::hosts
       for (const auto i : owned)
         fixed_(i) = constraints.is_constrained(i) ? 1. : 0.;
       stiffness_.constrain(fixed_);
+      cycle_ = std::make_unique<ElasticCycle<dim>>(mapping, dof_handler,
+                                                   materials, fixed_);
     }
 
     void vmult(la::Vector &dst, const la::Vector &src) const override
@@ -352,8 +349,6 @@ namespace abut::hosts
 
     void precondition(la::Vector &dst, const la::Vector &src) const override
     {
-      if (cycle_ == nullptr)
-        cycle_ = make_cycle_();
       if (held_)
       {
         LevelVector marks(fixed_);
@@ -390,9 +385,7 @@ namespace abut::hosts
 
     ElasticStiffness<dim> stiffness_;
     LevelVector fixed_;
-    /** Not before it is needed: of a body that nothing holds there is none. */
-    const std::function<std::unique_ptr<ElasticCycle<dim>>()> make_cycle_;
-    mutable std::unique_ptr<ElasticCycle<dim>> cycle_;
+    std::unique_ptr<ElasticCycle<dim>> cycle_;
     const bool heeds_holding_;
     mutable std::optional<std::vector<std::uint8_t>> held_;
     mutable LevelVector source_, result_;

@@ -26,7 +26,9 @@ namespace abut
     virtual void vmult(la::Vector &dst, const la::Vector &src) const = 0;
 
     /** The diagonal of K, positive: penalties and tolerances are multiples of
-     * it. Asked for once for each linearisation. */
+     * it. Asked for once for each linearisation; solve() throws
+     * std::invalid_argument if it is not positive, or not that of a product
+     * with a unit vector. */
     virtual void diagonal(la::Vector &result) const = 0;
 
     /** dst = about K^-1 src, as one multigrid cycle: linear, the same from call
@@ -34,9 +36,10 @@ namespace abut
     virtual void precondition(la::Vector &dst, const la::Vector &src) const = 0;
 
     /** Before each linear system: @p held [owned] is nonzero where contact
-     * takes an unknown out of it. What precondition() does there is cut off in
-     * any case. One that holds them itself, on its coarser levels, too, needs
-     * fewer iterations; by default nothing is done. Not collective. */
+     * holds an unknown by itself, as on membranes and at obstacles across an
+     * axis. What precondition() does to it is cut off in any case; one that
+     * holds it on its coarser levels, too, needs fewer iterations. By default
+     * nothing is done. Not collective. */
     virtual void hold(const std::vector<std::uint8_t> &held)
     {
       static_cast<void>(held);
@@ -49,12 +52,15 @@ namespace abut
   class Tangent
   {
   public:
+    /** A matrix, which must stay where it is. */
     Tangent(const la::Matrix &matrix) : matrix_(&matrix)
     {
     }
 
-    Tangent(const la::Matrix &&) = delete; ///< gone when it is needed
+    /** Not one that is gone when it is needed. */
+    Tangent(const la::Matrix &&) = delete;
 
+    /** No matrix. */
     Tangent(HostOperator &host) : host_(&host)
     {
     }
