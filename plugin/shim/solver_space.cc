@@ -17,15 +17,13 @@ namespace abut::shim
   {
     solve::NearNullSpace space;
     if (is_displacement)
-    {
       space = make_near_null_space(mapping, dof_handler);
-      const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
-      std::vector<std::uint8_t> &prescribed = space.prescribed.change();
-      prescribed.assign(owned.n_elements(), 0);
-      for (const auto &line : constraints.get_lines())
-        if (line.entries.empty() && owned.is_element(line.index))
-          prescribed[owned.index_within_set(line.index)] = 1;
-    }
+    const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+    std::vector<std::uint8_t> &prescribed = space.prescribed.change();
+    prescribed.assign(owned.n_elements(), 0);
+    for (const auto &line : constraints.get_lines())
+      if (line.entries.empty() && owned.is_element(line.index))
+        prescribed[owned.index_within_set(line.index)] = 1;
     if (solve::wants_meshes(parameters, dof_handler.n_dofs(),
                             space.n_components))
       space.meshes = std::make_shared<const solve::MeshHierarchy>(

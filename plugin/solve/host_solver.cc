@@ -7,6 +7,7 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -20,21 +21,33 @@ namespace abut::solve
   {
   }
 
-  void HostSolver::reinit(const Stiffness &stiffness, const PointOperator &rows,
-                          const std::vector<double> &)
+  void HostSolver::set_near_null_space(const NearNullSpace &space)
+  {
+    prescribed_ = space.prescribed;
+  }
+
+  void HostSolver::take_host(const Stiffness &stiffness,
+                             const PointOperator &rows)
   {
     stiffness_ = stiffness;
     take(stiffness, rows);
     check_diagonal();
-    check_entry();
     is_symmetric_ = is_symmetric(stiffness);
     scaled_ = stiffness.make_vector();
   }
 
-  void HostSolver::renew(const Stiffness &stiffness, const PointOperator &rows,
-                         const std::vector<double> &row_stiffness)
+  void HostSolver::reinit(const Stiffness &stiffness, const PointOperator &rows,
+                          const std::vector<double> &)
   {
-    reinit(stiffness, rows, row_stiffness);
+    take_host(stiffness, rows);
+    check_entry();
+    check_prescribed();
+  }
+
+  void HostSolver::renew(const Stiffness &stiffness, const PointOperator &rows,
+                         const std::vector<double> &)
+  {
+    take_host(stiffness, rows);
   }
 
   void HostSolver::check_diagonal() const
@@ -89,6 +102,40 @@ namespace abut::solve
          << unknown << ", where vmult() of its unit vector gives " << both[1]
          << ": penalties and tolerances are multiples of the diagonal.";
     throw std::invalid_argument(text.str());
+  }
+
+  void HostSolver::check_prescribed() const
+  {
+    if (!MPI::logical_or(!prescribed_.empty(), rows_->communicator()))
+      return;
+    check_apart(true, "puts forces on free unknowns by displacements of "
+                      "prescribed ones");
+    check_apart(false, "puts forces on prescribed unknowns by displacements of "
+                       "free ones");
+  }
+
+  void HostSolver::check_apart(const bool from_prescribed,
+                               const std::string &what) const
+  {
+    constexpr double round_off = 1e-9;
+    la::Vector displacement = noise(stiffness_, 0), force(displacement);
+    const auto moves = [&](const std::size_t i) {
+      return (!prescribed_.empty() && prescribed_[i] != 0) == from_prescribed;
+    };
+    for (std::size_t i = 0; i < diagonal_.size(); ++i)
+      if (!moves(i))
+        la::data(displacement)[i] = 0.;
+    stiffness_.vmult(force, displacement);
+    double largest = 0.;
+    for (std::size_t i = 0; i < diagonal_.size(); ++i)
+      if (!moves(i))
+        largest =
+            std::max(largest, std::abs(la::data(force)[i]) / diagonal_[i]);
+    if (MPI::max(largest, rows_->communicator()) > round_off)
+      throw std::invalid_argument(
+          "HostOperator::vmult() " + what
+          + ". Leave no more than the diagonal in rows and columns of unknowns "
+            "that the constraints eliminate.");
   }
 
   bool HostSolver::is_definite() const

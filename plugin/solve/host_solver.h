@@ -24,12 +24,11 @@ namespace abut::solve
   public:
     explicit HostSolver(const SolverParameters &parameters);
 
-    void set_near_null_space(const NearNullSpace &) override
-    {
-    }
+    void set_near_null_space(const NearNullSpace &space) override;
 
     /** Throws std::invalid_argument if the host's diagonal is not positive, or
-     * is not that of its products where a row looks. */
+     * is not that of its products where a row looks, or if products couple
+     * unknowns whose values are prescribed. */
     void reinit(const Stiffness &stiffness, const PointOperator &rows,
                 const std::vector<double> &row_stiffness) override;
 
@@ -45,13 +44,19 @@ namespace abut::solve
 
   private:
     bool is_definite() const;
+    void take_host(const Stiffness &stiffness, const PointOperator &rows);
     void check_diagonal() const;
     void check_entry() const;
+    void check_prescribed() const;
+    /** Throw unless forces by noise on one kind of unknowns are 0 on the other.
+     */
+    void check_apart(bool from_prescribed, const std::string &what) const;
     /** What is wrong with K or M, as far as vectors without structure tell;
      * empty: nothing. Collective. */
     std::string faults() const;
 
     SolverParameters parameters_;
+    CommonArray<std::uint8_t> prescribed_; ///< [owned]; empty: not known
     Stiffness stiffness_;
     bool is_symmetric_ = true;
     std::vector<double> scaling_; ///< [owned] S

@@ -406,6 +406,18 @@ namespace
            "'" + words + "' is said, not: " + message);
   }
 
+  /** Products that forget what is prescribed. */
+  class Forgetful : public hosts::ElasticOperator<2>
+  {
+  public:
+    using ElasticOperator::ElasticOperator;
+
+    void vmult(la::Vector &dst, const la::Vector &src) const override
+    {
+      multiply(dst, src);
+    }
+  };
+
   void errors()
   {
     ElasticBlocks<2> blocks(two_blocks(1));
@@ -430,6 +442,11 @@ namespace
     expect_need("Solver/Linear solver = direct", {}, solver);
 
     BlockCase run = two_blocks(1);
+    Forgetful forgetful(blocks.mapping, blocks.dof_handler, blocks.constraints,
+                        run.materials, false);
+    expect_error("displacements of prescribed ones",
+                 [&] { press(blocks, pair, forgetful); });
+
     run.fixed = {block_side::bottom};
     ElasticBlocks<2> loose(run);
     expect_error("Nothing holds the bodies",

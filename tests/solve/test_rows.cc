@@ -489,11 +489,13 @@ namespace
                                     communicator);
     SolverParameters parameters;
     parameters.max_iterations = 2;
+    solve::NearNullSpace space;
     const auto solve_with = [&](Host &host)
     {
       const solve::Stiffness stiffness(host, share.owned, communicator);
       const auto solver =
           solve::make_row_solver(System::automatic, parameters, rows, false);
+      solver->set_near_null_space(space);
       solver->reinit(stiffness, rows, solve::row_stiffness(share.matrix, rows));
       solver->solve(share.residual, share.request(1e-13), 1e-14,
                     share.increment);
@@ -510,6 +512,13 @@ namespace
                                         [&] { solve_with(host); });
     host.factor = -1.;
     expect_error<std::invalid_argument>("must be positive",
+                                        [&] { solve_with(host); });
+    // No row and column is only its diagonal.
+    host.factor = 1.;
+    space.prescribed.change().assign(share.n, 0);
+    if (share.n > 0)
+      space.prescribed.change()[0] = 1;
+    expect_error<std::invalid_argument>("displacements of prescribed ones",
                                         [&] { solve_with(host); });
   }
 
