@@ -259,15 +259,9 @@ namespace abut
                                           "the first solve()."));
     if (abut_law_needs_open_start(i.method.options.law))
       i.push_inside(displacement);
-    else if (i.surfaces == nullptr)
-    {
-      AssertThrow(tangent.has_matrix(),
-                  ExcMessage("Sweeps over the unknowns need the matrix of the "
-                             "tangent, not a HostOperator: do without them."));
-      i.check_size("relax()", "matrix", tangent.matrix().m());
-      i.start_state = i.source->relax(tangent.matrix(), residual, i.gap,
-                                      n_sweeps, displacement);
-    }
+    else
+      i.start_state = i.source->relax(i.stiffness_of("relax()", tangent),
+                                      residual, i.gap, n_sweeps, displacement);
     i.start_displacement = displacement;
     i.compute_gap(displacement);
   }

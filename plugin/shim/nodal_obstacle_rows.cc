@@ -267,10 +267,14 @@ namespace abut::shim
 
   template <int dim>
   std::vector<std::uint8_t> NodalObstacleRows<dim>::relax(
-      const la::Matrix &matrix, const la::Vector &residual,
+      const Tangent &tangent, const la::Vector &residual,
       const std::vector<double> &gap, const unsigned int n_sweeps,
       la::Vector &displacement) const
   {
+    AssertThrow(tangent.has_matrix(),
+                dealii::ExcMessage("Sweeps over the unknowns need the matrix "
+                                   "of the tangent, not a HostOperator: do "
+                                   "without them."));
     const double infinity = std::numeric_limits<double>::infinity();
     std::vector<double> lower(la::n_owned(displacement), -infinity);
     std::vector<double> upper(la::n_owned(displacement), infinity);
@@ -281,8 +285,8 @@ namespace abut::shim
         lower[unknown(i)] = -gap[i];
 
     la::Vector correction = nodal_vector();
-    solve::projected_gauss_seidel(matrix, residual, lower, upper, n_sweeps,
-                                  correction);
+    solve::projected_gauss_seidel(tangent.matrix(), residual, lower, upper,
+                                  n_sweeps, correction);
     const double *d = la::data(correction);
     std::vector<std::uint8_t> state(n_rows());
     for (int i = 0; i < n_rows(); ++i)

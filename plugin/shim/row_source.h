@@ -6,7 +6,7 @@
 #include "solve/gap_line.h"
 #include "solve/node_map.h"
 
-#include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/host_operator.h>
 #include <abut/points.h>
 
 #include <array>
@@ -160,8 +160,8 @@ namespace abut::shim
 
     /** Improve the start by projected relaxation, if these rows allow it:
      * changes @p displacement and returns the states of the rows, or returns
-     * nothing and changes nothing. Collective. */
-    virtual std::vector<std::uint8_t> relax(const la::Matrix &matrix,
+     * nothing and changes nothing. Rows that do need a matrix. Collective. */
+    virtual std::vector<std::uint8_t> relax(const Tangent &tangent,
                                             const la::Vector &residual,
                                             const std::vector<double> &gap,
                                             unsigned int n_sweeps,

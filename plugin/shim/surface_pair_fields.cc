@@ -164,7 +164,7 @@ namespace abut::shim
 
   template <int dim>
   std::vector<std::uint8_t>
-  SurfacePairRows<dim>::relax(const la::Matrix &, const la::Vector &,
+  SurfacePairRows<dim>::relax(const Tangent &, const la::Vector &,
                               const std::vector<double> &, unsigned int,
                               la::Vector &) const
   {
@@ -254,7 +254,7 @@ namespace abut::shim
   template la::Vector SurfacePairRows<dim>::status(const std::uint8_t *)       \
       const;                                                                   \
   template std::vector<std::uint8_t> SurfacePairRows<dim>::relax(              \
-      const la::Matrix &, const la::Vector &, const std::vector<double> &,     \
+      const Tangent &, const la::Vector &, const std::vector<double> &,        \
       unsigned int, la::Vector &) const;                                       \
   template bool SurfacePairRows<dim>::is_free(Node, unsigned int) const;       \
   template double SurfacePairRows<dim>::own_freedom(Node, const Direction &)   \

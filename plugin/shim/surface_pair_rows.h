@@ -112,7 +112,7 @@ namespace abut::shim
     la::Vector pressure(const double *row_pressure) const override;
     la::Vector gap(const double *row_gap) const override;
     la::Vector status(const std::uint8_t *row_state) const override;
-    std::vector<std::uint8_t> relax(const la::Matrix &matrix,
+    std::vector<std::uint8_t> relax(const Tangent &tangent,
                                     const la::Vector &residual,
                                     const std::vector<double> &gap,
                                     unsigned int n_sweeps,

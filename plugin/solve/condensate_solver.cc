@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "condensate_solver.h"
 
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_gmres.h>
+
+#include <algorithm>
+
 namespace abut::solve
 {
   void CondensateSolver::take(const Stiffness &stiffness,
@@ -8,6 +13,7 @@ namespace abut::solve
   {
     rows_ = &rows;
     diagonal_ = stiffness.diagonal();
+    is_symmetric_ = is_symmetric(stiffness);
     matrix_.reinit(stiffness, rows);
   }
 
@@ -28,5 +34,37 @@ namespace abut::solve
     for (std::size_t i = 0; i < soft.size(); ++i)
       la::data(force)[i] *= soft[i] * soft[i];
     return force.l2_norm();
+  }
+
+  void CondensateSolver::iterate(const la::Vector &rhs,
+                                 dealii::SolverControl &control, la::Vector &x,
+                                 LinearReport &report) const
+  {
+    const auto count = [&]
+    {
+      report.n_iterations += control.last_step();
+      report.n_matvecs += control.last_step();
+    };
+    try
+    {
+      if (is_definite())
+      {
+        dealii::SolverCG<la::Vector> solver(control);
+        solver.connect_condition_number_slot(
+            [&](const double estimate)
+            { report.condition = std::max(report.condition, estimate); });
+        solver.solve(matrix_, x, rhs, Cycle(*this));
+      }
+      else
+        dealii::SolverFGMRES<la::Vector>(
+            control, dealii::SolverFGMRES<la::Vector>::AdditionalData(60))
+            .solve(matrix_, x, rhs, Cycle(*this));
+    }
+    catch (...)
+    {
+      count();
+      throw;
+    }
+    count();
   }
 } // namespace abut::solve

@@ -8,6 +8,10 @@
 
 #include <abut/dealii/solver_parameters.h>
 
+#include <deal.II/lac/solver_control.h>
+
+#include <string>
+
 namespace abut::solve
 {
   /** Solves with a CondensedMatrix. */
@@ -72,8 +76,26 @@ namespace abut::solve
      * 1 without springs. Collective. */
     std::vector<double> softness() const;
 
+    /** Whether conjugate gradients may be used. */
+    bool is_definite() const
+    {
+      return is_symmetric_ && !matrix_.has_blocks();
+    }
+
+    /** What iterates, in words. */
+    std::string krylov_method() const
+    {
+      return is_definite() ? "conjugate gradients" : "FGMRES";
+    }
+
+    /** Iterate from @p x by precondition(), and count in @p report. Throws
+     * what @p control does. Collective. */
+    void iterate(const la::Vector &rhs, dealii::SolverControl &control,
+                 la::Vector &x, LinearReport &report) const;
+
     const PointOperator *rows_ = nullptr;
     std::vector<double> diagonal_; ///< [owned] of K
+    bool is_symmetric_ = true;     ///< K
     CondensedMatrix matrix_;
   };
 

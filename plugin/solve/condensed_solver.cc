@@ -5,8 +5,6 @@
 #include "geometric_multigrid.h"
 
 #include <deal.II/base/timer.h>
-#include <deal.II/lac/solver_cg.h>
-#include <deal.II/lac/solver_gmres.h>
 
 #include <algorithm>
 #include <cmath>
@@ -113,7 +111,6 @@ namespace abut::solve
     stiffness_ = &stiffness;
     has_new_matrix_ = true;
     row_stiffness_ = row_stiffness;
-    is_symmetric_ = is_symmetric(stiffness);
     choice_.choose(stiffness, space_, is_symmetric_);
   }
 
@@ -358,8 +355,8 @@ namespace abut::solve
   {
     if (is_direct())
       return DirectSolver::name();
-    return std::string(is_definite() ? "conjugate gradients" : "FGMRES") + ", "
-           + choice_.name() + (filter_ ? " with contact filter" : "");
+    return krylov_method() + ", " + choice_.name()
+           + (filter_ ? " with contact filter" : "");
   }
 
   void CondensedSolver::find_friction()
@@ -448,28 +445,15 @@ namespace abut::solve
     bool converged = true;
     try
     {
-      if (is_definite())
-      {
-        dealii::SolverCG<la::Vector> solver(control);
-        solver.connect_condition_number_slot(
-            [&](const double estimate)
-            { report.condition = std::max(report.condition, estimate); });
-        solver.solve(matrix_, x, rhs, Cycle(*this));
-      }
-      else
-        dealii::SolverFGMRES<la::Vector>(
-            control, dealii::SolverFGMRES<la::Vector>::AdditionalData(60))
-            .solve(matrix_, x, rhs, Cycle(*this));
+      CondensateSolver::iterate(rhs, control, x, report);
     }
     catch (const dealii::SolverControl::NoConvergence &failure)
     {
       converged = false;
       if (!keeper_.is_kept() && !choice_.is_geometric())
-        throw_failure(is_definite() ? "Conjugate gradients" : "FGMRES", failure,
-                      tolerance);
+        throw_failure(krylov_method(), failure, tolerance);
     }
-    report.n_iterations += control.last_step();
-    report.n_matvecs += control.last_step() * (filter_ ? 3 : 1);
+    report.n_matvecs += control.last_step() * (filter_ ? 2 : 0);
     if (converged)
       keeper_.note_speed(digits, control.last_step());
     return converged;

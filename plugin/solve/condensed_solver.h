@@ -68,11 +68,6 @@ namespace abut::solve
      * size of the stiffness, not of the springs. Collective. */
     void subtract_friction(la::Vector &force) const;
     void cycle(la::Vector &dst, const la::Vector &src) const;
-    /** Whether conjugate gradients may be used. */
-    bool is_definite() const
-    {
-      return is_symmetric_ && !matrix_.has_blocks();
-    }
     void build();
     std::string method() const;
     bool has_stiff_springs() const;
@@ -97,7 +92,6 @@ namespace abut::solve
     NearNullSpace space_;
     const la::Matrix *stiffness_ = nullptr;
     std::vector<double> row_stiffness_;
-    bool is_symmetric_ = true;
     MultigridChoice choice_;
 
     /** What the preconditioner was built on. */

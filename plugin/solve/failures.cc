@@ -4,6 +4,7 @@
 #include <abut/dealii/coded.h>
 #include <abut/dealii/solver_parameters.h>
 
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -14,7 +15,8 @@ namespace abut::solve
                      const double tolerance)
   {
     std::ostringstream text;
-    text << method << " ended after " << failure.last_step
+    text << static_cast<char>(std::toupper(method[0])) << method.substr(1)
+         << " ended after " << failure.last_step
          << " iterations with a residual of " << failure.last_residual
          << " where " << tolerance << " was asked for. ";
     if (std::isfinite(failure.last_residual))

@@ -4,7 +4,7 @@
 
 #include "condensate_solver.h"
 
-#include <string>
+#include <cstdint>
 #include <vector>
 
 namespace abut::solve
@@ -43,22 +43,11 @@ namespace abut::solve
     void precondition(la::Vector &dst, const la::Vector &src) const override;
 
   private:
-    bool is_definite() const;
     void take_host(const Stiffness &stiffness, const PointOperator &rows);
-    void check_diagonal() const;
-    void check_entry() const;
-    void check_prescribed() const;
-    /** Throw unless forces by noise on one kind of unknowns are 0 on the other.
-     */
-    void check_apart(bool from_prescribed, const std::string &what) const;
-    /** What is wrong with K or M, as far as vectors without structure tell;
-     * empty: nothing. Collective. */
-    std::string faults() const;
 
     SolverParameters parameters_;
     CommonArray<std::uint8_t> prescribed_; ///< [owned]; empty: not known
     Stiffness stiffness_;
-    bool is_symmetric_ = true;
     std::vector<double> scaling_; ///< [owned] S
     mutable la::Vector scaled_;
   };

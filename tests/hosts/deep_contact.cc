@@ -3,6 +3,8 @@
 // loop, and a rigid parabola or circle that is pressed deep into it, with
 // points that move. Figures are those of two programs that share no code with
 // this one or with each other, to 4e-12 (Q1, 2 x 2 Gauss, plane strain).
+#include "expect.h"
+
 #include <abut/dealii/contact_assembler.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -27,19 +29,8 @@ using namespace dealii;
 
 namespace
 {
-  bool good = true;
-
-  bool is_first_rank()
-  {
-    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-  }
-
-  void expect(const bool holds, const std::string &what)
-  {
-    if (!holds && is_first_rank())
-      std::cout << "FAILED: " << what << std::endl;
-    good = good && holds;
-  }
+  using hosts::expect;
+  using hosts::is_first_rank;
 
   void expect_near(const double value, const double exact, const double bound,
                    const std::string &what)
@@ -492,5 +483,5 @@ main(int argc, char **argv)
   check<3>(true, {0.1, 8, 3, 0.048037653521, 6.059548693e-3, 2.076926431e-3,
                   -1.906636221e-3, 4.129433877e-4});
   check_law("penalty", std::nullopt, 0.05);
-  return good ? 0 : 1;
+  return hosts::good ? 0 : 1;
 }

@@ -3,6 +3,8 @@
 // contact: the same answers as from the assembled matrix, which Abut factorises
 // or preconditions itself; and the exact ones where they are known.
 #include "elastic_blocks.h"
+#include "expect.h"
+#include "jacobi_host.h"
 
 #include <abut/dealii/contact_solver.h>
 
@@ -21,19 +23,8 @@ namespace block_side = hosts::block_side;
 
 namespace
 {
-  bool good = true;
-
-  bool is_first_rank()
-  {
-    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-  }
-
-  void expect(const bool holds, const std::string &what)
-  {
-    if (!holds && is_first_rank())
-      std::cout << "FAILED: " << what << std::endl;
-    good = good && holds;
-  }
+  using hosts::expect;
+  using hosts::is_first_rank;
 
   void expect_at_most(const double value, const double bound,
                       const std::string &what)
@@ -260,37 +251,6 @@ namespace
     }
   }
 
-  /** A matrix that is not shown. */
-  class Hidden : public HostOperator
-  {
-  public:
-    explicit Hidden(const la::Matrix &matrix) : matrix_(matrix)
-    {
-    }
-
-    void vmult(la::Vector &dst, const la::Vector &src) const override
-    {
-      matrix_.vmult(dst, src);
-    }
-
-    void diagonal(la::Vector &result) const override
-    {
-      for (const auto i : result.locally_owned_elements())
-        result(i) = matrix_.diag_element(i);
-      result.compress(dealii::VectorOperation::insert);
-    }
-
-    void precondition(la::Vector &dst, const la::Vector &src) const override
-    {
-      for (const auto i : dst.locally_owned_elements())
-        dst(i) = src(i) / matrix_.diag_element(i);
-      dst.compress(dealii::VectorOperation::insert);
-    }
-
-  private:
-    const la::Matrix &matrix_;
-  };
-
   /** Laplace's operator of all cells. */
   void assemble_laplacian(const dealii::DoFHandler<2> &dof_handler,
                           const dealii::AffineConstraints<double> &constraints,
@@ -366,7 +326,7 @@ namespace
         std::make_shared<dealii::Functions::ConstantFunction<2>>(-0.2);
     obstacle.upper =
         std::make_shared<dealii::Functions::ConstantFunction<2>>(0.4);
-    Hidden host(matrix);
+    tests::JacobiHost host(matrix);
     const auto solve_with = [&](const Tangent &tangent)
     {
       ContactAssembler<2> contact(MPI_COMM_WORLD);
@@ -531,5 +491,5 @@ main(int argc, char **argv)
   holding();
   membrane();
   errors();
-  return good ? 0 : 1;
+  return hosts::good ? 0 : 1;
 }

@@ -2,6 +2,7 @@
 // Random rows, with columns of other ranks, against a dense solution: every
 // back-end, every kind of law, ranks without rows or without unknowns.
 #include "../app_blocks/run_checks.h"
+#include "../hosts/jacobi_host.h"
 #include "dense_problem.h"
 #include "solve/gap_substitution.h"
 #include "solve/make_row_solver.h"
@@ -362,34 +363,23 @@ namespace
               }
             }
   }
-  /** K by products, with Jacobi's preconditioner. */
-  class Host : public HostOperator
+  /** What may be wrong with a host, and what it is told. */
+  class Host : public JacobiHost
   {
   public:
-    explicit Host(const la::Matrix &matrix) : matrix_(matrix)
-    {
-    }
-
-    void vmult(la::Vector &dst, const la::Vector &src) const override
-    {
-      matrix_.vmult(dst, src);
-    }
+    using JacobiHost::JacobiHost;
 
     void diagonal(la::Vector &result) const override
     {
-      const std::vector<double> values = la::diagonal(la::local_rows(matrix_));
-      for (std::size_t i = 0; i < values.size(); ++i)
-        la::data(result)[i] = factor * values[i];
+      JacobiHost::diagonal(result);
+      result *= factor;
     }
 
     void precondition(la::Vector &dst, const la::Vector &src) const override
     {
-      const std::vector<double> values = la::diagonal(la::local_rows(matrix_));
-      for (std::size_t i = 0; i < values.size(); ++i)
-        la::data(dst)[i] = la::data(src)[i] / values[i];
-      if (is_lopsided)
-        for (std::size_t i = 1; i < values.size(); ++i)
-          la::data(dst)[i] += 0.3 * la::data(src)[i - 1];
+      JacobiHost::precondition(dst, src);
+      for (int i = 1; is_lopsided && i < la::n_owned(src); ++i)
+        la::data(dst)[i] += 0.3 * la::data(src)[i - 1];
     }
 
     void hold(const std::vector<std::uint8_t> &now) override
@@ -400,9 +390,6 @@ namespace
     double factor = 1.;       ///< of the diagonal, which is wrong then
     bool is_lopsided = false; ///< the preconditioner
     std::vector<std::uint8_t> held;
-
-  private:
-    const la::Matrix &matrix_;
   };
 
   /** Pivots that rows of single unknowns hold are told, and no others. */
