@@ -214,6 +214,27 @@ p.expect("F21" not in said, f"corners that are meant: {said}")
 said, _ = pressed("", 0.2)
 p.expect("F21" not in said, f"pressed flat: {said}")
 
+# Where nothing is refined, nothing follows: listed, and refused from --set.
+def unused(level, *lines):
+    """What the report lists as not used of a ring of eight facets."""
+    scene = p.write("coarse.prm", solid(
+        2, body(ring("coarse.inp", 1, 2, 2), "0, 1: circle: 0, 0", *lines,
+                "Young modulus = 1000", "Pressure = 0: 1",
+                "Support = 2: 0, free; 3: free, 0"),
+        section("Refinement", f"Level = {level}"),
+        bodies=1).replace("Pairs = 1", "Pairs = 0"))
+    return [line for line in run(scene, [])[1]["not_used"]
+            if "Curved sides" in line]
+
+
+p.expect(unused(0) == ["Body 1/Mesh/Curved sides: the mesh is used as it is "
+                       "made, with straight facets: refine it "
+                       "(Refinement/Level)."], f"level 0: {unused(0)}")
+p.expect(unused(0, "Refinements = 1") == unused(1) == [], "refined")
+result, _ = press_fit(curved(), "Refinement/Level=0",
+                      "Refinement/Coarsest level=0", code=2, command="check")
+p.expect_error(result, "Curved sides", "has no effect", "refine it")
+
 # Mistakes.
 for sides, words in (
         ("0, 1: circle: 0, 0.1", ["Body 1/Mesh/Curved sides", "the node (",

@@ -306,10 +306,6 @@ class MembraneJudge:
         if self.method in ADHESIVE:
             self.findings.leave("tension", "the law is adhesive")
             return
-        if of_balance(self.scene, self.summary) is None:
-            self.findings.leave("tension",
-                                "the target error sets the tolerances")
-            return
         limit = THRESHOLDS["tension"]
         # quadratic interpolation between parents overshoots
         hanging = (self.between_sizes(self.single_sides())[2]

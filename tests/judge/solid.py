@@ -595,15 +595,12 @@ class SolidJudge:
                                 "the bodies do not touch")
             return
         both = self.degree > 1 or pair.secondary == pair.primary
-        loose = of_balance(self.scene, self.summary, self.large) is None
-        if both or self.by_stress or loose:
+        if both or self.by_stress:
             self.findings.leave(
                 f"tension of pair {pair.number} in the fields",
                 "nodal forces of quadratic facets, and of surfaces that touch "
                 "themselves, have both signs" if both else
-                "nodal forces are residuals" if self.by_stress else
-                "the target error sets the tolerances, and nodal forces are "
-                "what is left over")
+                "nodal forces are residuals")
             return
         wanted = set(map(id, Pair.facets(pair.secondary, self.facets)))
         values = [v for facet, own in zip(self.facets,

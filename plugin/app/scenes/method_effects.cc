@@ -233,6 +233,26 @@ namespace abut::app
                                     : "the mesh is read from the file that "
                                           + file + " names.";
                        }});
+    rules.push_back(
+        {section + "/Curved sides", Weight::setting,
+         [](const SceneValues &values, const std::string &path)
+         {
+           // The parameters of a body stand around those of its mesh.
+           const std::string inner = section_of(path),
+                             outer = section_of(inner);
+           const bool in_scene = values.is_declared("Refinement/Level")
+                                 && !values.is_declared(inner + "/Refinements");
+           return values.number(inner + "/Refinements") > 0.
+                          || values.number(outer + "/Refinements") > 0.
+                          || (in_scene
+                              && (is_adaptive(values)
+                                  || values.number("Refinement/Level") > 0.))
+                      ? std::string()
+                      : "the mesh is used as it is made, with straight facets: "
+                        "refine it"
+                            + std::string(in_scene ? " (Refinement/Level)."
+                                                   : " (Refinements).");
+         }});
     return rules;
   }
 

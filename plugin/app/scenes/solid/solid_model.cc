@@ -354,7 +354,14 @@ namespace abut::app
                               data.materials, pairs->surfaces(), force,
                               &status);
     };
-    la::Vector forces = unbalanced_forces();
+    // Those of the pressures have none of what solvers leave over, which would
+    // pull at open nodes.
+    const bool by_pressures =
+        !motion && !abut_law_needs_stress(run.method.options.law);
+    la::Vector forces =
+        by_pressures ? elasticity.vector() : unbalanced_forces();
+    if (by_pressures)
+      run.contact.add_contact_forces(forces);
     const la::Vector traction = per_area(forces);
     la::Vector normal(traction), along;
     if (tells_friction_apart())
