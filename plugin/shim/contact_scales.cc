@@ -12,6 +12,12 @@ namespace abut
 {
   namespace MPI = dealii::Utilities::MPI;
 
+  namespace
+  {
+    // What is smaller has no square, and norms do not see it: as good as 0.
+    constexpr double least_scale = 1e-150;
+  } // namespace
+
   template <int dim>
   void ContactAssembler<dim>::Implementation::set_scales(
       const solve::Stiffness &matrix, const la::Vector &residual)
@@ -30,7 +36,8 @@ namespace abut
     weight = MPI::sum(weight, communicator);
     const double load = std::max(residual.l1_norm(), internal.l1_norm());
     abut_strategy_options &options = method.options;
-    options.pressure_scale = load > 0. && weight > 0. ? load / weight : 1.;
+    options.pressure_scale =
+        load > least_scale && weight > 0. ? load / weight : 1.;
     options.length_scale = length_scale();
     if (surfaces == nullptr || weight <= 0.)
       return;
@@ -42,7 +49,7 @@ namespace abut
         std::numeric_limits<double>::epsilon() * unmeasured_length();
     const double length =
         std::max(measured_length(), options.pressure_scale * soft);
-    if (load <= 0.)
+    if (load <= least_scale)
       options.pressure_scale = options.length_scale / soft;
     else if (given_length == 0. && start_displacement.linfty_norm() == 0.
              && length > least)
@@ -93,7 +100,7 @@ namespace abut
   double ContactAssembler<dim>::Implementation::measured_length() const
   {
     const double way = length_scale(start_displacement);
-    if (way > 0.)
+    if (way > least_scale)
       return way;
     // The harmonic mean of the gaps: parts of an obstacle that are out of
     // reach do not count.

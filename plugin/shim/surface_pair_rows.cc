@@ -63,6 +63,15 @@ namespace abut::shim
                          [&](const auto id) { return b.count(id) > 0; });
     }
 
+    /** Whether two pairs have facets of both sides in common. */
+    template <int dim>
+    bool are_the_same(const ContactPair<dim> &a, const ContactPair<dim> &b)
+    {
+      return have_common(a.secondary, b.secondary)
+             && (have_common(a.primary, b.primary)
+                 || (a.obstacle != nullptr && a.obstacle == b.obstacle));
+    }
+
     /** Whether two pairs are one with its sides exchanged. */
     template <int dim>
     bool are_both_sides(const ContactPair<dim> &a, const ContactPair<dim> &b)
@@ -136,8 +145,14 @@ namespace abut::shim
     if (!no_friction.empty())
       throw ContactError("Pair '" + data.name + "': " + no_friction);
     for (const Pair &other : pairs_)
-      if (are_both_sides(data, other.data)
-          && (data.tied || !abut_law_has_penalty(&law)))
+      if (are_the_same(data, other.data))
+        refuse(pair, "some of its surface touches what it touches in pair '"
+                         + other.data.name
+                         + "', too, and would be held there twice. Leave one "
+                           "of the pairs out, or name each boundary id in one "
+                           "of them only.");
+      else if (are_both_sides(data, other.data)
+               && (data.tied || !abut_law_has_penalty(&law)))
         refuse(pair,
                coded(ABUT_FAILURE_BOTH_SIDES,
                      "it has the sides of pair '" + other.data.name

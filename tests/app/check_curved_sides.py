@@ -214,7 +214,7 @@ p.expect("F21" not in said, f"corners that are meant: {said}")
 said, _ = pressed("", 0.2)
 p.expect("F21" not in said, f"pressed flat: {said}")
 
-# Where nothing is refined, nothing follows: listed, and refused from --set.
+# Where nothing is refined, nothing follows: listed.
 def unused(level, *lines):
     """What the report lists as not used of a ring of eight facets."""
     scene = p.write("coarse.prm", solid(
@@ -231,9 +231,6 @@ p.expect(unused(0) == ["Body 1/Mesh/Curved sides: the mesh is used as it is "
                        "made, with straight facets: refine it "
                        "(Refinement/Level)."], f"level 0: {unused(0)}")
 p.expect(unused(0, "Refinements = 1") == unused(1) == [], "refined")
-result, _ = press_fit(curved(), "Refinement/Level=0",
-                      "Refinement/Coarsest level=0", code=2, command="check")
-p.expect_error(result, "Curved sides", "has no effect", "refine it")
 
 # Mistakes.
 for sides, words in (

@@ -41,6 +41,12 @@ refused("two-blocks-3d.prm", ("Method/Multiplier degree", "1"), NO_EFFECT)
 refused("two-blocks-3d.prm", ("Solid/Plane", "stress"), NO_EFFECT)
 refused("two-blocks-3d.prm", ("Solid/Obstacles", "1"), NO_EFFECT, "obstacle 1")
 refused("two-blocks-3d.prm", ("Search/Thickness", "77: 1"), "77")
+refused("two-blocks-3d.prm", {"Solid/Pairs": "2", "Pair 2/Primary": "1: 5",
+                              "Pair 2/Secondary": "2: 4, 5"},
+        "in pair 'Pair 1', too")
+refused("rigid-plate.prm", {"Solid/Pairs": "2", "Pair 2/Obstacle": "1",
+                            "Method/Enforcement": "penalty",
+                            "Pair 2/Secondary": "1: *"}, "in pair 'Pair 1', too")
 refused("rigid-plate.prm", ("Obstacle 1/Rotation centre", "1, 0"), NO_EFFECT,
         "Rotation angle")
 refused("pipe.prm", {"Body 1/Support": "0: 0, 0; 2: free, 0; 3: 0, free",

@@ -3,7 +3,7 @@
 answer by the same number of steps, with every law. In units that are powers of
 two there is not even another round-off: a disc in rubber with friction, by rows
 and by saddle points, and a mass that strikes a bar give the same digits."""
-from program import Program
+from program import Program, set_words
 
 # One unit of length of the scene as a number of the other system's.
 LENGTH = 1e-3
@@ -87,4 +87,40 @@ for scene, what in ((disc, "auto"), (disc, "mortar"), (bar, "hht"),
                      summary["deformation"] / length))
     for run in runs[1:]:
         p.expect(run == runs[0], f"{name}, {what}: {run} and {runs[0]}")
+
+# Loads are as small as numbers may be whose squares are more than 0.
+def bent(force, code=0):
+    """Deflection of the cantilever, and what is said."""
+    result = p.call("run", p.source / "prm/cantilever.prm", "--output", "out",
+                    "--quiet", "--set", f"Body 1/Traction=1: 0, {force}*(1-y^2)",
+                    "--set", "Output/Fields=false")
+    p.expect(result.returncode == code, f"{force}: {result.returncode}")
+    return p.results()[0]["point_1"][1], result.stderr
+
+
+one, _ = bent(1.)
+for force in 1e-90, 1e-140:
+    p.close(bent(force)[0] / force / one, 1., 1e-8, f"deflection by {force}")
+for force in 1e-165, 1e-310:
+    _, said = bent(force, code=3)
+    p.expect("other units of loads" in said, f"{force}: {said}")
+# Beside other loads they are nothing, and no error.
+small, _ = p.solve_with("dragged-block.prm", {"Body 1/Pressure": "1: 1e-300"})
+none, _ = p.solve_with("dragged-block.prm", {})
+p.close(small["contact_force"], none["contact_force"], 1e-12, "a load of 1e-300")
+
+# Files of fields have seven digits, the solution has all.
+for place, is_far in (0, False), (1e4, False), (1e6, True):
+    where = {f"Body {body}/Mesh/Move": f"{place}, 0, {body - 1}"
+             for body in (1, 2)}
+    settings = {"Refinement/Level": "1", **where}
+    for fields in "true", "false":
+        result = p.call("run", p.source / "prm/two-blocks-3d.prm", "--output",
+                        "out", *set_words({**settings, "Output/Fields": fields}))
+        p.expect(result.returncode == 0, result.stderr)
+        p.expect(("seven digits" in result.stderr)
+                 == (is_far and fields == "true"), f"{place}: {result.stderr}")
+    force = p.results()[0]["contact_force"]
+    near = force if place == 0 else near
+    p.close(force / near, 1., 1e-8, f"force at {place}")
 p.finish()

@@ -180,7 +180,9 @@ solve(void *user, const abut_request *r)
   membrane *s = user;
   if (r->action == ABUT_ACTION_SOLVE)
   {
-    build_matrix(s, r);
+    /* A factor is kept for as long as the strategy says that it may be. */
+    if (r->matrix_changed != 0)
+      build_matrix(s, r);
     if (s->n_sets < 64)
       s->set_size[s->n_sets++] = membrane_n_active(s);
   }

@@ -104,11 +104,23 @@ options_are_checked(void **unused)
   assert_int_equal(abut_strategy_create(context, &options, &none),
                    ABUT_INVALID_ARGUMENT);
   options = abut_strategy_defaults();
-  abut_law incomplete = *abut_law_find("lagrange");
-  incomplete.linearise = NULL;
-  options.law = &incomplete;
-  assert_int_equal(abut_strategy_create(context, &options, &none),
-                   ABUT_INVALID_ARGUMENT);
+  for (int missing = 0; missing < 5; ++missing)
+  {
+    abut_law incomplete = *abut_law_find("lagrange");
+    if (missing == 0)
+      incomplete.linearise = NULL;
+    else if (missing == 1)
+      incomplete.classify = NULL;
+    else if (missing == 2)
+      incomplete.name = NULL;
+    else if (missing == 3)
+      incomplete.struct_size -= 1;
+    else
+      incomplete.outer = (abut_outer)77;
+    options.law = &incomplete;
+    assert_int_equal(abut_strategy_create(context, &options, &none),
+                     ABUT_INVALID_ARGUMENT);
+  }
   assert_null(none);
   assert_ok(abut_strategy_destroy(&none));
   assert_int_equal(abut_strategy_destroy(NULL), ABUT_INVALID_ARGUMENT);

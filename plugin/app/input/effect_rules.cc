@@ -139,7 +139,9 @@ namespace abut::app
         const std::string why = rule.without_effect(values, path);
         if (why.empty())
           continue;
-        if (rule.weight == Weight::data || values.is_from_command_line(path))
+        if (rule.weight == Weight::data
+            || (rule.weight == Weight::setting
+                && values.is_from_command_line(path)))
           throw InputError(path, "has no effect: " + why);
         listed.push_back(path + ": " + why);
         seen.insert(path);

@@ -57,9 +57,10 @@ namespace abut::app
   /** What a parameter without effect is. */
   enum class Weight
   {
-    data,   /**< of the problem: the answer is not what was meant, an error */
-    setting /**< of a method that the run does not use: listed under "not
-                 used", and an error if it was given by `--set` */
+    data,    /**< of the problem: the answer is not what was meant, an error */
+    setting, /**< of a method that the run does not use: listed under "not
+                  used", and an error if it was given by `--set` */
+    addition /**< says more of what is there already, as of a mesh: listed */
   };
 
   /** When the parameters of a name do something. */

@@ -3,6 +3,7 @@
 #include "field_output.h"
 
 #include "app/input/collective.h"
+#include "app/input/short_number.h"
 #include "app/restart/disk.h"
 
 #include <deal.II/base/data_out_base.h>
@@ -10,6 +11,7 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_out_faces.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace abut::app
@@ -92,6 +94,27 @@ namespace abut::app
                    });
     }
   } // namespace
+
+  template <int dim>
+  std::string
+  lost_digits_of_places(const dealii::Triangulation<dim> &triangulation)
+  {
+    // Cells that are smaller beside their distance from the origin are off by a
+    // hundredth.
+    constexpr double least_size = 6e-6;
+    double size = 1.;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        size = std::min(size, cell->diameter() / cell->center().norm());
+    size = dealii::Utilities::MPI::min(size, triangulation.get_communicator());
+    if (size >= least_size)
+      return "";
+    return "Cells are as small as " + short_number(size, 2)
+           + " of their distance from the origin. Places in files of fields "
+             "have seven digits, and pictures made of them will show cells out "
+             "of shape, though what was computed has all digits, as has "
+             "nodal.csv (Output/Nodal values). Move the mesh nearer.";
+  }
 
   FieldSeries::FieldSeries(std::filesystem::path folder, std::string name,
                            MPI_Comm communicator)
@@ -182,6 +205,8 @@ namespace abut::app
     append(time, output);
   }
 
+  template std::string lost_digits_of_places(const dealii::Triangulation<2> &);
+  template std::string lost_digits_of_places(const dealii::Triangulation<3> &);
   template void FieldSeries::write<2>(double, const Fields<2> &);
   template void FieldSeries::write<3>(double, const Fields<3> &);
 } // namespace abut::app

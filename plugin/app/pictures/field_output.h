@@ -40,6 +40,13 @@ namespace abut::app
     std::set<dealii::types::boundary_id> faces = {};
   };
 
+  /** Why the places in files of fields, which are numbers of 32 bits, do not
+   * tell the corners of the cells of a mesh apart, as a sentence; empty if they
+   * do. Collective. */
+  template <int dim>
+  std::string
+  lost_digits_of_places(const dealii::Triangulation<dim> &triangulation);
+
   /** A series of fields over time or mesh level. The PVD file is written anew
    * with every step, so that a run that is killed leaves usable files. */
   class FieldSeries

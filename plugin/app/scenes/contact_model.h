@@ -327,6 +327,9 @@ namespace abut::app
     /** @name What it leaves behind @{ */
     virtual void write_fields() = 0;
 
+    /** Whether write_fields() writes anything. */
+    virtual bool has_fields() const = 0;
+
     /** What a checkpoint keeps of the model beside what is in the state of the
      * run, as bytes of the archive; not collective. */
     virtual std::string save_state() const = 0;

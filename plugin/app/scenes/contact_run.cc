@@ -8,6 +8,7 @@
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/mesh/memory_check.h"
+#include "app/pictures/field_output.h"
 #include "app/restart/restart.h"
 #include "diagnosis.h"
 #include "name_parameter.h"
@@ -27,6 +28,9 @@ namespace abut::app
 
     /** Sums of forces have some of the digits of each. */
     constexpr double ten_times = 10.;
+
+    /** Forces whose squares still are numbers, which norms are made of. */
+    constexpr double least_load = 1e-150;
   } // namespace
 
   template <int dim>
@@ -558,6 +562,8 @@ namespace abut::app
     const bool is_first = load_steps.n_accepted() == 0;
     if (is_first ? solve_on_hierarchy() : solve())
     {
+      largest_load = std::max(largest_load, model.problem().load.linfty_norm());
+      largest_motion = std::max(largest_motion, state.u.linfty_norm());
       model.write_fields();
       if (model.has_contact())
         state.contact.commit(state.u);
@@ -662,9 +668,21 @@ namespace abut::app
       model.draw();
     if (!missed_target.empty())
       report.warn(missed_target);
+    const bool has_digits = largest_load == 0. || largest_load > least_load
+                            || largest_motion > least_load;
+    if (!has_digits)
+      report.warn("Forces at nodes are " + short_number(largest_load, 3)
+                  + " at the most, and squares of such numbers are 0: nothing "
+                    "can be computed with them. Choose other units of loads "
+                    "and stiffness.");
     for (const ContactFinding &finding : examination.findings)
       report.warn(finding.text);
-    converged = converged && missed_target.empty() && model.is_usable();
+    const std::string lost =
+        model.has_fields() ? lost_digits_of_places(model.triangulation) : "";
+    if (!lost.empty())
+      report.warn(lost);
+    converged =
+        converged && missed_target.empty() && has_digits && model.is_usable();
     model.report_result(converged);
     model.report_model();
     return converged ? Outcome::converged : Outcome::unusable;

@@ -152,6 +152,8 @@ namespace abut::app
     std::string failure;            ///< why the last solve has no answer
     std::string told;               ///< of these, the last one
     std::string missed_target;      ///< why, or empty
+    double largest_load = 0.;       ///< at an unknown, of all load steps
+    double largest_motion = 0.;     ///< the same of displacements
     ContactExamination examination; ///< of the last load step
     LightTouches light_touches;     ///< of all of them
     StepTable steps;

@@ -234,7 +234,7 @@ namespace abut::app
                                           + file + " names.";
                        }});
     rules.push_back(
-        {section + "/Curved sides", Weight::setting,
+        {section + "/Curved sides", Weight::addition,
          [](const SceneValues &values, const std::string &path)
          {
            // The parameters of a body stand around those of its mesh.

@@ -117,7 +117,6 @@ abut_friction_start(abut_strategy *s)
   f->rung = ABUT_RUNG_NEWTON;
   f->quarter = ABUT_FRICTION_QUARTERS;
   f->steps = f->rounds = 0;
-  f->change = 0;
   for (int32_t k = 0; k < f->m; ++k)
     f->direction[k] = f->turned[k] = 0;
   if (s->n > 0)

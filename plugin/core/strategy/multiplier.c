@@ -129,8 +129,6 @@ abut_multiplier_settled(abut_strategy *s, abut_verdict *verdict)
   last->merit = merit;
   apply(s, change);
 
-  verdict->go_on = false;
-  verdict->reason = ABUT_REASON_CONVERGED;
   if (merit <= 1)
     return ABUT_SUCCESS;
   verdict->go_on = true;

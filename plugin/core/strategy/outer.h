@@ -14,7 +14,7 @@ typedef struct abut_outer_memory
   int32_t n_stagnant; /* outer steps in a row without contraction */
 } abut_outer_memory;
 
-/* Answer of an outer iteration. */
+/* Answer of an outer iteration, which is given one that says: converged. */
 typedef struct abut_verdict
 {
   bool go_on;         /* the problem was changed: solve again */

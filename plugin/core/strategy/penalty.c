@@ -30,8 +30,6 @@ abut_penalty_settled(abut_strategy *s, abut_verdict *verdict)
   const double penetration = s->progress.penetration / options->length_scale;
   const double error = fmax(penetration, slip / options->length_scale);
   const double penalty = s->progress.penalty;
-  verdict->go_on = false;
-  verdict->reason = ABUT_REASON_CONVERGED;
   if (error <= options->gap_tolerance)
     return ABUT_SUCCESS;
   if (penalty < options->penalty_cap)

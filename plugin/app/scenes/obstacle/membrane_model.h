@@ -86,6 +86,11 @@ namespace abut::app
 
     void resume(std::vector<la::Vector> fields) override;
     void write_fields() override;
+
+    bool has_fields() const override
+    {
+      return parameters.fields;
+    }
     std::string save_state() const override;
     void load_state(const std::string &bytes) override;
     void finish() override;

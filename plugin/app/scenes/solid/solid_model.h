@@ -117,6 +117,11 @@ namespace abut::app
     void flag_more_cells() override;
 
     void write_fields() override;
+
+    bool has_fields() const override
+    {
+      return parameters.fields;
+    }
     std::string save_state() const override;
     void load_state(const std::string &bytes) override;
     void finish() override
