@@ -207,6 +207,7 @@ ranks_do_what_one_does(void **unused)
       assert_int_equal(all.progress[k].outer, progress.outer);
       assert_int_equal(all.progress[k].n_rows, progress.n_rows);
       assert_int_equal(all.progress[k].n_active, progress.n_active);
+      assert_int_equal(all.progress[k].n_changes, 0);
       assert_close(all.progress[k].penetration, progress.penetration, 1e-12);
       if (progress.pressure_change > 0)
         assert_close(all.progress[k].pressure_change / progress.pressure_change,
