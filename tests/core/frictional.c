@@ -115,7 +115,8 @@ append_points(const frictional *problem, abut_points *points)
     const double gap[3] = {problem->gap[i], 0, 0};
     abut_point point = abut_point_defaults();
     point.id = (int64_t)i * dim;
-    point.n_components = problem->frictionless ? 1 : dim;
+    point.n_components =
+        problem->frictionless || i < problem->n_plain ? 1 : dim;
     point.frame = frame;
     point.gap = gap;
     point.n_nodes = point.n_secondary = 1;
@@ -133,17 +134,18 @@ frictional_solve(abut_context *context, const frictional *problem,
 {
   int32_t first[FRICTIONAL_POINTS];
   uint8_t n_tangents[FRICTIONAL_POINTS];
-  for (int32_t i = 0; i < problem->n_points; ++i)
+  const int32_t n_plain = problem->n_plain;
+  for (int32_t i = 0; i < problem->n_points - n_plain; ++i)
   {
-    first[i] = i * problem->dimension;
+    first[i] = n_plain + i * problem->dimension;
     n_tangents[i] = (uint8_t)(problem->dimension - 1);
   }
   abut_strategy_friction friction = {.struct_size = sizeof(friction)};
-  friction.n = problem->n_points;
+  friction.n = problem->n_points - n_plain;
   friction.first = first;
   friction.n_tangents = n_tangents;
-  friction.coefficient = problem->coefficient;
-  friction.cap = problem->cap;
+  friction.coefficient = problem->coefficient + n_plain;
+  friction.cap = problem->cap + n_plain;
   friction.law = problem->law;
   friction.parameters = problem->parameters;
   abut_points *points = NULL;

@@ -26,6 +26,7 @@ typedef struct frictional
   double cap[FRICTIONAL_POINTS]; /* infinite: none */
   double condition;              /* of the stiffness */
   bool frictionless;             /* points with their normals only */
+  int32_t n_plain;               /* so many such points come first */
   const abut_friction *law;      /* NULL: coulomb */
   const void *parameters;        /* of the law */
 } frictional;

@@ -118,6 +118,31 @@ all_laws_agree(void **unused)
   assert_true(slipping > 20 && sticking > 5);
 }
 
+/* Rows without tangents beside points with friction: as with a coefficient of 0
+ * there. */
+static void
+plain_rows_beside_friction(void **unused)
+{
+  (void)unused;
+  uint64_t seed = 17;
+  for (int i = 0; i < 20; ++i)
+  {
+    frictional problem = frictional_draw(2 + i % 2, &mild, &seed);
+    const int32_t n_plain = problem.n_points > 2 ? 2 : 1;
+    memset(problem.coefficient, 0, sizeof(double) * (size_t)n_plain);
+    for (int law = 0; law < 2; ++law)
+    {
+      abut_strategy_options options = exact_options();
+      options.law = abut_law_find(law == 0 ? "lagrange" : "penalty");
+      problem.n_plain = 0;
+      const frictional_answer with = solve(&problem, &options);
+      problem.n_plain = n_plain;
+      const frictional_answer beside = solve(&problem, &options);
+      assert_true(difference(&problem, &with, &beside) < 1e-10);
+    }
+  }
+}
+
 static void
 no_friction_is_frictionless(void **unused)
 {
@@ -501,6 +526,7 @@ main(void)
       cmocka_unit_test(random_problems),
       cmocka_unit_test(harsh_problems),
       cmocka_unit_test(all_laws_agree),
+      cmocka_unit_test(plain_rows_beside_friction),
       cmocka_unit_test(no_friction_is_frictionless),
       cmocka_unit_test(caps),
       cmocka_unit_test(a_law_of_the_users_own),
