@@ -565,6 +565,41 @@ test_axisymmetric(void **state)
     }
 }
 
+/* Rows at nodes: all have the area of their shape functions, but that on the
+ * axis, which quadratic facets give none: it has a sixtieth of the ring. */
+static void
+test_node_on_the_axis(void **state)
+{
+  (void)state;
+  const double pi = acos(-1.);
+  const double disc[4] = {1., 0., 0., 0.}, over[4] = {0., 0., 1., 0.};
+  for (int kind = 0; kind < 2; ++kind)
+  {
+    abut_coupling_options o = abut_coupling_defaults();
+    o.search.relative_reach = 0.1;
+    o.discretisation = ABUT_DISCRETISATION_NODE_TO_SEGMENT;
+    o.axisymmetric = true;
+    scene_mesh s = scene_patch(kinds[kind], 3, 1, scene_line, disc, false),
+               m = scene_patch(ABUT_FACET_LINE2, 4, 1, scene_line, over, false);
+    couple c = couple_meshes(&s, &m, &o, NULL);
+    const bool quadratic = kinds[kind] == ABUT_FACET_LINE3;
+    assert_int_equal(c.view.n_rows, quadratic ? 7 : 4);
+    double sum = 0., least = 1.;
+    for (int32_t i = 0; i < c.view.n_rows; ++i)
+    {
+      sum += c.view.weight[i];
+      least = fmin(least, c.view.weight[i]);
+    }
+    const double ring = 2. * pi / 9.;
+    near(least, quadratic ? ring / 60. : ring / 6., 1e-14,
+         "weight on the axis");
+    near(sum, pi + (quadratic ? ring / 60. : 0.), 1e-14 * pi, "disc");
+    couple_destroy(&c);
+    scene_free(&s);
+    scene_free(&m);
+  }
+}
+
 /* A square punch on a plane: the rows at its corners have the normal of the
  * covered side, not the average of the two. */
 static void
@@ -643,6 +678,7 @@ main(void)
       cmocka_unit_test_setup_teardown(test_without_segments, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_arcs, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_axisymmetric, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_node_on_the_axis, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_corner, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_groove, set_up, tear_down)};
   return cmocka_run_group_tests(tests, NULL, NULL);

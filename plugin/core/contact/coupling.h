@@ -520,6 +520,11 @@ abut_status abut_coupling_create_any(abut_context *context, const char *call,
                                      const abut_coupling_options *options,
                                      abut_coupling **coupling);
 
+/* Add a small weight of nodes on the axis, which quadratic facets do not give
+ * them, to the sums of the nodes. */
+void abut_coupling_add_axis(const abut_coupling *c,
+                            const abut_coupling_facet *facet, double *sum);
+
 /* Shares of node to segment: the entries of nodes against the contact elements
  * of the detection, or against the obstacle. */
 abut_status abut_coupling_add_nodal(abut_coupling *c);

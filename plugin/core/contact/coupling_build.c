@@ -107,6 +107,8 @@ take_facet(abut_coupling *c, int32_t index)
   if (status != ABUT_SUCCESS)
     return status;
   const double whole = abut_coupling_add_integrals(c, &facet, &f, c->full.data);
+  if (c->method->detects_nodes)
+    abut_coupling_add_axis(c, &facet, c->full.data);
   if (c->detection != NULL)
     return ABUT_SUCCESS;
   if (c->drops)

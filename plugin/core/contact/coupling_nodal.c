@@ -6,7 +6,18 @@
 #include "contact/coupling.h"
 #include "contact/detect.h"
 
+#include <math.h>
 #include <string.h>
+
+/* What is on the axis, relative to the facet. */
+static const double round_off = 1e-10;
+
+/* A node of a quadratic facet on the axis of revolution has no area: with
+ * phi = (1 - s)(1 - 2 s) and r = s the integral of phi r is 0. Without a row
+ * nothing would hold it. With this share of the area L r of the ring its
+ * pressure is the difference of those at the ends of the facet, where pressures
+ * are parabolas 1 - a s^2, whose integral with phi r is a / 60. */
+static const double axis_share = 1. / 60.;
 
 /* The share of a node with this facet; without its gap. */
 static abut_coupling_share *
@@ -79,6 +90,20 @@ add_moving(abut_coupling *c, int32_t node, int32_t f)
   for (int32_t d = 0; d < dim; ++d)
     s->normal[d] = s->weight * opposite.normal[d];
   return add_entries(c, node, s, opposite.shape);
+}
+
+void
+abut_coupling_add_axis(const abut_coupling *c, const abut_coupling_facet *facet,
+                       double *sum)
+{
+  if (!c->options.axisymmetric || facet->kind != ABUT_FACET_LINE3)
+    return;
+  const abut_surface_view *v = &c->secondary->view;
+  const int32_t *node = v->connectivity + v->facet_start[facet->index];
+  for (int a = 0; a < 2; ++a)
+    if (fabs(facet->reference[2 * a]) <= round_off * facet->size)
+      sum[node[a]] += axis_share * 2. * 3.14159265358979323846 * facet->size
+                      * facet->reference[2 * (1 - a)];
 }
 
 abut_status
