@@ -115,8 +115,7 @@ append_points(const frictional *problem, abut_points *points)
     const double gap[3] = {problem->gap[i], 0, 0};
     abut_point point = abut_point_defaults();
     point.id = (int64_t)i * dim;
-    point.n_components =
-        problem->frictionless || i < problem->n_plain ? 1 : dim;
+    point.n_components = i < problem->n_plain ? 1 : dim;
     point.frame = frame;
     point.gap = gap;
     point.n_nodes = point.n_secondary = 1;
@@ -154,7 +153,7 @@ frictional_solve(abut_context *context, const frictional *problem,
     answer->status = append_points(problem, points);
   const abut_dense_model model = {
       sizeof(model),  problem->n, problem->stiffness,
-      problem->force, points,     problem->frictionless ? NULL : &friction};
+      problem->force, points,     friction.n == 0 ? NULL : &friction};
   if (answer->status == ABUT_SUCCESS)
     answer->status =
         abut_dense_model_solve(context, &model, options, answer->u, answer->p,

@@ -25,10 +25,9 @@ typedef struct frictional
   double gap[FRICTIONAL_POINTS], coefficient[FRICTIONAL_POINTS];
   double cap[FRICTIONAL_POINTS]; /* infinite: none */
   double condition;              /* of the stiffness */
-  bool frictionless;             /* points with their normals only */
-  int32_t n_plain;               /* so many such points come first */
-  const abut_friction *law;      /* NULL: coulomb */
-  const void *parameters;        /* of the law */
+  int32_t n_plain; /* so many points, the first, have their normals only */
+  const abut_friction *law; /* NULL: coulomb */
+  const void *parameters;   /* of the law */
 } frictional;
 
 /* Ranges that random problems are drawn from, evenly in the logarithm. */

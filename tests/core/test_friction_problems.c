@@ -154,7 +154,7 @@ no_friction_is_frictionless(void **unused)
     memset(problem.coefficient, 0, sizeof(problem.coefficient));
     const abut_strategy_options options = exact_options();
     const frictional_answer with = solve(&problem, &options);
-    problem.frictionless = true;
+    problem.n_plain = problem.n_points;
     const frictional_answer without = solve(&problem, &options);
     assert_true(difference(&problem, &with, &without) < 1e-12);
     for (int32_t k = 0; k < problem.n; ++k)

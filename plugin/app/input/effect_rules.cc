@@ -47,14 +47,6 @@ namespace abut::app
   {
   }
 
-  bool SceneValues::is_declared(const std::string &path) const
-  {
-    for (const DeclaredParameter &parameter : parameters)
-      if (parameter.path == path)
-        return true;
-    return false;
-  }
-
   std::string SceneValues::operator()(const std::string &path) const
   {
     for (const DeclaredParameter &parameter : parameters)

@@ -27,9 +27,6 @@ namespace abut::app
     SceneValues(const std::vector<DeclaredParameter> &parameters,
                 const ParameterFile &file);
 
-    /** Whether this kind of scene has the parameter @p path. */
-    bool is_declared(const std::string &path) const;
-
     /** The value of @p path; empty if there is no such parameter. */
     std::string operator()(const std::string &path) const;
 

@@ -237,21 +237,23 @@ namespace abut::app
         {section + "/Curved sides", Weight::addition,
          [](const SceneValues &values, const std::string &path)
          {
-           // The parameters of a body stand around those of its mesh.
-           const std::string inner = section_of(path),
-                             outer = section_of(inner);
-           const bool in_scene = values.is_declared("Refinement/Level")
-                                 && !values.is_declared(inner + "/Refinements");
-           return values.number(inner + "/Refinements") > 0.
-                          || values.number(outer + "/Refinements") > 0.
-                          || (in_scene
-                              && (is_adaptive(values)
-                                  || values.number("Refinement/Level") > 0.))
-                      ? std::string()
-                      : "the mesh is used as it is made, with straight facets: "
-                        "refine it"
-                            + std::string(in_scene ? " (Refinement/Level)."
-                                                   : " (Refinements).");
+           // Surfaces have their own number of refinements beside this one;
+           // bodies are refined with the scene, and before by their own.
+           const std::string section = section_of(path),
+                             own = values(section + "/Refinements");
+           const bool refined =
+               own.empty()
+                   ? is_adaptive(values)
+                         || values.number("Refinement/Level") > 0.
+                         || values.number(section_of(section) + "/Refinements")
+                                > 0.
+                   : values.number(section + "/Refinements") > 0.;
+           const std::string by =
+               own.empty() ? "Refinement/Level" : "Refinements";
+           return refined ? std::string()
+                          : "the mesh is used as it is made, with straight "
+                            "facets: refine it ("
+                                + by + ").";
          }});
     return rules;
   }

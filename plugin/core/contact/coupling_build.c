@@ -87,6 +87,8 @@ abut_coupling_add_integrals(abut_coupling *c, const abut_coupling_facet *facet,
       sum[f->node[f->kept[j]]] += p[q].weight * chi;
     }
   }
+  if (c->method->detects_nodes)
+    abut_coupling_add_axis(c, facet, sum);
   return area;
 }
 
@@ -107,8 +109,6 @@ take_facet(abut_coupling *c, int32_t index)
   if (status != ABUT_SUCCESS)
     return status;
   const double whole = abut_coupling_add_integrals(c, &facet, &f, c->full.data);
-  if (c->method->detects_nodes)
-    abut_coupling_add_axis(c, &facet, c->full.data);
   if (c->detection != NULL)
     return ABUT_SUCCESS;
   if (c->drops)

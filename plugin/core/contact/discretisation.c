@@ -10,7 +10,6 @@ take_nodes(abut_coupling *c, const abut_coupling_facet *facet,
 {
   (void)whole;
   (void)abut_coupling_add_integrals(c, facet, f, c->covered.data);
-  abut_coupling_add_axis(c, facet, c->covered.data);
   return ABUT_SUCCESS;
 }
 
