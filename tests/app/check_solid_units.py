@@ -123,4 +123,21 @@ for place, is_far in (0, False), (1e4, False), (1e6, True):
     force = p.results()[0]["contact_force"]
     near = force if place == 0 else near
     p.close(force / near, 1., 1e-8, f"force at {place}")
+
+# Nor do they hold numbers beyond 1e38 or below 1e-38.
+one, _ = p.solve_with("parabola.prm", {})
+for stiffness, words in ((1, []), (1e36, []),
+                         (1e60, ["infinite", "stress", "traction"]),
+                         (1e-60, ["are 0", "traction (6.6e-62)"])):
+    for fields in "true", "false":
+        result = p.call("run", p.source / "prm/parabola.prm", "--output", "out",
+                        "--quiet", "--set", f"Body 1/Young modulus={stiffness}",
+                        "--set", f"Output/Fields={fields}")
+        p.expect(result.returncode == 0, result.stderr)
+        told = fields == "true" and words
+        p.expect(all(word in result.stderr for word in words) if told
+                 else "files of fields" not in result.stderr.lower(),
+                 f"{stiffness}: {result.stderr}")
+    p.close(p.results()[0]["contact_force"] / stiffness / one["contact_force"],
+            1., 1e-8, f"force with a stiffness of {stiffness}")
 p.finish()

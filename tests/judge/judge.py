@@ -34,8 +34,8 @@ def judge(folder, scene, findings):
     if kind not in JUDGES:
         raise CannotJudge(f"scenes of kind '{kind}' have no fields")
     summary = read_summary(folder)
-    if says(summary, "seven digits"):
-        raise CannotJudge("places in files of fields do not tell nodes apart")
+    if says(summary, "iles of fields"):
+        raise CannotJudge("files of fields do not hold all digits")
     try:
         JUDGES[kind](folder, scene, summary, findings).judge()
     except (KeyError, IndexError, TypeError) as error:

@@ -3,7 +3,6 @@
 #include "field_output.h"
 
 #include "app/input/collective.h"
-#include "app/input/short_number.h"
 #include "app/restart/disk.h"
 
 #include <deal.II/base/data_out_base.h>
@@ -12,6 +11,8 @@
 #include <deal.II/numerics/data_out_faces.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace abut::app
@@ -61,6 +62,43 @@ namespace abut::app
       const std::set<dealii::types::boundary_id> &ids;
     };
 
+    /** Output whose names of fields can be asked for. */
+    template <typename Base> class NamedOutput : public Base
+    {
+    public:
+      using Base::Base;
+      using Base::get_dataset_names;
+    };
+
+    /** The size of the smallest cell as a part of its distance from the origin,
+     * 1 at the most. Collective. */
+    template <int dim>
+    double smallest_size(const dealii::Triangulation<dim> &triangulation)
+    {
+      double size = 1.;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          size = std::min(size, cell->diameter() / cell->center().norm());
+      return dealii::Utilities::MPI::min(size,
+                                         triangulation.get_communicator());
+    }
+
+    /** For each field of @p output 1 if it has infinite numbers on any rank.
+     * Collective. */
+    template <typename Output>
+    std::vector<int> fields_beyond(const Output &output, const MPI_Comm comm)
+    {
+      std::vector<int> beyond(output.get_dataset_names().size(), 0);
+      for (const auto &patch : output.get_patches())
+        for (std::size_t field = 0; field < beyond.size(); ++field)
+          for (unsigned int q = 0; q < patch.data.size(1); ++q)
+            if (std::isinf(patch.data(field, q)))
+              beyond[field] = 1;
+      std::vector<int> anywhere(beyond.size());
+      dealii::Utilities::MPI::max(beyond, comm, anywhere);
+      return anywhere;
+    }
+
     /** The part of this rank in a file of all: the first one has the head, the
      * last one the end, and each its pieces. */
     std::string part_of_rank(const std::string &whole, const unsigned int rank,
@@ -94,27 +132,6 @@ namespace abut::app
                    });
     }
   } // namespace
-
-  template <int dim>
-  std::string
-  lost_digits_of_places(const dealii::Triangulation<dim> &triangulation)
-  {
-    // Cells that are smaller beside their distance from the origin are off by a
-    // hundredth.
-    constexpr double least_size = 6e-6;
-    double size = 1.;
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        size = std::min(size, cell->diameter() / cell->center().norm());
-    size = dealii::Utilities::MPI::min(size, triangulation.get_communicator());
-    if (size >= least_size)
-      return "";
-    return "Cells are as small as " + short_number(size, 2)
-           + " of their distance from the origin. Places in files of fields "
-             "have seven digits, and pictures made of them will show cells out "
-             "of shape, though what was computed has all digits, as has "
-             "nodal.csv (Output/Nodal values). Move the mesh nearer.";
-  }
 
   FieldSeries::FieldSeries(std::filesystem::path folder, std::string name,
                            MPI_Comm communicator)
@@ -161,9 +178,19 @@ namespace abut::app
       output.add_data_vector(fields.dof_handler, *values, *postprocessor);
   }
 
-  template <typename Output>
-  void FieldSeries::append(const double time, const Output &output)
+  template <int dim, typename Output>
+  void FieldSeries::append(const double time, const Fields<dim> &fields,
+                           const Output &output)
   {
+    written.add_mesh(smallest_size(fields.dof_handler.get_triangulation()));
+    for (const auto &[label, values] : fields.nodal)
+      written.add_field(label, values->linfty_norm());
+    const std::vector<std::string> names = output.get_dataset_names();
+    const std::vector<int> beyond = fields_beyond(output, communicator);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (beyond[i] == 1)
+        written.add_field(names[i], std::numeric_limits<double>::infinity());
+
     const unsigned int step = static_cast<unsigned int>(records.size());
     const std::string stem =
         name + "_" + dealii::Utilities::int_to_string(step, 4);
@@ -191,22 +218,20 @@ namespace abut::app
     const unsigned int degree = fields.dof_handler.get_fe().degree;
     if (!fields.faces.empty())
     {
-      FaceOutput<dim> output(fields.faces);
+      NamedOutput<FaceOutput<dim>> output(fields.faces);
       add_fields(time, fields, output);
       output.build_patches(fields.mapping, degree);
-      append(time, output);
+      append(time, fields, output);
       return;
     }
-    dealii::DataOut<dim> output;
+    NamedOutput<dealii::DataOut<dim>> output;
     add_fields(time, fields, output);
     output.build_patches(fields.mapping, degree,
                          degree > 1 ? dealii::DataOut<dim>::curved_inner_cells
                                     : dealii::DataOut<dim>::no_curved_cells);
-    append(time, output);
+    append(time, fields, output);
   }
 
-  template std::string lost_digits_of_places(const dealii::Triangulation<2> &);
-  template std::string lost_digits_of_places(const dealii::Triangulation<3> &);
   template void FieldSeries::write<2>(double, const Fields<2> &);
   template void FieldSeries::write<3>(double, const Fields<3> &);
 } // namespace abut::app

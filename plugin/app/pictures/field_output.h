@@ -6,6 +6,8 @@
  * Fields over the mesh as VTU/PVTU files and the PVD file that lists them.
  */
 
+#include "narrow_numbers.h"
+
 #include <abut/dealii/linear_algebra.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
@@ -40,13 +42,6 @@ namespace abut::app
     std::set<dealii::types::boundary_id> faces = {};
   };
 
-  /** Why the places in files of fields, which are numbers of 32 bits, do not
-   * tell the corners of the cells of a mesh apart, as a sentence; empty if they
-   * do. Collective. */
-  template <int dim>
-  std::string
-  lost_digits_of_places(const dealii::Triangulation<dim> &triangulation);
-
   /** A series of fields over time or mesh level. The PVD file is written anew
    * with every step, so that a run that is killed leaves usable files. */
   class FieldSeries
@@ -61,10 +56,16 @@ namespace abut::app
      * system is an exception on all ranks. */
     template <int dim> void write(double time, const Fields<dim> &fields);
 
-    /** What a checkpoint keeps: the list of files. */
+    /** What the files so far do not hold. */
+    const NarrowNumbers &numbers() const
+    {
+      return written;
+    }
+
+    /** What a checkpoint keeps: the list of files and what is in them. */
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &records;
+      archive &records &written;
     }
 
   private:
@@ -73,13 +74,16 @@ namespace abut::app
     void add_fields(double time, const Fields<dim> &fields,
                     Output &output) const;
 
-    /** Write the files of a step and the list. */
-    template <typename Output> void append(double time, const Output &output);
+    /** Write the files of a step and the list, and remember what numbers they
+     * were made of. */
+    template <int dim, typename Output>
+    void append(double time, const Fields<dim> &fields, const Output &output);
 
     std::filesystem::path folder;
     std::string name;
     MPI_Comm communicator;
     std::vector<std::pair<double, std::string>> records;
+    NarrowNumbers written;
   };
 } // namespace abut::app
 

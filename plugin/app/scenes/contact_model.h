@@ -3,6 +3,7 @@
 #define ABUT_APP_CONTACT_MODEL_H
 
 #include "app/physics/discrete_problem.h"
+#include "app/pictures/narrow_numbers.h"
 #include "contact_run_state.h"
 
 #include <abut/dealii/contact_solver_types.h>
@@ -327,8 +328,8 @@ namespace abut::app
     /** @name What it leaves behind @{ */
     virtual void write_fields() = 0;
 
-    /** Whether write_fields() writes anything. */
-    virtual bool has_fields() const = 0;
+    /** What numbers write_fields() has written. */
+    virtual NarrowNumbers written_numbers() const = 0;
 
     /** What a checkpoint keeps of the model beside what is in the state of the
      * run, as bytes of the archive; not collective. */

@@ -8,7 +8,6 @@
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/mesh/memory_check.h"
-#include "app/pictures/field_output.h"
 #include "app/restart/restart.h"
 #include "diagnosis.h"
 #include "name_parameter.h"
@@ -677,9 +676,7 @@ namespace abut::app
                     "and stiffness.");
     for (const ContactFinding &finding : examination.findings)
       report.warn(finding.text);
-    const std::string lost =
-        model.has_fields() ? lost_digits_of_places(model.triangulation) : "";
-    if (!lost.empty())
+    for (const std::string &lost : model.written_numbers().lost())
       report.warn(lost);
     converged =
         converged && missed_target.empty() && has_digits && model.is_usable();

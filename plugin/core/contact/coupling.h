@@ -544,7 +544,8 @@ abut_status abut_coupling_read_nodes(abut_coupling *c);
 /* Decide which facets to look at. */
 void abut_coupling_set_purpose(abut_coupling *c);
 
-/* Whether weak nodes are looked for: quadratic weighting functions. */
+/* Whether weak nodes are looked for: quadratic weighting functions, against
+ * obstacles, which cover all, around an axis alone. */
 bool abut_coupling_has_weak(const abut_coupling *c);
 
 #endif

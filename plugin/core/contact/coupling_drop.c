@@ -12,6 +12,8 @@
  * and the node is weak if h_j < H_j / 4 or d_j < h_j / 20. (A line covered by
  * less than three quarters has d = 0 at its far end, where h = H / 4.) The best
  * covered node of each facet is never weak, so that no covered part is lost.
+ * Against obstacles all is covered, and weak is the node on an axis of
+ * revolution, where d = 0.
  *
  * Corners. Where facets of a feature are covered on both sides, one row cannot
  * hold both directions: with facet normals n the node is dropped if
@@ -167,7 +169,9 @@ measure(abut_coupling *c, int32_t index)
   if (status != ABUT_SUCCESS)
     return status;
   integrate(c, &facet, &f, &whole);
-  status = abut_coupling_make_points(c, &facet, false);
+  /* An obstacle is asked once, for the rows. */
+  if (c->obstacle == NULL)
+    status = abut_coupling_make_points(c, &facet, false);
   if (status != ABUT_SUCCESS)
     return status;
   integrate(c, &facet, &f, &covered);

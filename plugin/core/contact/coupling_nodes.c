@@ -136,7 +136,8 @@ bool
 abut_coupling_has_weak(const abut_coupling *c)
 {
   return c->quadratic && c->options.multiplier_degree != 1
-         && c->obstacle == NULL && abut_coupling_is_mortar(c);
+         && abut_coupling_is_mortar(c)
+         && (c->obstacle == NULL || c->options.axisymmetric);
 }
 
 static int
@@ -153,8 +154,9 @@ abut_coupling_set_purpose(abut_coupling *c)
   uint8_t *purpose = c->purpose.data;
   const bool points = c->method->info.row_per_point;
   const bool weak = abut_coupling_has_weak(c),
-             drop = c->primary != NULL && abut_coupling_is_mortar(c)
-                    && (abut_coupling_find_corners(c) || weak);
+             drop = weak
+                    || (c->primary != NULL && abut_coupling_is_mortar(c)
+                        && abut_coupling_find_corners(c));
   for (int32_t f = 0; f < n; ++f)
   {
     const bool rows = points ? wanted_facet == NULL || wanted_facet[f]

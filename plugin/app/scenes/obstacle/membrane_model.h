@@ -87,9 +87,9 @@ namespace abut::app
     void resume(std::vector<la::Vector> fields) override;
     void write_fields() override;
 
-    bool has_fields() const override
+    NarrowNumbers written_numbers() const override
     {
-      return parameters.fields;
+      return series.numbers();
     }
     std::string save_state() const override;
     void load_state(const std::string &bytes) override;

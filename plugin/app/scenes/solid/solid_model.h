@@ -118,9 +118,9 @@ namespace abut::app
 
     void write_fields() override;
 
-    bool has_fields() const override
+    NarrowNumbers written_numbers() const override
     {
-      return parameters.fields;
+      return output.written_numbers();
     }
     std::string save_state() const override;
     void load_state(const std::string &bytes) override;

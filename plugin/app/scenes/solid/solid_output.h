@@ -37,6 +37,14 @@ namespace abut::app
      * for fields. Collective. */
     void write_fields();
 
+    /** What numbers the files of fields so far were made of. */
+    NarrowNumbers written_numbers() const
+    {
+      NarrowNumbers numbers = series.numbers();
+      numbers.add(contact_series.numbers());
+      return numbers;
+    }
+
     /** Pictures of the present solution. Collective. */
     void draw() const;
 
