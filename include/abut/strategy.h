@@ -85,7 +85,7 @@ extern "C"
      * augmented lagrangian 20, nitsche 10, quadratic penalty starts at 1. */
     double penalty;
     double penalty_growth; /**< factor of quadratic penalty; default 10 */
-    double penalty_cap;    /**< largest eps/stiffness; default 1e6 */
+    double penalty_cap;    /**< largest eps/stiffness; default 1e8 */
     /** Augmented Lagrangian: grow eps by 5 (up to penalty_cap) where the gap
      * error does not fall by 10 in an outer step, and let the multipliers
      * follow while the set still changes. False: the textbook's method, each
@@ -139,7 +139,7 @@ extern "C"
     options.length_scale = 1.;
     options.pressure_scale = 1.;
     options.penalty_growth = 10.;
-    options.penalty_cap = 1e6;
+    options.penalty_cap = 1e8;
     options.adaptive_penalty = true;
     options.complementarity = 1.;
     options.barrier_start = 0.1;

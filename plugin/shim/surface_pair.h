@@ -4,6 +4,7 @@
 #ifndef ABUT_SHIM_SURFACE_PAIR_H
 #define ABUT_SHIM_SURFACE_PAIR_H
 
+#include "bodies_overlap.h"
 #include "handles.h"
 #include "surface_side.h"
 
@@ -89,6 +90,8 @@ namespace abut::shim
     // As in PairResult.
     double between_rows = 0., held_inside = 0.;
     double held_in_the_mean = 0.; ///< as the function
+    /** The deepest node in the other body before anything is displaced. */
+    NodeInside<dim> first_inside;
     /** Known failures that it was made with all the same. */
     std::vector<ContactFinding> refused;
     double slip = 0., gap_error = 0., missed_depth = 0.;

@@ -484,6 +484,42 @@ namespace abut::shim
     refuse(pair, coded(ABUT_FAILURE_WRONG_SIDE, found.text(depth.str())));
   }
 
+  template <int dim> void SurfacePairRows<dim>::look_inside()
+  {
+    for (Pair &pair : pairs_)
+    {
+      const ContactPair<dim> &data = pair.data;
+      if (data.obstacle || !data.geometric_gap
+          || !(pair.is_present() || data.may_be_apart))
+        continue;
+      pair.first_inside =
+          deepest_inside(mapping_, dof_handler_, data.secondary, data.primary);
+      const NodeInside<dim> other =
+          deepest_inside(mapping_, dof_handler_, data.primary, data.secondary);
+      if (other.depth > pair.first_inside.depth)
+        pair.first_inside = other;
+    }
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::refuse_overlap(const std::size_t number)
+  {
+    Pair &pair = pairs_[number];
+    if (n_finds_ > 1 || pair.first_inside.depth == 0.)
+      return;
+    std::ostringstream place;
+    place << pair.first_inside.place;
+    const std::string why = explain_no_rows(number);
+    refuse(pair, failure_of(why) == ABUT_FAILURE_OVERLAP
+                     ? why
+                     : coded(ABUT_FAILURE_OVERLAP,
+                             "the bodies overlap: the node of a surface at ("
+                                 + place.str()
+                                 + ") lies inside of the other body, and no "
+                                   "facet faces another one within reach. "
+                                   "Move the bodies apart."));
+  }
+
 #define ABUT_INSTANTIATE(dim)                                                  \
   template std::vector<std::uint8_t> SurfacePairRows<dim>::touching_nodes(     \
       const std::uint8_t *) const;                                             \
@@ -499,6 +535,8 @@ namespace abut::shim
       const la::Vector &, const double *, const double *,                      \
       const std::uint8_t *, const std::vector<Unseen> &);                      \
   template std::string SurfacePairRows<dim>::wrong_side(Pair &) const;         \
+  template void SurfacePairRows<dim>::look_inside();                           \
+  template void SurfacePairRows<dim>::refuse_overlap(std::size_t);             \
   template void SurfacePairRows<dim>::refuse_inside(Pair &,                    \
                                                     const la::Vector &) const;
 

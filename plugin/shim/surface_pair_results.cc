@@ -140,15 +140,15 @@ namespace abut::shim
                 "secondary."));
     // Obstacles are moved into bodies on purpose, and points that move are
     // those of a step on its way.
-    if (!pair.data.obstacle && !pair.is_present()
-        && result.overlap > large_overlap * sizes.median)
-      result.warnings.push_back(
-          coded(ABUT_FAILURE_OVERLAP,
-                "The surfaces overlap by " + text(result.overlap)
-                    + " before anything is loaded, "
-                    + text(result.overlap / sizes.median)
-                    + " times the size of a facet. If that is not meant as "
-                      "interference, move the bodies apart."));
+    const double first =
+        pair.is_present() ? pair.first_inside.depth : result.overlap;
+    if (!pair.data.obstacle && first > large_overlap * sizes.median)
+      result.warnings.push_back(coded(
+          ABUT_FAILURE_OVERLAP,
+          "The surfaces overlap by " + text(first)
+              + " before anything is loaded, " + text(first / sizes.median)
+              + " times the size of a facet. If that is not meant as "
+                "interference, move the bodies apart."));
     if (!pair.data.obstacle && !pair.is_present() && result.covered_area > 0.)
     {
       // Of graded meshes the smallest facets are likely to be those that meet.

@@ -637,10 +637,16 @@ namespace abut::shim
     check(context_, abut_points_clear(points_));
     note_place(moves() ? u : place);
     made_place_ = moves() ? displacement : last_commit();
+    if (n_finds_ == 1)
+      look_inside();
     find_pairs(motions(way));
     for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if (pairs_[p].data.obstacle && checks_[p].n_rows == 0)
+      if (checks_[p].n_rows > 0)
+        continue;
+      else if (pairs_[p].data.obstacle)
         refuse_inside(pairs_[p], displacement);
+      else
+        refuse_overlap(p);
     origins_ = std::move(wanted);
     return Change::points;
   }

@@ -458,6 +458,11 @@ namespace abut::shim
                     const std::uint8_t *row_state);
     std::string wrong_side(Pair &pair) const;
     void refuse_inside(Pair &pair, const la::Vector &displacement) const;
+    /** Measure how deep bodies that may come near are in each other before
+     * anything is displaced. Collective. */
+    void look_inside();
+    /** Throws if they are, where no rows hold them apart. */
+    void refuse_overlap(std::size_t number);
 
     /** Throws ContactError with the text; if it is a known failure that is to
      * be measured, it is noted in place of that. */

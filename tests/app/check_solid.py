@@ -71,6 +71,38 @@ p.expect_error(run("Pair 1/Secondary=2: 3", "Pair 1/Reach=2",
 p.expect_error(run("Body 2/Mesh/Move=3, 0"), "Pair 1/Secondary", "ABUT-F24",
                "lies opposite the other", "position of the bodies")
 
+# Bodies that may come from far away do not begin inside of each other, deeper
+# than they would be looked for.
+
+def start(scene, settings, ranks=0):
+    return p.call("run", p.source / "prm" / scene, "--output", "out", "--quiet",
+                  *set_words({"Output/Points": "", **settings}), ranks=ranks)
+
+
+for place, overlaps, ranks in (("5.1, -0.3 : 6.1, 0.7", True, (0, 2)),
+                               ("5.1, -0.5 : 6.1, 0.5", True, (0,)),
+                               ("4.6, -0.5 : 5.6, 0.5", True, (0,)),
+                               ("3.6, -0.4 : 4.6, 0.6", False, (0, 2)),
+                               ("3, -2 : 4, -1", False, (0,))):
+    for number in ranks:
+        thrown = start("landing-on-a-body.prm", {
+            "Time/End": 0.0025,
+            "Body 1/Mesh/Arguments": f"4, 10 : {place} : true"}, number)
+        if overlaps:
+            p.expect_error(thrown, "Pair 1/Secondary", "ABUT-F11", "overlap")
+        else:
+            p.expect(thrown.returncode == 0, f"{place}: {thrown.stderr}")
+p.expect_error(start("sliding-die.prm", {"Body 1/Mesh/Scale": 1.559}),
+               "Pair 1/Secondary", "ABUT-F11", "overlap by at least", "reach")
+for scale, overlap in ((1.1, "0.1"), (1.02, "")):
+    pressed = start("sliding-die.prm", {
+        "Body 1/Mesh/Scale": scale, "Load steps/Steps": 1,
+        "Load steps/End time": 1})
+    p.expect(pressed.returncode == 0
+             and (f"overlap by {overlap} before" in pressed.stderr
+                  if overlap else "F11" not in pressed.stderr),
+             f"{scale}: {pressed.stderr}")
+
 # What is merely odd is a warning.
 coarse = run("Body 1/Refinements=3", "Refinement/Level=0")
 p.expect(coarse.returncode == 0 and "as coarse as the primary" in coarse.stderr,

@@ -123,19 +123,19 @@ open_rows_have_no_gap_to_close(void **unused)
 
 /* A host whose gap never changes, whatever the pressure. */
 static abut_reason
-push_in_vain(abut_strategy_options options, double *penalty, int *n)
+push_in_vain(abut_strategy_options options, double gap, double pressure,
+             abut_failure expected, double *penalty, int *n)
 {
-  const double gap = -0.1, unit = 1;
+  const double unit = 1;
   const uint8_t closed = ABUT_STATE_CLOSED;
   abut_context *context = fixture_context();
   abut_strategy *strategy = NULL;
   abut_request request;
   abut_progress progress;
   options.law = abut_law_find("augmented lagrangian");
-  options.pressure_tolerance = 1;
   assert_ok(abut_strategy_create(context, &options, &strategy));
   assert_ok(abut_strategy_start(strategy, 1, NULL, &unit, &unit, NULL, &gap,
-                                &unit, &closed));
+                                &pressure, &closed));
   assert_ok(abut_strategy_next(strategy, NULL, &request));
   for (*n = 0; request.action == ABUT_ACTION_SOLVE && *n < 20; *n += 1)
   {
@@ -148,7 +148,7 @@ push_in_vain(abut_strategy_options options, double *penalty, int *n)
     assert_ok(abut_strategy_progress(strategy, &progress));
     assert_int_equal(progress.outer, *n + 1);
   }
-  assert_int_equal(progress.seen, ABUT_FAILURE_MULTIPLIERS_STALL);
+  assert_int_equal(progress.seen, expected);
   assert_ok(abut_strategy_destroy(&strategy));
   assert_ok(abut_context_destroy(&context));
   return request.reason;
@@ -164,17 +164,47 @@ stagnation_counts_from_the_last_growth(void **unused)
   abut_strategy_options options = exact_options();
   options.penalty = 1;
   options.penalty_cap = 100;
+  options.pressure_tolerance = 1;
   double penalty[20];
   int n = 0;
-  assert_int_equal(push_in_vain(options, penalty, &n), ABUT_REASON_STAGNATION);
+  assert_int_equal(push_in_vain(options, -0.1, 1,
+                                ABUT_FAILURE_MULTIPLIERS_STALL, penalty, &n),
+                   ABUT_REASON_STAGNATION);
   assert_int_equal(n, 8);
   for (int i = 0; i < n; ++i)
     assert_close(penalty[i], expected[i], 1e-15);
   options.adaptive_penalty = false;
-  assert_int_equal(push_in_vain(options, penalty, &n), ABUT_REASON_STAGNATION);
+  assert_int_equal(push_in_vain(options, -0.1, 1,
+                                ABUT_FAILURE_MULTIPLIERS_STALL, penalty, &n),
+                   ABUT_REASON_STAGNATION);
   assert_int_equal(n, 5);
   for (int i = 0; i < n; ++i)
     assert_true(penalty[i] == 1);
+}
+
+/* A pressure of 1e-8 that grows by itself in each step, at a gap that is small
+ * enough: a change of all of it, unless the load is so large that ten times
+ * what the linear solver may leave over of it is more. */
+static void
+noise_of_the_load_is_no_pressure(void **unused)
+{
+  (void)unused;
+  abut_strategy_options options = exact_options();
+  options.penalty = 1;
+  options.gap_tolerance = 1e-6;
+  options.pressure_tolerance = 1e-3;
+  options.final_linear_tolerance = 1e-10;
+  double penalty[20];
+  int n = 0;
+  options.pressure_scale = 9.9;
+  assert_int_equal(push_in_vain(options, -1e-8, 0,
+                                ABUT_FAILURE_MULTIPLIERS_STALL, penalty, &n),
+                   ABUT_REASON_STAGNATION);
+  options.pressure_scale = 10.1;
+  assert_int_equal(
+      push_in_vain(options, -1e-8, 0, ABUT_FAILURE_NONE, penalty, &n),
+      ABUT_REASON_CONVERGED);
+  assert_int_equal(n, 1);
 }
 
 int
@@ -184,6 +214,7 @@ main(void)
       cmocka_unit_test(projected_gaps_are_lengths),
       cmocka_unit_test(open_rows_have_no_gap_to_close),
       cmocka_unit_test(stagnation_counts_from_the_last_growth),
+      cmocka_unit_test(noise_of_the_load_is_no_pressure),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Judges elastic bodies in contact."""
+import functools
+import itertools
 import math
 
 from coulomb import judge_friction
@@ -14,7 +16,7 @@ from motion import MotionJudge, in_motion
 from obstacles import Obstacle
 from run_files import Fields, last_row, read_nodes
 from surfaces import Facet, Tree, Volume, set_chords
-from thresholds import ADHESIVE, THRESHOLDS
+from thresholds import ADHESIVE, LEAST_OF_FIELDS, THRESHOLDS
 from tolerances import of_balance, of_energy, of_gaps
 from vectors import add, cross, dot, invert, norm, scale, sub
 from verdict import CannotJudge, Wrong, says
@@ -118,8 +120,24 @@ class SolidJudge:
         round-off of their places."""
         stiffness = max(self.stiffness(body)
                         for body in range(1, self.n_bodies + 1))
-        return (part * stiffness * (self.largest + 1e-3 * self.nodes.extent)
+        return (part * stiffness * self.flatness
+                * (self.largest + 1e-3 * self.nodes.extent)
                 * self.nodes.extent**(self.dim - 2))
+
+    @functools.cached_property
+    def flatness(self):
+        """Largest ratio of two distances of corners of a cell: flat cells are
+        as much stiffer across."""
+        worst = 1.
+        for cell in self.fields.cells:
+            corner = [self.nodes.place[cell.nodes[i]]
+                      for i in corners(cell.dim, cell.degree)]
+            sizes = [norm(sub(a, b))
+                     for a, b in itertools.combinations(corner, 2)]
+            if min(sizes) <= 1e-7 * max(sizes):
+                raise CannotJudge("cells are too flat for the digits of files")
+            worst = max(worst, max(sizes) / min(sizes))
+        return worst
 
     def stiffness(self, body):
         """Of a body that cannot grow wider, which of one that hardly changes
@@ -161,7 +179,8 @@ class SolidJudge:
     def agree(self, name, difference):
         limit = THRESHOLDS["agreement"]
         self.findings.check(f"{name} of fields and nodal.csv", difference,
-                            limit.value * self.largest, limit.reason)
+                            limit.value * self.largest + LEAST_OF_FIELDS,
+                            limit.reason)
 
     # Forces and energies
 
@@ -495,7 +514,8 @@ class SolidJudge:
     def limit(self, pair, secondary, *others):
         law = of_gaps(self.scene, self.summary,
                       min(secondary.size, self.largest))
-        return (law + sum(f.chord for f in (secondary, *others))
+        told = self.summary.get(f"pair_{pair.number}_gap_error") or 0.
+        return (law + told + sum(f.chord for f in (secondary, *others))
                 + self.part_of_facet(pair).value * secondary.size
                 + 1e-9 * self.nodes.extent)
 
@@ -720,6 +740,10 @@ class SolidJudge:
         if self.has_left():
             self.findings.leave("mean gap under pressure",
                                 "the bodies do not touch")
+            return
+        if "penalty" in self.method and any(p.tied for p in self.pairs):
+            self.findings.leave("mean gap under pressure",
+                                "what a penalty leaves of a tie is not told")
             return
         self.findings.check("mean gap under pressure", mean,
                             limit.value * size + law,

@@ -92,3 +92,6 @@ THRESHOLDS = {
 
 # Laws that may pull, by the name of the law in summary.json.
 ADHESIVE = {"adhesive"}
+
+# Smaller numbers are 0 in files of fields, or have few digits.
+LEAST_OF_FIELDS = 1.2e-38

@@ -68,7 +68,7 @@ abut_multiplier_update(abut_strategy *s)
 static abut_status
 measure(abut_strategy *s, const double *change, double *gap_error)
 {
-  double max = 0, sum[2] = {0, 0};
+  double max = 0, sum[3] = {0, 0, 0};
   for (int32_t i = 0; i < s->n; ++i)
   {
     const bool closed = s->state[i] != ABUT_STATE_OPEN;
@@ -81,13 +81,18 @@ measure(abut_strategy *s, const double *change, double *gap_error)
       max = fmax(max, error);
     sum[0] += s->weight[i] * fabs(change[i]);
     sum[1] += s->weight[i] * fabs(s->pressure[i]);
+    sum[2] += s->weight[i] * s->options.pressure_scale;
   }
   abut_status status = abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &max, 1);
   if (status == ABUT_SUCCESS)
-    status = abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, 2);
+    status = abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, 3);
   *gap_error = max / s->options.length_scale;
-  /* All pressure gone is a change of 100 %, none at all is none. */
-  s->progress.pressure_change = sum[1] > 0 ? sum[0] / sum[1] : sum[0] > 0;
+  /* All pressure gone is a change of 100 %; what the linear solver leaves over
+   * of the load in some steps, where hardly anything presses, is none. */
+  const double noise = 10 * s->options.final_linear_tolerance * sum[2];
+  s->progress.pressure_change = sum[0] <= noise ? 0
+                                : sum[1] > 0    ? sum[0] / sum[1]
+                                                : 1;
   return status;
 }
 
@@ -98,6 +103,9 @@ remark_stagnation(abut_strategy *s, double gap_error)
   abut_text_add(&text, "the method of multipliers does not contract: relative "
                        "gap error ");
   abut_text_add_number(&text, gap_error);
+  abut_text_add(&text, ", pressures change by ");
+  abut_text_add_number(&text, s->progress.pressure_change);
+  abut_text_add(&text, " of themselves");
   abut_text_add(&text, " after ");
   abut_text_add_integer(&text, s->progress.outer);
   abut_text_add(&text, " outer steps with penalty ");

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "bodies_overlap.h"
+
+#include "bodies.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace abut::shim
+{
+  namespace
+  {
+    /** What is nearer to the surface, in a cell of size 1, touches it. */
+    constexpr double near_surface = 0.01;
+
+    template <int dim> struct PlacedNode
+    {
+      dealii::Point<dim> place;
+      unsigned int body = 0;
+
+      template <class Archive> void serialize(Archive &archive, unsigned int)
+      {
+        archive &place &body;
+      }
+
+      bool operator<(const PlacedNode &other) const
+      {
+        return place[0] < other.place[0];
+      }
+    };
+
+    /** Corners of facets with these ids on all ranks, by their first
+     * coordinate.
+     */
+    template <int dim>
+    std::vector<PlacedNode<dim>>
+    corners_of(const dealii::DoFHandler<dim> &dof_handler,
+               const BodyNumbers<dim> &bodies,
+               const std::set<dealii::types::boundary_id> &ids)
+    {
+      std::vector<PlacedNode<dim>> mine, all;
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->at_boundary())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
+              for (const unsigned int v : face->vertex_indices())
+                mine.push_back({face->vertex(v), bodies.of(cell)});
+      for (const auto &part : dealii::Utilities::MPI::all_gather(
+               dof_handler.get_communicator(), mine))
+        all.insert(all.end(), part.begin(), part.end());
+      std::sort(all.begin(), all.end());
+      return all;
+    }
+
+    /** [vertices of the mesh] Whether this rank knows a face of the surface at
+     * it. */
+    template <int dim>
+    std::vector<bool>
+    surface_vertices(const dealii::DoFHandler<dim> &dof_handler)
+    {
+      std::vector<bool> result(dof_handler.get_triangulation().n_vertices());
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (!cell->is_artificial() && cell->at_boundary())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary())
+              for (const unsigned int v : face->vertex_indices())
+                result[face->vertex_index(v)] = true;
+      return result;
+    }
+
+    /** As of deepest_inside(). */
+    template <int dim>
+    double depth_in(const dealii::Mapping<dim> &mapping,
+                    const typename dealii::DoFHandler<dim>::cell_iterator &cell,
+                    const std::vector<bool> &at_surface,
+                    const dealii::Point<dim> &place)
+    {
+      using Unit = dealii::GeometryInfo<dim>;
+      dealii::Point<dim> unit;
+      try
+      {
+        unit = mapping.transform_real_to_unit_cell(cell, place);
+      }
+      catch (const typename dealii::Mapping<dim>::ExcTransformationFailed &)
+      {
+        return 0.;
+      }
+      if (Unit::distance_to_unit_cell(unit) > 0.)
+        return 0.;
+      double part = 1.;
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+          part = std::min(part, f % 2 == 0 ? unit[f / 2] : 1. - unit[f / 2]);
+      for (const unsigned int v : cell->vertex_indices())
+        if (at_surface[cell->vertex_index(v)])
+          part = std::min(part, unit.distance(Unit::unit_cell_vertex(v)));
+      return part < near_surface ? 0. : part * cell->minimum_vertex_distance();
+    }
+  } // namespace
+
+  template <int dim>
+  NodeInside<dim>
+  deepest_inside(const dealii::Mapping<dim> &mapping,
+                 const dealii::DoFHandler<dim> &dof_handler,
+                 const std::set<dealii::types::boundary_id> &nodes,
+                 const std::set<dealii::types::boundary_id> &others)
+  {
+    const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
+    const std::vector<PlacedNode<dim>> corners =
+        corners_of(dof_handler, bodies, nodes);
+    const std::vector<int> has_others =
+        bodies_with(dof_handler, bodies, others);
+    const std::vector<bool> at_surface = surface_vertices(dof_handler);
+    PlacedNode<dim> low;
+    NodeInside<dim> deepest;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      const unsigned int body = bodies.of(cell);
+      if (!cell->is_locally_owned() || has_others[body] == 0)
+        continue;
+      const dealii::BoundingBox<dim> box = mapping.get_bounding_box(cell);
+      low.place = box.get_boundary_points().first;
+      const double high = box.get_boundary_points().second[0];
+      for (auto corner = std::lower_bound(corners.begin(), corners.end(), low);
+           corner != corners.end() && corner->place[0] <= high; ++corner)
+        if (corner->body != body && box.point_inside(corner->place))
+        {
+          const double depth =
+              depth_in<dim>(mapping, cell, at_surface, corner->place);
+          if (depth > deepest.depth)
+            deepest = {depth, corner->place};
+        }
+    }
+    NodeInside<dim> result;
+    for (const auto &[depth, place] : dealii::Utilities::MPI::all_gather(
+             dof_handler.get_communicator(),
+             std::make_pair(deepest.depth, deepest.place)))
+      if (depth > result.depth)
+        result = {depth, place};
+    return result;
+  }
+
+  template NodeInside<2>
+  deepest_inside(const dealii::Mapping<2> &, const dealii::DoFHandler<2> &,
+                 const std::set<dealii::types::boundary_id> &,
+                 const std::set<dealii::types::boundary_id> &);
+  template NodeInside<3>
+  deepest_inside(const dealii::Mapping<3> &, const dealii::DoFHandler<3> &,
+                 const std::set<dealii::types::boundary_id> &,
+                 const std::set<dealii::types::boundary_id> &);
+} // namespace abut::shim
