@@ -31,9 +31,7 @@ namespace abut::shim
       }
     };
 
-    /** Corners of facets with these ids on all ranks, by their first
-     * coordinate.
-     */
+    /** Corners of facets with these ids on all ranks, sorted by x. */
     template <int dim>
     std::vector<PlacedNode<dim>>
     corners_of(const dealii::DoFHandler<dim> &dof_handler,

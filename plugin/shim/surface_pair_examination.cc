@@ -484,8 +484,11 @@ namespace abut::shim
     refuse(pair, coded(ABUT_FAILURE_WRONG_SIDE, found.text(depth.str())));
   }
 
-  template <int dim> void SurfacePairRows<dim>::look_inside()
+  template <int dim>
+  void SurfacePairRows<dim>::look_inside(const la::Vector &start)
   {
+    // A displacement to start with may have taken them apart.
+    const double way = 2. * std::sqrt(double(dim)) * start.linfty_norm();
     for (Pair &pair : pairs_)
     {
       const ContactPair<dim> &data = pair.data;
@@ -498,6 +501,8 @@ namespace abut::shim
           deepest_inside(mapping_, dof_handler_, data.primary, data.secondary);
       if (other.depth > pair.first_inside.depth)
         pair.first_inside = other;
+      if (pair.first_inside.depth <= way)
+        pair.first_inside.depth = 0.;
     }
   }
 
@@ -535,7 +540,7 @@ namespace abut::shim
       const la::Vector &, const double *, const double *,                      \
       const std::uint8_t *, const std::vector<Unseen> &);                      \
   template std::string SurfacePairRows<dim>::wrong_side(Pair &) const;         \
-  template void SurfacePairRows<dim>::look_inside();                           \
+  template void SurfacePairRows<dim>::look_inside(const la::Vector &);         \
   template void SurfacePairRows<dim>::refuse_overlap(std::size_t);             \
   template void SurfacePairRows<dim>::refuse_inside(Pair &,                    \
                                                     const la::Vector &) const;

@@ -638,7 +638,7 @@ namespace abut::shim
     note_place(moves() ? u : place);
     made_place_ = moves() ? displacement : last_commit();
     if (n_finds_ == 1)
-      look_inside();
+      look_inside(displacement);
     find_pairs(motions(way));
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       if (checks_[p].n_rows > 0)

@@ -459,8 +459,9 @@ namespace abut::shim
     std::string wrong_side(Pair &pair) const;
     void refuse_inside(Pair &pair, const la::Vector &displacement) const;
     /** Measure how deep bodies that may come near are in each other before
-     * anything is displaced. Collective. */
-    void look_inside();
+     * anything is displaced, unless the way to @p start is long enough to part
+     * them. Collective. */
+    void look_inside(const la::Vector &start);
     /** Throws if they are, where no rows hold them apart. */
     void refuse_overlap(std::size_t number);
 

@@ -92,6 +92,10 @@ for place, overlaps, ranks in (("5.1, -0.3 : 6.1, 0.7", True, (0, 2)),
             p.expect_error(thrown, "Pair 1/Secondary", "ABUT-F11", "overlap")
         else:
             p.expect(thrown.returncode == 0, f"{place}: {thrown.stderr}")
+parted = start("landing-on-a-body.prm", {
+    "Time/End": 0.0025, "Body 1/Initial displacement": "0, 1.5",
+    "Body 1/Mesh/Arguments": "4, 10 : 5.1, -0.3 : 6.1, 0.7 : true"})
+p.expect(parted.returncode == 0, f"displaced to begin with: {parted.stderr}")
 p.expect_error(start("sliding-die.prm", {"Body 1/Mesh/Scale": 1.559}),
                "Pair 1/Secondary", "ABUT-F11", "overlap by at least", "reach")
 for scale, overlap in ((1.1, "0.1"), (1.02, "")):

@@ -182,9 +182,9 @@ stagnation_counts_from_the_last_growth(void **unused)
     assert_true(penalty[i] == 1);
 }
 
-/* A pressure of 1e-8 that grows by itself in each step, at a gap that is small
- * enough: a change of all of it, unless the load is so large that ten times
- * what the linear solver may leave over of it is more. */
+/* A pressure that grows by 1e-8 in each step, at a gap that is small enough: a
+ * change of all of it, unless a hundred-thousandth of the load is so much that
+ * it is a thousandth of that. */
 static void
 noise_of_the_load_is_no_pressure(void **unused)
 {
@@ -193,14 +193,14 @@ noise_of_the_load_is_no_pressure(void **unused)
   options.penalty = 1;
   options.gap_tolerance = 1e-6;
   options.pressure_tolerance = 1e-3;
-  options.final_linear_tolerance = 1e-10;
   double penalty[20];
   int n = 0;
-  options.pressure_scale = 9.9;
+  options.pressure_scale = 0.99;
   assert_int_equal(push_in_vain(options, -1e-8, 0,
                                 ABUT_FAILURE_MULTIPLIERS_STALL, penalty, &n),
                    ABUT_REASON_STAGNATION);
-  options.pressure_scale = 10.1;
+  assert_int_equal(n, 5);
+  options.pressure_scale = 1.01;
   assert_int_equal(
       push_in_vain(options, -1e-8, 0, ABUT_FAILURE_NONE, penalty, &n),
       ABUT_REASON_CONVERGED);

@@ -18,6 +18,10 @@
  * what counts as no contraction at all. */
 static const double wanted_rate = 0.1, growth = 5, stagnant_rate = 0.9;
 
+/* Pressures are measured by themselves, or by this part of the pressure scale
+ * if they are smaller. */
+static const double least_pressure = 1e-5;
+
 enum
 {
   MAX_STAGNANT = 4 /* outer steps without contraction before giving up */
@@ -87,12 +91,12 @@ measure(abut_strategy *s, const double *change, double *gap_error)
   if (status == ABUT_SUCCESS)
     status = abut_strategy_reduce(s, ABUT_REDUCTION_SUM, sum, 3);
   *gap_error = max / s->options.length_scale;
-  /* All pressure gone is a change of 100 %; what the linear solver leaves over
-   * of the load in some steps, where hardly anything presses, is none. */
-  const double noise = 10 * s->options.final_linear_tolerance * sum[2];
-  s->progress.pressure_change = sum[0] <= noise ? 0
-                                : sum[1] > 0    ? sum[0] / sum[1]
-                                                : 1;
+  /* All pressure gone is a change of 100 %. Where hardly anything presses, what
+   * the linear solver leaves over of the load is not measured by that. */
+  const double all = fmax(sum[1], least_pressure * sum[2]);
+  s->progress.pressure_change = sum[0] == 0                   ? 0
+                                : sum[1] > 0 || sum[0] <= all ? sum[0] / all
+                                                              : 1;
   return status;
 }
 
