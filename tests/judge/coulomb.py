@@ -59,15 +59,28 @@ class PairFriction:
 
     # The summary
 
+    def measures_along_axis(self):
+        """Whether gaps are heights, whose change with the place is none of
+        length 1."""
+        scene, section = self.solid.scene, f"Obstacle {self.pair.obstacle}"
+        return (self.solid.large and self.pair.obstacle
+                and scene.get(f"{section}/Kind", "") == "height"
+                and scene.get(f"{section}/Gap along", "axis") == "axis")
+
     def sums(self):
         key, s = f"pair_{self.pair.number}", self.solid.summary
         force, friction = s[f"{key}_force"], s[f"{key}_friction"]
         size = s[f"{key}_normal_force"] + s[f"{key}_friction_force"] or 1.
         self.check("resultant of friction is at most the sum of its sizes",
                    (norm(friction) - s[f"{key}_friction_force"]) / size)
-        self.check("resultant of all is at most the sums of both",
-                   (norm(force) - s[f"{key}_normal_force"]
-                    - s[f"{key}_friction_force"]) / size)
+        if self.measures_along_axis():
+            self.solid.findings.leave(
+                f"resultant of pair {self.pair.number}",
+                "pressures are along the axis of the obstacle, forces are not")
+        else:
+            self.check("resultant of all is at most the sums of both",
+                       (norm(force) - s[f"{key}_normal_force"]
+                        - s[f"{key}_friction_force"]) / size)
         self.check("ratio of the resultant and the sum of pressures",
                    abs(s[f"{key}_friction_ratio"] * s[f"{key}_normal_force"]
                        - norm(friction)) / size)
