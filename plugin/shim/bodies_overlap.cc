@@ -96,47 +96,66 @@ namespace abut::shim
           part = std::min(part, unit.distance(Unit::unit_cell_vertex(v)));
       return part < near_surface ? 0. : part * cell->minimum_vertex_distance();
     }
+
+    /** The deepest of @p corners in cells of this rank, of bodies with facets
+     * of these ids. */
+    template <int dim>
+    NodeInside<dim>
+    deepest_corner(const dealii::Mapping<dim> &mapping,
+                   const dealii::DoFHandler<dim> &dof_handler,
+                   const BodyNumbers<dim> &bodies,
+                   const std::vector<bool> &at_surface,
+                   const std::vector<PlacedNode<dim>> &corners,
+                   const std::set<dealii::types::boundary_id> &ids)
+    {
+      const std::vector<int> has_facets = bodies_with(dof_handler, bodies, ids);
+      PlacedNode<dim> low;
+      NodeInside<dim> deepest;
+      for (const auto &cell : dof_handler.active_cell_iterators())
+      {
+        const unsigned int body = bodies.of(cell);
+        if (!cell->is_locally_owned() || has_facets[body] == 0)
+          continue;
+        const dealii::BoundingBox<dim> box = mapping.get_bounding_box(cell);
+        low.place = box.get_boundary_points().first;
+        const double high = box.get_boundary_points().second[0];
+        for (auto corner =
+                 std::lower_bound(corners.begin(), corners.end(), low);
+             corner != corners.end() && corner->place[0] <= high; ++corner)
+          if (corner->body != body && box.point_inside(corner->place))
+          {
+            const double depth =
+                depth_in<dim>(mapping, cell, at_surface, corner->place);
+            if (depth > deepest.depth)
+              deepest = {depth, corner->place};
+          }
+      }
+      return deepest;
+    }
   } // namespace
 
   template <int dim>
   NodeInside<dim>
   deepest_inside(const dealii::Mapping<dim> &mapping,
                  const dealii::DoFHandler<dim> &dof_handler,
-                 const std::set<dealii::types::boundary_id> &nodes,
-                 const std::set<dealii::types::boundary_id> &others)
+                 const std::set<dealii::types::boundary_id> &one,
+                 const std::set<dealii::types::boundary_id> &other)
   {
     const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
-    const std::vector<PlacedNode<dim>> corners =
-        corners_of(dof_handler, bodies, nodes);
-    const std::vector<int> has_others =
-        bodies_with(dof_handler, bodies, others);
     const std::vector<bool> at_surface = surface_vertices(dof_handler);
-    PlacedNode<dim> low;
-    NodeInside<dim> deepest;
-    for (const auto &cell : dof_handler.active_cell_iterators())
-    {
-      const unsigned int body = bodies.of(cell);
-      if (!cell->is_locally_owned() || has_others[body] == 0)
-        continue;
-      const dealii::BoundingBox<dim> box = mapping.get_bounding_box(cell);
-      low.place = box.get_boundary_points().first;
-      const double high = box.get_boundary_points().second[0];
-      for (auto corner = std::lower_bound(corners.begin(), corners.end(), low);
-           corner != corners.end() && corner->place[0] <= high; ++corner)
-        if (corner->body != body && box.point_inside(corner->place))
-        {
-          const double depth =
-              depth_in<dim>(mapping, cell, at_surface, corner->place);
-          if (depth > deepest.depth)
-            deepest = {depth, corner->place};
-        }
-    }
     NodeInside<dim> result;
-    for (const auto &[depth, place] : dealii::Utilities::MPI::all_gather(
-             dof_handler.get_communicator(),
-             std::make_pair(deepest.depth, deepest.place)))
-      if (depth > result.depth)
-        result = {depth, place};
+    for (const auto &[nodes, of] :
+         {std::make_pair(&one, &other), std::make_pair(&other, &one)})
+    {
+      const NodeInside<dim> mine =
+          deepest_corner(mapping, dof_handler, bodies, at_surface,
+                         corners_of(dof_handler, bodies, *nodes), *of);
+      for (const auto &[depth, place] : dealii::Utilities::MPI::all_gather(
+               dof_handler.get_communicator(),
+               std::make_pair(mine.depth, mine.place)))
+        if (depth > result.depth)
+          result = {depth, place};
+    }
     return result;
   }
 

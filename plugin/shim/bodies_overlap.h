@@ -17,18 +17,18 @@ namespace abut::shim
     dealii::Point<dim> place;
   };
 
-  /** Of the nodes of facets with ids @p nodes the one that is deepest inside of
-   * another body that has facets with ids @p others, before anything is
-   * displaced. Depths are those below the surface of the cell that the node is
-   * in, or the size of a cell that has none; a hundredth of a cell is none. All
-   * ranks get the same. Two passes over the cells and O(log n) for each cell of
-   * these bodies. Collective. */
+  /** The node of two surfaces, given by their boundary ids, that is deepest
+   * inside of another body, which the other surface belongs to, before anything
+   * is displaced. Depths are those below the surface of the cell that the node
+   * is in, or the size of a cell that has none; a hundredth of a cell is none.
+   * All ranks get the same. Some passes over the cells and O(log n) for each
+   * cell of these bodies. Collective. */
   template <int dim>
   NodeInside<dim>
   deepest_inside(const dealii::Mapping<dim> &mapping,
                  const dealii::DoFHandler<dim> &dof_handler,
-                 const std::set<dealii::types::boundary_id> &nodes,
-                 const std::set<dealii::types::boundary_id> &others);
+                 const std::set<dealii::types::boundary_id> &one,
+                 const std::set<dealii::types::boundary_id> &other);
 } // namespace abut::shim
 
 #endif

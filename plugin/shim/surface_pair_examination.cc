@@ -497,10 +497,6 @@ namespace abut::shim
         continue;
       pair.first_inside =
           deepest_inside(mapping_, dof_handler_, data.secondary, data.primary);
-      const NodeInside<dim> other =
-          deepest_inside(mapping_, dof_handler_, data.primary, data.secondary);
-      if (other.depth > pair.first_inside.depth)
-        pair.first_inside = other;
       if (pair.first_inside.depth <= way)
         pair.first_inside.depth = 0.;
     }

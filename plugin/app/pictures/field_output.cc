@@ -182,7 +182,6 @@ namespace abut::app
   void FieldSeries::append(const double time, const Fields<dim> &fields,
                            const Output &output)
   {
-    written.add_mesh(smallest_size(fields.dof_handler.get_triangulation()));
     for (const auto &[label, values] : fields.nodal)
       written.add_field(label, values->linfty_norm());
     const std::vector<std::string> names = output.get_dataset_names();
@@ -224,6 +223,8 @@ namespace abut::app
       append(time, fields, output);
       return;
     }
+    // Faces are of the same mesh.
+    written.add_mesh(smallest_size(fields.dof_handler.get_triangulation()));
     NamedOutput<dealii::DataOut<dim>> output;
     add_fields(time, fields, output);
     output.build_patches(fields.mapping, degree,

@@ -85,7 +85,7 @@ measure(abut_strategy *s, const double *change, double *gap_error)
       max = fmax(max, error);
     sum[0] += s->weight[i] * fabs(change[i]);
     sum[1] += s->weight[i] * fabs(s->pressure[i]);
-    sum[2] += s->weight[i] * s->options.pressure_scale;
+    sum[2] += s->weight[i];
   }
   abut_status status = abut_strategy_reduce(s, ABUT_REDUCTION_MAX, &max, 1);
   if (status == ABUT_SUCCESS)
@@ -93,7 +93,8 @@ measure(abut_strategy *s, const double *change, double *gap_error)
   *gap_error = max / s->options.length_scale;
   /* All pressure gone is a change of 100 %. Where hardly anything presses, what
    * the linear solver leaves over of the load is not measured by that. */
-  const double all = fmax(sum[1], least_pressure * sum[2]);
+  const double all =
+      fmax(sum[1], least_pressure * s->options.pressure_scale * sum[2]);
   s->progress.pressure_change = sum[0] == 0                   ? 0
                                 : sum[1] > 0 || sum[0] <= all ? sum[0] / all
                                                               : 1;
