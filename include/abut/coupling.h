@@ -284,14 +284,13 @@ extern "C"
      * of abut_obstacle_gap(), against a surface the signed distance of the
      * nearest point (abut_facet_distance_derivatives(); a little beyond its
      * border, up to abut_detection_options.extension, that of the facet there
-     * continued). The first direction of a point is minus their gradient, not
-     * of unit length where that is not, and the view has their second
-     * derivatives. Quadrature points are always on whole facets then, and
-     * mortar always has its segments. Points of
-     * mortar meet what is opposite now, along the present normals, and the view
-     * has what their forces change by; nodes that are covered by less than a
-     * fifth have none. No ties, and no mortar against obstacles. NULL
-     * (default): points are fixed. */
+     * continued). The first direction of a point is minus their gradient, and
+     * the view has their second derivatives. Quadrature points are always on
+     * whole facets then, and mortar always has its segments. Points of mortar
+     * meet what is opposite now, along the present normals, and the view has
+     * what their forces change by; nodes that are covered by less than a fifth
+     * have none. No ties, and no mortar against obstacles. NULL (default):
+     * points are fixed. */
     const double *reference;
     /** Points stand where the surfaces are now and are fixed there:
      * [n_nodes * dimension] positions of the secondary's nodes that weights are

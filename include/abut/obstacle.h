@@ -163,8 +163,8 @@ extern "C"
     double length;
     /** The derivative of the value where the gradient of evaluate is another
      * vector, such as the axis of a height: (h', -1) instead of (0, -1).
-     * abut_obstacle_gap() needs it. NULL (default): the gradient is the
-     * derivative. Returns as evaluate does.
+     * abut_obstacle_gap() takes it in the place of the gradient. NULL
+     * (default): the gradient is the derivative. Returns as evaluate does.
      * @param points [n * dimension]
      * @param derivative [n * dimension] out, finite */
     int (*derivative)(void *user, int32_t n, const double *points,
@@ -225,10 +225,11 @@ extern "C"
                                               double *hessian);
 
   /** Gaps of n points that move: the same as abut_obstacle_distance(), but for
-   * functions with a derivative. Of these it is the value as it is, with that
-   * derivative as gradient, which is not of unit length, and the derivative of
-   * that as hessian: a pressure is then the force by the change of this gap.
-   * Arguments, errors and cost as there. */
+   * functions with a derivative, which is in the place of their gradient. So
+   * the gap of a height along its axis, too, is normal to the surface, and a
+   * pressure is force by area there. Newton's method has the order sqrt(2)
+   * where a function is no distance, not 2. Arguments, errors and cost as
+   * there. */
   ABUT_API abut_status abut_obstacle_gap(abut_obstacle *obstacle, int32_t n,
                                          const double *points, double *gap,
                                          double *gradient, double *hessian);

@@ -364,9 +364,16 @@ namespace abut
              + ", whose stress is that of the undeformed bodies. Use small.";
     if (sliding == Sliding::turn)
       return turn_refusal(law, is_weighted, pair);
-    if (sliding != Sliding::large)
+    if (sliding == Sliding::small || sliding == Sliding::automatic)
       return "";
-    const std::string why = "Method/Sliding = large ";
+    const std::string why = std::string("Method/Sliding = ")
+                            + (sliding == Sliding::step ? "step " : "large ");
+    if (!pair.has_geometric_gap)
+      return why
+             + "measures gaps where the surfaces are: they must count (leave "
+               "out the gap that stands for them), or use small.";
+    if (sliding == Sliding::step)
+      return "";
     const std::string mortar = std::string("Method/Discretisation = ")
                                + abut_discretisation_name(discretisation);
     if (is_weighted && pair.has_obstacle)
@@ -378,10 +385,6 @@ namespace abut
              + "does not go with Method/Enforcement = " + std::string(law.name)
              + ". Use lagrange, penalty, quadratic penalty or augmented "
                "lagrangian.";
-    if (!pair.has_geometric_gap)
-      return why
-             + "measures gaps where the surfaces are: they must count (leave "
-               "out the gap that stands for them), or use small.";
     return "";
   }
 

@@ -90,7 +90,8 @@ namespace abut::shim
     // As in PairResult.
     double between_rows = 0., held_inside = 0.;
     double held_in_the_mean = 0.; ///< as the function
-    /** The deepest node in the other body before anything is displaced. */
+    /** The deepest node in the other body, or in an obstacle that bodies fly
+     * towards, before anything is displaced. */
     NodeInside<dim> first_inside;
     /** Known failures that it was made with all the same. */
     std::vector<ContactFinding> refused;

@@ -97,7 +97,7 @@ namespace abut::shim
   void SurfacePairRows<dim>::make_check(const std::size_t number,
                                         const unsigned int n_dropped)
   {
-    const Pair &pair = pairs_[number];
+    Pair &pair = pairs_[number];
     abut_coupling_statistics statistics;
     check(context_,
           abut_coupling_get_statistics(pair.coupling.get(), &statistics));
@@ -138,8 +138,7 @@ namespace abut::shim
               + " times as coarse as the primary, whose nodes can pass between "
                 "those of the secondary: exchange the two sides, or refine the "
                 "secondary."));
-    // Obstacles are moved into bodies on purpose, and points that move are
-    // those of a step on its way.
+    // Points that move are those of a step on its way.
     const double first =
         pair.is_present() ? pair.first_inside.depth : result.overlap;
     if (!pair.data.obstacle && first > large_overlap * sizes.median)
@@ -149,6 +148,20 @@ namespace abut::shim
               + " before anything is loaded, " + text(first / sizes.median)
               + " times the size of a facet. If that is not meant as "
                 "interference, move the bodies apart."));
+    // At rest obstacles are moved into bodies on purpose.
+    if (pair.data.obstacle && pair.data.may_be_apart)
+    {
+      if (n_finds_ == 1)
+        pair.first_inside.depth = result.overlap + std::min(0., pair.data.gap);
+      const double depth = pair.first_inside.depth;
+      if (depth > large_overlap * sizes.median)
+        result.warnings.push_back(coded(
+            ABUT_FAILURE_OVERLAP,
+            "Nodes of the surface are inside of the obstacle by " + text(depth)
+                + " before anything moves, " + text(depth / sizes.median)
+                + " times the size of a facet, and are thrown out of it. If "
+                  "that is not meant, begin where the two are apart."));
+    }
     if (!pair.data.obstacle && !pair.is_present() && result.covered_area > 0.)
     {
       // Of graded meshes the smallest facets are likely to be those that meet.

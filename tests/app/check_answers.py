@@ -147,6 +147,16 @@ for shape in (kind("box", Centre="0.63, 0.52", Size="0.003, 0.001"),
         p.expect_error(run(plate, *shape, "Obstacle 1/Motion=",
                            "Load steps/Steps=1", command=command), "Pair 1",
                        "ABUT-F23", "the body is in the obstacle")
+# What begins in an obstacle that it flies towards, by more than .3 of a facet of
+# .08; the ball begins .00185 above the block.
+ball = p.source / "prm/falling-ball.prm"
+for move, code, given in ((0., 0, False), (-0.02, 3, False), (-0.05, 3, True)):
+    found = run(ball, f"Obstacle 1/Move=0, {move}", "Refinement/Level=2",
+                "Time/End=0.026")
+    expect(found, code, *(["ABUT-F11", "by 0.0481", "0.601"] if given else []),
+           without=() if given else ("ABUT-F11",))
+expect(run(ball, "Obstacle 1/Move=0, -0.05", command="check"), 0, "ABUT-F11",
+       "inside of the obstacle by 0.0481")
 # Gaps that leave out where the obstacle is do not see it come.
 for words in ([], ["Obstacle 1/Motion=0, -0.01"],
               ["Obstacle 1/Motion=", "Obstacle 1/Free directions=y",
@@ -155,6 +165,9 @@ for words in ([], ["Obstacle 1/Motion=0, -0.01"],
               + ["Obstacle 1/Motion="]):
     p.expect_error(run(plate, "Pair 1/Mesh gap=false", *words),
                    "Pair 1/Mesh gap", "Obstacle 1", "moves")
+p.expect_error(run(plate, "Pair 1/Mesh gap=false", "Obstacle 1/Motion=",
+                   "Method/Sliding=step"), "Method/Sliding = step",
+               "measures gaps where the surfaces are")
 near(expect(run(plate, "Pair 1/Mesh gap=false", "Obstacle 1/Motion=",
                 "Pair 1/Initial gap=-0.01*t"), 0)["contact_force"],
      2 * modulus * 0.01, 1e-6, "pressed by the initial gap")

@@ -49,6 +49,8 @@ refused("rigid-plate.prm", {"Solid/Pairs": "2", "Pair 2/Obstacle": "1",
                             "Pair 2/Secondary": "1: *"}, "in pair 'Pair 1', too")
 refused("rigid-plate.prm", ("Obstacle 1/Rotation centre", "1, 0"), NO_EFFECT,
         "Rotation angle")
+refused("parabola-friction.prm", ("Obstacle 1/Gradient", "x; 0"), NO_EFFECT,
+        "along the axis")
 refused("pipe.prm", {"Body 1/Support": "0: 0, 0; 2: free, 0; 3: 0, free",
                      "Body 1/Pressure": "0: 1"}, "boundary 0", NO_EFFECT,
         "Body 1/Support")

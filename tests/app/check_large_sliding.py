@@ -126,6 +126,37 @@ for way, active in (("nodes", 5), ("springs", 8)):
     p.expect(summary["pair_1_active"] == active,
              f"{way} over the end: {summary['pair_1_active']} active")
 
+# A slope is a plane, whether a height along the axis says so or its normal: a
+# block is pressed on it and dragged, so that all of it slips.
+PRESS = [f"{press} + 0.1*max(0, t - 1)" for press in
+         ("0.02*min(1, t)", "-0.02*min(1, t)")]
+SLOPES = {"plane": ["Kind = plane", "Normal = -1, 1"],
+          "height": ["Kind = height", "Expression = x", "Axis = 0, 1"],
+          "normal": ["Kind = height", "Expression = x", "Axis = 0, 1",
+                     "Gap along = normal"]}
+
+
+def on_slope(kind):
+    return p.write("slope.prm", solid(
+        2, block(1, "8, 4 : 0, 0 : 2, 1 : true", "3: " + ", ".join(PRESS),
+                 "Rotate = 45", more=RUBBER),
+        section("Obstacle 1", *SLOPES[kind]),
+        section("Pair 1", "Secondary = 1: 2", "Obstacle = 1", "Friction = 0.3"),
+        section("Load steps", "Steps = 6", "End time = 2"),
+        section("Refinement", "Level = 0"),
+        section("Output", "Fields = false"), bodies=1, obstacles=1))
+
+
+for words in WAYS["nodes"], WAYS["springs"]:
+    plane, *heights = (solved(on_slope(kind), *FINE, *words)
+                       for kind in SLOPES)
+    p.close(plane["pair_1_friction_force"],
+            0.3 * plane["pair_1_normal_force"], 1e-9, "friction of a block")
+    for height in heights:
+        for key in ("pair_1_normal_force", "pair_1_friction_force", "energy",
+                    "pair_1_pressure", "contact_force", "dissipation"):
+            p.close(height[key], plane[key], 1e-9, f"a slope: {key}")
+
 # Between bodies `auto` moves points where nodes or points are asked for.
 scene = turn(p, 2)
 PRESSED = ["Load steps/End time=0.2", "Load steps/Steps=3"]

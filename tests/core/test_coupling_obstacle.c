@@ -314,16 +314,16 @@ test_failures(void **state)
   scene_free(&s);
 }
 
-/* A height along the last axis: g = z - x^2 / 2 - y^3 / 6 in space, z - x^2 / 2
- * in the plane; the gradient of evaluate is the axis. */
+/* A slope as a height along the last axis, z - 3 x / 4: 4 / 5 of that is the
+ * distance, and (-3, 4) / 5 the normal; the gradient of evaluate is the axis.
+ */
 static int
 height(void *user, int32_t n, const double *x, double *value, double *gradient)
 {
   const int32_t dim = *(const int32_t *)user;
   for (int32_t i = 0; i < n; ++i, x += dim)
   {
-    value[i] = x[dim - 1] - 0.5 * x[0] * x[0]
-               - (dim == 3 ? x[1] * x[1] * x[1] / 6. : 0.);
+    value[i] = x[dim - 1] - 0.75 * x[0];
     for (int32_t d = 0; d < dim; ++d)
       gradient[dim * i + d] = d == dim - 1;
   }
@@ -333,13 +333,13 @@ height(void *user, int32_t n, const double *x, double *value, double *gradient)
 static int
 slope(void *user, int32_t n, const double *x, double *derivative)
 {
+  (void)x;
   const int32_t dim = *(const int32_t *)user;
-  for (int32_t i = 0; i < n; ++i, x += dim)
+  for (int32_t i = 0; i < n; ++i)
   {
-    derivative[dim * i] = -x[0];
-    if (dim == 3)
-      derivative[dim * i + 1] = -0.5 * x[1] * x[1];
-    derivative[dim * i + dim - 1] = 1.;
+    for (int32_t d = 0; d < dim; ++d)
+      derivative[dim * i + d] = d == dim - 1;
+    derivative[dim * i] = -0.75;
   }
   return 0;
 }
@@ -461,6 +461,29 @@ check_moving(const scene_mesh *mesh, abut_obstacle *obstacle,
   couple_destroy(&c);
 }
 
+/* Of points that move all directions are normals, along an axis or not. */
+static void
+check_unit(const scene_mesh *mesh, abut_obstacle *obstacle,
+           abut_discretisation discretisation)
+{
+  abut_coupling_options options = abut_coupling_defaults();
+  options.discretisation = discretisation;
+  options.search.reach = 10.;
+  couple c = couple_obstacle(mesh, obstacle, &options);
+  build_moving(&c, mesh->position, mesh->position);
+  abut_points_view p;
+  require(abut_points_get(c.points, &p));
+  const int dim = mesh->dimension;
+  for (int32_t i = 0; i < p.n_points; ++i)
+  {
+    double square = 0.;
+    for (int d = 0; d < dim; ++d)
+      square += p.frame[i * dim + d] * p.frame[i * dim + d];
+    near(square, 1., 1e-14, "length of a direction");
+  }
+  couple_destroy(&c);
+}
+
 static void
 test_moving(void **state)
 {
@@ -489,6 +512,7 @@ test_moving(void **state)
         if (dim == 3)
           space = scene_patch(kinds[i], 2, 2, scene_plane, p, true);
         check_moving(dim == 2 ? &plane : &space, o[k % 2], ways[k / 2]);
+        check_unit(dim == 2 ? &plane : &space, o[k % 2], ways[k / 2]);
         if (dim == 3)
           scene_free(&space);
       }

@@ -322,6 +322,85 @@ curvature_of_functions(void **state)
   assert_ok(abut_obstacle_destroy(&o));
 }
 
+/* A bowl, the lower half of a sphere of radius 1 about (0, 0, 1), as a height
+ * whose gap is along the axis. */
+static int
+sphere_height(void *user, int32_t n, const double *points, double *value,
+              double *gradient)
+{
+  (void)user;
+  for (int32_t i = 0; i < n; ++i)
+  {
+    const double *x = points + 3 * i;
+    value[i] = x[2] - 1 + sqrt(1 - x[0] * x[0] - x[1] * x[1]);
+    gradient[3 * i] = gradient[3 * i + 1] = 0;
+    gradient[3 * i + 2] = 1;
+  }
+  return 0;
+}
+
+static int
+sphere_slope(void *user, int32_t n, const double *points, double *derivative)
+{
+  (void)user;
+  for (int32_t i = 0; i < n; ++i)
+  {
+    const double *x = points + 3 * i;
+    const double depth = sqrt(1 - x[0] * x[0] - x[1] * x[1]);
+    derivative[3 * i] = -x[0] / depth;
+    derivative[3 * i + 1] = -x[1] / depth;
+    derivative[3 * i + 2] = 1;
+  }
+  return 0;
+}
+
+/* Gaps of points that move: at the surface those of the sphere, to slopes of
+ * 1.5; the axis for points that do not. */
+static void
+gaps_of_heights(void **state)
+{
+  (void)state;
+  abut_obstacle_function f = abut_obstacle_function_defaults();
+  f.evaluate = sphere_height;
+  f.derivative = sphere_slope;
+  abut_obstacle_shape s = abut_obstacle_shape_defaults();
+  s.kind = ABUT_OBSTACLE_SPHERE;
+  s.point[2] = 1;
+  s.hollow = true;
+  abut_obstacle *o = NULL, *sphere = make(&s);
+  assert_ok(abut_obstacle_create_function(context, &f, &o));
+  const double turn[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1}, shift[3] = {1, -2, 0.5};
+  assert_ok(abut_obstacle_set_pose(o, turn, shift));
+  assert_ok(abut_obstacle_set_pose(sphere, turn, shift));
+  uint64_t seed = 17;
+  for (int i = 0; i < 50; ++i)
+  {
+    const double a = 6.2831853 * fixture_random(&seed),
+                 r = 0.83 * fixture_random(&seed),
+                 x[3] = {shift[0] + r * cos(a), shift[1] + r * sin(a),
+                         shift[2] + 1 - sqrt(1 - r * r)};
+    double d, g[3], h[9], distance, normal[3], curvature[9];
+    assert_ok(
+        abut_obstacle_distance(sphere, 1, x, &distance, normal, curvature));
+    assert_ok(abut_obstacle_gap(o, 1, x, &d, g, h));
+    assert_close(d, 0, 1e-15);
+    for (int j = 0; j < 3; ++j)
+      assert_close(g[j], normal[j], 1e-14);
+    for (int j = 0; j < 9; ++j)
+      assert_close(h[j], curvature[j], 1e-8);
+    /* Below it, to first order: 1e-4 along the axis. */
+    const double below[3] = {x[0], x[1], x[2] - 1e-4};
+    assert_ok(abut_obstacle_distance(sphere, 1, below, &distance, NULL, NULL));
+    assert_ok(abut_obstacle_gap(o, 1, below, &d, NULL, NULL));
+    assert_close(d, distance, 2e-8);
+    assert_ok(abut_obstacle_distance(o, 1, below, &d, g, NULL));
+    assert_close(d, -1e-4, 1e-15);
+    assert_close(g[2], 1, 0);
+  }
+  assert_ok(abut_obstacle_destroy(&o));
+  assert_ok(abut_obstacle_destroy(&sphere));
+}
+
 /* A point of the surface of a box or of a cone (2D: rectangle, wedge) with an
  * end, in the frame of the shape: s, t in [0, 1] on part k of it. */
 static void

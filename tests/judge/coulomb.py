@@ -7,18 +7,9 @@ from formula import Formula
 from motion import in_motion
 from thresholds import THRESHOLDS
 from tolerances import of_balance
-from vectors import add, dot, norm, scale, sub, unit
+from vectors import dot, norm, scale, sub
 
 STICK, SLIP = 1, 2
-
-
-def plane_normal(obstacle, place, size):
-    """Out of the material, by differences of the distance, which is linear."""
-    axes = [tuple(float(i == k) for i in range(len(place)))
-            for k in range(len(place))]
-    return unit(tuple(obstacle.distance(add(place, scale(e, size)))
-                      - obstacle.distance(sub(place, scale(e, size)))
-                      for e in axes))
 
 
 class PairFriction:
@@ -59,28 +50,15 @@ class PairFriction:
 
     # The summary
 
-    def measures_along_axis(self):
-        """Whether gaps are heights, whose change with the place is none of
-        length 1."""
-        scene, section = self.solid.scene, f"Obstacle {self.pair.obstacle}"
-        return (self.solid.large and self.pair.obstacle
-                and scene.get(f"{section}/Kind", "") == "height"
-                and scene.get(f"{section}/Gap along", "axis") == "axis")
-
     def sums(self):
         key, s = f"pair_{self.pair.number}", self.solid.summary
         force, friction = s[f"{key}_force"], s[f"{key}_friction"]
         size = s[f"{key}_normal_force"] + s[f"{key}_friction_force"] or 1.
         self.check("resultant of friction is at most the sum of its sizes",
                    (norm(friction) - s[f"{key}_friction_force"]) / size)
-        if self.measures_along_axis():
-            self.solid.findings.leave(
-                f"resultant of pair {self.pair.number}",
-                "pressures are along the axis of the obstacle, forces are not")
-        else:
-            self.check("resultant of all is at most the sums of both",
-                       (norm(force) - s[f"{key}_normal_force"]
-                        - s[f"{key}_friction_force"]) / size)
+        self.check("resultant of all is at most the sums of both",
+                   (norm(force) - s[f"{key}_normal_force"]
+                    - s[f"{key}_friction_force"]) / size)
         self.check("ratio of the resultant and the sum of pressures",
                    abs(s[f"{key}_friction_ratio"] * s[f"{key}_normal_force"]
                        - norm(friction)) / size)
@@ -134,8 +112,8 @@ class PairFriction:
                            "plane") != "plane":
             return "its obstacle is no plane"
         obstacle = solid.obstacle(self.pair)
-        return plane_normal(obstacle, solid.nodes.place[self.nodes[0]],
-                            solid.nodes.extent)
+        return obstacle.normal(solid.nodes.place[self.nodes[0]],
+                               solid.nodes.extent)
 
     def knows_slips(self):
         """Whether the displacement along the obstacle is the slip."""

@@ -38,6 +38,15 @@ class Obstacle:
     def _flag(self, name):
         return self.scene.flag(f"{self.section}/{name}")
 
+    def _points_move(self):
+        """Whether gaps are measured where bodies are, normal to a height."""
+        get = self.scene.get
+        sliding = get("Method/Sliding", "auto")
+        return sliding == "large" or (
+            sliding == "auto" and get("Body 1/Material", "hooke") != "hooke"
+            and get("Method/Discretisation", "auto") in
+            ("auto", "node to segment", "quadrature point"))
+
     def _vector(self, name, last=False):
         values = numbers(self._text(name))
         if not values:
@@ -91,14 +100,22 @@ class Obstacle:
     def distance(self, x):
         return self.sign * self.shape(self.own(x))
 
+    def normal(self, x, size):
+        """Out of the material, by differences of the distance."""
+        axes = [tuple(float(i == k) for i in range(self.dim))
+                for k in range(self.dim)]
+        return unit(tuple(self.distance(add(x, scale(e, size)))
+                          - self.distance(sub(x, scale(e, size)))
+                          for e in axes))
+
     def clearance(self, x, gap):
-        """Distance beyond an initial gap, which is added to the distance as
-        the scene has it: along the axis of a height, by the formula."""
+        """Distance beyond an initial gap, which is along the axis of a height
+        whose points do not move."""
         return self.distance(x) + gap / self.steepness(self.own(x))
 
     @staticmethod
     def steepness(_):
-        """What distances of the scene are by those along the normal."""
+        """What initial gaps are by those along the normal."""
         return 1.
 
     # Shapes: signed distances in their own frame
@@ -175,8 +192,12 @@ class Obstacle:
 
         def level(x):
             return formula(x, self.time)
-        self.steepness = lambda x: math.sqrt(1 + self._slope(level, x)**2)
-        return lambda x: sign * (x[along] - level(x)) / self.steepness(x)
+
+        def steepness(x):
+            return math.sqrt(1 + self._slope(level, x)**2)
+        if self._text("Gap along", "axis") == "axis" and not self._points_move():
+            self.steepness = steepness
+        return lambda x: sign * (x[along] - level(x)) / steepness(x)
 
     def _distance(self):
         formula = Formula(self._text("Expression"))
@@ -184,8 +205,7 @@ class Obstacle:
         def value(x):
             return formula(x, self.time)
 
-        self.steepness = lambda x: self._slope(value, x) or 1.
-        return lambda x: value(x) / self.steepness(x)
+        return lambda x: value(x) / (self._slope(value, x) or 1.)
 
     def surface_points(self):
         """Points all over a closed shape, in the world; none of others."""

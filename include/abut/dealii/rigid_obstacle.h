@@ -46,10 +46,9 @@ namespace abut
     /** The material is above the height, seen along the axis: a die. */
     bool material_above = false;
     /** The gap is measured along the axis, and its gradient is the axis: an
-     * obstacle in the sense of a height above each point. Of points that move
-     * it is the same gap with its own gradient, (-h', 1) in the plane: it is
-     * not of unit length, and a pressure is force by that gap. Otherwise it is
-     * measured normal to the surface, to first order in the gap. */
+     * obstacle in the sense of a height above each point. Otherwise, and of
+     * points that move in any case, it is measured normal to the surface, to
+     * first order in the gap. */
     bool along_axis = true;
   };
 

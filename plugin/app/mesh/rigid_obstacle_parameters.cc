@@ -208,7 +208,8 @@ namespace abut::app
     prm.declare_entry("Gap along", "axis", Patterns::Selection("axis|normal"),
                       "height: whether the gap is measured along the axis, "
                       "and the contact force acts along it, or normal to the "
-                      "surface.");
+                      "surface. Normal in any case where points move "
+                      "(`Method/Sliding = large`, `auto` at large strain).");
     prm.declare_entry("Open surface", "false", Patterns::Bool(),
                       "surface: it may have borders, like a sheet with the "
                       "material behind it.");

@@ -10,8 +10,10 @@
  * differences of the caller's gradient of fourth order, with four evaluations
  * for each axis: (8 (g(+h) - g(-h)) - (g(+2h) - g(-2h))) / (12 h).
  *
- * Gaps of points that move are the value itself where the caller has its
- * derivative, and second derivatives the differences of that. */
+ * Of points that move the caller's derivative, where there is one, takes the
+ * place of the gradient. Where f is no distance, H misses what n changes by
+ * along itself, and Newton's method has the order sqrt(2): an error is that of
+ * the gap before, which is the square of the one before that. */
 #include "geometry/obstacle.h"
 
 #include "geometry/kernels.h"
@@ -161,20 +163,29 @@ normalise(int32_t dimension, double *value, double *gradient)
   return largest * length;
 }
 
-static abut_status
-evaluate(abut_obstacle *o, int32_t n, const double *points, double *distance,
-         double *gradient, double *hessian)
+/* Values and the vectors that they are divided by the length of. */
+static int
+ask(const abut_obstacle_function *f, bool moving, int32_t n,
+    const double *points, double *value, double *gradient)
 {
-  const abut_obstacle_function *f = &((function_obstacle *)o)->function;
+  const int failed = f->evaluate(f->user, n, points, value, gradient);
+  return failed != 0 || !moving ? failed
+                                : f->derivative(f->user, n, points, gradient);
+}
+
+static abut_status
+measure(abut_obstacle *o, bool moving, int32_t n, const double *points,
+        double *distance, double *gradient, double *hessian)
+{
+  function_obstacle *self = (function_obstacle *)o;
   const int32_t dimension = o->view.dimension;
-  if (f->evaluate(f->user, n, points, distance, gradient) != 0)
+  if (ask(&self->function, moving, n, points, distance, gradient) != 0)
     return abut_obstacle_fail(o, ABUT_CALLBACK_FAILED, 0,
                               "the obstacle's function failed for points that "
                               "begin");
   if (hessian != NULL)
   {
-    const abut_status status =
-        differences((function_obstacle *)o, false, n, points, hessian);
+    const abut_status status = differences(self, moving, n, points, hessian);
     if (status != ABUT_SUCCESS)
       return status;
   }
@@ -201,56 +212,19 @@ evaluate(abut_obstacle *o, int32_t n, const double *points, double *distance,
   return ABUT_SUCCESS;
 }
 
-/* A value and its derivative are to be used as they are. */
 static abut_status
-check_finite(abut_obstacle *o, int32_t n, const double *value,
-             const double *derivative)
+evaluate(abut_obstacle *o, int32_t n, const double *points, double *distance,
+         double *gradient, double *hessian)
 {
-  for (int32_t i = 0; i < n; ++i)
-  {
-    double probe = 0. * value[i];
-    for (int32_t d = 0; d < o->view.dimension; ++d)
-      probe += 0. * derivative[(int64_t)i * o->view.dimension + d];
-    if (probe != 0.)
-      return abut_obstacle_fail(o, ABUT_NOT_FINITE, i,
-                                "the obstacle's function or its derivative is "
-                                "not finite");
-  }
-  return ABUT_SUCCESS;
-}
-
-static void
-make_symmetric(int32_t dimension, double *hessian)
-{
-  for (int32_t a = 0; a < dimension; ++a)
-    for (int32_t d = 0; d < a; ++d)
-    {
-      double *one = hessian + a * dimension + d,
-             *other = hessian + d * dimension + a;
-      *one = *other = 0.5 * (*one + *other);
-    }
+  return measure(o, false, n, points, distance, gradient, hessian);
 }
 
 static abut_status
 gap(abut_obstacle *o, int32_t n, const double *points, double *value,
-    double *derivative, double *hessian)
+    double *gradient, double *hessian)
 {
-  function_obstacle *self = (function_obstacle *)o;
-  const abut_obstacle_function *f = &self->function;
-  const int64_t square = (int64_t)o->view.dimension * o->view.dimension;
-  if (f->derivative == NULL)
-    return evaluate(o, n, points, value, derivative, hessian);
-  if (f->evaluate(f->user, n, points, value, derivative) != 0
-      || f->derivative(f->user, n, points, derivative) != 0)
-    return abut_obstacle_fail(o, ABUT_CALLBACK_FAILED, 0,
-                              "the obstacle's function failed for points that "
-                              "begin");
-  abut_status status = check_finite(o, n, value, derivative);
-  if (status == ABUT_SUCCESS && hessian != NULL)
-    status = differences(self, true, n, points, hessian);
-  for (int64_t i = 0; i < n && hessian != NULL && status == ABUT_SUCCESS; ++i)
-    make_symmetric(o->view.dimension, hessian + i * square);
-  return status;
+  const bool moving = ((function_obstacle *)o)->function.derivative != NULL;
+  return measure(o, moving, n, points, value, gradient, hessian);
 }
 
 static const abut_obstacle_methods methods = {evaluate, gap, release};

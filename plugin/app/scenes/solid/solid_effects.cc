@@ -58,6 +58,15 @@ namespace abut::app
       return values("Body 1/Material") != "hooke";
     }
 
+    /** Whether points follow the deformed bodies, unless the method forbids
+     * it. */
+    bool points_may_move(const SceneValues &values)
+    {
+      const std::string sliding = values("Method/Sliding");
+      return sliding == "large"
+             || (sliding != "step" && has_large_strain(values));
+    }
+
     bool has_two_bodies_in_contact(const SceneValues &values)
     {
       return any_pair(values, [&](const std::string &section)
@@ -174,6 +183,7 @@ namespace abut::app
              const std::string section = section_of(path);
              return values(section + "/Kind") == "height"
                             && values(section + "/Gap along") == "axis"
+                            && !points_may_move(values)
                         ? "gap and force are along the axis (" + section
                               + "/Gap along), whatever the slope."
                         : "";
@@ -223,15 +233,9 @@ namespace abut::app
       for (const char *name : {"Search/Algorithm", "Search/Bucket*",
                                "Search/Skin", "Method/Segments"})
         rules.push_back(setting(name, has_two_bodies_in_contact, no_partner));
-      rules.push_back(setting(
-          "Method/Turning terms",
-          [](const SceneValues &values)
-          {
-            const std::string sliding = values("Method/Sliding");
-            return sliding == "large"
-                   || (sliding != "step" && has_large_strain(values));
-          },
-          "it belongs to points that move: Method/Sliding = large."));
+      rules.push_back(
+          setting("Method/Turning terms", points_may_move,
+                  "it belongs to points that move: Method/Sliding = large."));
       rules.push_back(capacity_effect());
       const std::string no_contact = "there is no contact: Solid/Pairs is 0.";
       rules.push_back(
