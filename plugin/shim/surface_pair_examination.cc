@@ -373,7 +373,7 @@ namespace abut::shim
               row.place.node < 0 ? since : since_made(row.place.node);
           looked_at.from.push_back(row.place.position + way);
           looked_at.to.push_back(row.place.position + moved);
-          looked_at.expected.push_back(-(unit_direction(row) * (moved - way)));
+          looked_at.expected.push_back(-(row.direction * (moved - way)));
         });
     run_everywhere<ContactError>(
         communicator_,

@@ -65,10 +65,9 @@ namespace abut::shim
     for_each(
         [&](const Component &i, const Node node, const double share)
         {
-          const Direction axis = unit_direction(i);
           for (unsigned int d = 0; d < dim; ++d)
             result[i.row] +=
-                share * axis[d] * ghosted(surface_.nodes[node].dof[d]);
+                share * i.direction[d] * ghosted(surface_.nodes[node].dof[d]);
         });
     return result;
   }
@@ -84,11 +83,10 @@ namespace abut::shim
       const double w = i.place.node >= 0 ? 1. : share * view_.weight[i.point];
       const bool is_first =
           static_cast<std::size_t>(view_.component_start[i.point]) == i.row;
-      const Direction axis = unit_direction(i);
       for (unsigned int d = 0; d < dim; ++d)
       {
         const auto dof = surface_.nodes[node].dof[d];
-        result(dof) += w * row_pressure[i.row] * axis[d];
+        result(dof) += w * row_pressure[i.row] * i.direction[d];
         if (i.place.node < 0 && is_first)
           weight(dof) += w;
       }

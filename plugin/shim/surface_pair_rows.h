@@ -330,13 +330,6 @@ namespace abut::shim
       Direction direction;
     };
 
-    /** The direction of a row, of unit length. */
-    Direction unit_direction(const Component &row) const
-    {
-      return row.place.hessian.empty() ? row.direction
-                                       : row.direction / row.direction.norm();
-    }
-
     bool is_tangent(const Component &row) const
     {
       return view_.kind[row.point] == ABUT_POINT_CONTACT

@@ -29,14 +29,14 @@ namespace abut::app
     prm.declare_entry("Obstacle", "0", Patterns::Integer(0),
                       "Number of the rigid obstacle (section `Obstacle N`) "
                       "that takes the place of a primary surface; 0: none.");
-    prm.declare_entry(
-        "Initial gap", "0", Patterns::Anything(),
-        "Added to the gap of the meshes: a length or a formula "
-        "in t. Positive: clearance, negative: interference. Of "
-        "an obstacle of kind height it is along the axis where "
-        "its gap is. A clearance must leave something of a bounded obstacle "
-        "and of the bodies of a pair: it is smaller than half of "
-        "what the first and than what the second are thick.");
+    prm.declare_entry("Initial gap", "0", Patterns::Anything(),
+                      "Added to the gap of the meshes: a length or a formula "
+                      "in t. Positive: clearance, negative: interference. Of "
+                      "an obstacle of kind height it is along the axis where "
+                      "its gap is. A clearance must leave something of a "
+                      "bounded obstacle and of the bodies of a pair: it is "
+                      "smaller than half of what the first and than what the "
+                      "second are thick.");
     prm.declare_entry("Mesh gap", "true", Patterns::Bool(),
                       "Whether the gap between the meshes counts. If not, "
                       "`Initial gap` is all of it: for curved surfaces that "

@@ -355,9 +355,9 @@ int abut_coupling_spin(const abut_coupling *c, int32_t facet,
 void abut_coupling_tangents(int32_t dim, const double *normal,
                             const double *guide, double *tangents);
 
-/* Derivatives of the rows of the tangents of a point that moves: n unknowns,
- * shape functions of its n / dim - 1 primary nodes, Hessian [n^2] of the gap;
- * turning [(dim - 1) n^2]. The guide counts as constant. */
+/* Derivatives of the rows of the tangents of a point that moves, from its unit
+ * normal: n unknowns, shape functions of its n / dim - 1 primary nodes, Hessian
+ * [n^2] of the gap; turning [(dim - 1) n^2]. The guide counts as constant. */
 void abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
                         const double *guide, const double *shape,
                         const double *hessian, double *turning);

@@ -4,7 +4,7 @@
  * derivatives H of the gap. With its gradient n at the point and - N_a n at the
  * nodes,
  *
- *     dn = H_x du ,    dN_a = - n . H_a du / |n|^2
+ *     dn = H_x du ,    dN_a = - n . H_a du
  *
  * where H_x and H_a are the rows of the point and of node a. The slip along a
  * tangent t changes by t . (dx - sum_a N_a dx_a), whose derivative is
@@ -218,21 +218,20 @@ abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
 {
   double unit[3] = {0., 0., 0.}, t[2][3];
   memcpy(unit, normal, sizeof(double) * (size_t)dim);
-  const double length = unit3(unit, 0.);
   tangents_of(dim, unit, guide, t);
   for (int32_t u = 0; u < n; ++u)
   {
     /* The normal is minus the gradient. */
     double dn[3] = {0., 0., 0.}, dt[2][3];
     for (int d = 0; d < dim; ++d)
-      dn[d] = -hessian[d * n + u] / length;
+      dn[d] = -hessian[d * n + u];
     axpy3(dn, -dot3(dn, unit), unit, dn);
     turn_tangents(dim, unit, guide, dn, dt);
     for (int32_t a = 0; a < n / dim; ++a)
     {
       double share = 1., change = 0.;
       for (int d = 0; a > 0 && d < dim; ++d)
-        change += unit[d] * hessian[(a * dim + d) * n + u] / length;
+        change += unit[d] * hessian[(a * dim + d) * n + u];
       if (a > 0)
         share = -shape[a - 1];
       for (int k = 0; k < dim - 1; ++k)
