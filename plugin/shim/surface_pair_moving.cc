@@ -54,9 +54,12 @@ namespace abut::shim
     if (moves() && searched_from_.size() > 0)
       since = difference(u, exchange_->displacements(surface_, searched_from_));
     std::vector<double> result;
+    // Lists of facets have a reach of their own; all of an obstacle is there,
+    // and its interference is within reach.
     for (const Pair &pair : pairs_)
-      result.push_back(
-          motion(pair, pair.moves && !pair.data.obstacle ? since : u));
+      result.push_back(pair.data.obstacle
+                           ? motion(pair, u) + std::max(0., -pair.data.gap)
+                           : motion(pair, pair.moves ? since : u));
     return result;
   }
 

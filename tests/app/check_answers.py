@@ -157,6 +157,15 @@ for move, code, given in ((0., 0, False), (-0.02, 3, False), (-0.05, 3, True)):
            without=() if given else ("ABUT-F11",))
 expect(run(ball, "Obstacle 1/Move=0, -0.05", command="check"), 0, "ABUT-F11",
        "inside of the obstacle by 0.0481")
+# An interference of many facets with a ball that a force holds is the ball's
+# place: it is moved by as much, and the rest is as without one.
+ball, words = p.source / "prm/pressed-ball.prm", ["Refinement/Adaptive cycles=0"]
+plain, pushed = (expect(run(ball, *words, *more), 0) for more in
+                 ([], ["Pair 1/Initial gap=-0.06"]))
+near(pushed["obstacle_1_displacement"][1] - 0.06,
+     plain["obstacle_1_displacement"][1], 1e-9, "a ball that is pushed out")
+near(pushed["energy"], plain["energy"] + 4.6333739e-5 * 0.06, 1e-9,
+     "the work against the force")
 # Gaps that leave out where the obstacle is do not see it come.
 for words in ([], ["Obstacle 1/Motion=0, -0.01"],
               ["Obstacle 1/Motion=", "Obstacle 1/Free directions=y",
@@ -171,6 +180,10 @@ p.expect_error(run(plate, "Pair 1/Mesh gap=false", "Obstacle 1/Motion=",
 near(expect(run(plate, "Pair 1/Mesh gap=false", "Obstacle 1/Motion=",
                 "Pair 1/Initial gap=-0.01*t"), 0)["contact_force"],
      2 * modulus * 0.01, 1e-6, "pressed by the initial gap")
+
+# Loads that do not grow with t are all there in the smallest load step.
+expect(run(p.source / "prm/pipe.prm", "Body 1/Material=st venant-kirchhoff"), 3,
+       "ABUT-F46", "ended in the same way", "do not contain t")
 
 # A gap that leaves nothing of what it is added to lets everything through: half
 # of what bounded obstacles are thick, all of what a body is; less is meant.

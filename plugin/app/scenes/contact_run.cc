@@ -585,15 +585,21 @@ namespace abut::app
       failure = why;
     const std::string where = time_step();
     const bool goes_on = load_steps.reject() && why.empty();
+    const bool is_same = failure == told;
     if (goes_on)
       report.progress("load step cut back to time "
                       + short_number(load_steps.target(), 6) + ": "
-                      + (failure == told ? "for the same reason" : failure));
+                      + (is_same ? "for the same reason" : failure));
     else
     {
       // Perhaps the reason.
       model.look_at_rows(true);
-      report.warn(failure + where);
+      report.warn(failure + where
+                  + (is_same && where.empty()
+                         ? " Smaller load steps have ended in the same way: "
+                           "loads and motions whose formulas do not contain t "
+                           "are not made smaller by them."
+                         : ""));
     }
     told = failure;
     if (!goes_on && model.reports_failures())
