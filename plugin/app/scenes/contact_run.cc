@@ -594,8 +594,11 @@ namespace abut::app
     {
       // Perhaps the reason.
       model.look_at_rows(true);
+      const bool is_of_matrix =
+          abut::failure_of(failure) == ABUT_FAILURE_FLOATING_BODY
+          || abut::failure_of(failure) == ABUT_FAILURE_LINEAR_SOLVER;
       report.warn(failure + where
-                  + (is_same && where.empty()
+                  + (is_same && where.empty() && !is_of_matrix
                          ? " Smaller load steps have ended in the same way: "
                            "loads and motions whose formulas do not contain t "
                            "are not made smaller by them."
