@@ -148,7 +148,7 @@ namespace abut::shim
               + " before anything is loaded, " + text(first / sizes.median)
               + " times the size of a facet. If that is not meant as "
                 "interference, move the bodies apart."));
-    // At rest obstacles are moved into bodies on purpose.
+    // At rest obstacles are moved into bodies on purpose, but by forces.
     if (pair.data.obstacle && pair.data.may_be_apart)
     {
       if (n_finds_ == 1)
@@ -159,8 +159,8 @@ namespace abut::shim
             ABUT_FAILURE_OVERLAP,
             "Nodes of the surface are inside of the obstacle by " + text(depth)
                 + " before anything moves, " + text(depth / sizes.median)
-                + " times the size of a facet, and are thrown out of it. If "
-                  "that is not meant, begin where the two are apart."));
+                + " times the size of a facet. Motions throw them out in their "
+                  "first step: begin where the two are apart."));
     }
     if (!pair.data.obstacle && !pair.is_present() && result.covered_area > 0.)
     {
