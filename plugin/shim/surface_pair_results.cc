@@ -138,30 +138,27 @@ namespace abut::shim
               + " times as coarse as the primary, whose nodes can pass between "
                 "those of the secondary: exchange the two sides, or refine the "
                 "secondary."));
-    // Points that move are those of a step on its way.
-    const double first =
-        pair.is_present() ? pair.first_inside.depth : result.overlap;
-    if (!pair.data.obstacle && first > large_overlap * sizes.median)
+    // Before anything moves: points that move are those of a step on its way.
+    // At rest obstacles are moved into bodies on purpose.
+    const bool is_obstacle = pair.data.obstacle != nullptr;
+    if (is_obstacle && n_finds_ == 1)
+      pair.first_inside.depth = result.overlap + std::min(0., pair.data.gap);
+    const double first = is_obstacle || pair.is_present()
+                             ? pair.first_inside.depth
+                             : result.overlap;
+    if ((!is_obstacle || pair.data.may_be_apart)
+        && first > large_overlap * sizes.median)
       result.warnings.push_back(coded(
           ABUT_FAILURE_OVERLAP,
-          "The surfaces overlap by " + text(first)
-              + " before anything is loaded, " + text(first / sizes.median)
-              + " times the size of a facet. If that is not meant as "
-                "interference, move the bodies apart."));
-    // At rest obstacles are moved into bodies on purpose, but by forces.
-    if (pair.data.obstacle && pair.data.may_be_apart)
-    {
-      if (n_finds_ == 1)
-        pair.first_inside.depth = result.overlap + std::min(0., pair.data.gap);
-      const double depth = pair.first_inside.depth;
-      if (depth > large_overlap * sizes.median)
-        result.warnings.push_back(coded(
-            ABUT_FAILURE_OVERLAP,
-            "Nodes of the surface are inside of the obstacle by " + text(depth)
-                + " before anything moves, " + text(depth / sizes.median)
-                + " times the size of a facet. Motions throw them out in their "
-                  "first step: begin where the two are apart."));
-    }
+          (is_obstacle ? "Nodes of the surface are inside of the obstacle by "
+                       : "The surfaces overlap by ")
+              + text(first) + " before anything "
+              + (is_obstacle ? "moves, " : "is loaded, ")
+              + text(first / sizes.median) + " times the size of a facet. "
+              + (is_obstacle ? "Motions throw them out in their first step: "
+                               "begin where the two are apart."
+                             : "If that is not meant as interference, move "
+                               "the bodies apart.")));
     if (!pair.data.obstacle && !pair.is_present() && result.covered_area > 0.)
     {
       // Of graded meshes the smallest facets are likely to be those that meet.

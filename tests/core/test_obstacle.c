@@ -243,16 +243,17 @@ cubes(void *user, int32_t n, const double *points, double *value,
   return 0;
 }
 
-/* x_3 - x_1^2 x_2 with the gap along the axis. */
+/* A bowl, the lower half of a sphere of radius 1 about (0, 0, 1), as a height
+ * whose gap is along the axis. */
 static int
-bowl(void *user, int32_t n, const double *points, double *value,
-     double *gradient)
+sphere_height(void *user, int32_t n, const double *points, double *value,
+              double *gradient)
 {
   (void)user;
   for (int32_t i = 0; i < n; ++i)
   {
     const double *x = points + 3 * i;
-    value[i] = x[2] - x[0] * x[0] * x[1];
+    value[i] = x[2] - 1 + sqrt(1 - x[0] * x[0] - x[1] * x[1]);
     gradient[3 * i] = gradient[3 * i + 1] = 0;
     gradient[3 * i + 2] = 1;
   }
@@ -313,30 +314,13 @@ curvature_of_functions(void **state)
   assert_ok(abut_obstacle_destroy(&o));
 
   f.dimension = 3;
-  f.evaluate = bowl;
+  f.evaluate = sphere_height;
   const double x[3] = {0.3, 0.7, 0.4};
   assert_ok(abut_obstacle_create_function(context, &f, &o));
   assert_ok(abut_obstacle_distance(o, 1, x, d, g, h));
   for (int j = 0; j < 9; ++j)
     assert_close(h[j], 0, 0);
   assert_ok(abut_obstacle_destroy(&o));
-}
-
-/* A bowl, the lower half of a sphere of radius 1 about (0, 0, 1), as a height
- * whose gap is along the axis. */
-static int
-sphere_height(void *user, int32_t n, const double *points, double *value,
-              double *gradient)
-{
-  (void)user;
-  for (int32_t i = 0; i < n; ++i)
-  {
-    const double *x = points + 3 * i;
-    value[i] = x[2] - 1 + sqrt(1 - x[0] * x[0] - x[1] * x[1]);
-    gradient[3 * i] = gradient[3 * i + 1] = 0;
-    gradient[3 * i + 2] = 1;
-  }
-  return 0;
 }
 
 static int

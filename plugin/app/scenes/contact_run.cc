@@ -576,11 +576,9 @@ namespace abut::app
       return examine();
     }
     // What no row can hold no load step holds either.
+    const abut_failure code = abut::failure_of(failure);
     const std::string why =
-        failure.rfind(abut_failure_get(ABUT_FAILURE_FLOATING_BODY)->code, 0)
-                == 0
-            ? free_motion()
-            : "";
+        code == ABUT_FAILURE_FLOATING_BODY ? free_motion() : "";
     if (!why.empty())
       failure = why;
     const std::string where = time_step();
@@ -594,11 +592,10 @@ namespace abut::app
     {
       // Perhaps the reason.
       model.look_at_rows(true);
-      const bool is_of_matrix =
-          abut::failure_of(failure) == ABUT_FAILURE_FLOATING_BODY
-          || abut::failure_of(failure) == ABUT_FAILURE_LINEAR_SOLVER;
+      const bool is_of_matrix = code == ABUT_FAILURE_FLOATING_BODY
+                                || code == ABUT_FAILURE_LINEAR_SOLVER;
       report.warn(failure + where
-                  + (is_same && where.empty() && !is_of_matrix
+                  + (is_same && !model.has_inertia() && !is_of_matrix
                          ? " Smaller load steps have ended in the same way: "
                            "loads and motions whose formulas do not contain t "
                            "are not made smaller by them."
