@@ -51,6 +51,11 @@ refused("rigid-plate.prm", ("Obstacle 1/Rotation centre", "1, 0"), NO_EFFECT,
         "Rotation angle")
 refused("parabola-friction.prm", ("Obstacle 1/Gradient", "x; 0"), NO_EFFECT,
         "along the axis")
+for gradient in ("1.3*x; 0", "-x; 0"):
+    p.expect_error(p.call("run", p.source / "prm/finite-parabola.prm",
+                          "--output", "out", "--set",
+                          f"Obstacle 1/Gradient={gradient}"), "Obstacle 1",
+                   "Gradient is (", "where Expression changes by")
 refused("pipe.prm", {"Body 1/Support": "0: 0, 0; 2: free, 0; 3: 0, free",
                      "Body 1/Pressure": "0: 1"}, "boundary 0", NO_EFFECT,
         "Body 1/Support")

@@ -7,8 +7,10 @@
 #include "app/input/parameters.h"
 #include "app/input/short_number.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 namespace abut::app
@@ -138,12 +140,13 @@ namespace abut::app
                      std::shared_ptr<const double> half_extent)
           : value_formula(parameters.values.at("Expression"),
                           parameters.parameter("Expression")),
+            gradient_name(parameters.parameter("Gradient")),
             half_extent(std::move(half_extent))
       {
         const std::string &text = parameters.values.at("Gradient");
         if (!text.empty())
-          gradient_formula = std::make_unique<Expression<dim>>(
-              text, parameters.parameter("Gradient"), dim);
+          gradient_formula =
+              std::make_unique<Expression<dim>>(text, gradient_name, dim);
       }
 
       void set_time(const double time) override
@@ -172,17 +175,65 @@ namespace abut::app
           for (std::size_t i = 0; i < points.size(); ++i)
             gradients[i][d] = values[i];
         }
-        if (gradient_formula)
-          return;
         if (half_extent)
           value_formula.set_length(*half_extent);
+        if (gradient_formula)
+        {
+          if (!is_compared)
+            compare(points, gradients);
+          return;
+        }
         for (std::size_t i = 0; i < points.size(); ++i)
           gradients[i] = value_formula.gradient(points[i]);
       }
 
     private:
+      /** Gradients that most points say are none of the values; of kinks and
+       * ends of formulas single points do. */
+      void compare(const std::vector<Point<dim>> &points,
+                   const std::vector<Tensor<1, dim>> &gradients) const
+      {
+        is_compared = !points.empty();
+        double largest = 0.;
+        for (const Tensor<1, dim> &gradient : gradients)
+          largest = std::max(largest, gradient.norm());
+        std::size_t n_wrong = 0, n_compared = 0, last = 0;
+        for (std::size_t i = 0; i < points.size(); ++i)
+          try
+          {
+            const Tensor<1, dim> other = value_formula.gradient(points[i]);
+            ++n_compared;
+            if ((gradients[i] - other).norm()
+                <= 1e-2
+                       * std::max(
+                           {gradients[i].norm(), other.norm(), 1e-2 * largest}))
+              continue;
+            ++n_wrong;
+            last = i;
+          }
+          catch (const InputError &)
+          {
+            // The formula ends beside this point.
+          }
+        if (2 * n_wrong > n_compared)
+        {
+          std::ostringstream place, given, found;
+          place << points[last];
+          given << gradients[last];
+          found << value_formula.gradient(points[last]);
+          throw InputError(
+              gradient_name,
+              "Gradient is (" + given.str() + ") at (" + place.str()
+                  + "), where Expression changes by (" + found.str()
+                  + "). Correct it, or leave it out: differences "
+                    "take its place.");
+        }
+      }
+
       mutable Expression<dim> value_formula;
       std::unique_ptr<Expression<dim>> gradient_formula;
+      const std::string gradient_name;
+      mutable bool is_compared = false;
       const std::shared_ptr<const double> half_extent;
     };
 
