@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "bodies.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/fe/fe.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
@@ -112,7 +114,8 @@ namespace abut::shim
           if (cell->face(f)->at_boundary()
               && ids.count(cell->face(f)->boundary_id()) > 0)
             mine[bodies.of(cell)] = 1;
-    dealii::Utilities::MPI::max(mine, dof_handler.get_communicator(), mine);
+    dealii::Utilities::MPI::max(mine, versions::communicator(dof_handler),
+                                mine);
     return mine;
   }
 

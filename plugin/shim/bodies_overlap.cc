@@ -3,6 +3,8 @@
 
 #include "bodies.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -46,7 +48,7 @@ namespace abut::shim
               for (const unsigned int v : face->vertex_indices())
                 mine.push_back({face->vertex(v), bodies.of(cell)});
       for (const auto &part : dealii::Utilities::MPI::all_gather(
-               dof_handler.get_communicator(), mine))
+               versions::communicator(dof_handler), mine))
         all.insert(all.end(), part.begin(), part.end());
       std::sort(all.begin(), all.end());
       return all;
@@ -144,14 +146,15 @@ namespace abut::shim
     const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
     const std::vector<bool> at_surface = surface_vertices(dof_handler);
     NodeInside<dim> result;
-    for (const auto &[nodes, of] :
-         {std::make_pair(&one, &other), std::make_pair(&other, &one)})
+    for (const bool swapped : {false, true})
     {
+      const std::set<dealii::types::boundary_id> &nodes = swapped ? other : one,
+                                                 &of = swapped ? one : other;
       const NodeInside<dim> mine =
           deepest_corner(mapping, dof_handler, bodies, at_surface,
-                         corners_of(dof_handler, bodies, *nodes), *of);
+                         corners_of(dof_handler, bodies, nodes), of);
       for (const auto &[depth, place] : dealii::Utilities::MPI::all_gather(
-               dof_handler.get_communicator(),
+               versions::communicator(dof_handler),
                std::make_pair(mine.depth, mine.place)))
         if (depth > result.depth)
           result = {depth, place};

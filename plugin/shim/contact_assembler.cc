@@ -2,6 +2,7 @@
 // The order in which a host calls the assembler, and what each call does.
 #include <abut/dealii/contact_assembler.h>
 #include <abut/dealii/contact_loop.h>
+#include <abut/dealii/versions.h>
 
 #include "contact_implementation.h"
 
@@ -138,11 +139,12 @@ namespace abut
   {
     Implementation &i = *implementation;
     namespace MPI = dealii::Utilities::MPI;
-    AssertThrow(MPI::n_mpi_processes(i.communicator)
-                    == MPI::n_mpi_processes(dof_handler.get_communicator()),
-                ExcMessage("The communicator given to ContactAssembler must be "
-                           "that of the triangulation: MPI_COMM_SELF for one "
-                           "that is not distributed."));
+    AssertThrow(
+        MPI::n_mpi_processes(i.communicator)
+            == MPI::n_mpi_processes(versions::communicator(dof_handler)),
+        ExcMessage("The communicator given to ContactAssembler must be "
+                   "that of the triangulation: MPI_COMM_SELF for one "
+                   "that is not distributed."));
     AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(),
                 ExcMessage("The unknowns of a rank must be numbered "
                            "consecutively."));

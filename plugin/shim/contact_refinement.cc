@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <abut/dealii/contact_refinement.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe.h>
@@ -128,7 +129,7 @@ namespace abut
   limit_size_ratio(dealii::parallel::distributed::Triangulation<dim> &mesh,
                    const std::vector<ContactSides> &pairs, const double limit)
   {
-    const MPI_Comm communicator = mesh.get_communicator();
+    const MPI_Comm communicator = versions::communicator(mesh);
     const unsigned int rank = MPI::this_mpi_process(communicator);
     // Rounding must not refine what is just at the limit.
     const double bound = limit * (1. + 1e-6);

@@ -3,6 +3,8 @@
 
 #include "principal_values.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
@@ -174,9 +176,9 @@ namespace abut::shim
                   const la::Vector &u, const bool axisymmetric)
   {
     const dealii::FiniteElement<dim> &fe = dof_handler.get_fe();
-    const MPI_Comm communicator = dof_handler.get_communicator();
-    dealii::IndexSet relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    const MPI_Comm communicator = versions::communicator(dof_handler);
+    const dealii::IndexSet relevant =
+        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
     la::Vector ghosted(dof_handler.locally_owned_dofs(), relevant,
                        communicator);
     ghosted = u;

@@ -19,6 +19,8 @@
 #include "quadratic_nodes.h"
 #include "shared_vertices.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
@@ -50,7 +52,7 @@ namespace abut::shim
           : dof_handler_(dof_handler),
             triangulation_(dof_handler.get_triangulation()),
             constraints_(constraints),
-            communicator_(dof_handler.get_communicator()),
+            communicator_(versions::communicator(dof_handler)),
             n_components_(dof_handler.get_fe().n_components()),
             first_own_(dof_handler.n_locally_owned_dofs() == 0
                            ? 0

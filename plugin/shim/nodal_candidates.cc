@@ -4,6 +4,7 @@
 #include "shifted_cells.h"
 
 #include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -151,7 +152,7 @@ namespace abut::shim
                      const Collection<dim> &collection)
     {
       la::Vector result(dof_handler.locally_owned_dofs(),
-                        dof_handler.get_communicator());
+                        versions::communicator(dof_handler));
       const auto range = result.local_range();
       double *const own = la::data(result);
       for (std::size_t i = 0; i < collection.weights.size(); ++i)
@@ -182,8 +183,8 @@ namespace abut::shim
       const dealii::AffineConstraints<double> &constraints,
       const std::set<dealii::types::boundary_id> &boundary_ids)
   {
-    dealii::IndexSet relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    const dealii::IndexSet relevant =
+        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
     Collection<dim> collection(relevant);
     if (boundary_ids.empty())
       collect_in_domain(mapping, dof_handler, collection);

@@ -5,6 +5,8 @@
 #include "fnv_hash.h"
 #include "solve/projected_gauss_seidel.h"
 
+#include <abut/dealii/versions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -68,7 +70,7 @@ namespace abut::shim
         dof_handler_(dof_handler),
         constraints_(constraints),
         obstacle_(obstacle),
-        communicator_(dof_handler.get_communicator()),
+        communicator_(versions::communicator(dof_handler)),
         candidates_(collect_nodal_candidates(mapping, dof_handler, constraints,
                                              obstacle.boundary_ids)),
         nodes_(solve::NodeMap::numbered(

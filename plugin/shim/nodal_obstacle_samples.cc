@@ -5,6 +5,8 @@
 #include "agree.h"
 #include "sampling.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/quadrature.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe.h>
@@ -34,7 +36,7 @@ namespace abut::shim
                            const la::Vector &owned)
     {
       la::Vector result(dof_handler.locally_owned_dofs(), relevant,
-                        dof_handler.get_communicator());
+                        versions::communicator(dof_handler));
       result = owned;
       return result;
     }
@@ -100,8 +102,8 @@ namespace abut::shim
   NodalObstacleRows<dim>::unseen(const la::Vector &displacement,
                                  const std::uint8_t *row_state)
   {
-    dealii::IndexSet relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant);
+    const dealii::IndexSet relevant =
+        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_);
     const la::Vector u = with_ghosts(dof_handler_, relevant, displacement);
     const la::Vector state =
         with_ghosts(dof_handler_, relevant, status(row_state));

@@ -9,6 +9,7 @@
 #include "sampling.h"
 
 #include <abut/dealii/rigid_obstacle.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -74,10 +75,10 @@ namespace abut::shim
                 dof_handler.get_triangulation().n_global_active_cells(), dim));
         grid_ = std::make_unique<dealii::FEValues<dim>>(
             mapping, fe_, of(grid_about(middle(), 0.5, n_)), flags());
-        dealii::IndexSet relevant;
-        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+        const dealii::IndexSet relevant =
+            dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
         u_.reinit(dof_handler.locally_owned_dofs(), relevant,
-                  dof_handler.get_communicator());
+                  versions::communicator(dof_handler));
         u_ = displacement;
       }
 
@@ -273,14 +274,14 @@ namespace abut::shim
         bodies_with(dof_handler, bodies, pair.secondary);
     CellProbe<dim> probe(mapping, dof_handler, displacement, looked_at);
     run_everywhere<ContactError>(
-        dof_handler.get_communicator(),
+        versions::communicator(dof_handler),
         [&]
         {
           for (const auto &cell : dof_handler.active_cell_iterators())
             if (cell->is_locally_owned() && is_meant[bodies.of(cell)] != 0)
               probe.look(cell, found);
         });
-    return of_all_ranks(found, dof_handler.get_communicator());
+    return of_all_ranks(found, versions::communicator(dof_handler));
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

@@ -5,6 +5,7 @@
 #include "outward_order.h"
 #include "surface_side.h"
 
+#include <abut/dealii/versions.h>
 #include <abut/self_contact.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -112,7 +113,7 @@ namespace abut::shim
                   points.push_back(point[d]);
               }
             }
-      const MPI_Comm communicator = dof_handler.get_communicator();
+      const MPI_Comm communicator = versions::communicator(dof_handler);
       const auto all_words = MPI::all_gather(communicator, words);
       const auto all_nodes = MPI::all_gather(communicator, nodes);
       const auto all_points = MPI::all_gather(communicator, points);
@@ -169,7 +170,8 @@ namespace abut::shim
     {
       message = error.what();
     }
-    throw_everywhere<ContactError>(dof_handler.get_communicator(), message);
+    throw_everywhere<ContactError>(versions::communicator(dof_handler),
+                                   message);
   }
 
   template <int dim>

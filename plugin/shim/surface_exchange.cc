@@ -5,6 +5,7 @@
 #include "outward_order.h"
 
 #include <abut/dealii/contact_pair.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -23,10 +24,10 @@ namespace abut::shim
     dealii::AffineConstraints<double>
     hanging_nodes(const dealii::DoFHandler<dim> &dof_handler)
     {
-      dealii::IndexSet relevant;
-      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+      const dealii::IndexSet relevant =
+          dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
       dealii::AffineConstraints<double> hanging;
-      hanging.reinit(relevant);
+      versions::reinit(hanging, dof_handler.locally_owned_dofs(), relevant);
       dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging);
       hanging.close();
       return hanging;
@@ -52,9 +53,9 @@ namespace abut::shim
         boundary_ids_(boundary_ids),
         self_contact_(std::move(self_contact)),
         hanging_(hanging_nodes(dof_handler)),
-        post_(dof_handler.get_communicator()),
+        post_(versions::communicator(dof_handler)),
         owners_(dof_handler.locally_owned_dofs(),
-                dof_handler.get_communicator())
+                versions::communicator(dof_handler))
   {
     tabulate();
     collect();

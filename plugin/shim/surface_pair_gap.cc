@@ -8,6 +8,7 @@
 #include "self_contact.h"
 
 #include <abut/dealii/rigid_obstacle.h>
+#include <abut/dealii/versions.h>
 
 #include <cmath>
 #include <sstream>
@@ -40,7 +41,7 @@ namespace abut::shim
                          const std::set<dealii::types::boundary_id> &ids)
     {
       constexpr double one_sided = 0.7;
-      const MPI_Comm communicator = dof_handler.get_communicator();
+      const MPI_Comm communicator = versions::communicator(dof_handler);
       // Those of nodes that several ranks know count several times.
       std::vector<double> sum(dim + 1, 0.);
       const double *normal = nullptr;

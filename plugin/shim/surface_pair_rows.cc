@@ -10,6 +10,7 @@
 #include <abut/coupling_search.h>
 #include <abut/dealii/coded.h>
 #include <abut/dealii/rigid_obstacle.h>
+#include <abut/dealii/versions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +93,7 @@ namespace abut::shim
       : mapping_(mapping),
         dof_handler_(dof_handler),
         constraints_(constraints),
-        communicator_(dof_handler.get_communicator()),
+        communicator_(versions::communicator(dof_handler)),
         settings_(settings),
         context_(context),
         exchange_(std::move(exchange)),

@@ -4,6 +4,8 @@
 #include "failures.h"
 #include "geometric_multigrid.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/timer.h>
 
 #include <algorithm>
@@ -238,8 +240,8 @@ namespace abut::solve
                         communicator))
     {
       // More of them for the sets that will come.
-      std::vector<dealii::types::global_dof_index> ghosts;
-      rows_->ghosts().fill_index_vector(ghosts);
+      const std::vector<dealii::types::global_dof_index> ghosts =
+          versions::indices(rows_->ghosts());
       touched.insert(touched.end(), ghosts.begin(), ghosts.end());
       geometric_.reset();
       geometric_ = std::make_unique<GeometricMultigrid>(

@@ -11,6 +11,7 @@
 #include "expect.h"
 
 #include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -62,8 +63,8 @@ namespace abut::app
     {
       dof_handler.distribute_dofs(fe);
       owned = dof_handler.locally_owned_dofs();
-      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-      constraints.reinit(relevant);
+      relevant = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
+      abut::versions::reinit(constraints, owned, relevant);
       dealii::DoFTools::make_hanging_node_constraints(dof_handler, constraints);
       constraints.close();
     }
@@ -104,7 +105,8 @@ namespace abut::app
                                         dealii::FullMatrix<double> &,
                                         dealii::Vector<double> &)> &cell_system)
   {
-    dealii::AffineConstraints<double> constraints(problem.relevant);
+    dealii::AffineConstraints<double> constraints;
+    abut::versions::reinit(constraints, problem.owned, problem.relevant);
     dealii::DoFTools::make_hanging_node_constraints(problem.dof_handler,
                                                     constraints);
     dealii::DoFTools::make_zero_boundary_constraints(problem.dof_handler,

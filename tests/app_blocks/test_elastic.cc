@@ -15,6 +15,8 @@
 #include "run_checks.h"
 #include "stiffening.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_generator.h>
@@ -510,7 +512,8 @@ namespace
     open.compress(dealii::VectorOperation::add);
     la::Vector force(problem.owned, MPI_COMM_WORLD);
     force = open;
-    dealii::AffineConstraints<double> constraints(problem.relevant);
+    dealii::AffineConstraints<double> constraints;
+    abut::versions::reinit(constraints, problem.owned, problem.relevant);
     dealii::DoFTools::make_hanging_node_constraints(problem.dof_handler,
                                                     constraints);
     dealii::DoFTools::make_zero_boundary_constraints(problem.dof_handler, 1,

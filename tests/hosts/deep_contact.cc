@@ -6,6 +6,7 @@
 #include "expect.h"
 
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
@@ -205,8 +206,8 @@ namespace
     /** The bottom is held, the left side slides, nothing moves along z. */
     void hold()
     {
-      DoFTools::extract_locally_relevant_dofs(dofs, relevant);
-      constraints.reinit(relevant);
+      relevant = DoFTools::extract_locally_relevant_dofs(dofs);
+      abut::versions::reinit(constraints, dofs.locally_owned_dofs(), relevant);
       const Functions::ZeroFunction<dim> zero(dim);
       ComponentMask x(dim, false);
       x.set(0, true);

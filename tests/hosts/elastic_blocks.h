@@ -7,6 +7,8 @@
 
 #include "matrix_free_elasticity.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/function.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -60,7 +62,7 @@ namespace abut::hosts
       make_mesh();
       dof_handler.distribute_dofs(fe);
       dof_handler.distribute_mg_dofs();
-      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+      relevant = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
       make_constraints();
       load.reinit(dof_handler.locally_owned_dofs(), MPI_COMM_WORLD);
       stiffness = std::make_unique<ElasticOperator<dim>>(
@@ -180,7 +182,8 @@ namespace abut::hosts
 
     void make_constraints()
     {
-      constraints.reinit(relevant);
+      abut::versions::reinit(constraints, dof_handler.locally_owned_dofs(),
+                             relevant);
       for (const auto side : run_.fixed)
       {
         const Tensor<1, dim> &displacement = displacements_[side];

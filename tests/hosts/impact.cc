@@ -93,8 +93,8 @@ namespace
   /** Stress is E strain: Poisson's ratio is 0. */
   void Bar::assemble()
   {
-    dealii::IndexSet relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    const dealii::IndexSet relevant =
+        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
     const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
     dealii::DynamicSparsityPattern pattern(relevant);
     dealii::DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints,

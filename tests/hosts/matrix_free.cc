@@ -7,6 +7,7 @@
 #include "jacobi_host.h"
 
 #include <abut/dealii/contact_solver.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/timer.h>
@@ -298,9 +299,11 @@ namespace
     dealii::DoFHandler<2> dof_handler(mesh);
     dof_handler.distribute_dofs(fe);
     const dealii::MappingQ<2> mapping(1);
-    dealii::IndexSet relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-    dealii::AffineConstraints<double> constraints(relevant);
+    const dealii::IndexSet relevant =
+        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
+    dealii::AffineConstraints<double> constraints;
+    abut::versions::reinit(constraints, dof_handler.locally_owned_dofs(),
+                           relevant);
     for (const dealii::types::boundary_id side : {0, 1})
       dealii::VectorTools::interpolate_boundary_values(
           mapping, dof_handler, side,
@@ -316,7 +319,8 @@ namespace
     matrix.reinit(owned, owned, pattern, MPI_COMM_WORLD);
     la::Vector load(owned, MPI_COMM_WORLD), unused(load);
     const auto force = [](const double x) { return -40. * std::cos(3. * x); };
-    dealii::AffineConstraints<double> none(relevant);
+    dealii::AffineConstraints<double> none;
+    abut::versions::reinit(none, dof_handler.locally_owned_dofs(), relevant);
     none.close();
     assemble_laplacian(dof_handler, none, force, whole, load);
     assemble_laplacian(dof_handler, constraints, force, matrix, unused);

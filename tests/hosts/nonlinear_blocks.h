@@ -5,6 +5,7 @@
 #include "patch.h"
 
 #include <abut/dealii/contact_solver.h>
+#include <abut/dealii/versions.h>
 
 #include <array>
 #include <limits>
@@ -188,7 +189,7 @@ namespace abut::hosts
     void make_constraints()
     {
       constraints.clear();
-      constraints.reinit(relevant_);
+      abut::versions::reinit(constraints, owned_, relevant_);
       prescribe(free_side, 0, 0.);
       prescribe(bottom, 1, 0.);
       if (options_.top_is_held)

@@ -15,6 +15,7 @@
 // are constants in each cell, of an element without support points. Prints
 // time, force on the block, energy and linearisations of each step.
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
@@ -225,8 +226,8 @@ namespace
      * press they may grow sideways there. */
     void hold()
     {
-      DoFTools::extract_locally_relevant_dofs(dofs, relevant);
-      constraints.reinit(relevant);
+      relevant = DoFTools::extract_locally_relevant_dofs(dofs);
+      abut::versions::reinit(constraints, dofs.locally_owned_dofs(), relevant);
       ComponentMask held(dim + 2, false);
       held.set(0, task.slides);
       held.set(1, true);

@@ -8,8 +8,9 @@
 
 #include "two_blocks.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_generator.h>
@@ -23,7 +24,7 @@ namespace abut::hosts
   TwoBlocks<dim, Mesh>::TwoBlocks(const Case &run, const MPI_Comm communicator)
       : run_(run),
         triangulation_(make_triangulation(communicator)),
-        communicator_(triangulation_->get_communicator()),
+        communicator_(abut::versions::communicator(*triangulation_)),
         fe_(dealii::FE_Q<dim>(run.degree), dim),
         mapping_(1),
         rotation_(rotation<dim>(!run.pressed)),
@@ -132,8 +133,7 @@ namespace abut::hosts
       flag(0.5, 0.25);
       triangulation_->prepare_coarsening_and_refinement();
     }
-    dealii::parallel::distributed::SolutionTransfer<dim, la::Vector> transfer(
-        dof_handler_);
+    abut::versions::SolutionTransfer<dim, la::Vector> transfer(dof_handler_);
     transfer.prepare_for_coarsening_and_refinement(
         std::vector<const la::Vector *>{&displacement, &pressure});
     const auto connection = triangulation_->signals.weight.connect(
@@ -278,8 +278,8 @@ namespace abut::hosts
   {
     dof_handler_.distribute_dofs(fe_);
     owned_ = dof_handler_.locally_owned_dofs();
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant_);
-    constraints_.reinit(relevant_);
+    relevant_ = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_);
+    abut::versions::reinit(constraints_, owned_, relevant_);
     dealii::DoFTools::make_hanging_node_constraints(dof_handler_, constraints_);
     n_hanging_ = MPI::sum(constraints_.n_constraints(), communicator_);
     if (run_.pressed)
@@ -367,7 +367,8 @@ namespace abut::hosts
     const unsigned int n = fe_.n_dofs_per_cell();
     dealii::FullMatrix<double> matrix(n, n);
     std::vector<dealii::types::global_dof_index> dofs(n);
-    dealii::AffineConstraints<double> homogeneous(relevant_);
+    dealii::AffineConstraints<double> homogeneous;
+    abut::versions::reinit(homogeneous, owned_, relevant_);
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (cell->is_locally_owned())
       {

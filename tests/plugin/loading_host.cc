@@ -14,6 +14,7 @@
  * stress is E / (1 - nu^2) * 0.01, and its displacement is linear, so that the
  * contact force is known. Exit code: 1 failed, 2 no plugin that fits. */
 #include <abut/dealii/load_plugin.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
@@ -98,7 +99,7 @@ namespace
     {
       dof_handler.distribute_dofs(fe);
       owned = dof_handler.locally_owned_dofs();
-      DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+      relevant = DoFTools::extract_locally_relevant_dofs(dof_handler);
       prescribe();
       DynamicSparsityPattern pattern(relevant);
       DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, false);
@@ -111,7 +112,7 @@ namespace
 
     void prescribe()
     {
-      constraints.reinit(relevant);
+      abut::versions::reinit(constraints, owned, relevant);
       DoFTools::make_hanging_node_constraints(dof_handler, constraints);
       ComponentMask horizontal(dim, false), vertical(dim, false);
       horizontal.set(0, true);

@@ -4,6 +4,8 @@
 #include "shim/handles.h"
 #include "shim/surface_pair_rows.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -75,7 +77,8 @@ namespace
     void prescribe(const double height)
     {
       constraints.clear();
-      constraints.reinit(
+      abut::versions::reinit(
+          constraints, dof_handler.locally_owned_dofs(),
           dealii::DoFTools::extract_locally_relevant_dofs(dof_handler));
       dealii::VectorTools::interpolate_boundary_values(
           mapping, dof_handler, below,

@@ -3,6 +3,8 @@
 
 #include "solve/row_stiffness.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -199,9 +201,10 @@ namespace abut::tests
   template <int dim> void TwoBlocks<dim>::set_supports()
   {
     using Support = TwoBlocksOptions::Support;
-    dealii::IndexSet relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-    constraints.reinit(relevant);
+    const dealii::IndexSet relevant =
+        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
+    abut::versions::reinit(constraints, dof_handler.locally_owned_dofs(),
+                           relevant);
     // What is held of the face or of the sides of the upper block.
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
@@ -237,8 +240,8 @@ namespace abut::tests
   {
     const auto &fe = dof_handler.get_fe();
     const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
-    dealii::IndexSet relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    const dealii::IndexSet relevant =
+        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
     dealii::DynamicSparsityPattern pattern(relevant);
     dealii::DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints,
                                             false);

@@ -14,11 +14,11 @@
 
 #include <abut/dealii/contact_solver.h>
 #include <abut/dealii/load_plugin.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/timer.h>
 #include <deal.II/distributed/grid_refinement.h>
-#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -141,7 +141,7 @@ Indentation::setup()
   dof_handler.distribute_dofs(fe);
   owned = dof_handler.locally_owned_dofs();
   relevant = DoFTools::extract_locally_relevant_dofs(dof_handler);
-  constraints.reinit(relevant);
+  abut::versions::reinit(constraints, owned, relevant);
   DoFTools::make_hanging_node_constraints(dof_handler, constraints);
   const Functions::ZeroFunction<3> zero(3);
   VectorTools::interpolate_boundary_values(mapping, dof_handler, 4, zero,
@@ -290,7 +290,7 @@ Indentation::refine()
   parallel::distributed::GridRefinement::refine_and_coarsen_fixed_number(
       triangulation, error, 0.3, 0.03);
   triangulation.prepare_coarsening_and_refinement();
-  parallel::distributed::SolutionTransfer<3, la::Vector> transfer(dof_handler);
+  abut::versions::SolutionTransfer<3, la::Vector> transfer(dof_handler);
   transfer.prepare_for_coarsening_and_refinement(
       std::vector<const la::Vector *>{&old_u, &old_pressure});
   triangulation.execute_coarsening_and_refinement();

@@ -6,10 +6,10 @@
 //
 //     two-bodies [dim] [cycles]
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/grid_refinement.h>
-#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -112,7 +112,7 @@ private:
     dof_handler.distribute_dofs(fe);
     owned = dof_handler.locally_owned_dofs();
     relevant = DoFTools::extract_locally_relevant_dofs(dof_handler);
-    constraints.reinit(relevant);
+    abut::versions::reinit(constraints, owned, relevant);
     DoFTools::make_hanging_node_constraints(dof_handler, constraints);
     std::vector<double> motion(dim, 0.);
     motion[0] = approach;
@@ -236,8 +236,7 @@ private:
     parallel::distributed::GridRefinement::refine_and_coarsen_fixed_number(
         triangulation, error, 0.2, 0.);
     triangulation.prepare_coarsening_and_refinement();
-    parallel::distributed::SolutionTransfer<dim, la::Vector> transfer(
-        dof_handler);
+    abut::versions::SolutionTransfer<dim, la::Vector> transfer(dof_handler);
     transfer.prepare_for_coarsening_and_refinement(
         std::vector<const la::Vector *>{&old_u, &old_pressure});
     triangulation.execute_coarsening_and_refinement();

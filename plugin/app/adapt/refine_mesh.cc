@@ -3,7 +3,7 @@
 
 #include "vertex_transfer.h"
 
-#include <deal.II/distributed/solution_transfer.h>
+#include <abut/dealii/versions.h>
 
 #include <memory>
 
@@ -16,8 +16,7 @@ namespace abut::app
               const std::vector<la::Vector> &fields,
               const std::function<void()> &setup, SectionTimes &times)
   {
-    dealii::parallel::distributed::SolutionTransfer<dim, la::Vector> transfer(
-        dof_handler);
+    versions::SolutionTransfer<dim, la::Vector> transfer(dof_handler);
     std::unique_ptr<VertexTransfer<dim>> by_vertices;
     {
       SectionTimes::Scope scope(times, "mesh");
@@ -43,7 +42,7 @@ namespace abut::app
     for (la::Vector &field : result)
     {
       field.reinit(dof_handler.locally_owned_dofs(),
-                   dof_handler.get_communicator());
+                   versions::communicator(dof_handler));
       destination.push_back(&field);
     }
     transfer.interpolate(destination);

@@ -6,6 +6,8 @@
 
 #include "residual_estimator.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe.h>
@@ -214,14 +216,14 @@ namespace abut::app
     const float largest = dealii::Utilities::MPI::max(
         squared.size() > 0 ? *std::max_element(squared.begin(), squared.end())
                            : 0.f,
-        dof_handler.get_communicator());
+        versions::communicator(dof_handler));
     for (const unsigned int cell : unknown)
     {
       sum += largest - squared[cell];
       squared[cell] = largest;
     }
     return std::sqrt(
-        dealii::Utilities::MPI::sum(sum, dof_handler.get_communicator()));
+        dealii::Utilities::MPI::sum(sum, versions::communicator(dof_handler)));
   }
 
 #define ABUT_INSTANTIATE(dim, n_components)                                    \

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "vertex_transfer.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/grid/tria.h>
@@ -38,7 +40,8 @@ namespace abut::app
   VertexTransfer<dim>::is_possible(const dealii::DoFHandler<dim> &dof_handler)
   {
     const dealii::FiniteElement<dim> &fe = dof_handler.get_fe();
-    if (dealii::Utilities::MPI::n_mpi_processes(dof_handler.get_communicator())
+    if (dealii::Utilities::MPI::n_mpi_processes(
+            versions::communicator(dof_handler))
             > 1
         || fe.degree != 1 || fe.n_base_elements() != 1
         || dynamic_cast<const dealii::FE_Q<dim> *>(&fe.base_element(0))
@@ -72,7 +75,7 @@ namespace abut::app
                                  std::vector<double> &values) const
   {
     la::Vector owned(dof_handler_.locally_owned_dofs(),
-                     dof_handler_.get_communicator());
+                     versions::communicator(dof_handler_));
     owned = field;
     const double *const in = la::data(owned);
     values.resize(is_known_.size() * n_components_);
@@ -122,9 +125,9 @@ namespace abut::app
   template <int dim> std::vector<la::Vector> VertexTransfer<dim>::interpolate()
   {
     fill_new_vertices();
-    std::vector<la::Vector> result(values_.size(),
-                                   la::Vector(dof_handler_.locally_owned_dofs(),
-                                              dof_handler_.get_communicator()));
+    std::vector<la::Vector> result(
+        values_.size(), la::Vector(dof_handler_.locally_owned_dofs(),
+                                   versions::communicator(dof_handler_)));
     std::vector<double *> out;
     for (la::Vector &field : result)
       out.push_back(la::data(field));

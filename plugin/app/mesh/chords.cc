@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "chords.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/fe/fe.h>
@@ -140,7 +142,7 @@ namespace abut::app
     }
     std::set<CoarseFacet> result;
     for (const auto &of_rank : dealii::Utilities::MPI::all_gather(
-             dof_handler.get_communicator(), own))
+             versions::communicator(dof_handler), own))
       result.insert(of_rank.begin(), of_rank.end());
     return result;
   }

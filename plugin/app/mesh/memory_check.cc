@@ -4,6 +4,8 @@
 
 #include "app/input/input_error.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -127,7 +129,7 @@ namespace abut::app
                    : cell->coarsen_flag_set() ? 1. / children
                                               : 1.;
       }
-    const MPI_Comm communicator = mesh.get_communicator();
+    const MPI_Comm communicator = versions::communicator(mesh);
     check_memory(dim, dealii::Utilities::MPI::sum(n_cells, communicator),
                  degree, communicator, parameter, n_components);
   }

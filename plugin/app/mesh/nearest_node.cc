@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "nearest_node.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -53,7 +55,7 @@ namespace abut::app
       }
     }
     const auto all = dealii::Utilities::MPI::all_gather(
-        dof_handler.get_communicator(), best);
+        versions::communicator(dof_handler), best);
     best = *std::min_element(all.begin(), all.end());
     NodalValue<dim> result;
     for (unsigned int d = 0; d < dim; ++d)

@@ -6,6 +6,8 @@
 #include "nodal_places.h"
 #include "time_status.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature.h>
 #include <deal.II/fe/fe_values.h>
@@ -209,8 +211,8 @@ namespace abut::app
       problem_.stiffness.vmult(y, x);
       check_motion(
           abut_time_limit_sums(n, mass.data(), la::data(x), la::data(y), sums));
-      dealii::Utilities::MPI::sum(sums, problem_.dof_handler.get_communicator(),
-                                  sums);
+      dealii::Utilities::MPI::sum(
+          sums, versions::communicator(problem_.dof_handler), sums);
       check_motion(abut_time_limit_next(&limit, sums, n, mass.data(),
                                         la::data(y), la::data(x)));
     }

@@ -2,6 +2,8 @@
 
 #include "contact_traction.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -28,9 +30,9 @@ namespace abut::app
             dof_handler(dof_handler),
             contact(contact),
             owned(dof_handler.locally_owned_dofs()),
-            communicator(dof_handler.get_communicator())
+            communicator(versions::communicator(dof_handler))
       {
-        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+        relevant = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
       }
 
       /** Integrals of the shape functions over the contact boundary. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete_problem.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -19,7 +21,7 @@ namespace abut::app
         fe(*this->element),
         mapping(fe.degree),
         dof_handler(triangulation),
-        communicator(triangulation.get_communicator())
+        communicator(versions::communicator(triangulation))
   {
   }
 
@@ -32,7 +34,7 @@ namespace abut::app
   void DiscreteProblem<dim>::set_constraints(const Prescribe &prescribe)
   {
     constraints.clear();
-    constraints.reinit(relevant);
+    versions::reinit(constraints, dof_handler.locally_owned_dofs(), relevant);
     constraints.merge(hanging);
     prescribe(constraints);
     constraints.close();
@@ -44,9 +46,9 @@ namespace abut::app
     dof_handler.distribute_dofs(fe);
     if (renumber)
       dealii::DoFRenumbering::Cuthill_McKee(dof_handler);
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    relevant = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
     hanging.clear();
-    hanging.reinit(relevant);
+    versions::reinit(hanging, dof_handler.locally_owned_dofs(), relevant);
     dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging);
     hanging.close();
     set_constraints(prescribe);

@@ -5,6 +5,8 @@
 #include "app/input/input_error.h"
 #include "cell_volume.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe.h>
@@ -222,7 +224,7 @@ namespace abut::app
       if (materials != nullptr)
         energy += errors.energy(*materials->at(cell->material_id()), points);
     }
-    const MPI_Comm communicator = dof_handler.get_communicator();
+    const MPI_Comm communicator = versions::communicator(dof_handler);
     const double node =
         largest_nodal_error(mapping, dof_handler, solution, exact);
     ErrorNorms result{std::sqrt(dealii::Utilities::MPI::sum(l2, communicator)),
@@ -291,7 +293,8 @@ namespace abut::app
           energy -= fluxes[q] * face_values[q] * face_points.JxW(q);
       }
     }
-    return dealii::Utilities::MPI::sum(energy, dof_handler.get_communicator());
+    return dealii::Utilities::MPI::sum(energy,
+                                       versions::communicator(dof_handler));
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

@@ -5,6 +5,8 @@
 #include "nodal_places.h"
 #include "whole_matrix.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
@@ -125,7 +127,7 @@ namespace abut::app
     const auto is_free = [&](const global_dof_index unknown)
     { return !problem.constraints.is_constrained(unknown); };
     return la::assemble(
-        owned, problem.relevant, problem.dof_handler.get_communicator(),
+        owned, problem.relevant, versions::communicator(problem.dof_handler),
         [&](const auto &add)
         {
           for (const global_dof_index row : owned)

@@ -5,6 +5,8 @@
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 
+#include <abut/dealii/versions.h>
+
 #include <cmath>
 
 namespace abut::app
@@ -64,7 +66,7 @@ namespace abut::app
   {
     la::Vector values = problem.vector();
     collective(
-        problem.dof_handler.get_communicator(),
+        versions::communicator(problem.dof_handler),
         [&]
         {
           for (const auto &cell : problem.dof_handler.active_cell_iterators())

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "rigid_modes.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -58,7 +60,7 @@ namespace abut::app
               own[1] = std::max(own[1], cell->vertex(v)[d]);
             }
         }
-      MPI::max(bounds, dof_handler.get_communicator(), bounds);
+      MPI::max(bounds, versions::communicator(dof_handler), bounds);
       std::vector<Box<dim>> result(n_bodies);
       for (unsigned int body = 0; body < n_bodies; ++body)
       {
@@ -157,7 +159,7 @@ namespace abut::app
                     grams[(body * n + i) * n + j] += m[i] * m[j];
               }
         }
-    MPI::sum(grams, dof_handler.get_communicator(), grams);
+    MPI::sum(grams, versions::communicator(dof_handler), grams);
     std::vector<RigidFreedom> result;
     for (unsigned int body = 0; body < n_bodies; ++body)
     {

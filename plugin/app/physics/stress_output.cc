@@ -2,6 +2,8 @@
 
 #include "stress_output.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/quadrature.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe.h>
@@ -134,7 +136,7 @@ namespace abut::app
       std::vector<la::Vector> sums(n_stresses<dim>() + 1);
       for (la::Vector &sum : sums)
         sum.reinit(scalar.locally_owned_dofs(), relevant,
-                   scalar.get_communicator(), true);
+                   versions::communicator(scalar), true);
       for (const auto &cell : dof_handler.active_cell_iterators())
       {
         if (!cell->is_locally_owned())
@@ -167,9 +169,10 @@ namespace abut::app
                const la::Vector &displacement, const Materials<dim> &materials,
                const dealii::DoFHandler<dim> &scalar)
   {
-    dealii::IndexSet relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(scalar, relevant);
-    dealii::AffineConstraints<double> hanging(relevant);
+    const dealii::IndexSet relevant =
+        dealii::DoFTools::extract_locally_relevant_dofs(scalar);
+    dealii::AffineConstraints<double> hanging;
+    versions::reinit(hanging, scalar.locally_owned_dofs(), relevant);
     dealii::DoFTools::make_hanging_node_constraints(scalar, hanging);
     hanging.close();
     std::vector<la::Vector> open = stress_sums(
@@ -179,7 +182,8 @@ namespace abut::app
     for (unsigned int c = 0; c <= n; ++c)
     {
       open[c].compress(dealii::VectorOperation::add);
-      fields[c].reinit(scalar.locally_owned_dofs(), scalar.get_communicator());
+      fields[c].reinit(scalar.locally_owned_dofs(),
+                       versions::communicator(scalar));
       fields[c] = open[c];
     }
     std::vector<double> values(n);
@@ -196,7 +200,7 @@ namespace abut::app
       fields[c].compress(dealii::VectorOperation::insert);
       hanging.distribute(fields[c]);
       result[c].reinit(scalar.locally_owned_dofs(), relevant,
-                       scalar.get_communicator());
+                       versions::communicator(scalar));
       result[c] = fields[c];
     }
     return result;

@@ -3,6 +3,8 @@
 
 #include "shim/principal_values.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -82,7 +84,7 @@ namespace abut::app
         result.where = cell->material_id();
       }
     }
-    const MPI_Comm communicator = dof_handler.get_communicator();
+    const MPI_Comm communicator = versions::communicator(dof_handler);
     result.least = MPI::min(result.least, communicator);
     result.least_volume = MPI::min(result.least_volume, communicator);
     result.least_at_corners = MPI::min(result.least_at_corners, communicator);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "volumetric_locking.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -60,7 +62,7 @@ namespace abut::app
         add_cell(points, displacement, *materials.at(cell->material_id()),
                  energies);
       }
-    dealii::Utilities::MPI::sum(energies, dof_handler.get_communicator(),
+    dealii::Utilities::MPI::sum(energies, versions::communicator(dof_handler),
                                 energies);
     return energies[0] > 0. ? energies[1] / energies[0] : 0.;
   }

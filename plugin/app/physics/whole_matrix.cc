@@ -3,6 +3,8 @@
 
 #include "app/input/collective.h"
 
+#include <abut/dealii/versions.h>
+
 namespace abut::app
 {
   using dealii::types::global_dof_index;
@@ -64,7 +66,7 @@ namespace abut::app
                           const bool lumped)
   {
     const dealii::IndexSet &owned = problem.dof_handler.locally_owned_dofs();
-    const MPI_Comm communicator = problem.dof_handler.get_communicator();
+    const MPI_Comm communicator = versions::communicator(problem.dof_handler);
     std::vector<global_dof_index> dofs(problem.fe.n_dofs_per_cell());
     dealii::FullMatrix<double> matrix(problem.fe.n_dofs_per_cell());
     return la::assemble(

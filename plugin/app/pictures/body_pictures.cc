@@ -8,6 +8,8 @@
 #include "raster.h"
 #include "zero_line.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/mapping_q_eulerian.h>
@@ -47,7 +49,7 @@ namespace abut::app
               low[d] = std::min(low[d], cell->vertex(v)[d]);
               high[d] = std::max(high[d], cell->vertex(v)[d]);
             }
-      const MPI_Comm communicator = dof_handler.get_communicator();
+      const MPI_Comm communicator = versions::communicator(dof_handler);
       double size = 0;
       for (unsigned int d = 0; d < 2; ++d)
         size = std::max(size, MPI::max(high[d], communicator)
@@ -258,7 +260,7 @@ namespace abut::app
     const Raster raster =
         sample_raster(deformed, scalar, {{&stresses.back()}}, 240);
     const auto edges = outline(deformed, dof_handler.get_triangulation(),
-                               dof_handler.get_communicator());
+                               versions::communicator(dof_handler));
     if (MPI::this_mpi_process(report.communicator) != 0)
       return false;
 

@@ -9,6 +9,8 @@
 #include "app/restart/disk.h"
 #include "contact_output.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe.h>
 
@@ -248,8 +250,8 @@ namespace abut::app
               && ids.count(cell->face(f)->boundary_id()) > 0)
             reader.read(cell, f, mine);
     std::vector<Edge> edges;
-    for (const auto &part :
-         dealii::Utilities::MPI::gather(dof_handler.get_communicator(), mine))
+    for (const auto &part : dealii::Utilities::MPI::gather(
+             versions::communicator(dof_handler), mine))
       edges.insert(edges.end(), part.begin(), part.end());
 
     Graph graph(edges);

@@ -5,6 +5,8 @@
 #include "app/input/collective.h"
 #include "app/restart/disk.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/numerics/data_out.h>
@@ -80,7 +82,7 @@ namespace abut::app
         if (cell->is_locally_owned())
           size = std::min(size, cell->diameter() / cell->center().norm());
       return dealii::Utilities::MPI::min(size,
-                                         triangulation.get_communicator());
+                                         versions::communicator(triangulation));
     }
 
     /** For each field of @p output 1 if it has infinite numbers on any rank.

@@ -4,6 +4,8 @@
 #include "app/input/collective.h"
 #include "app/restart/disk.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -87,7 +89,7 @@ namespace abut::app
                          const std::vector<NodalColumn> &columns)
   {
     namespace MPI = dealii::Utilities::MPI;
-    const MPI_Comm communicator = dof_handler.get_communicator();
+    const MPI_Comm communicator = versions::communicator(dof_handler);
     const auto all =
         MPI::gather(communicator, rows_of(mapping, dof_handler, columns));
     collective(communicator,

@@ -2,6 +2,8 @@
 
 #include "raster.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
@@ -37,7 +39,7 @@ namespace abut::app
               low[d] = std::min(low[d], vertex[d]);
               high[d] = std::max(high[d], vertex[d]);
             }
-      const MPI_Comm communicator = dof_handler.get_communicator();
+      const MPI_Comm communicator = versions::communicator(dof_handler);
       for (unsigned int d = 0; d < dim; ++d)
       {
         low[d] = dealii::Utilities::MPI::min(low[d], communicator);
@@ -250,7 +252,8 @@ namespace abut::app
     for (std::vector<double> &field : raster.fields)
     {
       const std::vector<double> mine = field;
-      dealii::Utilities::MPI::max(mine, dof_handler.get_communicator(), field);
+      dealii::Utilities::MPI::max(mine, versions::communicator(dof_handler),
+                                  field);
       std::replace(field.begin(), field.end(), nothing,
                    std::numeric_limits<double>::quiet_NaN());
     }

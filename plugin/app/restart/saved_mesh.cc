@@ -4,7 +4,8 @@
 #include "app/input/collective.h"
 #include "disk.h"
 
-#include <deal.II/distributed/solution_transfer.h>
+#include <abut/dealii/versions.h>
+
 #include <deal.II/dofs/dof_tools.h>
 
 #include <cstdlib>
@@ -14,8 +15,7 @@ namespace abut::app
   namespace
   {
     template <int dim>
-    using Transfer =
-        dealii::parallel::distributed::SolutionTransfer<dim, la::Vector>;
+    using Transfer = versions::SolutionTransfer<dim, la::Vector>;
 
     const char *const mesh_name = "mesh";
 
@@ -35,7 +35,7 @@ namespace abut::app
     {
       return std::vector<la::Vector>(
           n, la::Vector(dof_handler.locally_owned_dofs(),
-                        dof_handler.get_communicator()));
+                        versions::communicator(dof_handler)));
     }
 
     template <int dim>
@@ -43,13 +43,13 @@ namespace abut::app
     with_ghosts(const std::vector<la::Vector> &fields,
                 const dealii::DoFHandler<dim> &dof_handler)
     {
-      dealii::IndexSet relevant;
-      dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+      const dealii::IndexSet relevant =
+          dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
       std::vector<la::Vector> result;
       for (const la::Vector &field : fields)
       {
         result.emplace_back(dof_handler.locally_owned_dofs(), relevant,
-                            dof_handler.get_communicator());
+                            versions::communicator(dof_handler));
         result.back() = field;
       }
       return result;
@@ -63,7 +63,7 @@ namespace abut::app
                           const dealii::DoFHandler<dim> &dof_handler,
                           const std::size_t n_fields)
     {
-      const MPI_Comm communicator = mesh.get_communicator();
+      const MPI_Comm communicator = versions::communicator(mesh);
       const std::size_t per_cell =
           128 + n_fields * 8 * dof_handler.get_fe().n_dofs_per_cell();
       collective(

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+#ifndef ABUT_DEALII_VERSIONS_H
+#define ABUT_DEALII_VERSIONS_H
+
+/** @file
+ * Differences between the versions of deal.II from 9.4 to 9.8. Everything else
+ * calls these functions, so that nothing deprecated is called where a successor
+ * exists.
+ */
+
+#include <deal.II/base/config.h>
+#include <deal.II/base/index_set.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <vector>
+
+#if DEAL_II_VERSION_GTE(9, 7, 0)
+#include <deal.II/numerics/solution_transfer.h>
+#else
+#include <deal.II/distributed/solution_transfer.h>
+#endif
+
+/** What depends on the version of deal.II. */
+namespace abut::versions
+{
+  /** Communicator of a Triangulation or DoFHandler. */
+  template <typename Mesh> MPI_Comm communicator(const Mesh &mesh)
+  {
+#if DEAL_II_VERSION_GTE(9, 7, 0)
+    return mesh.get_mpi_communicator();
+#else
+    return mesh.get_communicator();
+#endif
+  }
+
+  /** Make constraints empty, with lines for the unknowns @p relevant. */
+  inline void reinit(dealii::AffineConstraints<double> &constraints,
+                     const dealii::IndexSet &owned,
+                     const dealii::IndexSet &relevant)
+  {
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+    constraints.reinit(owned, relevant);
+#else
+    (void)owned;
+    constraints.reinit(relevant);
+#endif
+  }
+
+  /** The numbers in a set, ascending. */
+  inline std::vector<dealii::types::global_dof_index>
+  indices(const dealii::IndexSet &set)
+  {
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+    return set.get_index_vector();
+#else
+    std::vector<dealii::types::global_dof_index> result;
+    set.fill_index_vector(result);
+    return result;
+#endif
+  }
+
+  /** Transfer of fields to a refined distributed mesh. */
+#if DEAL_II_VERSION_GTE(9, 7, 0)
+  template <int dim, typename VectorType>
+  using SolutionTransfer = dealii::SolutionTransfer<dim, VectorType>;
+#else
+  template <int dim, typename VectorType>
+  using SolutionTransfer =
+      dealii::parallel::distributed::SolutionTransfer<dim, VectorType>;
+#endif
+} // namespace abut::versions
+
+#endif
