@@ -6,6 +6,7 @@
 #include "agree.h"
 
 #include <abut/dealii/rigid_obstacle.h>
+#include <abut/obstacle_edge.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +35,36 @@ namespace abut::shim
       for (int n = 0; n < side.n_nodes(); ++n)
         for (unsigned int d = 0; d < dim; ++d)
           result[n][d] = normal[n * dim + d];
+      return result;
+    }
+
+    /** Directions out of an obstacle at points of a body; at its edges the
+     * body's, which are those of the rows' first frame vectors @p into. */
+    template <int dim>
+    std::vector<dealii::Tensor<1, dim>>
+    directions_at(const RigidObstacle<dim> &obstacle,
+                  const std::vector<dealii::Point<dim>> &points,
+                  const std::vector<double> &into,
+                  const std::vector<double> &size)
+    {
+      std::vector<double> distance, place, gradient;
+      std::vector<dealii::Tensor<1, dim>> result;
+      obstacle.distance(points, distance, &result);
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          place.push_back(points[i][d]);
+          gradient.push_back(result[i][d]);
+        }
+      if (abut_obstacle_face(obstacle.handle(), false,
+                             static_cast<std::int32_t>(points.size()),
+                             place.data(), into.data(), size.data(),
+                             distance.data(), gradient.data(), nullptr)
+          != ABUT_SUCCESS)
+        throw ContactError(obstacle.failure());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          result[i][d] = gradient[dim * i + d];
       return result;
     }
   } // namespace
@@ -80,21 +111,27 @@ namespace abut::shim
     }
     // Of a height along an axis, too, whose force is along the axis by choice:
     // what its slope has changed by is beside that.
-    std::vector<double> distance;
-    std::vector<Direction> before, after;
-    pair.data.obstacle->distance(made, distance, &before);
-    pair.data.obstacle->distance(now, distance, &after);
+    std::vector<double> into, size;
+    for (const Pressed &point : pressed)
+    {
+      const double *frame =
+          view_.frame + view_.component_start[point.point] * dim;
+      into.insert(into.end(), frame, frame + dim);
+      size.push_back(std::pow(view_.weight[point.point], 1. / (dim - 1)));
+    }
+    const std::vector<Direction> before =
+        directions_at(*pair.data.obstacle, made, into, size);
+    const std::vector<Direction> after =
+        directions_at(*pair.data.obstacle, now, into, size);
     Turn turn;
     for (std::size_t i = 0; i < pressed.size(); ++i)
     {
       // Rows in a thin obstacle go back the way they came, not through it: the
       // frame's first vector is into the material.
-      const double *frame =
-          view_.frame + view_.component_start[pressed[i].point] * dim;
-      double into = 0.;
+      double cosine = 0.;
       for (unsigned int d = 0; d < dim; ++d)
-        into += frame[d] * before[i][d];
-      const double way = into > 0. ? -1. : 1.;
+        cosine += into[i * dim + d] * before[i][d];
+      const double way = cosine > 0. ? -1. : 1.;
       turn.add(pressed[i].force, way * unit(before[i]), unit(after[i]));
     }
     return turn;

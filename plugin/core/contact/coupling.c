@@ -15,7 +15,7 @@ typedef struct array_size
 
 enum
 {
-  N_ARRAYS = 62
+  N_ARRAYS = 63
 };
 
 /* All arrays with the sizes of their elements (segments: set by their users);
@@ -50,6 +50,7 @@ list_arrays(abut_coupling *c, array_size *list)
                             {&c->gradient, sizeof(double)},
                             {&c->hessian, sizeof(double)},
                             {&c->asked_normal, sizeof(double)},
+                            {&c->asked_size, sizeof(double)},
                             {&c->walkers, sizeof(char)},
                             {&c->walk, sizeof(double)},
                             {&c->shares, sizeof(abut_coupling_share)},

@@ -202,7 +202,8 @@ struct abut_coupling
   abut_array asked, distance, gradient; /* double */
   abut_array hessian;       /* double, of points that move, one after the
                                other; obstacles: [n_asked * dimension^2] */
-  abut_array asked_normal;  /* double, [3 n_asked] of the surface there */
+  abut_array asked_normal;  /* double, [n_asked * dimension] of the surface */
+  abut_array asked_size;    /* double, [n_asked] of its facets */
   abut_array walkers, walk; /* of coupling_far_side.c */
   int64_t n_asked, n_answered;
   int64_t n_hessian; /* numbers in the Hessians against surfaces */

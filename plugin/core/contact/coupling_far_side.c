@@ -66,7 +66,7 @@ collect(abut_coupling *c, int64_t *n)
   {
     double cosine = 0.;
     for (int d = 0; d < dim; ++d)
-      cosine += gradient[i * dim + d] * normal[3 * i + d];
+      cosine += gradient[i * dim + d] * normal[i * dim + d];
     if (!(distance[i] < 0. && cosine > same_way))
       continue;
     const abut_status status = abut_array_reserve(
@@ -78,7 +78,7 @@ collect(abut_coupling *c, int64_t *n)
     memset(w, 0, sizeof(*w));
     w->point = i;
     memcpy(w->x, x + i * dim, sizeof(double) * (size_t)dim);
-    memcpy(w->normal, normal + 3 * i, sizeof(w->normal));
+    memcpy(w->normal, normal + i * dim, sizeof(double) * (size_t)dim);
   }
   return ABUT_SUCCESS;
 }

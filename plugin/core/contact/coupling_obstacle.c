@@ -6,23 +6,29 @@
 #include "contact/discretisation.h"
 #include "geometry/vector.h"
 
+#include <abut/obstacle_edge.h>
+
 #include <string.h>
 
-/* Append a point, dimension numbers of x and of the surface's normal. */
+/* Append a point, dimension numbers of x and of the surface's normal, and the
+ * size of its facet. */
 static abut_status
-ask(abut_coupling *c, const double *x, const double *normal)
+ask(abut_coupling *c, const double *x, const double *normal, double size)
 {
   const int64_t dim = c->view.dimension, n = c->n_asked;
   abut_status status =
       abut_array_reserve(c->context, &c->asked, n * dim, (n + 1) * dim);
   if (status == ABUT_SUCCESS)
-    status =
-        abut_array_reserve(c->context, &c->asked_normal, 3 * n, 3 * (n + 1));
+    status = abut_array_reserve(c->context, &c->asked_normal, n * dim,
+                                (n + 1) * dim);
+  if (status == ABUT_SUCCESS)
+    status = abut_array_reserve(c->context, &c->asked_size, n, n + 1);
   if (status != ABUT_SUCCESS)
     return status;
   memcpy((double *)c->asked.data + n * dim, x, sizeof(double) * (size_t)dim);
-  for (int d = 0; d < 3; ++d)
-    ((double *)c->asked_normal.data)[3 * n + d] = d < dim ? normal[d] : 0.;
+  memcpy((double *)c->asked_normal.data + n * dim, normal,
+         sizeof(double) * (size_t)dim);
+  ((double *)c->asked_size.data)[n] = size;
   ++c->n_asked;
   return ABUT_SUCCESS;
 }
@@ -39,9 +45,42 @@ ask_facet(abut_coupling *c, int32_t f)
   for (int32_t q = 0; q < c->n_points && status == ABUT_SUCCESS; ++q)
   {
     axpy3(mean, 1. / c->n_points, points[q].position, mean);
-    status = ask(c, points[q].position, facet.normal);
+    status = ask(c, points[q].position, facet.normal, facet.size);
   }
-  return status == ABUT_SUCCESS ? ask(c, mean, facet.normal) : status;
+  return status == ABUT_SUCCESS ? ask(c, mean, facet.normal, 0.) : status;
+}
+
+/* Each node has the size of the smallest facet around it. */
+static void
+set_sizes_of_nodes(abut_coupling *c)
+{
+  const abut_surface_view *v = &c->secondary->view;
+  double *size = c->asked_size.data;
+  for (int32_t f = 0; f < v->n_facets && abut_obstacle_has_edges(c->obstacle);
+       ++f)
+  {
+    abut_coupling_facet facet;
+    abut_coupling_load(c, f, &facet);
+    for (int32_t e = v->facet_start[f]; e < v->facet_start[f + 1]; ++e)
+    {
+      double *of_node = size + v->connectivity[e];
+      *of_node = *of_node > 0. ? min2(*of_node, facet.size) : facet.size;
+    }
+  }
+}
+
+/* Points behind the middle of a thin obstacle, and near its edges. */
+static abut_status
+correct(abut_coupling *c)
+{
+  const bool moves = abut_coupling_moves(c);
+  const abut_status status = abut_coupling_leave_far_side(c);
+  return status != ABUT_SUCCESS
+             ? status
+             : abut_obstacle_face(
+                 c->obstacle, moves, (int32_t)c->n_asked, c->asked.data,
+                 c->asked_normal.data, c->asked_size.data, c->distance.data,
+                 c->gradient.data, moves ? c->hessian.data : NULL);
 }
 
 abut_status
@@ -55,7 +94,9 @@ abut_coupling_measure_obstacle(abut_coupling *c)
   c->n_asked = c->n_answered = 0;
   if (c->method->detects_nodes)
     for (int64_t i = 0; i < v->n_nodes && status == ABUT_SUCCESS; ++i)
-      status = ask(c, v->position + dim * i, normal + dim * i);
+      status = ask(c, v->position + dim * i, normal + dim * i, 0.);
+  if (c->n_asked > 0 && status == ABUT_SUCCESS)
+    set_sizes_of_nodes(c);
   c->n_answered = c->n_asked;
   for (int32_t i = 0; i < v->n_facets && status == ABUT_SUCCESS; ++i)
     if (purpose[order[i]] & ABUT_COUPLING_FOR_ROWS)
@@ -77,7 +118,7 @@ abut_coupling_measure_obstacle(abut_coupling *c)
                : abut_obstacle_distance(c->obstacle, (int32_t)c->n_asked,
                                         c->asked.data, c->distance.data,
                                         c->gradient.data, NULL);
-  return status == ABUT_SUCCESS ? abut_coupling_leave_far_side(c) : status;
+  return status == ABUT_SUCCESS ? correct(c) : status;
 }
 
 /* Answer number i: signed distance and normal. */
