@@ -13,6 +13,8 @@
  *   coupling_functions.c   its free nodes, those that keep a multiplier, and
  *                          the weighting functions psi
  *   coupling_shares.c      its shares in the rows of its nodes
+ *   coupling_interpolant.c of dual mortar, the gaps at nodes instead of
+ *                          weighted ones
  *   coupling_rates.c       of mortar that moves, how these shares change
  *
  * and coupling_append.c adds the shares of each node up to a point. Node to
@@ -101,6 +103,8 @@ typedef struct abut_coupling_share
   double weight; /* integral of psi */
   double gap[3]; /* integral of psi (x_m - x_s) */
   double distance;
+  double offset[3];    /* dual mortar: integral of psi (I - 1) (x_m - x_s), with
+                          the interpolant I of the gaps at nodes */
   double normal[3];    /* integral of psi n */
   double position[3];  /* quadrature point: where it is */
   int64_t hessian;     /* of points that move: place in that array */
@@ -283,6 +287,12 @@ abut_coupling_place(const abut_coupling *c, int side)
 void abut_coupling_load(const abut_coupling *c, int32_t f,
                         abut_coupling_facet *facet);
 
+/* Unit normal at a node of a facet, or at one that hanging nodes of it hang
+ * on: averaged, at a feature the facet's own. */
+void abut_coupling_node_normal(const abut_coupling *c,
+                               const abut_coupling_facet *facet, int32_t node,
+                               double *normal);
+
 /* Area where weights are measured by that of the facet as it is, at @p local
  * of it; for rules over parts of the present facet. */
 double abut_coupling_area_ratio(const abut_coupling *c,
@@ -445,6 +455,36 @@ abut_coupling_number(const abut_coupling *c, int side, int32_t node)
 /* Number the points of the segments of a facet, and take their opposite points
  * along the facet's normal. */
 void abut_coupling_aim(abut_coupling *c, const abut_coupling_facet *facet);
+
+/* Whether the line from x along a unit normal meets one of the candidates;
+ * gap [3]: from there to the nearest of them. */
+bool abut_coupling_look(const abut_coupling *c, const double *x,
+                        const double *normal, int32_t n_candidates,
+                        double *gap);
+
+/* Whether the gaps of the build are those of the interpolants at nodes. */
+bool abut_coupling_interpolates(const abut_coupling *c);
+
+/* Gaps at the free nodes of a facet whose points are in work. */
+typedef struct abut_coupling_node_gaps
+{
+  bool found[ABUT_COUPLING_MAX_FREE];
+  double gap[ABUT_COUPLING_MAX_FREE][3]; /* against an obstacle: {distance} */
+} abut_coupling_node_gaps;
+
+/* Find them. */
+abut_status abut_coupling_find_node_gaps(abut_coupling *c,
+                                         const abut_coupling_facet *facet,
+                                         const abut_coupling_functions *f,
+                                         abut_coupling_node_gaps *gaps);
+
+/* Give a share, the last one, with values of its function at the points in
+ * work, the gaps at nodes. */
+void abut_coupling_interpolate(const abut_coupling *c,
+                               const abut_coupling_facet *facet,
+                               const abut_coupling_functions *f,
+                               const abut_coupling_node_gaps *gaps,
+                               abut_coupling_share *share);
 
 /* Candidates of a facet: the *n primary facets within reach of its box that
  * share no node with it, in c->candidates. */

@@ -262,9 +262,10 @@ static double
 gap_of(const abut_coupling *c, const abut_coupling_share *total,
        const double *normal)
 {
-  const double distance = c->obstacle != NULL || abut_coupling_moves(c)
-                              ? total->distance
-                              : dot3(normal, total->gap);
+  const double distance =
+      c->obstacle != NULL || abut_coupling_moves(c)
+          ? total->distance
+          : dot3(normal, total->gap) + dot3(normal, total->offset);
   return c->target->flush ? 0. : distance / total->weight;
 }
 
@@ -276,11 +277,11 @@ present_gap(abut_coupling *c, const int64_t *list, int64_t n,
 {
   double way[3], before[3];
   abut_coupling_gap(c, list, n, true, way);
-  if (!c->target->flush)
-    return dot3(normal, way);
   const abut_coupling_statistics counted = c->statistics;
   normal_of(c, total, before);
   c->statistics = counted;
+  if (!c->target->flush)
+    return dot3(normal, way) + dot3(before, total->offset) / total->weight;
   const double now = dot3(normal, way);
   abut_coupling_gap(c, list, n, false, way);
   return now - dot3(before, way);
@@ -404,6 +405,7 @@ add_up(const abut_coupling *c, const int64_t *list, int64_t n,
     for (int d = 0; d < 3; ++d)
     {
       total->gap[d] += s->gap[d];
+      total->offset[d] += s->offset[d];
       total->normal[d] += s->normal[d];
     }
   }

@@ -74,6 +74,21 @@ set_node_normals(const abut_coupling *c, abut_coupling_facet *facet)
   }
 }
 
+void
+abut_coupling_node_normal(const abut_coupling *c,
+                          const abut_coupling_facet *facet, int32_t node,
+                          double *normal)
+{
+  const abut_surface_view *v = &c->secondary->view;
+  const int32_t *own = v->connectivity + v->facet_start[facet->index];
+  normal[2] = 0.;
+  for (int32_t d = 0; d < v->dimension; ++d)
+    normal[d] = c->normals[(int64_t)v->dimension * node + d];
+  for (int32_t a = 0; a < facet->n; ++a)
+    if (own[a] == node)
+      memcpy(normal, facet->node_normal + 3 * a, 3 * sizeof(double));
+}
+
 /* Positions that the facet's weights are measured at: of the undeformed body,
  * where the surface is not that any more. */
 static const double *

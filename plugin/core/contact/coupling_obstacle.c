@@ -92,7 +92,7 @@ abut_coupling_measure_obstacle(abut_coupling *c)
   const double *normal = NULL;
   abut_status status = abut_surface_normals(c->secondary, &normal);
   c->n_asked = c->n_answered = 0;
-  if (c->method->detects_nodes)
+  if (c->method->detects_nodes || c->method->dual)
     for (int64_t i = 0; i < v->n_nodes && status == ABUT_SUCCESS; ++i)
       status = ask(c, v->position + dim * i, normal + dim * i, 0.);
   if (c->n_asked > 0 && status == ABUT_SUCCESS)

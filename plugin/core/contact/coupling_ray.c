@@ -17,7 +17,7 @@ static const double edge_tolerance = 1e-10;
 
 /* Where the line x + t normal meets a facet: local coordinates and t. */
 static int
-meet(const abut_coupling_facet *facet, double (*e)[3], abut_facet_kind kind,
+meet(const double *normal, double (*e)[3], abut_facet_kind kind,
      const double *nodes, const double *x, double *local, double *gap)
 {
   const int n = abut_facet_n_nodes(kind), dim = abut_facet_dimension(kind);
@@ -38,14 +38,14 @@ meet(const abut_coupling_facet *facet, double (*e)[3], abut_facet_kind kind,
   *gap = 0.;
   for (int a = 0; a < n; ++a)
     for (int d = 0; d < dim; ++d)
-      *gap += shape[a] * facet->normal[d] * (nodes[a * dim + d] - x[d]);
+      *gap += shape[a] * normal[d] * (nodes[a * dim + d] - x[d]);
   return 1;
 }
 
-/* Give a point its opposite point, or leave it without. */
+/* Give a point its opposite point along a unit normal, or leave it without. */
 static void
-find_opposite(const abut_coupling *c, const abut_coupling_facet *facet,
-              double (*e)[3], int32_t n_candidates, abut_coupling_point *p)
+find_opposite(const abut_coupling *c, const double *direction, double (*e)[3],
+              int32_t n_candidates, abut_coupling_point *p)
 {
   const int32_t *candidate = c->candidates.data;
   double least = INFINITY;
@@ -55,20 +55,34 @@ find_opposite(const abut_coupling *c, const abut_coupling_facet *facet,
     const int32_t m = candidate[k];
     const abut_facet_kind kind = (abut_facet_kind)c->primary->view.kinds[m];
     abut_surface_gather(c->primary, m, nodes);
-    if (!meet(facet, e, kind, nodes, p->position, local, &gap)
+    if (!meet(direction, e, kind, nodes, p->position, local, &gap)
         || !(fabs(gap) < least)
         || !abut_coupling_in_reach(c, gap,
                                    abut_surface_longest_side(kind, nodes)))
       continue;
     abut_coupling_normal(kind, nodes, local, normal);
-    if (!(dot3(normal, facet->normal) <= c->options.normal_cosine))
+    if (!(dot3(normal, direction) <= c->options.normal_cosine))
       continue;
     least = fabs(gap);
     p->primary = m;
     abut_coupling_shape(kind, NULL, local, p->opposite, NULL);
     for (int d = 0; d < 3; ++d)
-      p->gap[d] = gap * facet->normal[d];
+      p->gap[d] = gap * direction[d];
   }
+}
+
+bool
+abut_coupling_look(const abut_coupling *c, const double *x,
+                   const double *normal, int32_t n_candidates, double *gap)
+{
+  double e[2][3];
+  abut_coupling_point p = {.primary = -1};
+  for (int d = 0; d < c->view.dimension; ++d)
+    p.position[d] = x[d];
+  abut_plane_basis(c->view.dimension, normal, e);
+  find_opposite(c, normal, e, n_candidates, &p);
+  memcpy(gap, p.gap, sizeof(p.gap));
+  return p.primary >= 0;
 }
 
 void
@@ -86,7 +100,7 @@ abut_coupling_aim(abut_coupling *c, const abut_coupling_facet *facet)
     abut_surface_gather(c->primary, p[q].primary, nodes);
     /* At the border of a curved facet the line may pass by: then the point
      * keeps the opposite point of its segment. */
-    if (!meet(facet, e, kind, nodes, p[q].position, local, &gap))
+    if (!meet(facet->normal, e, kind, nodes, p[q].position, local, &gap))
       continue;
     abut_coupling_shape(kind, NULL, local, p[q].opposite, NULL);
     for (int d = 0; d < 3; ++d)
@@ -110,7 +124,7 @@ abut_coupling_rays(abut_coupling *c, const abut_coupling_facet *facet,
   abut_plane_basis(c->view.dimension, facet->normal, e);
   for (int32_t q = 0; q < c->n_points; ++q)
   {
-    find_opposite(c, facet, e, n_candidates, points + q);
+    find_opposite(c, facet->normal, e, n_candidates, points + q);
     if (points[q].primary >= 0)
       points[n++] = points[q];
   }

@@ -155,12 +155,17 @@ abut_coupling_add_shares(abut_coupling *c, const abut_coupling_facet *facet,
                          const abut_coupling_functions *f)
 {
   const uint8_t *wanted = c->nodes->wanted;
-  for (int32_t j = 0; j < f->n_kept; ++j)
+  const bool interpolates = abut_coupling_interpolates(c) && !f->lumped;
+  abut_coupling_node_gaps gaps;
+  abut_status status = interpolates
+                           ? abut_coupling_find_node_gaps(c, facet, f, &gaps)
+                           : ABUT_SUCCESS;
+  for (int32_t j = 0; j < f->n_kept && status == ABUT_SUCCESS; ++j)
   {
     const int32_t node = f->node[f->kept[j]];
     if (wanted != NULL && !wanted[node])
       continue;
-    abut_status status = evaluate(c, facet, f, j);
+    status = evaluate(c, facet, f, j);
     abut_coupling_share *s =
         status == ABUT_SUCCESS ? abut_coupling_new_share(c) : NULL;
     if (s == NULL)
@@ -173,10 +178,10 @@ abut_coupling_add_shares(abut_coupling *c, const abut_coupling_facet *facet,
       status = add_primary(c, s);
     if (status == ABUT_SUCCESS && abut_coupling_follows(c))
       status = abut_coupling_add_blocks(c, facet, s);
-    if (status != ABUT_SUCCESS)
-      return status;
+    if (status == ABUT_SUCCESS && interpolates)
+      abut_coupling_interpolate(c, facet, f, &gaps, s);
   }
-  return ABUT_SUCCESS;
+  return status;
 }
 
 abut_status

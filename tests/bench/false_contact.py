@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Forces between bodies that do not touch: none should have one.
+
+Prints, for each kind of scene, in how many of them there is a force, or no
+answer, and the largest clearance of these, divided by the length of a facet.
+
+    tests/bench/false_contact.py build/release/abut_served [600 [NAME=VALUE ...]]
+"""
+import json
+import pathlib
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
+import apart_scenes  # noqa: E402
+from program import set_words  # noqa: E402
+from served import Served  # noqa: E402
+
+
+class Folder:
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+        return name
+
+
+def is_right(abut, folder, file, words):
+    """Whether a scene is solved without any contact force."""
+    result = abut.run(["run", file, "--output", "out", "--quiet", *words],
+                      folder, 600)
+    return result.returncode == 0 and json.loads((
+        pathlib.Path(folder) / "out/summary.json").read_text())[
+            "contact_force"] == 0.
+
+
+def main():
+    abut = Served(sys.argv[1])
+    n = int(sys.argv[2]) if len(sys.argv) > 2 else 600
+    words = set_words(sys.argv[3:])
+    count, wrong, largest = {}, {}, {}
+    for seed in range(n):
+        with tempfile.TemporaryDirectory(prefix="abut-bench-") as folder:
+            file, kind, clearance = apart_scenes.make(Folder(folder), seed)
+            count[kind] = count.get(kind, 0) + 1
+            if not is_right(abut, folder, file, words):
+                wrong[kind] = wrong.get(kind, 0) + 1
+                largest[kind] = max(largest.get(kind, 0.), clearance)
+    for kind, number in count.items():
+        print(f"{kind}: {number} scenes, {wrong.get(kind, 0)} wrong, "
+              f"clearances up to {largest.get(kind, 0.):.2g}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
