@@ -7,7 +7,9 @@
 #include "app/input/collective.h"
 #include "app/input/dealii_message.h"
 #include "app/input/expression.h"
+#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 #include "app/input/parameters.h"
 #include "generator_arguments.h"
 #include "mesh_checks.h"
@@ -52,6 +54,7 @@ namespace abut::app
     {
       const std::string in_dimension =
           " in " + std::to_string(dim) + " dimensions";
+      check_numbers(parameters.arguments, parameters.section + "/Arguments");
       check_repetitions<dim>(parameters);
       try
       {
@@ -194,7 +197,7 @@ namespace abut::app
                       "Angle in degrees about the origin (2D), or three "
                       "angles about x, then y, then z (3D), applied second.");
     prm.declare_entry("Move", "", Anything(), "Shift, applied last.");
-    prm.declare_entry("Boundary ids", "", Anything(),
+    prm.declare_entry("Boundary ids", "", FormulaPattern::by_id(),
                       "Boundary ids by condition on the centre of a face of "
                       "the coarse mesh: 'id: condition' separated by ';', "
                       "for example '1: y > 0.99; 2: abs(x) < 1e-6'. A later "
@@ -242,7 +245,8 @@ namespace abut::app
       dealii::Tensor<1, dim> result;
       if (!numbers.empty() && numbers.size() != dim)
         wrong(name, "needs " + std::to_string(dim) + " numbers, not "
-                        + std::to_string(numbers.size()) + ".");
+                        + std::to_string(numbers.size()) + "."
+                        + count_hint(numbers.size(), dim));
       for (unsigned int d = 0; d < numbers.size(); ++d)
         result[d] = numbers[d];
       return result;
@@ -259,9 +263,10 @@ namespace abut::app
     }
     const std::size_t n_angles = dim == 2 ? 1 : 3;
     if (!parameters.rotate.empty() && parameters.rotate.size() != n_angles)
-      wrong("Rotate", dim == 2 ? "needs one angle in degrees."
-                               : "needs three angles in degrees, about "
-                                 "x, then y, then z.");
+      wrong("Rotate", (dim == 2 ? "needs one angle in degrees."
+                                : "needs three angles in degrees, about "
+                                  "x, then y, then z.")
+                          + count_hint(parameters.rotate.size(), n_angles));
     for (std::size_t axis = 0; axis < parameters.rotate.size(); ++axis)
     {
       const double angle =
