@@ -132,6 +132,66 @@ p.expect(p.call("run", p.source / "prm/dragged-block.prm", "--set",
                 "Pair 1/Friction=max(0,0.3)", "--set", "Refinement/Level=0",
                 "--quiet").returncode == 0, "arguments of max()")
 
+# Mesh files: the reason, and its line.
+CORNERS = ["0 0", "1 0", "1 1", "0 1"]
+FAR = ["1e12 1e12", "1000000000000.1 1e12", "1000000000000.2 1e12",
+       "1e12 1000000000000.1", "1000000000000.1 1000000000000.1",
+       "1000000000000.2 1000000000000.1"]
+
+
+def ucd(corners, cells=("1 2 3 4",)):
+    return (f"{len(corners)} {len(cells)} 0 0 0\n"
+            + "".join(f"{i + 1} {x} 0\n" for i, x in enumerate(corners))
+            + "".join(f"{i + 1} 0 quad {c}\n" for i, c in enumerate(cells)))
+
+
+def vtk(corners, cell="4 0 1 2 3"):
+    return ("# vtk DataFile Version 3.0\nsquare\nASCII\n"
+            "DATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+            + "".join(x + " 0\n" for x in corners)
+            + f"CELLS 1 5\n{cell}\nCELL_TYPES 1\n9\n")
+
+
+def stl(vertex):
+    return ("solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+            f"vertex {vertex}\nvertex 0 1 0\nendloop\nendfacet\n"
+            "endsolid s\n")
+
+
+def with_corner(x):
+    return CORNERS[:2] + [x] + CORNERS[3:]
+
+
+MESH_FILES = (
+    ("nan.inp", ucd(with_corner("nan 1")), "'nan' in line 4", "not a finite"),
+    ("large.inp", ucd(with_corner("1e400 1")), "'1e400' in line 4"),
+    ("comma.inp", ucd(with_corner("1,5 1")), "'1,5' in line 4",
+     "decimal comma?"),
+    ("nan.vtk", vtk(with_corner("1 nan")), "'nan' in line 8"),
+    ("index.vtk", vtk(CORNERS, "4 0 1 2 9"), "line 11", "vertex 9"),
+    ("cells.inp", ucd(CORNERS, ()), "no cells"),
+    ("far.inp", ucd(FAR, ("1 2 5 4", "2 3 6 5")), "too few digits", "line"),
+    ("outlier.inp", ucd(with_corner("1e12 1")), "diameter of 1e+12",
+     "1e12, in line 4"),
+    ("folded.inp", ucd(["0 0", "1 0", "2 0", "0 1", "3 1", "2 1"],
+                       ("1 2 5 4", "2 3 6 5")), "folded"),
+)
+for name, text, *words in MESH_FILES:
+    p.write(name, text)
+    p.expect_error(p.call("check", p.source / "prm/patch-2d.prm", "--set",
+                          f"Body 1/Mesh/File={p.folder}/{name}"),
+                   "Body 1/Mesh/File:", *words)
+for vertex, *words in (("nan 0 0", "'nan'", "finite number", "line 5"),
+                       ("1e400 0 0", "'1e400'", "finite number", "line 5"),
+                       ("0,5 0 0", "'0,5'", "line 5", "decimal comma?"),
+                       ("1 0 0 0", "4 numbers", "line 5"),
+                       ("1 0", "2 numbers", "line 5")):
+    p.write("surface.stl", stl(vertex))
+    p.expect_error(p.call("check", p.source / "prm/search-flat.prm", "--set",
+                          f"Primary/File={p.folder}/surface.stl", "--set",
+                          "Primary/Surface ids=*"),
+                   "Primary/File:", *words)
+
 # Output folders.
 p.write("file", "")
 p.expect_error(p.call("run", scene, "--output", "file/x"), "file/x")
