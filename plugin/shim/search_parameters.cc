@@ -103,16 +103,20 @@ namespace abut
     {
       try
       {
-        const double value = Utilities::string_to_double(Utilities::trim(text));
-        if (std::isfinite(value))
-          return value;
+        // Hexadecimal digits do not match.
+        if (Patterns::Double().match(Utilities::trim(text)))
+          return Utilities::string_to_double(Utilities::trim(text));
       }
       catch (const dealii::ExceptionBase &)
       {
       }
-      AssertThrow(false, dealii::ExcMessage("Search/Thickness: '" + entry
-                                            + "' is not of the form 'length' "
-                                              "or 'id: length'."));
+      AssertThrow(false,
+                  dealii::ExcMessage("Search/Thickness: '" + entry
+                                     + "' is not of the form 'length' "
+                                       "or 'id: length'."
+                                     + (entry.find(',') == std::string::npos
+                                            ? ""
+                                            : " Is it a decimal comma?")));
       return 0;
     }
 

@@ -3,6 +3,7 @@
 #include "boundary_expressions.h"
 
 #include "input_error.h"
+#include "number_text.h"
 
 #include <deal.II/base/utilities.h>
 
@@ -107,7 +108,8 @@ namespace abut::app
       throw InputError(parameter,
                        "'" + text + "' is not " + std::to_string(n_components)
                            + " formulas separated by commas"
-                           + (may_be_free ? ", or the word free." : "."));
+                           + (may_be_free ? ", or the word free." : ".")
+                           + misread_hint(text));
     std::string formulas;
     std::vector<bool> counts(n_components, true);
     for (unsigned int c = 0; c < n_components; ++c)

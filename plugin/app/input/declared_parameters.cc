@@ -61,6 +61,10 @@ namespace abut::app
         return "text";
       if (pattern.compare(0, 4, "[Map") == 0)
         return "a list of `name: number`, separated by commas";
+      const std::string formula = "[Formula ";
+      if (pattern.compare(0, formula.size(), formula) == 0)
+        return pattern.substr(formula.size(),
+                              pattern.size() - formula.size() - 1);
       const std::string number = "[Number";
       if (pattern.compare(0, number.size(), number) == 0)
         return "a number"

@@ -4,6 +4,7 @@
 
 #include "dealii_message.h"
 #include "input_error.h"
+#include "number_text.h"
 
 #include <algorithm>
 #include <cctype>
@@ -105,7 +106,8 @@ namespace abut::app
         throw InputError(parameter,
                          "the formula '" + text + "' cannot be read: "
                              + parser_message(error) + " Variables are "
-                             + (dim == 3 ? "x, y, z, t." : "x, y, t."));
+                             + (dim == 3 ? "x, y, z, t." : "x, y, t.")
+                             + misread_hint(text));
       }
       return parser;
     }
@@ -183,18 +185,21 @@ namespace abut::app
         parameter_name(parameter),
         uses_time(false)
   {
+    check_numbers(text, parameter);
     std::vector<std::string> formulas = split_list(text, ';');
     if (n_components > 1 && formulas.size() == 1)
       formulas = split_list(text, ',');
     if (formulas.size() != n_components
         || std::find(formulas.begin(), formulas.end(), "") != formulas.end())
       throw InputError(
-          parameter,
-          "'" + text + "' is not "
-              + (n_components == 1
-                     ? std::string("a formula.")
-                     : std::to_string(n_components)
-                           + " formulas separated by commas or ';'."));
+          parameter, "'" + text + "' is not "
+                         + (n_components == 1
+                                ? std::string("a formula.")
+                                : std::to_string(n_components)
+                                      + " formulas separated by commas or ';'.")
+                         + misread_hint(text));
+    for (const std::string &formula : formulas)
+      check_one_formula(formula, text, parameter);
     auto all = make_parser<dim>(formulas, text, parameter);
 
     bool any_varies = false;

@@ -3,6 +3,7 @@
 #include "height_map.h"
 
 #include "input_error.h"
+#include "number_text.h"
 #include "parameters.h"
 
 #include <abut/dealii/number_pattern.h>
@@ -137,7 +138,8 @@ namespace abut::app
     {
       const std::vector<double> numbers = parse_numbers(text, parameter);
       if (numbers.size() != 2)
-        throw InputError(parameter, "'" + text + "' is not two numbers, x y.");
+        throw InputError(parameter, "'" + text + "' is not two numbers, x y."
+                                        + misread_hint(text));
       return {numbers[0], numbers[1]};
     }
   } // namespace

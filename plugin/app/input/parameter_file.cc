@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "parameters.h"
 
+#include "expression.h"
+#include "number_text.h"
+
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
@@ -98,6 +101,14 @@ namespace abut::app
     void set_value(ParameterHandler &prm, const DeclaredParameter &parameter)
     {
       const std::string &value = parameter.value;
+      const std::string &words = parameter.pattern;
+      const bool is_number = words.rfind("a number", 0) == 0
+                             || words.rfind("a whole number", 0) == 0;
+      if (is_number)
+        check_numbers(value, parameter.path);
+      // Here, since scenes do not read formulas without effect.
+      if (words == "a formula")
+        check_one_formula(value, value, parameter.path);
       std::vector<std::string> sections =
           Utilities::split_string_list(parameter.path, '/');
       const std::string name = sections.back();
@@ -118,7 +129,8 @@ namespace abut::app
       if (!legal)
         throw InputError(parameter.path,
                          "'" + value + "' is not " + parameter.pattern + "."
-                             + did_you_mean(value, parameter.choices));
+                             + did_you_mean(value, parameter.choices)
+                             + (is_number ? misread_hint(value) : ""));
     }
   } // namespace
 
@@ -302,6 +314,12 @@ namespace abut::app
   std::vector<double> parse_numbers(const std::string &text,
                                     const std::string &parameter)
   {
+    check_numbers(text, parameter);
+    const std::vector<std::string> parts = split_list(text, ',');
+    if (std::find(parts.begin(), parts.end(), "") != parts.end())
+      throw InputError(parameter, "'" + text
+                                      + "' has a comma without a number "
+                                        "on both sides.");
     std::string blanks = text;
     for (char &c : blanks)
       if (c == ',')
@@ -318,7 +336,8 @@ namespace abut::app
                          "'" + word + "'"
                              + (word == text ? "" : " in '" + text + "'")
                              + " is not a finite number; formulas are not "
-                               "possible here.");
+                               "possible here."
+                             + misread_hint(word));
       if (std::abs(value) > largest_value)
         throw InputError(parameter, "'" + word
                                         + "' is too large: numbers end "
@@ -335,7 +354,8 @@ namespace abut::app
       return std::numeric_limits<double>::quiet_NaN();
     const std::vector<double> numbers = parse_numbers(text, parameter);
     if (numbers.size() != 1)
-      throw InputError(parameter, "'" + text + "' is not a number.");
+      throw InputError(parameter,
+                       "'" + text + "' is not a number." + misread_hint(text));
     return numbers[0];
   }
 } // namespace abut::app

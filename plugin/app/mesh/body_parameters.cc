@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "body_parameters.h"
 
+#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 
 #include <abut/dealii/number_pattern.h>
@@ -48,25 +49,25 @@ namespace abut::app
                       "Mass per volume; its weight is density times "
                       "`Solid/Gravity`, and its inertia that of section "
                       "`Time`.");
-    prm.declare_entry("Support", "", Patterns::Anything(),
+    prm.declare_entry("Support", "", FormulaPattern::vector_by_id(),
                       "Prescribed displacements by boundary id, `3: 0, 0; 1, "
                       "2: free, -0.1*t`: a formula in x, y, z, t for each "
                       "component, or the word free. * means all other ids. "
                       "Ids that are not named are free.");
-    prm.declare_entry("Traction", "", Patterns::Anything(),
+    prm.declare_entry("Traction", "", FormulaPattern::vector_by_id(),
                       "Forces per area by boundary id, written like "
                       "`Support`, without the word free.");
-    prm.declare_entry("Pressure", "", Patterns::Anything(),
+    prm.declare_entry("Pressure", "", FormulaPattern::by_id(),
                       "Pressure on the boundary by id, `1: 5*t`, positive "
                       "into the body. Adds to `Traction`. It acts along the "
                       "normals of the undeformed body.");
-    prm.declare_entry("Body force", "", Patterns::Anything(),
+    prm.declare_entry("Body force", "", FormulaPattern::vector(),
                       "Force per volume: a formula for each component, "
                       "separated by commas. Adds to the weight.");
-    prm.declare_entry("Initial displacement", "", Patterns::Anything(),
+    prm.declare_entry("Initial displacement", "", FormulaPattern::vector(),
                       "Where the motion begins: a formula in x, y, z for each "
                       "component, separated by commas. Empty: undeformed.");
-    prm.declare_entry("Initial velocity", "", Patterns::Anything(),
+    prm.declare_entry("Initial velocity", "", FormulaPattern::vector(),
                       "Written like it. Empty: at rest.");
     prm.leave_subsection();
   }

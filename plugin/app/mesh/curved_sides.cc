@@ -4,6 +4,7 @@
 #include "app/input/boundary_expressions.h"
 #include "app/input/expression.h"
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 #include "app/input/parameters.h"
 #include "app/input/short_number.h"
 
@@ -67,10 +68,10 @@ namespace abut::app
     {
       const std::vector<double> numbers = parse_numbers(text, parameter);
       if (numbers.size() != dim)
-        throw InputError(parameter, "'" + text + "' has "
-                                        + std::to_string(numbers.size())
-                                        + " coordinates; it needs "
-                                        + std::to_string(dim) + ".");
+        throw InputError(parameter,
+                         "'" + text + "' has " + std::to_string(numbers.size())
+                             + " coordinates; it needs " + std::to_string(dim)
+                             + "." + misread_hint(text));
       dealii::Tensor<1, dim> result;
       for (unsigned int d = 0; d < dim; ++d)
         result[d] = numbers[d];

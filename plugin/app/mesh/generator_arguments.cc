@@ -2,6 +2,7 @@
 #include "generator_arguments.h"
 
 #include "app/input/expression.h"
+#include "app/input/number_text.h"
 
 #include <cstdlib>
 #include <map>
@@ -104,6 +105,6 @@ namespace abut::app
     if (given == wanted)
       text += ", one of which is not of its kind (numbers; points and lists as "
               "numbers separated by commas; true or false)";
-    return text + ".";
+    return text + "." + misread_hint(arguments);
   }
 } // namespace abut::app

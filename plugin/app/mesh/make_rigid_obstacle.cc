@@ -4,6 +4,7 @@
 #include "app/input/dealii_message.h"
 #include "app/input/expression.h"
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 #include "app/input/parameters.h"
 #include "app/input/short_number.h"
 
@@ -46,7 +47,8 @@ namespace abut::app
         const std::vector<double> values = list(name);
         if (values.size() != 1
             || !((values[0] > lower && values[0] < upper) || values[0] == also))
-          wrong(name, "'" + parameters.values.at(name) + "' is not " + legal);
+          wrong(name, "'" + parameters.values.at(name) + "' is not " + legal
+                          + misread_hint(parameters.values.at(name)));
         return values[0];
       }
 
@@ -60,7 +62,8 @@ namespace abut::app
           return otherwise;
         if (values.size() != n)
           wrong(name, "needs " + std::to_string(n) + " numbers, not "
-                          + std::to_string(values.size()) + ".");
+                          + std::to_string(values.size()) + "."
+                          + count_hint(values.size(), n));
         Tensor<1, n> result;
         for (unsigned int d = 0; d < n; ++d)
           result[d] = values[d];
@@ -112,8 +115,8 @@ namespace abut::app
       if (size.size() == 1)
         size.resize(dim, size[0]);
       if (size.size() != dim)
-        numbers.wrong("Size",
-                      "needs one number or " + std::to_string(dim) + ".");
+        numbers.wrong("Size", "needs one number or " + std::to_string(dim) + "."
+                                  + count_hint(size.size(), dim));
       for (unsigned int d = 0; d < dim; ++d)
       {
         shape.point[d] = point[d];

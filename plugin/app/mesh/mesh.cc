@@ -7,21 +7,22 @@
 #include "app/input/collective.h"
 #include "app/input/dealii_message.h"
 #include "app/input/expression.h"
+#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 #include "app/input/parameters.h"
 #include "generator_arguments.h"
 #include "mesh_checks.h"
+#include "mesh_file.h"
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 
 namespace abut::app
@@ -52,6 +53,7 @@ namespace abut::app
     {
       const std::string in_dimension =
           " in " + std::to_string(dim) + " dimensions";
+      check_numbers(parameters.arguments, parameters.section + "/Arguments");
       check_repetitions<dim>(parameters);
       try
       {
@@ -83,52 +85,6 @@ namespace abut::app
       }
     }
 
-    template <int dim>
-    void read(const MeshParameters &parameters, const RunOptions &options,
-              dealii::Triangulation<dim> &triangulation)
-    {
-      const std::string parameter = parameters.section + "/File";
-      const std::filesystem::path path = options.input_file(parameters.file);
-      std::ifstream in(path);
-      if (!in || std::filesystem::is_directory(path))
-        throw InputError(parameter, "the mesh file '" + path.string()
-                                        + "' cannot be opened.");
-      std::string extension = path.extension().string();
-      extension = extension.empty() ? "" : extension.substr(1);
-      using GridIn = dealii::GridIn<dim>;
-      typename GridIn::Format format = GridIn::Default;
-      try
-      {
-        format = GridIn::parse_format(extension);
-      }
-      catch (const std::exception &)
-      {
-        throw InputError(parameter, "the mesh file '" + path.string()
-                                        + "' is of no known kind; by its "
-                                          "ending it must be one of msh "
-                                          "(gmsh), inp, ucd, vtk, vtu, unv, "
-                                          "xda.");
-      }
-      GridIn reader(triangulation);
-      try
-      {
-        reader.read(in, format);
-      }
-      catch (const std::exception &error)
-      {
-        // deal.II's words about it are a page of possible reasons.
-        const bool is_garbled =
-            dynamic_cast<const dealii::StandardExceptions::ExcIO *>(&error);
-        throw InputError(parameter,
-                         "the mesh file '" + path.string()
-                             + "' cannot be read as a mesh in "
-                             + std::to_string(dim) + " dimensions: "
-                             + (is_garbled ? "it ends too early, or is not "
-                                             "what its ending says."
-                                           : dealii_message(error)));
-      }
-    }
-
     /** What a coarse mesh must be, whoever made it. */
     template <int dim>
     void check_mesh(const MeshParameters &parameters,
@@ -151,6 +107,24 @@ namespace abut::app
       check_cells(parameter, triangulation);
     }
 
+    template <int dim>
+    void read_checked(const MeshParameters &parameters,
+                      const RunOptions &options,
+                      dealii::Triangulation<dim> &triangulation)
+    {
+      const std::filesystem::path path = options.input_file(parameters.file);
+      read_mesh_file(path, parameters.section + "/File", triangulation);
+      try
+      {
+        check_mesh(parameters, triangulation);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(error.parameter,
+                         error.what() + large_number_hint(path));
+      }
+    }
+
     /** Generated or read, one level, in its own place. */
     template <int dim>
     std::shared_ptr<const dealii::Triangulation<dim>>
@@ -159,10 +133,12 @@ namespace abut::app
       const AssertionsThrow throwing;
       auto made = std::make_shared<dealii::Triangulation<dim>>();
       if (parameters.file.empty())
+      {
         generate(parameters, *made);
+        check_mesh(parameters, *made);
+      }
       else
-        read(parameters, options, *made);
-      check_mesh(parameters, *made);
+        read_checked(parameters, options, *made);
       if (made->n_levels() == 1)
         return made;
       auto flat = std::make_shared<dealii::Triangulation<dim>>();
@@ -194,7 +170,7 @@ namespace abut::app
                       "Angle in degrees about the origin (2D), or three "
                       "angles about x, then y, then z (3D), applied second.");
     prm.declare_entry("Move", "", Anything(), "Shift, applied last.");
-    prm.declare_entry("Boundary ids", "", Anything(),
+    prm.declare_entry("Boundary ids", "", FormulaPattern::by_id(),
                       "Boundary ids by condition on the centre of a face of "
                       "the coarse mesh: 'id: condition' separated by ';', "
                       "for example '1: y > 0.99; 2: abs(x) < 1e-6'. A later "
@@ -242,7 +218,8 @@ namespace abut::app
       dealii::Tensor<1, dim> result;
       if (!numbers.empty() && numbers.size() != dim)
         wrong(name, "needs " + std::to_string(dim) + " numbers, not "
-                        + std::to_string(numbers.size()) + ".");
+                        + std::to_string(numbers.size()) + "."
+                        + count_hint(numbers.size(), dim));
       for (unsigned int d = 0; d < numbers.size(); ++d)
         result[d] = numbers[d];
       return result;
@@ -259,9 +236,10 @@ namespace abut::app
     }
     const std::size_t n_angles = dim == 2 ? 1 : 3;
     if (!parameters.rotate.empty() && parameters.rotate.size() != n_angles)
-      wrong("Rotate", dim == 2 ? "needs one angle in degrees."
-                               : "needs three angles in degrees, about "
-                                 "x, then y, then z.");
+      wrong("Rotate", (dim == 2 ? "needs one angle in degrees."
+                                : "needs three angles in degrees, about "
+                                  "x, then y, then z.")
+                          + count_hint(parameters.rotate.size(), n_angles));
     for (std::size_t axis = 0; axis < parameters.rotate.size(); ++axis)
     {
       const double angle =

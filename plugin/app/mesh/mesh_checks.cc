@@ -36,14 +36,19 @@ namespace abut::app
                    distance = cell->center().norm();
       bool is_good = measure > 0 && std::isfinite(measure)
                      && size > least_digits * distance;
+      const double shortest = cell->minimum_vertex_distance();
+      const bool is_outlier = shortest < least_digits * size;
       for (const double form : forms)
         is_good = is_good && form > -round_off * measure;
-      if (is_good)
+      if (is_good && !is_outlier)
         continue;
       std::ostringstream where;
       where << "cell " << cell->active_cell_index() << " of the mesh, around ("
             << cell->center() << "), "
-            << (size > 0. && size < few_digits * distance
+            << (is_good ? "has corners " + short_number(shortest)
+                              + " apart and a diameter of " + short_number(size)
+                              + ": digits do not suffice for both."
+                : size > 0. && size < few_digits * distance
                     ? "is so far from the origin, beside its size, that its "
                       "corners have too few digits: move the mesh nearer."
                     : "is folded or concave, or has no volume.");

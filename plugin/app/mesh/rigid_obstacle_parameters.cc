@@ -2,6 +2,7 @@
 #include "rigid_obstacle_parameters.h"
 
 #include "app/input/expression.h"
+#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/parameters.h"
 
@@ -9,6 +10,7 @@
 #include <abut/obstacle.h>
 
 #include <algorithm>
+#include <memory>
 #include <set>
 
 namespace abut::app
@@ -131,6 +133,16 @@ namespace abut::app
       return all;
     }
 
+    std::unique_ptr<Patterns::PatternBase>
+    entry_pattern(const std::string &name)
+    {
+      if (name == "Expression" || name == "Rotation angle")
+        return FormulaPattern::one().clone();
+      if (name == "Gradient" || name == "Motion" || name == "Force")
+        return FormulaPattern::vector().clone();
+      return Patterns::Anything().clone();
+    }
+
     /** The directions of a list of names; throws InputError. */
     std::vector<unsigned int> parse_directions(const std::string &text,
                                                const std::string &parameter)
@@ -198,8 +210,8 @@ namespace abut::app
     prm.declare_entry("Hollow", "false", Patterns::Bool(),
                       "The material is outside of the shape.");
     for (const Entry &entry : entries())
-      prm.declare_entry(entry.name, entry.default_value, Patterns::Anything(),
-                        entry.documentation);
+      prm.declare_entry(entry.name, entry.default_value,
+                        *entry_pattern(entry.name), entry.documentation);
     prm.declare_entry("Mass", "0", NumberPattern::between(0., largest_value),
                       "Mass of the obstacle: it has the weight of "
                       "`Solid/Gravity`, and in time inertia along `Free "

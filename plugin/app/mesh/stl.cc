@@ -15,8 +15,10 @@
 #include "stl.h"
 
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -112,6 +114,31 @@ namespace abut::app
           }
       }
 
+      /** Three numbers and nothing else. */
+      std::array<double, 3> numbers_after_vertex(std::istringstream &words,
+                                                 const std::string &where) const
+      {
+        std::array<double, 3> x{};
+        std::size_t n = 0;
+        for (std::string word; words >> word; ++n)
+        {
+          char *end = nullptr;
+          const double value = std::strtod(word.c_str(), &end);
+          if (*end != '\0')
+            complain("has '" + word + "', which is not a number, " + where + "."
+                     + misread_hint(word));
+          if (!std::isfinite(value))
+            complain("has '" + word + "', which is not a finite number, "
+                     + where + ".");
+          if (n < 3)
+            x[n] = value;
+        }
+        if (n != 3)
+          complain("has " + std::to_string(n) + " numbers after 'vertex' "
+                   + where + "; it needs three.");
+        return x;
+      }
+
       void read_text()
       {
         std::istringstream in(bytes);
@@ -132,10 +159,7 @@ namespace abut::app
           begun = true;
           if (word == "vertex")
           {
-            std::array<double, 3> x;
-            if (!(words >> x[0] >> x[1] >> x[2]))
-              complain("has no three numbers after 'vertex' " + where + ".");
-            add(x, where);
+            add(numbers_after_vertex(words, where), where);
             ++n_in_loop;
           }
           else if (word == "endloop" || word == "endfacet")

@@ -4,6 +4,7 @@
 
 #include "app/input/boundary_expressions.h"
 #include "app/input/expression.h"
+#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "memory_check.h"
 #include "stl.h"
@@ -257,7 +258,7 @@ namespace abut::app
     prm.declare_entry("Surface ids", "*", Anything(),
                       "Boundary ids that make up the surface, such as `0, 2`, "
                       "or * for the whole boundary.");
-    prm.declare_entry("Map", "", Anything(),
+    prm.declare_entry("Map", "", FormulaPattern::vector(),
                       "Formulas of the new coordinates in x, y, z, separated "
                       "by ';', applied last to every node: `x; y; z + 0.1 * "
                       "sin(x)`. Empty: nothing.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "pair_parameters.h"
 
+#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 
 #include <abut/dealii/number_pattern.h>
@@ -29,7 +30,7 @@ namespace abut::app
     prm.declare_entry("Obstacle", "0", Patterns::Integer(0),
                       "Number of the rigid obstacle (section `Obstacle N`) "
                       "that takes the place of a primary surface; 0: none.");
-    prm.declare_entry("Initial gap", "0", Patterns::Anything(),
+    prm.declare_entry("Initial gap", "0", FormulaPattern::one(),
                       "Added to the gap of the meshes: a length or a formula "
                       "in t. Positive: clearance, negative: interference. Of "
                       "an obstacle of kind height it is along the axis where "
@@ -45,12 +46,12 @@ namespace abut::app
     prm.declare_entry("Tied", "false", Patterns::Bool(),
                       "Glue the surfaces together where they are opposite to "
                       "each other.");
-    prm.declare_entry("Friction", "0", Patterns::Anything(),
+    prm.declare_entry("Friction", "0", FormulaPattern::one(),
                       "Coefficient of Coulomb friction: a number or a formula "
                       "of the undeformed place (with `Method/Sliding = step`, "
                       "as of what flies, of that at the beginning of the step) "
                       "and t; 0: none.");
-    prm.declare_entry("Largest friction", "", Patterns::Anything(),
+    prm.declare_entry("Largest friction", "", FormulaPattern::one(),
                       "Bound of the traction along the surface, force per "
                       "area, a number or a formula like `Friction`; with a "
                       "large coefficient this is Tresca's law. Empty: none.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "obstacle_parameters.h"
 
+#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/parameters.h"
 
@@ -16,25 +17,25 @@ namespace abut::app
       prm.enter_subsection("Membrane");
       prm.declare_entry("Degree", "1", Patterns::Integer(1, 2),
                         "Polynomial degree of the displacement: 1 or 2.");
-      prm.declare_entry("Conductivity", "1", Patterns::Anything(),
+      prm.declare_entry("Conductivity", "1", FormulaPattern::one(),
                         "k in -div(k grad u) = f + p: a formula in x, y, z, "
                         "positive. A tension, for a membrane.");
-      prm.declare_entry("Load", "0", Patterns::Anything(),
+      prm.declare_entry("Load", "0", FormulaPattern::one(),
                         "f, force per area (2D): a formula in x, y, z and, of "
                         "what moves (section `Time`), t, which loads, "
                         "prescribed values and obstacles may depend on.");
-      prm.declare_entry("Density", "0", Patterns::Anything(),
+      prm.declare_entry("Density", "0", FormulaPattern::one(),
                         "Of what moves: mass per area (2D), a formula in x, y, "
                         "z, positive.");
-      prm.declare_entry("Initial displacement", "", Patterns::Anything(),
+      prm.declare_entry("Initial displacement", "", FormulaPattern::one(),
                         "Of what moves: a formula. Empty: 0.");
-      prm.declare_entry("Initial velocity", "", Patterns::Anything(),
+      prm.declare_entry("Initial velocity", "", FormulaPattern::one(),
                         "Of what moves: a formula. Empty: at rest.");
-      prm.declare_entry("Dirichlet", "*: 0", Patterns::Anything(),
+      prm.declare_entry("Dirichlet", "*: 0", FormulaPattern::by_id(),
                         "Prescribed displacements by boundary id, `0: 0; 1, "
                         "2: x^2; *: sin(pi*y)`; * means all other ids. Ids "
                         "that are not named are free.");
-      prm.declare_entry("Neumann", "", Patterns::Anything(),
+      prm.declare_entry("Neumann", "", FormulaPattern::by_id(),
                         "Prescribed fluxes k du/dn by boundary id, written "
                         "like `Dirichlet`.");
       prm.leave_subsection();
@@ -43,10 +44,10 @@ namespace abut::app
     void declare_contact(ParameterHandler &prm)
     {
       prm.enter_subsection("Contact");
-      prm.declare_entry("Obstacle", "", Patterns::Anything(),
+      prm.declare_entry("Obstacle", "", FormulaPattern::one(),
                         "psi in u >= psi: a formula in x, y, z. Empty: none, "
                         "or the height map.");
-      prm.declare_entry("Upper obstacle", "", Patterns::Anything(),
+      prm.declare_entry("Upper obstacle", "", FormulaPattern::one(),
                         "psi2 in u <= psi2: a formula. Empty: none.");
       prm.declare_entry("Boundary ids", "", Patterns::Anything(),
                         "Where contact is possible: boundary ids such as `0, "
@@ -59,9 +60,9 @@ namespace abut::app
     void declare_results(ParameterHandler &prm)
     {
       prm.enter_subsection("Exact solution");
-      prm.declare_entry("Displacement", "", Patterns::Anything(),
+      prm.declare_entry("Displacement", "", FormulaPattern::one(),
                         "A formula; if given, errors are computed.");
-      prm.declare_entry("Gradient", "", Patterns::Anything(),
+      prm.declare_entry("Gradient", "", FormulaPattern::vector(),
                         "Its gradient, `du/dx; du/dy`. Empty: by differences.");
       prm.declare_entry("Energy", "nan", Patterns::Anything(),
                         "Energy of the exact solution; nan: not known.");

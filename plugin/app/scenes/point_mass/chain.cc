@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 /* Scenes of kind `chain of masses`: masses in a row on a rigid plane, with
  * friction, in load steps. */
+#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/report/json.h"
@@ -99,7 +100,7 @@ namespace abut::app
       prm.declare_entry("Normal spring", "1", NumberPattern::positive(),
                         "Stiffness of the spring that holds each mass at its "
                         "height.");
-      prm.declare_entry("Gap", "0", Patterns::Anything(),
+      prm.declare_entry("Gap", "0", FormulaPattern::one(),
                         "Height of the masses above the plane at rest, a "
                         "formula of x.");
       prm.declare_entry("Share of ends", "1",
@@ -116,26 +117,26 @@ namespace abut::app
           " One formula of t for each direction along the plane, separated by "
           "semicolons; those that are missing are 0.";
       prm.enter_subsection("Load");
-      prm.declare_entry("Pressing force", "1", Patterns::Anything(),
+      prm.declare_entry("Pressing force", "1", FormulaPattern::one(),
                         "Force on each mass towards the plane, a formula of x "
                         "and t.");
-      prm.declare_entry("Force", "0", Patterns::Anything(),
+      prm.declare_entry("Force", "0", FormulaPattern::vector(),
                         "Force on each mass along the plane, in x and t."
                             + along);
-      prm.declare_entry("Force on first", "0", Patterns::Anything(),
+      prm.declare_entry("Force on first", "0", FormulaPattern::vector(),
                         "Force along the plane on the first mass alone."
                             + along);
-      prm.declare_entry("Driven end", "0", Patterns::Anything(),
+      prm.declare_entry("Driven end", "0", FormulaPattern::vector(),
                         "Displacement of the far end of `Masses/End spring` "
                         "along the plane."
                             + along);
       prm.leave_subsection();
       prm.enter_subsection("Friction");
-      prm.declare_entry("Coefficient", "0.3", Patterns::Anything(),
+      prm.declare_entry("Coefficient", "0.3", FormulaPattern::one(),
                         "Coulomb's coefficient mu, a formula of x and t: the "
                         "friction on a mass is at most mu times the contact "
                         "force. 0: frictionless.");
-      prm.declare_entry("Cap", "", Patterns::Anything(),
+      prm.declare_entry("Cap", "", FormulaPattern::one(),
                         "Largest friction on a mass, a force, formula of x and "
                         "t (Tresca); empty: none.");
       prm.leave_subsection();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 /* Scenes of kind `motion`: point masses and bars in time, above a rigid plane.
  */
+#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/report/json.h"
@@ -120,14 +121,14 @@ namespace abut::app
       prm.declare_entry("Gap", "0", NumberPattern::from(0),
                         "Height of the row over the plane where displacements "
                         "are 0.");
-      prm.declare_entry("Initial displacement", "0", MotionPatterns::Anything(),
+      prm.declare_entry("Initial displacement", "0", FormulaPattern::vector(),
                         "In x." + by_direction);
-      prm.declare_entry("Initial velocity", "0", MotionPatterns::Anything(),
+      prm.declare_entry("Initial velocity", "0", FormulaPattern::vector(),
                         "In x." + by_direction);
-      prm.declare_entry("Acceleration", "0", MotionPatterns::Anything(),
+      prm.declare_entry("Acceleration", "0", FormulaPattern::vector(),
                         "Load by mass, such as gravity, in x and t."
                             + by_direction);
-      prm.declare_entry("Force on first", "0", MotionPatterns::Anything(),
+      prm.declare_entry("Force on first", "0", FormulaPattern::vector(),
                         "Force on the first mass alone, in t." + by_direction);
       prm.leave_subsection();
       prm.enter_subsection("Contact");

@@ -2,6 +2,7 @@
 #include "point_mass.h"
 
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 #include "app/input/parameters.h"
 #include "app/input/short_number.h"
 #include "app/report/json.h"
@@ -50,7 +51,8 @@ namespace abut::app
                                           + " numbers where "
                                           + std::to_string(n)
                                           + " are needed; rows are separated "
-                                            "by ';'.");
+                                            "by ';'."
+                                          + count_hint(row.size(), n));
       return rows;
     }
 
@@ -62,7 +64,8 @@ namespace abut::app
       if (numbers.size() != n)
         throw InputError(parameter, std::to_string(numbers.size())
                                         + " numbers where " + std::to_string(n)
-                                        + " are needed.");
+                                        + " are needed."
+                                        + count_hint(numbers.size(), n));
       return numbers;
     }
 

@@ -2,6 +2,7 @@
 #include "row_formulas.h"
 
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 
 #include <algorithm>
 
@@ -23,9 +24,10 @@ namespace abut::app
                        const unsigned int n_directions,
                        const std::string &where)
   {
-    std::size_t n_given = 0;
-    for (const std::string &part : split_list(text, ';'))
-      n_given += split_list(part, ',').size();
+    const std::vector<std::string> given = split_list(text, ';');
+    const std::size_t n_given = given.size();
+    for (const std::string &formula : given)
+      check_one_formula(formula, text, parameter);
     if (n_given > n_directions)
       throw InputError(
           parameter, std::to_string(n_given) + " formulas for "

@@ -2,6 +2,7 @@
 #include "driven_obstacles.h"
 
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 #include "app/input/short_number.h"
 
 #include <abut/dealii/coded.h>
@@ -137,7 +138,8 @@ namespace abut::app
     const std::string name = given.parameter("Initial velocity");
     if (velocity.size() != dim)
       throw InputError(name, "needs " + std::to_string(dim) + " numbers, not "
-                                 + std::to_string(velocity.size()) + ".");
+                                 + std::to_string(velocity.size()) + "."
+                                 + count_hint(velocity.size(), dim));
     for (unsigned int d = 0; d < dim; ++d)
     {
       if (!(std::abs(velocity[d]) <= largest_velocity))

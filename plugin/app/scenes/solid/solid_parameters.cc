@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_parameters.h"
 
+#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 
 #include <abut/dealii/number_pattern.h>
@@ -89,7 +90,7 @@ namespace abut::app
                         "F02, F11, F23, F24) where they would be refused, to "
                         "measure how they fail: exit code 3 if they still "
                         "would be in the end.");
-      prm.declare_entry("Gravity", "", Patterns::Anything(),
+      prm.declare_entry("Gravity", "", FormulaPattern::vector(),
                         "Acceleration: a formula for each component, separated "
                         "by commas. Empty: none.");
       prm.leave_subsection();
@@ -98,10 +99,10 @@ namespace abut::app
     void declare_solid_results(ParameterHandler &prm)
     {
       prm.enter_subsection("Exact solution");
-      prm.declare_entry("Displacement", "", Patterns::Anything(),
+      prm.declare_entry("Displacement", "", FormulaPattern::vector(),
                         "A formula for each component, separated by commas; if "
                         "given, errors are computed.");
-      prm.declare_entry("Gradient", "", Patterns::Anything(),
+      prm.declare_entry("Gradient", "", FormulaPattern::vector(),
                         "Its gradient, `du_x/dx, du_x/dy, du_y/dx, du_y/dy`. "
                         "Empty: by differences.");
       prm.declare_entry("Energy", "nan", Patterns::Anything(),

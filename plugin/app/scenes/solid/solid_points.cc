@@ -2,6 +2,7 @@
 #include "solid_points.h"
 
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 #include "app/input/parameters.h"
 #include "app/input/short_number.h"
 #include "app/mesh/nearest_node.h"
@@ -31,9 +32,9 @@ namespace abut::app
       const auto [body, numbers] = bodies.split_body(part, points_name);
       const std::vector<double> x = parse_numbers(numbers, points_name);
       if (x.size() != dim)
-        throw InputError(points_name, "'" + part + "' does not have "
-                                          + std::to_string(dim)
-                                          + " coordinates.");
+        throw InputError(points_name,
+                         "'" + part + "' does not have " + std::to_string(dim)
+                             + " coordinates." + misread_hint(numbers));
       OutputPoint<dim> point{body, {}};
       for (unsigned int d = 0; d < dim; ++d)
         point.place[d] = x[d];

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+/* deal.II's readers stop at the first word that is no number, and then report
+ * what they miss behind it. So the reason is looked for in the words of the
+ * file, whatever its format: numbers that are not finite, decimal commas,
+ * coordinates that are so large that cells lose their digits. */
+#include "mesh_file.h"
+
+#include "app/input/dealii_message.h"
+#include "app/input/input_error.h"
+#include "app/input/short_number.h"
+
+#include <deal.II/grid/grid_in.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+namespace abut::app
+{
+  namespace
+  {
+    /** Larger than coordinates are, whatever the unit of length. */
+    constexpr double largest_coordinate = 1e9;
+
+    using Visit = std::function<void(const std::string &, std::size_t)>;
+
+    /** Call @p visit with each word of a text file and the number of its line.
+     */
+    void for_each_word(const std::filesystem::path &path, const Visit &visit)
+    {
+      std::ifstream in(path);
+      std::string line, word;
+      for (std::size_t number = 1; std::getline(in, line); ++number)
+      {
+        std::istringstream words(line);
+        while (words >> word)
+          visit(word, number);
+      }
+    }
+
+    /** Whether all of @p word is a number of strtod, which knows nan and inf.
+     */
+    bool is_number(const std::string &word, double &value)
+    {
+      char *end = nullptr;
+      value = std::strtod(word.c_str(), &end);
+      return end != word.c_str() && *end == '\0';
+    }
+
+    bool has_decimal_comma(std::string word)
+    {
+      const std::size_t comma = word.find(',');
+      double value;
+      if (comma == std::string::npos || comma + 1 == word.size())
+        return false;
+      word[comma] = '.';
+      return is_number(word, value);
+    }
+
+    /** The first number that is none or not finite, in words; else empty. */
+    std::string wrong_number_in(const std::filesystem::path &path)
+    {
+      std::string found;
+      bool is_abaqus = false;
+      for_each_word(path,
+                    [&](const std::string &word, const std::size_t line)
+                    {
+                      double value;
+                      const bool is_finite =
+                          !is_number(word, value) || std::isfinite(value);
+                      is_abaqus = is_abaqus || word[0] == '*';
+                      const bool has_comma =
+                          !is_abaqus && has_decimal_comma(word);
+                      if (!found.empty() || (is_finite && !has_comma))
+                        return;
+                      found =
+                          "'" + word + "' in line " + std::to_string(line)
+                          + (has_comma ? " is not a number: a decimal comma?"
+                                       : " is not a finite number.");
+                    });
+      return found;
+    }
+
+    bool contains(const std::string &text, const std::string &words)
+    {
+      return text.find(words) != std::string::npos;
+    }
+
+    /** Why deal.II cannot read the file. */
+    template <int dim>
+    std::string reason(const std::filesystem::path &path,
+                       const std::exception &error)
+    {
+      const std::string wrong_number = wrong_number_in(path);
+      if (!wrong_number.empty())
+        return wrong_number;
+      const std::string message = dealii_message(error);
+      if (contains(message, "No vertices given")
+          || contains(message, "No cells given")
+          || contains(message, "did not find any cells"))
+        return std::string("it has no cells, which are ")
+               + (dim == 2 ? "quadrilaterals." : "hexahedra.");
+      if (contains(message, "negative"))
+        return "some of its cells are folded, or have their corners in an "
+               "order opposite to that of others."
+               + large_number_hint(path);
+      if (contains(message, "some condition which the author"))
+        return "its cells do not make a mesh: some have no size, or overlap."
+               + large_number_hint(path);
+      // deal.II's words about it are a page of possible reasons.
+      if (dynamic_cast<const dealii::StandardExceptions::ExcIO *>(&error)
+          != nullptr)
+        return "it ends too early, or is not what its ending says.";
+      return message;
+    }
+
+    /** deal.II reads beyond the end of its vertices if a cell of a VTK file has
+     * a vertex that does not exist. */
+    void check_vtk_cells(const std::filesystem::path &path,
+                         const std::string &parameter)
+    {
+      std::string keyword;
+      double n_points = 0., n_words = 0., n_corners = 0.;
+      std::size_t place = 0;
+      const auto visit = [&](const std::string &word, const std::size_t line)
+      {
+        double value = 0.;
+        if (word == "POINTS" || word == "CELLS" || word == "CELL_TYPES")
+        {
+          keyword = word;
+          place = 0;
+          return;
+        }
+        if (keyword.empty() || !is_number(word, value))
+          return;
+        ++place;
+        if (keyword == "POINTS" && place == 1)
+          n_points = value;
+        if (keyword != "CELLS" || place == 1)
+          return;
+        if (place == 2)
+          n_words = value;
+        else if (n_corners == 0. && place - 3 < n_words)
+          n_corners = value;
+        else if (n_corners > 0.)
+        {
+          --n_corners;
+          if (!(value >= 0. && value < n_points))
+            throw InputError(parameter,
+                             "the mesh file '" + path.string()
+                                 + "' has a cell in line "
+                                 + std::to_string(line) + " with the vertex "
+                                 + word + "; it has the vertices 0 to "
+                                 + short_number(n_points - 1.) + ".");
+        }
+      };
+      for_each_word(path, visit);
+    }
+
+    template <int dim>
+    typename dealii::GridIn<dim>::Format
+    format_of(const std::filesystem::path &path, const std::string &parameter)
+    {
+      std::string extension = path.extension().string();
+      extension = extension.empty() ? "" : extension.substr(1);
+      try
+      {
+        return dealii::GridIn<dim>::parse_format(extension);
+      }
+      catch (const std::exception &)
+      {
+        throw InputError(parameter, "the mesh file '" + path.string()
+                                        + "' is of no known kind; by its "
+                                          "ending it must be one of msh "
+                                          "(gmsh), inp, ucd, vtk, vtu, unv, "
+                                          "xda.");
+      }
+    }
+  } // namespace
+
+  template <int dim>
+  void read_mesh_file(const std::filesystem::path &path,
+                      const std::string &parameter,
+                      dealii::Triangulation<dim> &triangulation)
+  {
+    std::ifstream in(path);
+    if (!in || std::filesystem::is_directory(path))
+      throw InputError(parameter, "the mesh file '" + path.string()
+                                      + "' cannot be opened.");
+    const auto format = format_of<dim>(path, parameter);
+    if (format == dealii::GridIn<dim>::vtk)
+      check_vtk_cells(path, parameter);
+    dealii::GridIn<dim> reader(triangulation);
+    try
+    {
+      reader.read(in, format);
+    }
+    catch (const std::exception &error)
+    {
+      throw InputError(parameter, "the mesh file '" + path.string()
+                                      + "' cannot be read as a mesh in "
+                                      + std::to_string(dim) + " dimensions: "
+                                      + reason<dim>(path, error));
+    }
+  }
+
+  std::string large_number_hint(const std::filesystem::path &path)
+  {
+    std::string largest;
+    double size = largest_coordinate;
+    std::size_t where = 0;
+    for_each_word(path,
+                  [&](const std::string &word, const std::size_t line)
+                  {
+                    double value;
+                    if (!is_number(word, value) || !(std::abs(value) > size))
+                      return;
+                    largest = word;
+                    size = std::abs(value);
+                    where = line;
+                  });
+    if (largest.empty())
+      return "";
+    return " Its largest number is " + largest + ", in line "
+           + std::to_string(where)
+           + ": such a coordinate leaves too few digits for the size of cells, "
+             "or is a mistake.";
+  }
+
+  template void read_mesh_file<2>(const std::filesystem::path &,
+                                  const std::string &,
+                                  dealii::Triangulation<2> &);
+  template void read_mesh_file<3>(const std::filesystem::path &,
+                                  const std::string &,
+                                  dealii::Triangulation<3> &);
+} // namespace abut::app
