@@ -22,6 +22,10 @@
  *
  *     g_j(u) = g_j - n_j . (sum_l D_jl / W_j u_l - sum_l M_jl / W_j u_l)
  *
+ * Dual mortar has the gaps of nodes instead, sum_l D_jl / W_j g_l, because its
+ * psi_j are negative in places (doc/coupling.md, "Gaps of dual mortar"); but
+ * not where points move.
+ *
  * Both sums of coefficients are one, and the weights of all points add up to
  * the covered area.
  *
@@ -239,9 +243,10 @@ extern "C"
 
   /** Create a coupling between a surface and a rigid obstacle, which must
    * outlive it. Rows have no primary entries; the gap is the weighted mean of
-   * the obstacle's signed distance, the normal that of minus its gradient. A
-   * facet takes part as a whole or not at all: if the obstacle faces its
-   * centre; rows with a gap above the reach are left out. */
+   * the obstacle's signed distance (dual mortar: of that at nodes), the normal
+   * that of minus its gradient. A facet takes part as a whole or not at all: if
+   * the obstacle faces its centre; rows with a gap above the reach are left
+   * out. */
   ABUT_API abut_status abut_coupling_create_obstacle(
       abut_context *context, abut_surface *secondary, abut_obstacle *obstacle,
       const abut_coupling_options *options, abut_coupling **coupling);
