@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace abut::shim
@@ -231,6 +232,8 @@ namespace abut::shim
       results[p].largest_turn = turn.largest;
       results[p].turned_force = turn.change;
     }
+    const double none = std::numeric_limits<double>::infinity();
+    std::vector<double> least(pairs_.size(), none);
     for_each_component(
         [&](const Component &row)
         {
@@ -241,7 +244,10 @@ namespace abut::shim
           const double weight = view_.weight[row.point];
           const double area = weight / (tied ? dim : 1.);
           result.covered_area += area;
-          if (row_state != nullptr && row_state[i] != ABUT_STATE_OPEN)
+          const bool is_closed = row_state == nullptr
+                                     ? row_pressure[i] != 0.
+                                     : row_state[i] != ABUT_STATE_OPEN;
+          if (row_state != nullptr && is_closed)
           {
             ++result.n_active;
             result.contact_area += area;
@@ -250,8 +256,13 @@ namespace abut::shim
               result.penetration, tied ? std::abs(row_gap[i]) : -row_gap[i]);
           result.pressure = std::max(result.pressure, row_pressure[i]);
           if (!tied)
-            result.least_pressure =
-                std::min(result.least_pressure, row_pressure[i]);
+          {
+            result.largest_tension =
+                std::max(result.largest_tension, -row_pressure[i]);
+            if (is_closed)
+              least[row.place.pair] =
+                  std::min(least[row.place.pair], row_pressure[i]);
+          }
           // Of points that move the gaps at displacement 0 are none.
           if (row.place.hessian.empty())
             result.initial_gap_work += weight * row_pressure[i] * view_.gap[i];
@@ -298,7 +309,9 @@ namespace abut::shim
       result.contact_area = MPI::sum(result.contact_area, communicator_);
       result.penetration = MPI::max(result.penetration, communicator_);
       result.pressure = MPI::max(result.pressure, communicator_);
-      result.least_pressure = MPI::min(result.least_pressure, communicator_);
+      result.largest_tension = MPI::max(result.largest_tension, communicator_);
+      least[p] = MPI::min(least[p], communicator_);
+      result.least_pressure = least[p] < none ? least[p] : 0.;
       result.initial_gap_work =
           MPI::sum(result.initial_gap_work, communicator_);
       result.secondary_force = MPI::sum(result.secondary_force, communicator_);

@@ -102,6 +102,8 @@ MISREAD = (
     ("dynamics-bouncing-ball", "Motion/Acceleration", "-9,81",
      "decimal comma?"),
     ("point-mass", "Masses/Force", "0,5", "decimal comma?"),
+    ("dragged-block", "Pair 1/Friction", "sin(0,3)", "decimal comma?"),
+    ("dragged-block", "Solid/Bodies", "1,0", "decimal comma?"),
     ("dragged-block", "Pair 1/Friction", "0x10", "hexadecimal"),
     ("dragged-block", "Body 1/Mesh/Move", "0x1, 0", "hexadecimal"),
     ("dragged-block", "Search/Thickness", "0x1", "'0x1'"),
@@ -128,6 +130,9 @@ wrong("set Scene = obstacle\nset Dimension = 2\nsubsection Membrane\n"
       "set Load = -10,5\nend\n", "wrong.prm:4", "Membrane/Load",
       "decimal comma?")
 # Commas that separate arguments stay what they are.
+p.expect("decimal" not in p.call("check", p.source / "prm/dragged-block.prm",
+                                 "--set", "Pair 1/Friction=max(0,q)").stderr,
+         "another mistake in a formula with arguments")
 p.expect(p.call("run", p.source / "prm/dragged-block.prm", "--set",
                 "Pair 1/Friction=max(0,0.3)", "--set", "Refinement/Level=0",
                 "--quiet").returncode == 0, "arguments of max()")

@@ -627,7 +627,7 @@ class SolidJudge:
         key = f"pair_{pair.number}"
         largest = self.summary[f"{key}_pressure"]
         self.findings.check(f"tension of pair {pair.number}",
-                            -self.summary[f"{key}_least_pressure"],
+                            self.summary[f"{key}_largest_tension"],
                             limit.value * abs(largest), limit.reason)
         if self.has_left():
             self.findings.leave(f"tension of pair {pair.number} in the fields",

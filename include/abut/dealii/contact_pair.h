@@ -156,8 +156,11 @@ namespace abut
      * facets. */
     double missed_depth = 0.;
     double pressure = 0.; /**< largest */
-    /** Least where that is below 0, as a law may let surfaces pull, else 0; 0
-     * for ties, whose tractions have any sign. */
+    /** Largest tension >= 0, force per area, where the law lets surfaces pull;
+     * 0 for ties, whose tractions have any sign. */
+    double largest_tension = 0.;
+    /** Least pressure of the closed points, negative where they pull; 0 where
+     * none is closed and for ties. */
     double least_pressure = 0.;
     /** Resultant contact force on the secondary side. */
     dealii::Tensor<1, dim> secondary_force;

@@ -55,6 +55,17 @@ namespace abut::app
       return at == std::string::npos ? text : text.substr(at + before.size());
     }
 
+    /** Commas separate arguments, unless the parser complains of these. */
+    std::string hint(const std::string &text, const std::string &complaint)
+    {
+      const bool is_of_commas =
+          complaint.find("parameters") != std::string::npos
+          || complaint.find("arguments") != std::string::npos;
+      return is_of_commas || text.find(',') == std::string::npos
+                 ? misread_hint(text)
+                 : "";
+    }
+
     /** What is wrong with a value beyond largest_value. */
     std::string how_large(const double value)
     {
@@ -107,7 +118,7 @@ namespace abut::app
                          "the formula '" + text + "' cannot be read: "
                              + parser_message(error) + " Variables are "
                              + (dim == 3 ? "x, y, z, t." : "x, y, t.")
-                             + misread_hint(text));
+                             + hint(text, parser_message(error)));
       }
       return parser;
     }

@@ -59,8 +59,10 @@ namespace abut::app
     std::string decimal_comma_hint(const std::string &text)
     {
       const std::string better = with_points(text);
-      return better == text ? " Is it a decimal comma?"
-                            : " Is it a decimal comma? Write '" + better + "'.";
+      const bool is_clear =
+          better != text && text.find('.') == std::string::npos;
+      return !is_clear ? " Is it a decimal comma?"
+                       : " Is it a decimal comma? Write '" + better + "'.";
     }
   } // namespace
 

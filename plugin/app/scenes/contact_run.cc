@@ -308,6 +308,18 @@ namespace abut::app
     }
   }
 
+  template <int dim>
+  std::string ContactRun<dim>::instability(const abut_failure code) const
+  {
+    const bool is_nonlinear =
+        !model.problem().is_linear() || state.contact.points_move();
+    return code == ABUT_FAILURE_CYCLE && is_nonlinear && !model.has_inertia()
+               ? " The equilibrium may be unstable from this load on (a limit "
+                 "point, as in snap-through): prescribe displacements instead "
+                 "of forces, or compute the motion (section Time)."
+               : "";
+  }
+
   template <int dim> std::string ContactRun<dim>::time_step() const
   {
     const LoadSteps &steps = state.load_steps;
@@ -594,7 +606,7 @@ namespace abut::app
       model.look_at_rows(true);
       const bool is_of_matrix = code == ABUT_FAILURE_FLOATING_BODY
                                 || code == ABUT_FAILURE_LINEAR_SOLVER;
-      report.warn(failure + where
+      report.warn(failure + where + instability(code)
                   + (is_same && !model.has_inertia() && !is_of_matrix
                          ? " Smaller load steps have ended in the same way: "
                            "loads and motions whose formulas do not contain t "

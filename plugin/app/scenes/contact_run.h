@@ -58,6 +58,8 @@ namespace abut::app
     std::string failure_of(const NewtonResult &result) const;
     /** A sentence about the present step in time; empty in statics. */
     std::string time_step() const;
+    /** A sentence about limit points, for statics that are not linear. */
+    std::string instability(abut_failure code) const;
     /** The method on the present mesh. */
     MethodParameters present_method() const;
     /** With obstacles where they are. */

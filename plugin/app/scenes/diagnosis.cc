@@ -120,8 +120,15 @@ namespace abut::app
             "than these set. Try a smaller Load steps/Newton tolerance"
             + (by.factors ? "." : " and " + digits + ".");
     else
-      why = "the linear system was not solved to its tolerance. Try " + digits
-            + (by.factors ? "." : " or Solver/Linear solver = direct.");
+      why = by.factors
+                ? std::string("round-off, since the direct solver leaves no "
+                              "more. The matrix is badly conditioned: look for "
+                              "a body that is hardly supported, stiffnesses "
+                              "that differ by many orders of magnitude, thin "
+                              "cells, or contact forces that are tiny beside "
+                              "the other forces.")
+                : "the linear system was not solved to its tolerance. Try "
+                      + digits + " or Solver/Linear solver = direct.";
     const std::string text =
         coded(penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER,
               seen + why);
@@ -202,9 +209,9 @@ namespace abut::app
     report.warn(coded(
         ABUT_FAILURE_SINGULAR,
         seen
-            + " Look for data that jumps, such as the steps of an obstacle or "
-              "the edge of a punch; Refinement/Adaptive cycles refines there "
-              "alone."));
+            + " Corners of bodies, edges of punches, ends of supports and "
+              "loads, and data that jumps slow it down; Refinement/Adaptive "
+              "cycles refines there alone."));
   }
 
   void diagnose_condition(Report &report, const double condition,

@@ -3,6 +3,7 @@
 
 #include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 
 #include <abut/dealii/number_pattern.h>
 
@@ -33,7 +34,8 @@ namespace abut::app
           || value[0] != static_cast<unsigned int>(value[0]))
         throw InputError(parameter, "'" + text + "' is not a whole number from "
                                         + std::to_string(smallest) + " to "
-                                        + std::to_string(most) + ".");
+                                        + std::to_string(most) + "."
+                                        + misread_hint(text));
       return static_cast<unsigned int>(value[0]);
     }
 

@@ -30,6 +30,10 @@ namespace abut::app
      * from which on a facet counts as pressed. */
     constexpr double visible_chords = 0.1, pressed = 0.05;
 
+    /** Part of the stress in the bodies below which pressures are what solvers
+     * leave of 0. */
+    constexpr double round_off_of_pressures = 1e-8;
+
     /** Poisson ratio from which on locking is looked for, and the part of the
      * strain energy that is worth a word. */
     constexpr double least_locking_ratio = 0.45, visible_locking = 0.1;
@@ -193,7 +197,10 @@ namespace abut::app
             seen.insert(body).second)
           compliance += 1. / model.data.materials.at(body)->stiffness();
       const double part = bend.degrees / 180. / (compliance * result.pressure);
-      if (part > visible_chords)
+      const double stress =
+          std::get<double>(run.report.get("largest_strain")) / compliance;
+      if (part > visible_chords
+          && result.pressure > round_off_of_pressures * stress)
         report.warn(coded(
             ABUT_FAILURE_COARSE_CURVE,
             "Pair " + std::to_string(number) + ": in contact, "
@@ -230,6 +237,7 @@ namespace abut::app
       report.set(key + "_initial_gap_work", pair.initial_gap_work);
       report.set(key + "_pressure", pair.pressure);
       report.set(key + "_least_pressure", pair.least_pressure);
+      report.set(key + "_largest_tension", pair.largest_tension);
       report.set(key + "_penetration", pair.penetration);
       const double facet = checks.at(number - 1).facet_size;
       if (facet > 0.)
