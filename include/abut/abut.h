@@ -22,6 +22,7 @@
 #include <abut/limits.h>
 #include <abut/multigrid.h>
 #include <abut/obstacle.h>
+#include <abut/obstacle_edge.h>
 #include <abut/obstacle_surface.h>
 #include <abut/parts.h>
 #include <abut/points.h>

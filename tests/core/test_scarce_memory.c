@@ -353,6 +353,14 @@ obstacles(world *w)
                              distance, NULL, NULL));
   TRY(abut_obstacle_gap(w->obstacle, w->mesh_a.n_nodes, w->mesh_a.position,
                         distance, gradient, hessian));
+  double normal[192], size[64];
+  for (int32_t i = 0; i < 3 * w->mesh_a.n_nodes; ++i)
+    normal[i] = -gradient[i];
+  for (int32_t i = 0; i < w->mesh_a.n_nodes; ++i)
+    size[i] = 1;
+  TRY(abut_obstacle_face(w->obstacle, true, w->mesh_a.n_nodes,
+                         w->mesh_a.position, normal, size, distance, gradient,
+                         hessian));
   abut_coupling_options options = abut_coupling_defaults();
   options.discretisation = (abut_discretisation)(w->kind / 3);
   TRY(abut_coupling_create_obstacle(w->context, w->a, w->obstacle, &options,

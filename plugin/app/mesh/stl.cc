@@ -17,11 +17,13 @@
 #include "app/input/input_error.h"
 #include "app/input/number_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -30,6 +32,15 @@ namespace abut::app
   namespace
   {
     constexpr std::size_t header = 80, prefix = 84, triangle_size = 50;
+
+    /** Corners closer than this part of a side are one vertex. */
+    constexpr double joined_part = 1e-7;
+
+    double distance(const std::array<double, 3> &a,
+                    const std::array<double, 3> &b)
+    {
+      return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    }
 
     class Reader
     {
@@ -49,8 +60,9 @@ namespace abut::app
           read_binary();
         else
           read_text();
-        if (result.connectivity.empty())
+        if (corners.empty())
           complain("has no triangles.");
+        join();
         return std::move(result);
       }
 
@@ -84,15 +96,70 @@ namespace abut::app
         for (const double coordinate : x)
           if (!std::isfinite(coordinate))
             complain("has a coordinate that is not finite " + where + ".");
-        // -0 and 0 are one place.
-        const std::array<double, 3> key = {{x[0] + 0., x[1] + 0., x[2] + 0.}};
-        const auto entry =
-            numbers
-                .emplace(key, static_cast<std::int32_t>(result.vertices.size()))
-                .first;
-        if (entry->second == static_cast<std::int32_t>(result.vertices.size()))
-          result.vertices.push_back(key);
-        result.connectivity.push_back(entry->second);
+        corners.push_back(x);
+      }
+
+      /** The shortest side at a corner that is not 0. */
+      double shortest_side(const std::size_t corner) const
+      {
+        const std::size_t first = corner - corner % 3;
+        double shortest = std::numeric_limits<double>::infinity();
+        for (std::size_t other = first; other < first + 3; ++other)
+        {
+          const double side = distance(corners[corner], corners[other]);
+          if (side > 0.)
+            shortest = std::min(shortest, side);
+        }
+        return std::isfinite(shortest) ? shortest : 0.;
+      }
+
+      /** Number the vertices: corners become one that are closer than a part of
+       * the shortest side at either of them. Corners are looked for in cubes
+       * four times as large as the largest of these distances. */
+      void join()
+      {
+        std::vector<double> reach(corners.size());
+        for (std::size_t c = 0; c < corners.size(); ++c)
+          reach[c] = joined_part * shortest_side(c);
+        const double size = 4. * *std::max_element(reach.begin(), reach.end());
+        const auto cube = [size](const double x)
+        { return size > 0. ? std::floor(x / size) : x + 0.; };
+        std::map<std::array<double, 3>, std::vector<std::int32_t>> cubes;
+        std::vector<double> kept; // reach of each vertex
+        for (std::size_t c = 0; c < corners.size(); ++c)
+        {
+          const std::array<double, 3> &x = corners[c];
+          std::int32_t number = -1;
+          for (int k = 0; k < 8 && number < 0; ++k)
+          {
+            std::array<double, 3> at;
+            bool is_new = true;
+            for (unsigned int d = 0; d < 3; ++d)
+            {
+              at[d] = cube(x[d] + ((k >> d & 1) != 0 ? reach[c] : -reach[c]));
+              is_new = is_new
+                       && ((k >> d & 1) == 0 || at[d] != cube(x[d] - reach[c]));
+            }
+            const auto found = is_new ? cubes.find(at) : cubes.end();
+            if (found == cubes.end())
+              continue;
+            for (const std::int32_t v : found->second)
+              if (distance(result.vertices[v], x)
+                  <= std::min(kept[v], reach[c]))
+              {
+                number = v;
+                break;
+              }
+          }
+          if (number < 0)
+          {
+            number = static_cast<std::int32_t>(result.vertices.size());
+            cubes[{{cube(x[0]), cube(x[1]), cube(x[2])}}].push_back(number);
+            result.vertices.push_back(x);
+            kept.push_back(reach[c]);
+          }
+          result.connectivity.push_back(number);
+        }
       }
 
       void read_binary()
@@ -180,8 +247,8 @@ namespace abut::app
       const std::filesystem::path file;
       const std::string parameter;
       std::string bytes;
+      std::vector<std::array<double, 3>> corners; ///< three per triangle
       Triangles result;
-      std::map<std::array<double, 3>, std::int32_t> numbers;
     };
   } // namespace
 

@@ -19,7 +19,8 @@ namespace abut::app
   };
 
   /** Read a surface from an STL file, text or binary. The format repeats the
-   * vertices in each triangle: those that are equal bit for bit become one.
+   * vertices in each triangle: corners that are closer than 1e-7 of the
+   * shortest side at either of them become one vertex.
    * Its normals are not looked at; the order of the vertices says where outside
    * is. Throws InputError that names @p parameter, file and, in a text file,
    * the line. */

@@ -11,13 +11,14 @@
  *
  * The flanks are found by the obstacle's gradient alone, so that all kinds are
  * the same: from the place where the line along m through the point meets the
- * surface, probes of a given length go to all sides across m, and a jump of the
- * gradient on the way is enclosed by bisection. A gradient that only changes
- * gradually has no such place: such points stay as they are. Within half of the
- * length of the probes d and the gap have no share of the nearest flank, beyond
- * their length nothing else; a smooth weight of the edge's distance is between,
- * so that direction and gap are continuous. Edges of concave corners are left
- * out: there the nearest flank is right on both sides.
+ * surface, probes of a given length go along the surface to all sides of m, and
+ * a jump of the gradient on the way is enclosed by bisection. A gradient that
+ * only changes gradually has no such place: such points stay as they are.
+ * Within half of the length of the probes d and the gap have no share of the
+ * nearest flank, beyond their length nothing else; a smooth weight of the
+ * edge's distance is between, so that direction and gap are continuous. Edges
+ * of concave corners are left out: there the nearest flank is right on both
+ * sides.
  *
  * Cost: for points near the obstacle 2 (2D) or 9 (3D) probes, with 29
  * bisections for each that meets an edge. */
@@ -230,6 +231,7 @@ add_all(seeker *s, const double *y, const double *v, double weight, flanks *f)
   {
     double e[3], x[3], way[3], n[3], jump[3];
     across(3, s->along, k, e);
+    axpy3(e, -1., s->along, e);
     axpy3(v, around_part * s->length, e, x);
     look(s, x, n);
     sub3(n, f->normal[0], jump);
@@ -239,22 +241,54 @@ add_all(seeker *s, const double *y, const double *v, double weight, flanks *f)
   }
 }
 
-/* The direction of probe k from a place with this normal: in space the last one
- * goes down the slope, where the tip of a cone is. */
+/* The direction down along the surface at y in which it is straight, where it
+ * is curved across: that of the tip of a cone, which no other line meets. False
+ * where the surface is plane. */
 static bool
-probe(const seeker *s, int k, const double *own, double *e)
+find_straight(seeker *s, const double *y, const double *own, double *e)
 {
-  if (k < MAX_PROBES)
-  {
-    across(s->dim, s->along, k, e);
-    return true;
-  }
-  const double cosine = dot3(own, s->along);
-  for (int i = 0; i < 3; ++i)
-    e[i] = cosine * s->along[i] - own[i];
-  const double slope = norm3(e);
+  double distance, normal[3], hessian[9], around[3] = {0., 0., 0.};
+  if (s->status == ABUT_SUCCESS)
+    s->status = (s->moving ? abut_obstacle_gap : abut_obstacle_distance)(
+        s->obstacle, 1, y, &distance, normal, hessian);
+  if (s->status != ABUT_SUCCESS)
+    return false;
+  for (int k = 0; k < 3; ++k)
+    if (norm3(hessian + 3 * k) > norm3(around))
+      memcpy(around, hessian + 3 * k, sizeof(around));
+  if (!(norm3(around) * s->length > least_change))
+    return false;
+  cross3(own, around, e);
   unit3(e, ABUT_TINY);
-  return slope > least_change;
+  const double sign = dot3(e, s->along) < 0. ? -1. : 1.;
+  for (int i = 0; i < 3; ++i)
+    e[i] *= sign;
+  return true;
+}
+
+/* The way of probe k from a place y with this normal: across the body's normal,
+ * and along the surface, if that is not too steep; its length is the way across
+ * but for slopes above 8. */
+static bool
+find_way(seeker *s, int k, const double *y, const double *own, double *e)
+{
+  const double cosine = dot3(own, s->along);
+  if (k < MAX_PROBES)
+    across(s->dim, s->along, k, e);
+  else if (!find_straight(s, y, own, e))
+    return false;
+  else
+  {
+    axpy3(e, -dot3(e, s->along), s->along, e);
+    unit3(e, ABUT_TINY);
+  }
+  if (cosine < least_cosine)
+    return true;
+  axpy3(e, -dot3(e, own) / cosine, s->along, e);
+  const double length = norm3(e);
+  for (int i = 0; i < 3; ++i)
+    e[i] /= max2(1., 0.125 * length);
+  return true;
 }
 
 /* Flanks around the surface's place y; none but its own where there is no
@@ -269,7 +303,7 @@ find_flanks(seeker *s, const double *y, flanks *found)
   for (int k = 0; k < n_probes; ++k)
   {
     double e[3], v[3], behind[3], distance;
-    if (!probe(s, k, found->normal[0], e)
+    if (!find_way(s, k, y, found->normal[0], e)
         || !find_edge(s, y, e, found->normal[0], &distance, behind))
       continue;
     const double weight = fade(distance / s->length);
