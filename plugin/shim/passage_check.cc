@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "passage_check.h"
 
+#include <abut/dealii/coded.h>
 #include <abut/dealii/rigid_obstacle.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 namespace abut::shim
 {
@@ -221,39 +223,119 @@ namespace abut::shim
     return result;
   }
 
-  template <int dim>
-  std::vector<double>
-  deepest_on_the_way(const RigidObstacle<dim> &obstacle,
-                     const std::vector<dealii::Point<dim>> &from,
-                     const std::vector<dealii::Point<dim>> &to,
-                     const std::vector<double> &end)
+  namespace
   {
-    // A part of the way that is taken even where the obstacle is very close.
-    constexpr double least = 1. / 64.;
-    std::vector<double> result(from.size(), 0.), part(from.size(), 0.);
+    /** A point on its way past an obstacle. */
+    template <int dim> class Traveller
+    {
+    public:
+      Traveller(const dealii::Point<dim> &from, const dealii::Point<dim> &to,
+                const double least)
+          : from_(from), way_(to - from), least_(least)
+      {
+      }
+
+      dealii::Point<dim> place() const
+      {
+        return from_ + part_ * way_;
+      }
+
+      /** Note what is met here and go on as far as nothing can be missed.
+       * Returns false at the end of the way. */
+      bool go_on(const double distance, const dealii::Tensor<1, dim> &outward,
+                 const unsigned int step)
+      {
+        // The sides of a right angle are no more than one behind the other.
+        constexpr double opposite = -0.1;
+        // Ways along a surface are as long as many steps.
+        constexpr unsigned int most_steps = 4096;
+        seen.depth = std::max(seen.depth, -distance);
+        const dealii::Tensor<1, dim> side =
+            outward / std::max(outward.norm(), 1e-300);
+        if (distance < 0. && !is_inside_)
+          entry_ = has_side_ ? last_ : side;
+        else if (distance >= 0. && is_inside_ && entry_ * side < opposite)
+          seen.through = true;
+        is_inside_ = distance < 0.;
+        last_ = side;
+        has_side_ = true;
+        if (part_ == 1.)
+          return false;
+        const double length = way_.norm();
+        const double shortest =
+            step < most_steps ? least_ : std::max(least_, length / 64.);
+        part_ = std::min(
+            1., part_ + std::max(std::abs(distance), shortest) / length);
+        return true;
+      }
+
+      OnTheWay seen;
+
+    private:
+      dealii::Point<dim> from_;
+      dealii::Tensor<1, dim> way_, entry_, last_;
+      double least_, part_ = 0.;
+      bool is_inside_ = false, has_side_ = false;
+    };
+  } // namespace
+
+  template <int dim>
+  std::vector<OnTheWay> on_the_way(const RigidObstacle<dim> &obstacle,
+                                   const std::vector<dealii::Point<dim>> &from,
+                                   const std::vector<dealii::Point<dim>> &to,
+                                   const std::vector<double> &end)
+  {
+    constexpr double part_of_way = 1. / 64., part_of_depth = 0.25;
+    const double half = obstacle.depth();
+    std::vector<OnTheWay> result(from.size());
     std::vector<std::size_t> under_way;
+    std::vector<Traveller<dim>> travellers;
     for (std::size_t i = 0; i < from.size(); ++i)
-      if (end[i] < (to[i] - from[i]).norm())
+    {
+      const double length = (to[i] - from[i]).norm();
+      travellers.emplace_back(
+          from[i], to[i], std::min(part_of_way * length, part_of_depth * half));
+      if (end[i] < length)
         under_way.push_back(i);
-    while (!under_way.empty())
+    }
+    std::vector<double> distance;
+    std::vector<dealii::Tensor<1, dim>> outward;
+    for (unsigned int step = 0; !under_way.empty(); ++step)
     {
       std::vector<dealii::Point<dim>> points;
       for (const std::size_t i : under_way)
-        points.push_back(from[i] + part[i] * (to[i] - from[i]));
-      std::vector<double> distance;
-      obstacle.distance(points, distance);
+        points.push_back(travellers[i].place());
+      obstacle.distance(points, distance, &outward);
       std::vector<std::size_t> left;
       for (std::size_t k = 0; k < under_way.size(); ++k)
       {
         const std::size_t i = under_way[k];
-        result[i] = std::max(result[i], -distance[k]);
-        part[i] += std::max(least, distance[k] / (to[i] - from[i]).norm());
-        if (part[i] < 1.)
+        if (travellers[i].go_on(distance[k], outward[k], step))
           left.push_back(i);
+        else
+          result[i] = travellers[i].seen;
       }
       under_way.swap(left);
     }
     return result;
+  }
+
+  template <int dim>
+  std::string too_long_a_step(const ContactPair<dim> &pair, const double way,
+                              const std::string &so_that)
+  {
+    const double half = pair.obstacle->depth();
+    std::ostringstream text;
+    text.precision(3);
+    text << pair.name << ": its obstacle";
+    if (std::isfinite(half))
+      text << ", " << 2. * half << " thick,";
+    text << " moves by " << way << " relative to the body within this step and "
+         << so_that
+         << " It must not move by more than the thinner of the two is thick: "
+            "make steps shorter (Time/Step), or let it move more slowly (its "
+            "Motion, its velocity, the forces on it).";
+    return coded(ABUT_FAILURE_NO_PARTNER, text.str());
   }
 
   namespace
@@ -331,9 +413,11 @@ namespace abut::shim
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template std::vector<double> deepest_on_the_way(                             \
+  template std::vector<OnTheWay> on_the_way(                                   \
       const RigidObstacle<dim> &, const std::vector<dealii::Point<dim>> &,     \
       const std::vector<dealii::Point<dim>> &, const std::vector<double> &);   \
+  template std::string too_long_a_step(const ContactPair<dim> &, double,       \
+                                       const std::string &);                   \
   template std::vector<double> deepest_between(                                \
       const std::shared_ptr<const RigidObstacle<dim>> &, double,               \
       const RigidPose<dim> &, const std::vector<dealii::Point<dim>> &,         \

@@ -4,6 +4,7 @@
 
 #include "surface_side.h"
 
+#include <abut/dealii/contact_pair.h>
 #include <memory>
 
 namespace abut
@@ -37,17 +38,31 @@ namespace abut::shim
                 const std::vector<dealii::Point<dim>> &start,
                 const std::vector<dealii::Tensor<1, dim>> &way, double depth);
 
-  /** How deep points are in an obstacle on straight ways past it as it stands,
-   * [points] length >= 0; 0 also where that is less than they could see: ways
-   * are sampled as far apart as the distance is, and by 1/64 of them at least.
-   * @p end are distances at the ends; ways that are shorter are not looked at.
-   */
+  /** What a straight way past an obstacle meets. */
+  struct OnTheWay
+  {
+    double depth = 0.; ///< in the obstacle at the most, length >= 0
+    /** Whether it enters the obstacle and leaves it on another side, more than
+     * a right angle away. */
+    bool through = false;
+  };
+
+  /** What points meet on straight ways past an obstacle as it stands, [points].
+   * Ways are sampled as far apart as the distance from its surface is, and by a
+   * quarter of its half thickness or 1/64 of the way at least, whichever is
+   * less. @p end are distances at the ends; ways that are shorter are not
+   * looked at. */
   template <int dim>
-  std::vector<double>
-  deepest_on_the_way(const RigidObstacle<dim> &obstacle,
-                     const std::vector<dealii::Point<dim>> &from,
-                     const std::vector<dealii::Point<dim>> &to,
-                     const std::vector<double> &end);
+  std::vector<OnTheWay> on_the_way(const RigidObstacle<dim> &obstacle,
+                                   const std::vector<dealii::Point<dim>> &from,
+                                   const std::vector<dealii::Point<dim>> &to,
+                                   const std::vector<double> &end);
+
+  /** Why a step in which the obstacle of @p pair moves by @p way, seen from the
+   * body, has no answer: what comes of it is the end of a sentence. */
+  template <int dim>
+  std::string too_long_a_step(const ContactPair<dim> &pair, double way,
+                              const std::string &so_that);
 
   /** How deep points are at the most, [points] length >= 0, between the ends of
    * their straight ways in an obstacle that changes with time: from @p begin,

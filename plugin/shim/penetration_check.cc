@@ -9,6 +9,7 @@
 #include <abut/dealii/rigid_obstacle.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace abut::shim
 {
@@ -67,6 +68,31 @@ namespace abut::shim
              some)
           result.push_back(
               {pair, point, depth, on_primary, same_way, same_side});
+      return result;
+    }
+
+    /** Weights of the corners of a facet at points inside, as far apart as the
+     * facet by @p n, and no more than 16 in each direction; none if n <= 1. */
+    template <int dim>
+    std::vector<std::vector<double>>
+    samples_of_facet(const unsigned int nodes_per_facet, const double n)
+    {
+      constexpr double most = 16.;
+      std::vector<std::vector<double>> result;
+      if (!(n > 1.))
+        return result;
+      const double step = 1. / std::ceil(std::min(n, most));
+      const bool is_triangle =
+          dim == 3 && (nodes_per_facet == 3 || nodes_per_facet == 6);
+      for (double x = 0.5 * step; x < 1.; x += step)
+        for (double y = 0.5 * step; y < (dim == 2 ? step : 1.); y += step)
+          if (dim == 2)
+            result.push_back({1. - x, x});
+          else if (!is_triangle)
+            result.push_back(
+                {(1. - x) * (1. - y), x * (1. - y), (1. - x) * y, x * y});
+          else if (x + y < 1.)
+            result.push_back({1. - x - y, x, y});
       return result;
     }
 
@@ -219,26 +245,59 @@ namespace abut::shim
       std::vector<Penetration<dim>> &missed) const
   {
     const Pair &pair = pairs_[p];
-    const std::vector<RigidPose<dim>> now = poses();
-    const RigidPose<dim> then = poses_before(now, false)[p];
+    const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
+    const RigidPose<dim> now = obstacle.pose();
+    const RigidPose<dim> then = poses_before(poses(), false)[p];
     std::vector<dealii::Point<dim>> from, to;
+    std::vector<bool> is_free;
+    const auto add = [&](const dealii::Point<dim> &start,
+                         const dealii::Point<dim> &end, const bool free)
+    {
+      // Where it was, seen from the obstacle.
+      const Direction own =
+          transpose(then.rotation) * (start - then.translation);
+      from.emplace_back(now.rotation * own + now.translation);
+      to.push_back(end);
+      is_free.push_back(free);
+    };
     for (const Node node : pair.secondary.node)
-      if (is_owned(node) && held[node] == 0)
-      {
-        // Where it was, seen from the obstacle.
-        const Direction own =
-            transpose(then.rotation) * (present_[node] - then.translation);
-        from.emplace_back(now[p].rotation * own + now[p].translation);
-        to.push_back(present[node]);
-      }
+      if (is_owned(node))
+        add(present_[node], present[node], held[node] == 0);
+    // What is smaller than facets goes by between nodes.
+    const auto me = MPI::this_mpi_process(communicator_);
+    for (const std::int32_t f : pair.secondary.facet)
+      if (surface_.facets[f].owner == me)
+        for (const std::vector<double> &weight : samples_of_facet<dim>(
+                 surface_.nodes_per_facet(),
+                 pair.secondary.everywhere.largest / obstacle.depth()))
+        {
+          dealii::Point<dim> start, end;
+          for (std::size_t a = 0; a < weight.size(); ++a)
+          {
+            const Node node = surface_.facets[f].node[a];
+            start += weight[a] * present_[node];
+            end += weight[a] * present[node];
+          }
+          add(start, end, false);
+        }
     std::vector<double> end;
-    pair.data.obstacle->distance(to, end);
-    const std::vector<double> depth =
-        deepest_on_the_way(*pair.data.obstacle, from, to, end);
+    obstacle.distance(to, end);
+    const std::vector<OnTheWay> met = on_the_way(obstacle, from, to, end);
+    double way = 0.;
     for (std::size_t i = 0; i < to.size(); ++i)
-      if (depth[i] - pair.data.gap > tolerance)
-        missed.push_back(
-            {pair.data.name, to[i], depth[i] - pair.data.gap, false, false});
+    {
+      const double depth = met[i].depth - pair.data.gap;
+      if (met[i].through)
+        way = std::max(way, (to[i] - from[i]).norm());
+      else if (is_free[i] && depth > tolerance)
+        missed.push_back({pair.data.name, to[i], depth, false, false});
+    }
+    // What is apart again no search finds, and rows are of the far side.
+    if (way > 0.)
+      throw ContactError(too_long_a_step(
+          pair.data, way,
+          "passes through it: they are apart again at the end, and nothing "
+          "resists."));
   }
 
   template <int dim>

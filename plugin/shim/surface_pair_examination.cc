@@ -5,6 +5,7 @@
 
 #include "agree.h"
 #include "obstacle_in_bodies.h"
+#include "passage_check.h"
 #include "sampling.h"
 
 #include <abut/dealii/coded.h>
@@ -481,7 +482,23 @@ namespace abut::shim
     std::ostringstream depth;
     depth.precision(3);
     depth << found.elsewhere;
-    refuse(pair, coded(ABUT_FAILURE_WRONG_SIDE, found.text(depth.str())));
+    // How far that place of the obstacle has come in this step.
+    const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
+    const RigidPose<dim> now = obstacle.pose(),
+                         then =
+                             poses_before(poses(), true)[&pair - pairs_.data()];
+    const Direction own =
+        transpose(now.rotation) * (found.place - now.translation);
+    const double way =
+        (found.place - then.rotation * own - then.translation).norm();
+    if (pair.data.may_be_apart && way > 2. * obstacle.depth())
+      refuse(pair,
+             too_long_a_step(pair.data, way,
+                             "ends inside of it, past the surface of the pair, "
+                             "by "
+                                 + depth.str() + "."));
+    else
+      refuse(pair, coded(ABUT_FAILURE_WRONG_SIDE, found.text(depth.str())));
   }
 
   template <int dim>

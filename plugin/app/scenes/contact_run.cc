@@ -293,6 +293,15 @@ namespace abut::app
   template <int dim>
   std::string ContactRun<dim>::failure_of(const NewtonResult &result) const
   {
+    // What has mass floats in a step only if its inertia is lost in round-off.
+    if (model.has_inertia()
+        && abut::failure_of(result.explanation) == ABUT_FAILURE_FLOATING_BODY)
+      return coded(ABUT_FAILURE_FLOATING_BODY,
+                   "Inertia vanishes beside the stiffness, so that nothing "
+                   "holds what supports and contact leave free: mass over the "
+                   "square of the time step has no digits left there. Look at "
+                   "the units of Density, use a larger one or a shorter "
+                   "Time/Step, or support the bodies.");
     switch (result.reason)
     {
     case NewtonReason::contact:
@@ -332,7 +341,7 @@ namespace abut::app
   template <int dim> bool ContactRun<dim>::solve_with_contact()
   {
     if (!model.places_obstacles())
-      return solve_contact_problem();
+      return solve_at_place();
     // Forces are as good as the linear systems that they come of, or as
     // Newton's method leaves them.
     double tolerance =
@@ -352,8 +361,8 @@ namespace abut::app
     }
   }
 
-  /* Where forces have driven an obstacle through a body is no mistake of the
-   * scene: it must not go there. */
+  /* An obstacle that a step has taken past a surface into a body is no mistake
+   * of the scene: a shorter step may keep it out. */
   template <int dim> bool ContactRun<dim>::solve_at_place()
   {
     if (is_starting || !model.has_inertia())
@@ -365,14 +374,23 @@ namespace abut::app
     catch (const InputError &error)
     {
       const std::string what = error.what();
-      if (what.find(abut_failure_get(ABUT_FAILURE_WRONG_SIDE)->code)
-          == std::string::npos)
+      const auto has_code = [&what](const abut_failure code)
+      { return what.find(abut_failure_get(code)->code) != std::string::npos; };
+      const bool by_force =
+          has_code(ABUT_FAILURE_WRONG_SIDE) && model.places_obstacles();
+      if (!by_force && !has_code(ABUT_FAILURE_NO_PARTNER))
         throw;
       section.reset();
-      failure = coded(ABUT_FAILURE_NO_PARTNER,
-                      "Within a step forces drive an obstacle into a body past "
-                      "its surface: use a smaller Time/Step, or smaller "
-                      "forces.");
+      // Reports want rows; there are those that the step began with.
+      model.set_contact(state.contact, state.load_steps.time());
+      name_parameter(model, [&] { state.contact.detect(model.last_place()); });
+      failure = by_force
+                    ? coded(ABUT_FAILURE_NO_PARTNER,
+                            "Within a step forces drive an obstacle into a "
+                            "body past its surface: use a smaller Time/Step, "
+                            "or smaller forces.")
+                    : what.substr(what.find(
+                        abut_failure_get(ABUT_FAILURE_NO_PARTNER)->code));
       return false;
     }
   }

@@ -17,6 +17,9 @@ namespace abut::app
     /** Most steps of a run: more than any comes to the end of. */
     constexpr double most_steps = 1e7;
 
+    /** Least Beta of newmark that leaves accelerations enough digits. */
+    constexpr double least_beta = 1e-6;
+
     /** What the file gives, before it is looked at. */
     struct Given
     {
@@ -116,6 +119,12 @@ namespace abut::app
     prm.leave_subsection();
     if (!is_on)
       return;
+    if (given.scheme == "newmark" && given.options.beta < least_beta)
+      throw InputError("Time/Beta",
+                       "accelerations are differences of displacements over "
+                       "Beta, and have no digits below "
+                           + short_number(least_beta)
+                           + "; Beta = 0 is Time/Scheme = central difference.");
     scheme = make_scheme(given);
     if (step == 0. && finds_step)
       return;

@@ -184,8 +184,12 @@ namespace abut::app
         context.get(), &model, &options, trial.displacement.data(),
         pressure.data(), state.data(), nullptr, nullptr, &last_progress,
         &reason);
-    if (status != ABUT_CALLBACK_FAILED)
-      shim::check(context.get(), status);
+    if (status != ABUT_SUCCESS && status != ABUT_CALLBACK_FAILED)
+      return coded(ABUT_FAILURE_NOT_FINITE,
+                   std::string("forces and springs lead out of the range of "
+                               "numbers (")
+                       + abut_context_message(context.get())
+                       + "). Choose other units of lengths and forces.");
     if (status != ABUT_SUCCESS || reason != ABUT_REASON_CONVERGED)
       return explain(context.get(), options.law, status, reason, last_progress);
     for (std::size_t k = 0; k < id.size(); ++k)

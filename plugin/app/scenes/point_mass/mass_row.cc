@@ -97,9 +97,8 @@ namespace abut::app
     const auto context = shim::create_context();
     const abut_status status =
         abut_mass_modify(context.get(), &matrix, candidate.data(), rule);
-    if (status == ABUT_UNSUPPORTED)
+    if (status != ABUT_SUCCESS)
       return abut_context_message(context.get());
-    shim::check(context.get(), status);
     for (std::size_t i = 0; i < n; ++i)
       for (std::int64_t e = start[i]; e < start[i + 1]; ++e)
         mass[i * n + column[e]] = value[e];

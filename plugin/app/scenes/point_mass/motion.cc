@@ -3,10 +3,13 @@
  * motion_impulses.cc. */
 #include "motion.h"
 
+#include "app/input/short_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 namespace abut::app
 {
@@ -93,8 +96,7 @@ namespace abut::app
       mass[i] = system.mass[i * (n + 1)];
     const auto count = static_cast<std::int64_t>(n);
     abut_time_limit limit;
-    shim::check(context.get(),
-                abut_time_limit_begin(&limit, 0, count, x.data()));
+    require(abut_time_limit_begin(&limit, 0, count, x.data()));
     while (limit.goes_on != 0)
     {
       double sums[2];
@@ -102,9 +104,8 @@ namespace abut::app
       shim::check(
           context.get(),
           abut_time_limit_sums(count, mass.data(), x.data(), y.data(), sums));
-      shim::check(context.get(),
-                  abut_time_limit_next(&limit, sums, count, mass.data(),
-                                       y.data(), x.data()));
+      require(abut_time_limit_next(&limit, sums, count, mass.data(), y.data(),
+                                   x.data()));
     }
     return limit.step;
   }
@@ -128,9 +129,8 @@ namespace abut::app
     const double one = 1.;
     if (dimension == 1)
     {
-      shim::check(context.get(), abut_points_append_scalar(
-                                     points, node, 1., row.gap,
-                                     ABUT_POINT_CONTACT, 1, &node, &one));
+      require(abut_points_append_scalar(points, node, 1., row.gap,
+                                        ABUT_POINT_CONTACT, 1, &node, &one));
       return;
     }
     // Outwards of the mass is down; tangents are the axes along the plane.
@@ -148,7 +148,7 @@ namespace abut::app
     point.n_nodes = point.n_secondary = 1;
     point.node = &node;
     point.coefficient = &one;
-    shim::check(context.get(), abut_points_append(points, &point));
+    require(abut_points_append(points, &point));
   }
 
   /** Options for exact answers, with scales from the problem itself. */
@@ -232,6 +232,36 @@ namespace abut::app
     return failure;
   }
 
+  void Motion::require(const abut_status status) const
+  {
+    if (status != ABUT_SUCCESS)
+      throw std::range_error(abut_context_message(context.get()));
+  }
+
+  std::string Motion::why_unsolved() const
+  {
+    const auto largest = [](const std::vector<double> &matrix)
+    {
+      double result = 0.;
+      for (const double value : matrix)
+        result = std::max(result, std::abs(value));
+      return result;
+    };
+    const std::string sizes =
+        "masses of " + short_number(largest(system.mass), 3)
+        + " and springs of " + short_number(largest(system.stiffness), 3);
+    const std::string what = abut_context_message(context.get());
+    if (what.find("singular") == std::string::npos)
+      return coded(ABUT_FAILURE_NOT_FINITE,
+                   sizes + " lead out of the range of numbers (" + what
+                       + "). Choose other units of lengths, masses and times.");
+    return coded(ABUT_FAILURE_FLOATING_BODY,
+                 "inertia vanishes beside the stiffness: " + sizes
+                     + " have no digits in common in a step, and nothing else "
+                       "holds what is free. Use a larger density or mass, "
+                       "a shorter Time/Step, or less stiffness.");
+  }
+
   std::string Motion::solve_model(const abut_dense_model &model,
                                   const abut_strategy_options &options,
                                   std::vector<double> &y,
@@ -244,7 +274,8 @@ namespace abut::app
         nullptr, nullptr, &progress, &reason);
     if (status == ABUT_NOT_FINITE)
       return coded(ABUT_FAILURE_BLOW_UP, "a number of the motion is infinite");
-    shim::check(context.get(), status);
+    if (status != ABUT_SUCCESS)
+      return why_unsolved();
     return reason == ABUT_REASON_CONVERGED
                ? ""
                : coded(abut_reason_failure(reason, options.law, &progress),
@@ -263,7 +294,7 @@ namespace abut::app
                                           const abut_time_stage stage) const
   {
     abut_time_weights weights;
-    shim::check(context.get(), abut_time_weigh(&scheme, dt, stage, &weights));
+    require(abut_time_weigh(&scheme, dt, stage, &weights));
     std::vector<double> matrix(system.mass.size());
     for (std::size_t k = 0; k < matrix.size(); ++k)
       matrix[k] = weights.mass * system.mass[k]
@@ -277,13 +308,12 @@ namespace abut::app
                                           const std::vector<double> &after)
   {
     abut_time_weights weights;
-    shim::check(context.get(),
-                abut_time_weigh(&scheme, dt, ABUT_TIME_STEP, &weights));
+    require(abut_time_weigh(&scheme, dt, ABUT_TIME_STEP, &weights));
     std::vector<double> inertia(x.size()), elastic(x.size());
     const abut_time_arguments arguments = {sizeof(arguments), inertia.data(),
                                            nullptr, elastic.data()};
     const abut_time_state now = state(dt);
-    shim::check(context.get(), abut_time_evaluate(&now, x.data(), &arguments));
+    require(abut_time_evaluate(&now, x.data(), &arguments));
     const std::vector<double> ma = product(system.mass, inertia),
                               ku = product(system.stiffness, elastic);
     std::vector<double> residual(x.size());
@@ -318,9 +348,9 @@ namespace abut::app
     return solve(matrix, residual, rows, a, forces);
   }
 
-  void Motion::start(const std::vector<double> &displacement,
-                     const std::vector<double> &velocity,
-                     const std::vector<double> &load)
+  std::string Motion::start(const std::vector<double> &displacement,
+                            const std::vector<double> &velocity,
+                            const std::vector<double> &load)
   {
     u = displacement;
     v = velocity;
@@ -332,10 +362,15 @@ namespace abut::app
       length_scale = std::max(length_scale, std::abs(u[i]));
       speed_scale = std::max(speed_scale, std::abs(v[i]));
     }
-    std::string failure;
-    if (abut_time_needs_acceleration(&scheme))
-      failure = begin_acceleration(load);
-    AssertThrow(failure.empty(), dealii::ExcMessage(failure));
+    try
+    {
+      return abut_time_needs_acceleration(&scheme) ? begin_acceleration(load)
+                                                   : "";
+    }
+    catch (const std::range_error &)
+    {
+      return why_unsolved();
+    }
   }
 
   /** What the plane makes of where the masses would go. */
@@ -351,8 +386,7 @@ namespace abut::app
     for (std::size_t i = 0; i < y.size(); ++i)
       projected[i] += y[i];
     const abut_time_state now = state(dt);
-    shim::check(context.get(),
-                abut_time_project(&now, predicted.data(), projected.data()));
+    require(abut_time_project(&now, predicted.data(), projected.data()));
     predicted = projected;
     add_force(forces, 1.);
     return "";
@@ -372,7 +406,7 @@ namespace abut::app
       x[i] += y[i];
     add_force(forces, 1.);
     const abut_time_state now = state(dt);
-    shim::check(context.get(), abut_time_end(&now, x.data()));
+    require(abut_time_end(&now, x.data()));
     return "";
   }
 
@@ -396,9 +430,8 @@ namespace abut::app
       {
         const std::size_t i = height(mass);
         double slope = 0;
-        shim::check(context.get(),
-                    abut_time_spring(plane.penalty, gap_of(u, mass),
-                                     gap_of(x, mass), &springs[i], &slope));
+        require(abut_time_spring(plane.penalty, gap_of(u, mass),
+                                 gap_of(x, mass), &springs[i], &slope));
         tangent[i * (n + 1)] -= slope;
         residual[i] += springs[i];
       }
@@ -417,7 +450,7 @@ namespace abut::app
         continue;
       add_force(springs, 1.);
       const abut_time_state now = state(dt);
-      shim::check(context.get(), abut_time_end(&now, x.data()));
+      require(abut_time_end(&now, x.data()));
       return "";
     }
     return coded(ABUT_FAILURE_STEP_LIMIT,
@@ -447,7 +480,7 @@ namespace abut::app
     const abut_status status = abut_time_end(&now, residual.data());
     if (status == ABUT_NOT_FINITE)
       return coded(ABUT_FAILURE_BLOW_UP, "a number of the motion is infinite");
-    shim::check(context.get(), status);
+    require(status);
     return "";
   }
 
@@ -468,26 +501,36 @@ namespace abut::app
     const std::vector<double> old = u;
     std::fill(force.begin(), force.end(), 0.);
     std::string failure;
+    try
+    {
+      failure = solve_step(dt, before, after);
+      finish(dt, old, before, after);
+    }
+    catch (const std::range_error &)
+    {
+      failure = why_unsolved();
+    }
+    return failure;
+  }
+
+  std::string Motion::solve_step(const double dt,
+                                 const std::vector<double> &before,
+                                 const std::vector<double> &after)
+  {
     if (scheme.impulses)
     {
       std::vector<double> load(before.size());
       for (std::size_t i = 0; i < load.size(); ++i)
         load[i] = 0.5 * (before[i] + after[i]);
-      failure = impulse_step(dt, load);
+      return impulse_step(dt, load);
     }
-    else
-    {
-      std::vector<double> x(u.size());
-      const abut_time_state now = state(dt);
-      shim::check(context.get(), abut_time_begin(&now, x.data()));
-      if (scheme.projects)
-        failure = project(dt, x);
-      if (failure.empty())
-        failure = scheme.keeps_springs ? step_on_springs(dt, x, before, after)
-                  : scheme.beta > 0    ? implicit_step(dt, x, before, after)
-                                       : explicit_step(dt, x, before, after);
-    }
-    finish(dt, old, before, after);
-    return failure;
+    std::vector<double> x(u.size());
+    const abut_time_state now = state(dt);
+    require(abut_time_begin(&now, x.data()));
+    const std::string failure = scheme.projects ? project(dt, x) : "";
+    return !failure.empty()       ? failure
+           : scheme.keeps_springs ? step_on_springs(dt, x, before, after)
+           : scheme.beta > 0      ? implicit_step(dt, x, before, after)
+                                  : explicit_step(dt, x, before, after);
   }
 } // namespace abut::app

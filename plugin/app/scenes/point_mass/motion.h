@@ -29,10 +29,11 @@ namespace abut::app
     Motion(const MassSystem &system, const Plane &plane,
            const abut_time_scheme &scheme);
 
-    /** Begin, with the loads there: velocities and displacements [size]. */
-    void start(const std::vector<double> &displacement,
-               const std::vector<double> &velocity,
-               const std::vector<double> &load);
+    /** Begin, with the loads there: velocities and displacements [size].
+     * Returns why that cannot be; else empty. */
+    std::string start(const std::vector<double> &displacement,
+                      const std::vector<double> &velocity,
+                      const std::vector<double> &load);
 
     /** A step of length @p dt with the loads at its ends [size]. Returns why
      * there is none; empty if it was done. */
@@ -86,6 +87,14 @@ namespace abut::app
     std::string solve(const std::vector<double> &matrix,
                       const std::vector<double> &residual, const Rows &rows,
                       std::vector<double> &y, std::vector<double> &pressure);
+    std::string solve_step(double dt, const std::vector<double> &before,
+                           const std::vector<double> &after);
+    /** Throw std::range_error if the core could not do it: its arguments are
+     * numbers of the data. */
+    void require(abut_status status) const;
+    /** Why masses and springs have no answer, after a call of the core failed.
+     */
+    std::string why_unsolved() const;
     std::string solve_model(const abut_dense_model &model,
                             const abut_strategy_options &options,
                             std::vector<double> &y,

@@ -92,7 +92,7 @@ namespace abut::app
   {
     end.resize(u.size());
     const abut_time_state now = state(length);
-    shim::check(context.get(), abut_time_begin(&now, end.data()));
+    require(abut_time_begin(&now, end.data()));
     std::vector<double> y;
     const std::string failure = solve(step_matrix(length, ABUT_TIME_STEP),
                                       residual_at(length, end, load, load),
@@ -170,7 +170,7 @@ namespace abut::app
     for (const std::size_t mass : system.candidates)
       if (is_closed(mass))
         closed.push_back(mass);
-    shim::check(context.get(), abut_time_end(&now, end.data()));
+    require(abut_time_end(&now, end.data()));
     for (std::size_t i = 0; i < u.size(); ++i)
     {
       speed_scale = std::max(speed_scale, std::abs(v[i]));

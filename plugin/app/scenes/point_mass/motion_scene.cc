@@ -54,6 +54,7 @@ namespace abut::app
       std::vector<double> load_at(const MassSystem &system, double time) const;
       void describe(Report &report, const MassSystem &system) const;
       unsigned int n_steps() const;
+      double limit_of(const Motion &motion) const;
       void find_step(double limit);
       bool take_steps(Report &report, Motion &motion, MotionRecord &record,
                       const MassSystem &system);
@@ -390,6 +391,22 @@ namespace abut::app
           std::max(1., std::ceil(time.end / time.step * (1. - 1e-9))));
     }
 
+    /** The longest step of an explicit scheme. */
+    double MotionScene::limit_of(const Motion &motion) const
+    {
+      try
+      {
+        return motion.stable_step();
+      }
+      catch (const std::range_error &error)
+      {
+        throw InputError(row.is_bar ? "Bar/Stiffness" : "Masses/Spring",
+                         std::string("it leads out of the range of numbers "
+                                     "together with the masses (")
+                             + error.what() + ").");
+      }
+    }
+
     /** The step of a bar whose file has none. */
     void MotionScene::find_step(const double limit)
     {
@@ -425,7 +442,7 @@ namespace abut::app
       start_of(system);
       load_at(system, 0.);
       load_at(system, time.end);
-      find_step(Motion(system, plane, time.scheme).stable_step());
+      find_step(limit_of(Motion(system, plane, time.scheme)));
       describe(report, system);
     }
 
@@ -515,7 +532,7 @@ namespace abut::app
     {
       const MassSystem system = make_system();
       Motion motion(system, plane, time.scheme);
-      const double limit = motion.stable_step();
+      const double limit = limit_of(motion);
       find_step(limit);
       describe(report, system);
       MotionRecord record(time.scheme, row.dimension);
@@ -526,8 +543,13 @@ namespace abut::app
                           "the time step is above the limit of the scheme, "
                               + short_number(limit, 4)
                               + ": make Time/Step smaller"));
-      motion.start(start_of(system), values(*velocity, 0.),
-                   load_at(system, 0.));
+      const std::string failure = motion.start(
+          start_of(system), values(*velocity, 0.), load_at(system, 0.));
+      if (!failure.empty())
+      {
+        report.warn(failure + " (at time 0)");
+        return Outcome::unusable;
+      }
       const bool done = [&]
       {
         SectionTimes::Scope scope(report.times, "solve");

@@ -239,6 +239,8 @@ namespace abut::app
   void SolidModel<dim>::set_contact(ContactAssembler<dim> &contact,
                                     const double time)
   {
+    if (motion && time > run.load_steps.time())
+      pairs->refuse_jumps(run.load_steps.time(), time);
     if (!driven.empty())
       pairs->set_driven(driven_places(time));
     pairs->set_time(time);

@@ -65,6 +65,18 @@ namespace abut::app
       const StepMotion &pair = motions[p];
       if (pair.stays)
         continue;
+      // The normals of the two sides of an obstacle, or of one that has gone
+      // by.
+      if (pair.turn > M_PI / 2. && pairs->obstacle_of(p))
+        return coded(
+            ABUT_FAILURE_NO_PARTNER,
+            parameters.pairs[p].section
+                + ": in this time step its obstacle goes past the middle of "
+                  "what is in its way, or the other way round, and contact "
+                  "would be with its far side. It must not move by more than "
+                  "half of what the thinner of the two is thick: make "
+                  "Time/Step shorter, or let it move more slowly (its Motion, "
+                  "its velocity, the forces on it).");
       const bool slides =
           pair.facet > 0. && pair.slip > largest_slip * pair.facet;
       if (!slides && pair.turn <= largest_turn)

@@ -2,6 +2,7 @@
 #include "solid_pairs.h"
 
 #include "app/input/input_error.h"
+#include "app/input/short_number.h"
 #include "app/mesh/make_rigid_obstacle.h"
 
 #include <abut/dealii/coded.h>
@@ -223,6 +224,75 @@ namespace abut::app
                              + "' depends on the place; it may depend on t "
                                "alone.");
       all[i].gap = values[0];
+    }
+  }
+
+  namespace
+  {
+    /** How far apart two poses are: lengths, and turns. */
+    template <int dim>
+    double difference(const RigidPose<dim> &a, const RigidPose<dim> &b)
+    {
+      return (a.translation - b.translation).norm()
+             + (a.rotation - b.rotation).norm();
+    }
+  } // namespace
+
+  template <int dim>
+  void SolidPairs<dim>::refuse_jumps(const double begin, const double end) const
+  {
+    // What halving of the interval leaves of a change that is no jump.
+    constexpr unsigned int n_halvings = 40, n_samples = 32;
+    constexpr double part = 0.5, round_off = 1e-9;
+    for (std::size_t o = 0; o < obstacles.size(); ++o)
+    {
+      RigidObstacle<dim> &obstacle = *obstacles[o];
+      const auto pose_at = [&obstacle](const double at)
+      {
+        obstacle.set_time(at);
+        return obstacle.pose();
+      };
+      // Rounded times see the other side of a bend.
+      double range = 0.;
+      for (unsigned int k = 0; k <= n_samples; ++k)
+        range =
+            std::max(range, difference(pose_at(0.), pose_at(parameters.time.end
+                                                            * k / n_samples)));
+      double low = begin, high = end;
+      RigidPose<dim> first = pose_at(low), last = pose_at(high);
+      const double whole = difference(first, last);
+      if (!(whole > round_off * range))
+      {
+        place_obstacle(o,
+                       driven.empty() ? dealii::Tensor<1, dim>() : driven[o]);
+        continue;
+      }
+      for (unsigned int k = 0; k < n_halvings; ++k)
+      {
+        const double middle = 0.5 * (low + high);
+        const RigidPose<dim> between = pose_at(middle);
+        const bool is_before =
+            difference(first, between) > difference(between, last);
+        (is_before ? high : low) = middle;
+        (is_before ? last : first) = between;
+      }
+      const double left = difference(first, last);
+      place_obstacle(o, driven.empty() ? dealii::Tensor<1, dim>() : driven[o]);
+      if (left < part * whole)
+        continue;
+      const bool turns = (first.rotation - last.rotation).norm() > part * left;
+      throw InputError(
+          parameters.obstacles[o].parameter(turns ? "Rotation angle"
+                                                  : "Motion"),
+          "the place of the obstacle jumps at t = " + short_number(high, 6)
+              + (turns ? ""
+                       : " by "
+                             + short_number(
+                                 (last.translation - first.translation).norm(),
+                                 3))
+              + ": an obstacle that is elsewhere at once has an infinite "
+                "velocity, and contact cannot stop it. Write a formula that is "
+                "continuous in t.");
     }
   }
 

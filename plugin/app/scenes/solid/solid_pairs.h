@@ -68,6 +68,10 @@ namespace abut::app
     /** Time of gaps and obstacles. */
     void set_time(double time);
 
+    /** Refuse motions of obstacles that jump in the step from @p begin to @p
+     * end, which no velocity goes with: throws InputError. */
+    void refuse_jumps(double begin, double end) const;
+
     /** Place an obstacle of the pairs as at the present time, but moved by
      * forces by @p displacement; until the next set_time(). */
     void place_obstacle(std::size_t obstacle,
