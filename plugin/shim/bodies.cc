@@ -84,6 +84,7 @@ namespace abut::shim
       const auto vertices = mapping.get_vertices(cell);
       cell->get_dof_indices(dofs);
       const unsigned int body = bodies.of(cell);
+      const double share = cell->measure() / element.n_dofs_per_cell();
       for (unsigned int i = 0; i < dofs.size(); ++i)
       {
         if (!owned.is_element(dofs[i]))
@@ -97,6 +98,7 @@ namespace abut::shim
         space.set(owned.index_within_set(dofs[i]),
                   is_displacement ? fe.system_to_component_index(i).first : dim,
                   static_cast<int>(body), point);
+        space.share.change()[owned.index_within_set(dofs[i])] += share;
       }
     }
     return space;

@@ -334,6 +334,7 @@ namespace abut
       i.next();
     }
     i.next();
+    i.note_end();
     return i.request.action != ABUT_ACTION_STOP;
   }
 

@@ -460,6 +460,14 @@ namespace abut
     judge_strain(result, allow_large_strain, findings);
     if (!can_touch)
       return result;
+    for (const solve::FreeMotion &motion : i.undetermined)
+      findings.add(ABUT_FAILURE_FLOATING_BODY, false,
+                   "Loads and contact do not determine a motion: "
+                       + motion.description
+                       + " without resistance, and the loads do no work along "
+                         "it. The answer has the least such motion in the mean "
+                         "square over the body. Support the body in that "
+                         "direction if the motion matters.");
     const std::vector<shim::Unseen> unseen = i.find_unseen(displacement);
     i.surfaces->examine(displacement, i.row_pressures().data(), i.gap.data(),
                         i.row_states().data(), unseen);
@@ -540,7 +548,11 @@ namespace abut
       return;
     solve::FloatingBodies floating;
     floating.reinit(stiffness, i.coefficients, i.near_null_space());
-    floating.check_all(i.coefficients);
+    const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
+    const auto free = floating.free_motions(i.coefficients, all);
+    if (!free.empty())
+      floating.fail(free, solve::n_resisting(i.coefficients, all),
+                    "contact rows, open or not", "or tie it");
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

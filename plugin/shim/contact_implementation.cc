@@ -3,6 +3,7 @@
 #include "contact_implementation.h"
 
 #include "agree.h"
+#include "deformation.h"
 #include "fnv_hash.h"
 #include "nodal_obstacle_rows.h"
 #include "solve/make_row_solver.h"
@@ -45,6 +46,10 @@ namespace abut
       }
       return ABUT_SUCCESS;
     }
+
+    /** Gaps below this part of the size of the smallest body are closed at the
+     * start. */
+    constexpr double touching = 1e-8;
 
     /** Whether the penalty is part of the answer. */
     bool is_penalty(const abut_law &law)
@@ -523,8 +528,12 @@ namespace abut
       std::vector<double> scale(stiffness);
       for (double &c : scale)
         c *= method.options.complementarity;
-      start_state = surfaces->first_contact(gap, start_pressure, scale);
+      start_state = surfaces->first_contact(
+          gap, start_pressure, scale,
+          touching * shim::smallest_body(near_null_space(), communicator));
     }
+    if (solver != nullptr)
+      solver->begin_iteration(iteration());
     check_law(abut_strategy_start(
         strategy.get(), coefficients.n_rows(), coefficients.ids(),
         coefficients.weights(), stiffness.data(), coefficients.bilateral(),
@@ -537,6 +546,29 @@ namespace abut
         diagonal.push_back(blocks.at[block] + std::int64_t(r) * (k + 1));
     given_field = la::Vector(); // is in the history now
     is_started = true;
+  }
+
+  template <int dim>
+  solve::ContactIteration
+  ContactAssembler<dim>::Implementation::iteration() const
+  {
+    solve::ContactIteration result;
+    result.gap = &gap;
+    if (surfaces != nullptr)
+    {
+      result.group = surfaces->row_pairs();
+      result.n_groups = pairs.size();
+    }
+    result.load = largest_load;
+    result.linear_tolerance = method.options.final_linear_tolerance;
+    return result;
+  }
+
+  template <int dim> void ContactAssembler<dim>::Implementation::note_end()
+  {
+    undetermined.clear();
+    if (request.action == ABUT_ACTION_STOP && solver != nullptr)
+      undetermined = solver->end_iteration(request);
   }
 
   template <int dim>

@@ -160,6 +160,10 @@ namespace abut
     /** See ContactAssembler::evaluate(), with rows of that displacement.
      * Collective. */
     double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
+    /** What the solver must know of the iteration that begins. */
+    solve::ContactIteration iteration() const;
+    /** Find what an iteration that stopped leaves undetermined. Collective. */
+    void note_end();
     void begin(const solve::Stiffness &matrix, const la::Vector &residual);
     /** The tangent with its unknowns. Throws where it is not of as many as in
      * reinit(). */
@@ -283,6 +287,9 @@ namespace abut
      * of surface. */
     std::vector<double> row_stiffness, stiffness;
     double smallest_residual = 0.;
+    double largest_load = 0.; ///< sum of magnitudes at nodes, of all solves
+    /** Rigid motions that the last iteration has left undetermined. */
+    std::vector<solve::FreeMotion> undetermined;
     double iteration_tolerance = 0.; ///< of linear systems; 0: the method's
     bool has_new_matrix = false;     ///< since the last solve
 

@@ -35,6 +35,7 @@ namespace abut
       weight += coefficients.weights()[i];
     weight = MPI::sum(weight, communicator);
     const double load = std::max(residual.l1_norm(), internal.l1_norm());
+    largest_load = std::max(largest_load, load);
     abut_strategy_options &options = method.options;
     options.pressure_scale =
         load > least_scale && weight > 0. ? load / weight : 1.;

@@ -159,6 +159,34 @@ namespace abut::shim
     return std::min(sum, largest_displacement(space, u, communicator));
   }
 
+  double smallest_body(const solve::NearNullSpace &space,
+                       const MPI_Comm communicator)
+  {
+    // Negative minima and maxima in one reduction.
+    constexpr double none = -std::numeric_limits<double>::max();
+    std::vector<double> bounds(6 * space.n_bodies, none);
+    for (std::size_t i = 0; i < space.point.size(); ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const int body = space.body.empty() ? 0 : space.body[i];
+        double *const own = &bounds[2 * (3 * body + d)];
+        own[0] = std::max(own[0], -space.point[i][d]);
+        own[1] = std::max(own[1], space.point[i][d]);
+      }
+    dealii::Utilities::MPI::max(bounds, communicator, bounds);
+    double result = 0.;
+    for (unsigned int body = 0; body < space.n_bodies; ++body)
+    {
+      const double *const own = &bounds[6 * body];
+      if (own[0] == none)
+        continue; // no positions are known
+      const double radius =
+          0.5 * std::hypot(own[0] + own[1], own[2] + own[3], own[4] + own[5]);
+      result = result > 0. ? std::min(result, radius) : radius;
+    }
+    return result;
+  }
+
   double largest_displacement(const solve::NearNullSpace &space,
                               const la::Vector &u, const MPI_Comm communicator)
   {

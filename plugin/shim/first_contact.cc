@@ -1,90 +1,50 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Where contact begins for bodies that nothing else holds: without a closed
-// row the first linear system would be singular.
+// Where contact begins for bodies that nothing else holds: surfaces that touch
+// but for round-off are closed.
 #include "surface_pair_rows.h"
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 
 namespace abut::shim
 {
-  namespace MPI = dealii::Utilities::MPI;
-
-  namespace
-  {
-    /** The @p n smallest of all ranks' values; the largest of them. */
-    double nth_smallest(std::vector<double> values, const std::size_t n,
-                        const MPI_Comm communicator)
-    {
-      std::sort(values.begin(), values.end());
-      values.resize(std::min(n, values.size()));
-      std::vector<double> all;
-      for (const std::vector<double> &some :
-           MPI::all_gather(communicator, values))
-        all.insert(all.end(), some.begin(), some.end());
-      std::sort(all.begin(), all.end());
-      return all.empty() ? 0. : all[std::min(n, all.size()) - 1];
-    }
-  } // namespace
-
   template <int dim>
-  std::vector<std::uint8_t>
-  SurfacePairRows<dim>::first_contact(const std::vector<double> &gap,
-                                      const std::vector<double> &pressure,
-                                      const std::vector<double> &scale) const
+  std::vector<std::uint8_t> SurfacePairRows<dim>::first_contact(
+      const std::vector<double> &gap, const std::vector<double> &pressure,
+      const std::vector<double> &scale, const double touching) const
   {
-    // Rows that a body needs to be held, if it cannot turn as it likes.
-    constexpr std::size_t n_needed = dim == 2 ? 2 : 4;
-
+    if (std::none_of(pairs_.begin(), pairs_.end(),
+                     [](const auto &pair) { return pair.data.holds_body; }))
+      return {};
     std::vector<std::uint8_t> state(view_.n_components);
-    std::vector<unsigned int> n_closed(pairs_.size(), 0),
-        n_pressed(pairs_.size(), 0);
-    const auto pressed = [&](const std::size_t i)
-    { return !pressure.empty() && pressure[i] > 0.; };
     for_each_component(
         [&](const Component &component)
         {
-          const std::size_t i = component.row, pair = component.place.pair;
-          const double p = pressed(i) ? pressure[i] : 0.;
-          state[i] = pairs_[pair].data.tied || p - scale[i] * gap[i] > 0.;
-          n_closed[pair] += state[i];
-          n_pressed[pair] += pressed(i);
+          const std::size_t i = component.row;
+          const auto &pair = pairs_[component.place.pair].data;
+          const double p = pressure.empty() ? 0. : std::max(0., pressure[i]);
+          state[i] = pair.tied || p - scale[i] * gap[i] > 0.
+                     || (pair.holds_body && gap[i] <= touching);
         });
-    MPI::sum(n_closed, communicator_, n_closed);
-    MPI::sum(n_pressed, communicator_, n_pressed);
+    return state;
+  }
 
-    bool any = false;
-    for (std::size_t pair = 0; pair < pairs_.size(); ++pair)
-    {
-      if (!pairs_[pair].data.holds_body || n_closed[pair] > 0)
-        continue;
-      any = true;
-      std::vector<double> gaps;
-      for_each_component(
-          [&](const Component &component)
-          {
-            if (component.place.pair == pair)
-              gaps.push_back(gap[component.row]);
-          });
-      const double limit = nth_smallest(gaps, n_needed, communicator_);
-      for_each_component(
-          [&](const Component &component)
-          {
-            const std::size_t i = component.row;
-            if (component.place.pair == pair)
-              state[i] = n_pressed[pair] > 0 ? pressed(i) : gap[i] <= limit;
-          });
-    }
-    return any ? state : std::vector<std::uint8_t>();
+  template <int dim> std::vector<int> SurfacePairRows<dim>::row_pairs() const
+  {
+    std::vector<int> result(view_.n_components);
+    for_each_row(
+        [&](const Component &component)
+        { result[component.row] = static_cast<int>(component.place.pair); });
+    return result;
   }
 
   template std::vector<std::uint8_t>
   SurfacePairRows<2>::first_contact(const std::vector<double> &,
                                     const std::vector<double> &,
-                                    const std::vector<double> &) const;
+                                    const std::vector<double> &, double) const;
   template std::vector<std::uint8_t>
   SurfacePairRows<3>::first_contact(const std::vector<double> &,
                                     const std::vector<double> &,
-                                    const std::vector<double> &) const;
+                                    const std::vector<double> &, double) const;
+  template std::vector<int> SurfacePairRows<2>::row_pairs() const;
+  template std::vector<int> SurfacePairRows<3>::row_pairs() const;
 } // namespace abut::shim

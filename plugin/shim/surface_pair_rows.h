@@ -157,15 +157,19 @@ namespace abut::shim
       return pairs_[pair].refused;
     }
 
-    /** States to start from when a pair that must hold a body has no closed
-     * row: closed are then the rows with pressure, or those of the smallest
-     * gaps. Empty if there is no such pair. Collective.
+    /** States to start from when a pair must hold a body: closed are the rows
+     * with pressure, or those that touch. Empty if there is no such pair.
+     * Not collective.
      * @param pressure empty: 0
-     * @param scale rows are closed where p - scale gap > 0 */
-    std::vector<std::uint8_t>
-    first_contact(const std::vector<double> &gap,
-                  const std::vector<double> &pressure,
-                  const std::vector<double> &scale) const;
+     * @param scale rows are closed where p - scale gap > 0
+     * @param touching gap of rows that are closed in any case */
+    std::vector<std::uint8_t> first_contact(const std::vector<double> &gap,
+                                            const std::vector<double> &pressure,
+                                            const std::vector<double> &scale,
+                                            double touching) const;
+
+    /** [rows] pair of each row. */
+    std::vector<int> row_pairs() const;
 
     /** Whether points of a pair are made step by step (Sliding::step). */
     bool has_steps() const;

@@ -49,7 +49,6 @@ namespace abut::solve
     stiffness_ = stiffness;
     rows_ = &rows;
     row_stiffness_ = row_stiffness;
-    floating_.reinit(stiffness, rows, space_);
   }
 
   void Condensation::make_saddle_point()
@@ -206,7 +205,6 @@ namespace abut::solve
   {
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
-    floating_.check(*rows_, local_, request, row_stiffness_);
     if (!condense())
     {
       if (saddle_point_ == nullptr)

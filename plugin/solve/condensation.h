@@ -3,7 +3,6 @@
 #define ABUT_SOLVE_CONDENSATION_H
 
 #include "condensate_solver.h"
-#include "floating_bodies.h"
 #include "local_elimination.h"
 #include "row_solver.h"
 #include "saddle_point.h"
@@ -72,7 +71,6 @@ namespace abut::solve
     std::vector<double> row_stiffness_;
     LocalElimination local_;
     std::unique_ptr<CondensateSolver> solver_;
-    FloatingBodies floating_;
     Condensate condensate_;
     std::unique_ptr<SaddlePoint> saddle_point_;
   };

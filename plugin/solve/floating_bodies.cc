@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "floating_bodies.h"
 
+#include "rigid_motion_words.h"
+
 #include <abut/dealii/coded.h>
 #include <abut/dealii/solver_parameters.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace abut::solve
@@ -29,6 +33,10 @@ namespace abut::solve
     /** Springs of what slips are none if they are softer, as a part of the
      * surface's own stiffness. */
     constexpr double no_spring = 1e-9;
+
+    /** Loads do no work along a motion if it is less, as a part of the sum of
+     * their magnitudes times the largest displacement. */
+    constexpr double no_work = 1e-10;
 
     /** Rigid motions of a body in space. */
     constexpr unsigned int most_modes = 6;
@@ -54,6 +62,16 @@ namespace abut::solve
           find_coupled(la::local_rows(stiffness.matrix()));
         else
           find_coupled(stiffness, diagonal);
+      }
+
+      const std::vector<dealii::Point<3>> &centers() const
+      {
+        return center_;
+      }
+
+      const std::vector<double> &radii() const
+      {
+        return radius_;
       }
 
       unsigned int n_modes() const
@@ -272,6 +290,8 @@ namespace abut::solve
     const Motions motions(stiffness, space, diagonal);
     const MPI_Comm communicator = stiffness.communicator();
     const unsigned int n = n_modes_ = motions.n_modes();
+    center_ = motions.centers();
+    radius_ = motions.radii();
     if (supports_hold(motions, space, communicator))
       return;
 
@@ -329,11 +349,11 @@ namespace abut::solve
           largest = std::max(largest, std::abs(c));
         for (double &c : motion)
           c /= largest;
-        motions_.push_back({b, motion});
+        motions_.push_back({b, motion, la::Vector()});
       }
     }
 
-    for (const Motion &motion : motions_)
+    for (Motion &motion : motions_)
     {
       for (int i = 0; i < la::n_owned(mode); ++i)
       {
@@ -343,59 +363,118 @@ namespace abut::solve
             value += motion.coefficient[m] * motions.value(m, i);
         la::data(mode)[i] = value;
       }
+      motion.displacement = mode;
       gap_.emplace_back(rows.n_rows());
       rows.times(mode, gap_.back().data());
     }
   }
 
-  std::string
-  FloatingBodies::describe(const std::vector<double> &combination) const
+  std::vector<double>
+  FloatingBodies::gap_change(const Combination &combination) const
   {
-    // What the body that takes part most does, as far as it is seen.
+    std::vector<double> result(gap_.empty() ? 0 : gap_[0].size(), 0.);
+    for (std::size_t k = 0; k < gap_.size(); ++k)
+      for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] += combination[k] * gap_[k][i];
+    return result;
+  }
+
+  void FloatingBodies::add(const Combination &combination,
+                           la::Vector &displacement) const
+  {
+    for (std::size_t k = 0; k < motions_.size(); ++k)
+      displacement.add(combination[k], motions_[k].displacement);
+  }
+
+  std::vector<double> FloatingBodies::work(const la::Vector &forces) const
+  {
+    std::vector<double> result;
+    for (const Motion &motion : motions_)
+      result.push_back(motion.displacement * forces);
+    return result;
+  }
+
+  std::vector<FloatingBodies::Combination>
+  FloatingBodies::along_which_works(const std::vector<Combination> &motions,
+                                    const la::Vector &residual,
+                                    const double load) const
+  {
+    std::vector<Combination> result;
+    if (motions.empty())
+      return result;
+    const std::vector<double> each = work(residual);
+    for (const Combination &motion : motions)
+      if (std::abs(std::inner_product(motion.begin(), motion.end(),
+                                      each.begin(), 0.))
+          > no_work * load)
+        result.push_back(motion);
+    return result;
+  }
+
+  void FloatingBodies::project(const la::Vector &displacement,
+                               std::vector<double> &products,
+                               std::vector<double> &right) const
+  {
+    const std::size_t n = motions_.size();
+    std::vector<double> sums(n * n + n, 0.);
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      const double *const own = la::data(motions_[j].displacement);
+      for (int i = 0; i < la::n_owned(displacement); ++i)
+      {
+        if (own[i] == 0.)
+          continue;
+        const double moved = own[i] * share(i);
+        for (std::size_t k = 0; k < n; ++k)
+          sums[j * n + k] += moved * la::data(motions_[k].displacement)[i];
+        sums[n * n + j] += moved * la::data(displacement)[i];
+      }
+    }
+    MPI::sum(sums, displacement.get_mpi_communicator(), sums);
+    products.assign(sums.begin(), sums.begin() + n * n);
+    right.assign(sums.begin() + n * n, sums.end());
+  }
+
+  double FloatingBodies::smallest_radius() const
+  {
+    double result = 0.;
+    for (const Motion &motion : motions_)
+      result = result > 0. ? std::min(result, radius_[motion.body])
+                           : radius_[motion.body];
+    return result;
+  }
+
+  unsigned int FloatingBodies::body(const Combination &combination) const
+  {
     std::vector<double> weight(space_.n_bodies, 0.);
     for (std::size_t k = 0; k < motions_.size(); ++k)
       weight[motions_[k].body] += combination[k] * combination[k];
-    const unsigned int body = static_cast<unsigned int>(
+    return static_cast<unsigned int>(
         std::max_element(weight.begin(), weight.end()) - weight.begin());
-    std::vector<double> motion(n_modes_, 0.);
-    for (std::size_t k = 0; k < motions_.size(); ++k)
-      if (motions_[k].body == body)
-        for (unsigned int m = 0; m < n_modes_; ++m)
-          motion[m] += combination[k] * motions_[k].coefficient[m];
+  }
 
-    const unsigned int dim = space_.n_components;
-    double parts[2] = {0., 0.};
-    for (unsigned int m = 0; m < n_modes_; ++m)
-      parts[m >= dim] += motion[m] * motion[m];
-    const bool turns = parts[1] > parts[0];
-    const auto direction = [&](const unsigned int first, const unsigned int end)
-    {
-      std::ostringstream text;
-      text.precision(2);
-      for (unsigned int m = first; m < end; ++m)
-      {
-        const double c = motion[m] / std::sqrt(parts[turns]);
-        text << (m == first ? "(" : ", ") << (std::abs(c) < 5e-3 ? 0. : c);
-      }
-      text << ")";
-      return text.str();
-    };
+  std::string FloatingBodies::describe(const Combination &combination) const
+  {
+    const unsigned int which = body(combination);
+    std::vector<double> mode(n_modes_, 0.);
+    for (std::size_t k = 0; k < motions_.size(); ++k)
+      if (motions_[k].body == which)
+        for (unsigned int m = 0; m < n_modes_; ++m)
+          mode[m] += combination[k] * motions_[k].coefficient[m];
     const std::string name = space_.names.empty()
-                                 ? "body " + std::to_string(body + 1)
-                                 : "the body '" + space_.names[body] + "'";
-    if (!turns)
-      return name + " can slide along " + direction(0, dim);
-    return name + " can turn"
-           + (dim == 2 ? ""
-                       : " about the direction " + direction(dim, 2 * dim));
+                                 ? "body " + std::to_string(which + 1)
+                                 : "the body '" + space_.names[which] + "'";
+    return name + " can "
+           + rigid_motion_in_words(space_.n_components, mode, center_[which],
+                                   radius_[which]);
   }
 
   void FloatingBodies::check(const PointOperator &rows,
                              const std::vector<std::uint8_t> &resists) const
   {
-    check(rows, resists, "rows in contact",
-          "tie it, or begin with the bodies in contact: a smaller initial gap, "
-          "or a prescribed displacement in place of a force");
+    const auto free = free_motions(rows, resists);
+    if (!free.empty())
+      fail_in_contact(free, n_resisting(rows, resists));
   }
 
   void FloatingBodies::check(const PointOperator &rows,
@@ -403,58 +482,45 @@ namespace abut::solve
                              const abut_request &request,
                              const std::vector<double> &row_stiffness) const
   {
-    std::vector<std::uint8_t> resists = local.resisting();
-    if (local.blocks().empty())
-    {
-      check(rows, resists);
+    const Resisting resisting_rows =
+        resisting(rows, local, request, row_stiffness);
+    const auto free = free_motions(rows, resisting_rows.now);
+    if (free.empty())
       return;
-    }
-    std::vector<std::uint8_t> closed(rows.n_rows());
-    for (int i = 0; i < rows.n_rows(); ++i)
+    if (resisting_rows.has_friction
+        && free_motions(rows, resisting_rows.sticks).empty())
+      fail_slipping(free[0]);
+    fail_in_contact(free, n_resisting(rows, resisting_rows.now));
+  }
+
+  FloatingBodies::Resisting FloatingBodies::resisting(
+      const PointOperator &rows, const LocalElimination &local,
+      const abut_request &request, const std::vector<double> &row_stiffness)
+  {
+    Resisting result;
+    result.now = local.resisting();
+    result.sticks = result.now;
+    result.has_friction = !local.blocks().empty();
+    for (int i = 0; i < rows.n_rows() && result.has_friction; ++i)
     {
-      closed[i] = request.state[i] != ABUT_STATE_OPEN;
+      result.sticks[i] = request.state[i] != ABUT_STATE_OPEN;
       // The springs of what slips vanish at the solution, but for round-off.
       if (rows.is_tangent(i) && !local.is_held(i)
           && local.spring()[i] <= no_spring * rows.weight(i) * row_stiffness[i])
-        resists[i] = 0;
+        result.now[i] = 0;
     }
-    check(rows, resists, closed);
+    return result;
   }
 
-  void FloatingBodies::check_all(const PointOperator &rows) const
-  {
-    check(rows, std::vector<std::uint8_t>(rows.n_rows(), 1),
-          "contact rows, open or not", "or tie it");
-  }
-
-  void FloatingBodies::check(const PointOperator &rows,
-                             const std::vector<std::uint8_t> &resists,
-                             const std::vector<std::uint8_t> &sticks) const
-  {
-    double n_rows = 0.;
-    const auto free = free_motions(rows, resists, n_rows);
-    if (free.empty())
-      return;
-    if (!free_motions(rows, sticks, n_rows).empty())
-      check(rows, resists);
-    throw SolverFailure(coded(
-        ABUT_FAILURE_FREE_SLIDING,
-        "Friction does not hold the bodies: " + describe(free[0])
-            + " once its contacts slip. Support the body in that direction, "
-              "load it less along the surface, or give the pair a larger "
-              "coefficient of friction."));
-  }
-
-  std::vector<std::vector<double>>
+  std::vector<FloatingBodies::Combination>
   FloatingBodies::free_motions(const PointOperator &rows,
-                               const std::vector<std::uint8_t> &resists,
-                               double &n_rows) const
+                               const std::vector<std::uint8_t> &resists) const
   {
-    const unsigned int n = static_cast<unsigned int>(motions_.size());
+    const unsigned int n = size();
     if (n == 0)
       return {};
-    // Energies of unit springs on the rows, then weight and number of rows.
-    std::vector<double> sums(n * n + 2, 0.);
+    // Energies of unit springs on the rows, then their weight.
+    std::vector<double> sums(n * n + 1, 0.);
     for (int i = 0; i < rows.n_rows(); ++i)
     {
       if (!resists[i])
@@ -463,25 +529,45 @@ namespace abut::solve
         for (unsigned int k = 0; k < n; ++k)
           sums[j * n + k] += rows.weight(i) * gap_[j][i] * gap_[k][i];
       sums[n * n] += rows.weight(i);
-      sums[n * n + 1] += 1.;
     }
     MPI::sum(sums, rows.communicator(), sums);
     const double weight = sums[n * n];
     for (unsigned int k = 0; weight > 0. && k < n * n; ++k)
       sums[k] /= weight;
-    n_rows = sums[n * n + 1];
     return null_space(n, sums.data(), free_gap);
   }
 
-  void FloatingBodies::check(const PointOperator &rows,
-                             const std::vector<std::uint8_t> &resists,
-                             const std::string &which,
-                             const std::string &or_else) const
+  double n_resisting(const PointOperator &rows,
+                     const std::vector<std::uint8_t> &resists)
   {
-    double n_rows = 0.;
-    const auto free = free_motions(rows, resists, n_rows);
-    if (free.empty())
-      return;
+    return MPI::sum(
+        static_cast<double>(resists.size()
+                            - std::count(resists.begin(), resists.end(), 0)),
+        rows.communicator());
+  }
+
+  void FloatingBodies::fail_in_contact(const std::vector<Combination> &free,
+                                       const double n_rows) const
+  {
+    fail(free, n_rows, "rows in contact",
+         "tie it, or begin with the bodies in contact: a smaller initial gap, "
+         "or a prescribed displacement in place of a force");
+  }
+
+  void FloatingBodies::fail_slipping(const Combination &free) const
+  {
+    throw SolverFailure(coded(
+        ABUT_FAILURE_FREE_SLIDING,
+        "Friction does not hold the bodies: " + describe(free)
+            + " once its contacts slip. Support the body in that direction, "
+              "load it less along the surface, or give the pair a larger "
+              "coefficient of friction."));
+  }
+
+  void FloatingBodies::fail(const std::vector<Combination> &free,
+                            const double n_rows, const std::string &which,
+                            const std::string &or_else) const
+  {
     std::ostringstream text;
     text << "Nothing holds the bodies: " << describe(free[0]);
     if (free.size() > 1)

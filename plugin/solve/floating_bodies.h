@@ -20,6 +20,10 @@ namespace abut::solve
   class FloatingBodies
   {
   public:
+    /** A combination of the motions that K leaves free: a coefficient for
+     * each. */
+    using Combination = std::vector<double>;
+
     /** Find the motions that K leaves free: translations, and rotations if the
      * positions of unknowns are known. Nothing is done for scalar fields. One
      * pass over a matrix, a product for each motion of a host's, unless
@@ -27,17 +31,91 @@ namespace abut::solve
     void reinit(const Stiffness &stiffness, const PointOperator &rows,
                 const NearNullSpace &space);
 
+    /** Whether K leaves no motion free. */
+    bool empty() const
+    {
+      return motions_.empty();
+    }
+
+    /** Number of motions that K leaves free. */
+    unsigned int size() const
+    {
+      return static_cast<unsigned int>(motions_.size());
+    }
+
+    /** Combinations of motions that no row with @p resists nonzero feels.
+     * Collective. */
+    std::vector<Combination>
+    free_motions(const PointOperator &rows,
+                 const std::vector<std::uint8_t> &resists) const;
+
+    /** Rows that resist a motion. */
+    struct Resisting
+    {
+      std::vector<std::uint8_t> now;    ///< [rows] constraints and springs
+      std::vector<std::uint8_t> sticks; ///< [rows] if nothing slipped
+      bool has_friction = false;
+    };
+
+    /** The rows that resist in the state of a @p request; points that are not
+     * open are what would stick. Not collective. */
+    static Resisting resisting(const PointOperator &rows,
+                               const LocalElimination &local,
+                               const abut_request &request,
+                               const std::vector<double> &row_stiffness);
+
+    /** [rows] change of the gaps with a motion. */
+    std::vector<double> gap_change(const Combination &combination) const;
+
+    /** Add a motion to a displacement. */
+    void add(const Combination &combination, la::Vector &displacement) const;
+
+    /** [motions] work of @p forces. Collective. */
+    std::vector<double> work(const la::Vector &forces) const;
+
+    /** Those of these motions along which @p residual does work: more than
+     * round-off of a @p load, the sum of the magnitudes of its forces.
+     * Collective. */
+    std::vector<Combination>
+    along_which_works(const std::vector<Combination> &motions,
+                      const la::Vector &residual, double load) const;
+
+    /** [motions x motions] products of motions and [motions] of motions with a
+     * displacement, integrated over the bodies. Collective. */
+    void project(const la::Vector &displacement, std::vector<double> &products,
+                 std::vector<double> &right) const;
+
+    /** Volume that belongs to an unknown, or 1. */
+    double share(const int i) const
+    {
+      return space_.share.empty() ? 1. : space_.share[i];
+    }
+
+    /** Size of the smallest body with a free motion: half its diameter. */
+    double smallest_radius() const;
+
+    /** The body that takes part most in a motion, from 0. */
+    unsigned int body(const Combination &combination) const;
+
+    /** The body and its motion, as "body 1 can rotate about (0, 1)". */
+    std::string describe(const Combination &combination) const;
+
+    /** Throw SolverFailure F12: the first of these motions is free in the
+     * presence of @p n_rows rows. */
+    [[noreturn]] void fail(const std::vector<Combination> &free, double n_rows,
+                           const std::string &which,
+                           const std::string &or_else) const;
+    /** The same for rows in contact. */
+    [[noreturn]] void fail_in_contact(const std::vector<Combination> &free,
+                                      double n_rows) const;
+    /** The same F42: friction is too weak. */
+    [[noreturn]] void fail_slipping(const Combination &free) const;
+
     /** Throw SolverFailure if rows with @p resists nonzero leave a motion
      * free: the message names the body and the motion. O(rows) for each motion
      * that K leaves free. Collective. */
     void check(const PointOperator &rows,
                const std::vector<std::uint8_t> &resists) const;
-
-    /** The same with friction: where rows with @p sticks nonzero would hold
-     * what the others do not, the message says that friction is too weak. */
-    void check(const PointOperator &rows,
-               const std::vector<std::uint8_t> &resists,
-               const std::vector<std::uint8_t> &sticks) const;
 
     /** The same with what constraints and springs of a @p request resist, for
      * rows with @p row_stiffness; if it has friction, points that are not open
@@ -46,10 +124,6 @@ namespace abut::solve
                const abut_request &request,
                const std::vector<double> &row_stiffness) const;
 
-    /** The same if all rows resisted: what is free then no set of rows holds.
-     */
-    void check_all(const PointOperator &rows) const;
-
   private:
     /** A motion of one body: coefficients of its translations and rotations
      * about its centre. */
@@ -57,24 +131,22 @@ namespace abut::solve
     {
       unsigned int body;
       std::vector<double> coefficient;
+      la::Vector displacement;
     };
-
-    void check(const PointOperator &rows,
-               const std::vector<std::uint8_t> &resists,
-               const std::string &which, const std::string &or_else) const;
-    /** Combinations of motions that no resisting row feels. Collective. */
-    std::vector<std::vector<double>>
-    free_motions(const PointOperator &rows,
-                 const std::vector<std::uint8_t> &resists,
-                 double &n_rows) const;
-    std::string describe(const std::vector<double> &combination) const;
 
     NearNullSpace space_;
     unsigned int n_modes_ = 0;
     std::vector<Motion> motions_;
+    /** [bodies] what rotations are about, and what they are measured by. */
+    std::vector<dealii::Point<3>> center_;
+    std::vector<double> radius_;
     /** [motions][rows] change of the gaps with each motion. */
     std::vector<std::vector<double>> gap_;
   };
+
+  /** Number of rows with @p resists nonzero. Collective. */
+  double n_resisting(const PointOperator &rows,
+                     const std::vector<std::uint8_t> &resists);
 } // namespace abut::solve
 
 #endif

@@ -33,6 +33,9 @@ namespace abut::solve
     CommonArray<dealii::Point<3>> point;
     /** [owned] nonzero where the value is prescribed; empty: not known. */
     CommonArray<std::uint8_t> prescribed;
+    /** [owned] part of the volume of the mesh that belongs to the node of each
+     * unknown; empty: the same for all. */
+    CommonArray<double> share;
     /** [n_bodies] for messages; empty: body 1, body 2, ... */
     std::vector<std::string> names;
     /** The coarser meshes, for geometric multigrid; null: not known. */
@@ -44,6 +47,7 @@ namespace abut::solve
       component.change().resize(n);
       body.change().resize(n);
       point.change().resize(n);
+      share.change().resize(n);
     }
 
     /** What owned unknown @p k is. */

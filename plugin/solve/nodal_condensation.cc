@@ -37,8 +37,6 @@ namespace abut::solve
   {
     stiffness_ = &stiffness;
     rows_ = &rows;
-    if (space_.n_components > 1)
-      floating_.reinit(stiffness, rows, space_);
     for (int i = 0; i < rows.n_rows(); ++i)
       AssertThrow(rows.end(i) - rows.begin(i) == 1
                       && rows.column(rows.begin(i)) < rows.n_owned(),
@@ -168,8 +166,6 @@ namespace abut::solve
   {
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
-    if (space_.n_components > 1)
-      floating_.check(*rows_, local_.resisting());
     fill_mask();
     la::Vector rhs(residual);
     fill_right_hand_side(residual, rhs);

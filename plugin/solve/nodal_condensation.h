@@ -2,7 +2,6 @@
 #ifndef ABUT_SOLVE_NODAL_CONDENSATION_H
 #define ABUT_SOLVE_NODAL_CONDENSATION_H
 
-#include "floating_bodies.h"
 #include "local_elimination.h"
 #include "masked_solver.h"
 #include "row_solver.h"
@@ -60,7 +59,6 @@ namespace abut::solve
 
     MaskedSolver solver_;
     NearNullSpace space_;
-    FloatingBodies floating_;
     const la::Matrix *stiffness_ = nullptr;
     const PointOperator *rows_ = nullptr;
     LocalElimination local_;

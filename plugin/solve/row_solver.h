@@ -13,8 +13,32 @@
 
 #include <vector>
 
+#include <string>
+
 namespace abut::solve
 {
+  /** The iteration that requests belong to. */
+  struct ContactIteration
+  {
+    /** [rows] present gaps, which must live as long as the iteration. */
+    const std::vector<double> *gap = nullptr;
+    /** [rows] pair of each row, below n_groups; empty: not known. */
+    std::vector<int> group;
+    std::size_t n_groups = 1;
+    /** Sum of the magnitudes of the loads at nodes, force >= 0. */
+    double load = 0.;
+    /** Tolerance of the last linear systems. */
+    double linear_tolerance = 0.;
+  };
+
+  /** A rigid motion of a body along which loads do no work and which nothing
+   * resists. */
+  struct FreeMotion
+  {
+    unsigned int body = 0;   ///< from 0
+    std::string description; ///< "body 1 can move along (1, 0)"
+  };
+
   /** One linearised step of a contact problem: find du and dp with
    *
    *     K du - sum_i w_i dp_i B_i^T = -R + sum_i w_i p_i B_i^T
@@ -55,6 +79,20 @@ namespace abut::solve
      * had when this was its state(). Call after reinit(). Collective. */
     virtual void restore(const std::vector<PreconditionerState> &)
     {
+    }
+
+    /** Requests are those of a contact iteration from now on, whose states
+     * change. Not collective. */
+    virtual void begin_iteration(const ContactIteration &)
+    {
+    }
+
+    /** The iteration has ended with the states and pressures of @p request.
+     * Returns the rigid motions that they do not determine; throws
+     * SolverFailure if loads do work along such a motion. Collective. */
+    virtual std::vector<FreeMotion> end_iteration(const abut_request &)
+    {
+      return {};
     }
 
     /** Solve with relative tolerance request.linear_tolerance for the

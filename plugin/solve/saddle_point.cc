@@ -148,7 +148,6 @@ namespace abut::solve
     stiffness_ = &stiffness.matrix();
     rows_ = &rows;
     leading_.reinit(stiffness, rows, row_stiffness);
-    floating_.reinit(stiffness, rows, space_);
   }
 
   void SaddlePoint::renew(const Stiffness &stiffness, const PointOperator &rows,
@@ -157,7 +156,6 @@ namespace abut::solve
     stiffness_ = &stiffness.matrix();
     rows_ = &rows;
     leading_.renew(stiffness, rows, row_stiffness);
-    floating_.reinit(stiffness, rows, space_);
   }
 
   std::vector<PreconditionerState> SaddlePoint::state() const
@@ -431,7 +429,6 @@ namespace abut::solve
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
     System system = assemble(residual, request);
-    floating_.check(*rows_, local_, request, leading_.row_stiffness());
 
     std::vector<double> multiplier;
     LinearReport report;

@@ -3,7 +3,6 @@
 #define ABUT_SOLVE_SADDLE_POINT_H
 
 #include "condensed_solver.h"
-#include "floating_bodies.h"
 #include "local_elimination.h"
 #include "row_solver.h"
 
@@ -70,7 +69,6 @@ namespace abut::solve
     SolverParameters parameters_;
     NearNullSpace space_;
     CondensedSolver leading_;
-    FloatingBodies floating_;
     const la::Matrix *stiffness_ = nullptr;
     const PointOperator *rows_ = nullptr;
     LocalElimination local_;

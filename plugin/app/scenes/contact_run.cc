@@ -28,6 +28,10 @@ namespace abut::app
     /** Sums of forces have some of the digits of each. */
     constexpr double ten_times = 10.;
 
+    /** Forces are 0 if they are less, as a part of the largest that there have
+     * been at a node. */
+    constexpr double round_off_of_loads = 1e-8;
+
     /** Forces whose squares still are numbers, which norms are made of. */
     constexpr double least_load = 1e-150;
   } // namespace
@@ -255,8 +259,10 @@ namespace abut::app
   template <int dim>
   double ContactRun<dim>::imbalance(const la::Vector &residual) const
   {
-    const double result =
-        state.contact.imbalance(residual, model.small_force());
+    // A load that passes zero leaves round-off of those before.
+    const double small =
+        std::max(model.small_force(), round_off_of_loads * largest_load);
+    const double result = state.contact.imbalance(residual, small);
     // The first touch of bodies in flight is as soft as chance will have it:
     // what solvers promise is a part of all forces that there are.
     return model.has_inertia()

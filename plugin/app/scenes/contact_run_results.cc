@@ -123,6 +123,8 @@ namespace abut::app
                          state.u, nullptr, model.allows_large_strain());
                    });
     std::vector<ContactFinding> &findings = examination.findings;
+    for (ContactFinding &finding : findings)
+      finding.text = model.with_names(finding.text);
     if (model.has_large_strain())
       findings.erase(std::remove_if(findings.begin(), findings.end(),
                                     [](const ContactFinding &finding) {

@@ -325,6 +325,9 @@ namespace abut::app
     // A step that cannot be shortened is told of at the end.
     if (motion && parameters.load_steps.cut_back)
       return leaves_points();
+    // Elimination of rows has found out what supports the bodies.
+    if (abut_law_is_exact(run.method.options.law))
+      return "";
     for (unsigned int k = 0; k < parts.size() && !motion; ++k)
       if (freedom[k].n_modes > 0
           && !is_held(parts[k], run.contact.pair_results()))

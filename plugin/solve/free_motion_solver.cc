@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "free_motion_solver.h"
+
+#include "pivot_choice.h"
+
+#include <abut/dealii/coded.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace abut::solve
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** Loads do no work along a motion if it is less, as a part of the load
+     * times the size; pressures are none likewise. */
+    constexpr double no_work = 1e-10;
+
+    /** Distance beyond a touch, as a part of the size and of the distance:
+     * facets that are nearly parallel to the other side close together. */
+    constexpr double beyond_size = 1e-6, beyond_distance = 1e-3;
+
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    bool is_open(const PointOperator &rows, const abut_request &request,
+                 const int i)
+    {
+      return !rows.is_tangent(i) && rows.bilateral()[i] == 0
+             && request.state[i] == ABUT_STATE_OPEN;
+    }
+  } // namespace
+
+  FreeMotionSolver::FreeMotionSolver(std::unique_ptr<RowSolver> inner)
+      : inner_(std::move(inner))
+  {
+  }
+
+  void FreeMotionSolver::set_near_null_space(const NearNullSpace &space)
+  {
+    space_ = space;
+    inner_->set_near_null_space(space);
+  }
+
+  void FreeMotionSolver::reinit(const Stiffness &stiffness,
+                                const PointOperator &rows,
+                                const std::vector<double> &row_stiffness)
+  {
+    inner_->reinit(take(stiffness, rows, row_stiffness), rows, row_stiffness);
+  }
+
+  void FreeMotionSolver::renew(const Stiffness &stiffness,
+                               const PointOperator &rows,
+                               const std::vector<double> &row_stiffness)
+  {
+    inner_->renew(take(stiffness, rows, row_stiffness), rows, row_stiffness);
+  }
+
+  std::vector<PreconditionerState> FreeMotionSolver::state() const
+  {
+    return inner_->state();
+  }
+
+  void FreeMotionSolver::restore(const std::vector<PreconditionerState> &state)
+  {
+    inner_->restore(state);
+  }
+
+  const Stiffness &
+  FreeMotionSolver::take(const Stiffness &stiffness, const PointOperator &rows,
+                         const std::vector<double> &row_stiffness)
+  {
+    rows_ = &rows;
+    row_stiffness_ = row_stiffness;
+    floating_.reinit(stiffness, rows, space_);
+    unfelt_ = floating_.free_motions(
+        rows, std::vector<std::uint8_t>(rows.n_rows(), 1));
+    fixed_.clear();
+    if (unfelt_.empty() || !stiffness.has_matrix())
+      return stiffness;
+    fix_unfelt(stiffness);
+    return stiffness_;
+  }
+
+  void FreeMotionSolver::fix_unfelt(const Stiffness &stiffness)
+  {
+    const std::size_t n = unfelt_.size();
+    std::vector<la::Vector> motions;
+    for (const Combination &combination : unfelt_)
+    {
+      motions.push_back(stiffness.make_vector());
+      floating_.add(combination, motions.back());
+    }
+    const std::vector<double> diagonal = stiffness.diagonal();
+    const auto pinned = choose_pivots_of_span(
+        diagonal.size(), static_cast<unsigned int>(n),
+        [&](const std::size_t i)
+        {
+          std::vector<double> values(n);
+          for (std::size_t k = 0; k < n; ++k)
+            values[k] = la::data(motions[k])[i];
+          return values;
+        },
+        stiffness.communicator());
+    fixed_.copy_from(stiffness.matrix());
+    const la::LocalRows matrix = la::local_rows(fixed_);
+    for (const std::size_t i : pinned)
+      for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
+        if (matrix.column[k] == static_cast<int>(i))
+          matrix.value[k] *= 2.;
+    stiffness_ = Stiffness(fixed_);
+  }
+
+  double FreeMotionSolver::work_tolerance() const
+  {
+    return no_work * iteration_.load;
+  }
+
+  void FreeMotionSolver::check_unfelt(const la::Vector &residual) const
+  {
+    if (unfelt_.empty())
+      return;
+    const Combinations refused =
+        has_begun_ && fixed_.m() > 0
+            ? floating_.along_which_works(unfelt_, residual, iteration_.load)
+            : unfelt_;
+    if (!refused.empty())
+      floating_.fail(
+          refused,
+          n_resisting(*rows_, std::vector<std::uint8_t>(rows_->n_rows(), 1)),
+          "contact rows, open or not", "or tie it");
+  }
+
+  FreeMotionSolver::Free
+  FreeMotionSolver::find_free(const la::Vector &residual,
+                              const abut_request &request) const
+  {
+    Free free;
+    free.resisting =
+        FloatingBodies::resisting(*rows_, local_, request, row_stiffness_);
+    free.motions = floating_.free_motions(*rows_, free.resisting.now);
+    if (free.motions.empty())
+      return free;
+    bool slips = false;
+    for (int i = 0; i < rows_->n_rows() && free.resisting.has_friction; ++i)
+      slips = slips || (free.resisting.sticks[i] && !free.resisting.now[i]);
+    free.slips = MPI::logical_or(slips, rows_->communicator());
+    const std::vector<double> work = floating_.work(residual);
+    for (const Combination &motion : free.motions)
+    {
+      double sum = 0.;
+      for (std::size_t k = 0; k < work.size(); ++k)
+        sum -= motion[k] * work[k];
+      free.works = free.works || std::abs(sum) > work_tolerance();
+      free.forces.push_back(sum);
+    }
+    find_mass(free);
+    return free;
+  }
+
+  void FreeMotionSolver::find_mass(Free &free) const
+  {
+    const std::size_t n = free.motions.size(), all = floating_.size();
+    std::vector<double> products, unused;
+    floating_.project(moved_, products, unused);
+    free.mass.assign(n * n, 0.);
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t a = 0; a < all; ++a)
+          for (std::size_t b = 0; b < all; ++b)
+            free.mass[j * n + k] +=
+                free.motions[j][a] * free.motions[k][b] * products[a * all + b];
+  }
+
+  std::vector<double>
+  FreeMotionSolver::divide_by_mass(const Free &free,
+                                   const std::vector<double> &right)
+  {
+    const std::size_t n = right.size();
+    dealii::FullMatrix<double> inverse(n, n);
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t k = 0; k < n; ++k)
+        inverse(j, k) = free.mass[j * n + k];
+    inverse.gauss_jordan();
+    std::vector<double> result(n, 0.);
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t k = 0; k < n; ++k)
+        result[j] += inverse(j, k) * right[k];
+    return result;
+  }
+
+  FreeMotionSolver::Combination
+  FreeMotionSolver::combine(const Combinations &motions,
+                            const std::vector<double> &coefficients) const
+  {
+    Combination result(floating_.size(), 0.);
+    for (std::size_t j = 0; j < motions.size(); ++j)
+      for (std::size_t k = 0; k < result.size(); ++k)
+        result[k] += coefficients[j] * motions[j][k];
+    return result;
+  }
+
+  la::Vector FreeMotionSolver::balanced(const Free &free,
+                                        const la::Vector &residual) const
+  {
+    la::Vector result(residual), motion(residual);
+    motion = 0.;
+    floating_.add(combine(free.motions, divide_by_mass(free, free.forces)),
+                  motion);
+    for (int i = 0; i < la::n_owned(result); ++i)
+      la::data(result)[i] += floating_.share(i) * la::data(motion)[i];
+    return result;
+  }
+
+  LinearReport FreeMotionSolver::solve_with_springs(
+      const Free &free, const la::Vector &residual, const abut_request &request,
+      const double smallest_residual, la::Vector &increment,
+      std::vector<double> &force)
+  {
+    const std::size_t n = free.motions.size();
+    std::vector<std::vector<double>> gap_change;
+    for (const Combination &motion : free.motions)
+      gap_change.push_back(floating_.gap_change(motion));
+    const RowBlocks blocks(request);
+    std::vector<std::int64_t> own(rows_->n_rows());
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      own[i] = i;
+    for (int b = 0; !blocks.empty() && b < blocks.n_blocks(); ++b)
+      for (int r = 0, k = blocks.size(b); r < k; ++r)
+        own[blocks.first[b] + r] = blocks.at[b] + std::int64_t(r) * (k + 1);
+    const auto springs = choose_pivots_of_span(
+        rows_->n_rows(), static_cast<unsigned int>(n),
+        [&](const std::size_t i)
+        {
+          std::vector<double> values(n, 0.);
+          for (std::size_t k = 0; k < n && !free.resisting.now[i]
+                                  && request.d_pressure[own[i]] != 0.;
+               ++k)
+            values[k] = gap_change[k][i];
+          return values;
+        },
+        rows_->communicator());
+    const std::int64_t n_numbers =
+        blocks.empty() ? rows_->n_rows() : blocks.n_numbers();
+    std::vector<double> slope(request.d_gap, request.d_gap + n_numbers);
+    for (const std::size_t i : springs)
+      slope[own[i]] += request.d_pressure[own[i]] * row_stiffness_[i];
+    abut_request with_springs = request;
+    with_springs.d_gap = slope.data();
+    const LinearReport report =
+        inner_->solve(residual, with_springs, smallest_residual, increment);
+    force.assign(rows_->n_rows(), 0.);
+    for (const std::size_t i : springs)
+    {
+      const double pressure = row_stiffness_[i] * request.gap_change[i];
+      request.pressure_change[i] += pressure;
+      force[i] = rows_->weight(i) * pressure;
+    }
+    return report;
+  }
+
+  void
+  FreeMotionSolver::take_forces_of_springs(const std::vector<double> &force,
+                                           Free &free) const
+  {
+    free.works = false;
+    const double tolerance = std::max(
+        work_tolerance(), 10. * iteration_.linear_tolerance * iteration_.load);
+    for (std::size_t k = 0; k < free.motions.size(); ++k)
+    {
+      const std::vector<double> change = floating_.gap_change(free.motions[k]);
+      double sum = 0.;
+      for (std::size_t i = 0; i < force.size(); ++i)
+        sum += force[i] * change[i];
+      free.forces[k] = MPI::sum(sum, rows_->communicator());
+      free.works = free.works || std::abs(free.forces[k]) > tolerance;
+    }
+  }
+
+  double FreeMotionSolver::way_to_touch(const Combination &motion,
+                                        const abut_request &request,
+                                        const bool others) const
+  {
+    constexpr double parallel = 1e-10;
+    const std::vector<double> change = floating_.gap_change(motion);
+    const auto &group = iteration_.group;
+    std::vector<double> touched(iteration_.n_groups, 0.);
+    double largest = 0.;
+    for (int i = 0; i < rows_->n_rows(); ++i)
+    {
+      largest = std::max(largest, std::abs(change[i]));
+      if (request.state[i] != ABUT_STATE_OPEN && !group.empty())
+        touched[group[i]] = 1.;
+    }
+    if (others)
+      MPI::max(touched, rows_->communicator(), touched);
+    largest = MPI::max(largest, rows_->communicator());
+    double way = -infinite;
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      if (is_open(*rows_, request, i) && change[i] < -parallel * largest
+          && !(others && !group.empty() && touched[group[i]] > 0.))
+        way = std::max(way, ((*iteration_.gap)[i] + request.gap_change[i])
+                                / change[i]);
+    return -MPI::max(way, rows_->communicator());
+  }
+
+  void FreeMotionSolver::move(const Combination &motion, const double distance,
+                              const abut_request &request,
+                              la::Vector &increment) const
+  {
+    Combination part(motion);
+    for (double &value : part)
+      value *= distance;
+    floating_.add(part, increment);
+    const std::vector<double> change = floating_.gap_change(part);
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      request.gap_change[i] += change[i];
+  }
+
+  void FreeMotionSolver::advance(const Free &free, const abut_request &request,
+                                 la::Vector &increment)
+  {
+    Combination motion =
+        combine(free.motions, divide_by_mass(free, free.forces));
+    double largest = 0.;
+    for (const double value : motion)
+      largest = std::max(largest, std::abs(value));
+    for (double &value : motion)
+      value /= largest;
+    const double way = way_to_touch(motion, request, free.slips);
+    if (way < infinite)
+    {
+      if (way > 0.)
+        move(motion,
+             way * (1. + beyond_distance)
+                 + beyond_size * floating_.smallest_radius(),
+             request, increment);
+      return;
+    }
+    if (!free.slips
+        || !floating_.free_motions(*rows_, free.resisting.sticks).empty())
+      floating_.fail_in_contact(free.works && free.motions.size() > 1
+                                    ? Combinations{motion}
+                                    : free.motions,
+                                n_resisting(*rows_, free.resisting.now));
+    slipping_ = motion;
+  }
+
+  void FreeMotionSolver::settle(const Free &free, const abut_request &request,
+                                la::Vector &increment) const
+  {
+    la::Vector moved(moved_);
+    moved += increment;
+    std::vector<double> products, work, right;
+    floating_.project(moved, products, work);
+    for (const Combination &motion : free.motions)
+    {
+      double sum = 0.;
+      for (std::size_t k = 0; k < work.size(); ++k)
+        sum -= motion[k] * work[k];
+      right.push_back(sum);
+    }
+    const Combination motion =
+        combine(free.motions, divide_by_mass(free, right));
+    const double way = way_to_touch(motion, request, false);
+    move(motion, std::max(0., std::min(1., way)), request, increment);
+  }
+
+  LinearReport FreeMotionSolver::solve(const la::Vector &residual,
+                                       const abut_request &request,
+                                       const double smallest_residual,
+                                       la::Vector &increment)
+  {
+    slipping_.clear();
+    if (floating_.empty())
+      return inner_->solve(residual, request, smallest_residual, increment);
+    local_.reinit(request, rows_->n_rows(), rows_->weights(),
+                  rows_->communicator());
+    if (!has_begun_)
+    {
+      check_unfelt(residual);
+      floating_.check(*rows_, local_, request, row_stiffness_);
+      return inner_->solve(residual, request, smallest_residual, increment);
+    }
+    if (moved_.size() != increment.size())
+      moved_.reinit(increment);
+    check_unfelt(residual);
+    Free free = find_free(residual, request);
+    LinearReport report;
+    if (free.motions.empty())
+      report = inner_->solve(residual, request, smallest_residual, increment);
+    else
+    {
+      std::vector<double> force;
+      report = solve_with_springs(
+          free, free.slips ? residual : balanced(free, residual), request,
+          smallest_residual, increment, force);
+      if (free.slips)
+        take_forces_of_springs(force, free);
+      if (free.works)
+        advance(free, request, increment);
+      else
+        settle(free, request, increment);
+    }
+    moved_ += increment;
+    return report;
+  }
+
+  void FreeMotionSolver::begin_iteration(const ContactIteration &iteration)
+  {
+    iteration_ = iteration;
+    has_begun_ = true;
+    moved_ = la::Vector();
+    slipping_.clear();
+  }
+
+  std::vector<FreeMotion>
+  FreeMotionSolver::end_iteration(const abut_request &request)
+  {
+    if (!slipping_.empty())
+      floating_.fail_slipping(slipping_);
+    if (floating_.empty())
+      return {};
+    double weight = 0.;
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      weight += rows_->weight(i);
+    weight = MPI::sum(weight, rows_->communicator());
+    const double no_pressure =
+        weight > 0. ? no_work * iteration_.load / weight : 0.;
+    // Rows that are closed by chance resist nothing.
+    std::vector<std::uint8_t> resists(rows_->n_rows(), 0);
+    bool is_pressed = false;
+    for (int i = 0; i < rows_->n_rows(); ++i)
+    {
+      const std::uint8_t state = request.state[i];
+      if (!rows_->is_tangent(i))
+        is_pressed = rows_->bilateral()[i] != 0
+                     || (state != ABUT_STATE_OPEN
+                         && std::abs(request.pressure[i]) > no_pressure);
+      resists[i] = is_pressed;
+    }
+    std::vector<FreeMotion> result;
+    for (const Combination &motion : floating_.free_motions(*rows_, resists))
+      result.push_back({floating_.body(motion), floating_.describe(motion)});
+    return result;
+  }
+} // namespace abut::solve

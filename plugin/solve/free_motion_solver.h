@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SOLVE_FREE_MOTION_SOLVER_H
+#define ABUT_SOLVE_FREE_MOTION_SOLVER_H
+
+#include "floating_bodies.h"
+#include "row_solver.h"
+
+#include <memory>
+#include <string>
+
+namespace abut::solve
+{
+  /** A solver of rows for bodies that contact alone supports. Where the rows
+   * of a request leave rigid motions free, which makes the system singular,
+   *
+   *   - motions that no row at all feels are constrained by springs at as many
+   *     unknowns, the others by springs on as many open or slipping rows,
+   *   - inertia balances the loads along these motions (M z c with
+   *     z.M z c = z.F), so that no spring has a force,
+   *   - bodies then move along them: by the least distance in the mean square
+   *     if the loads do no work, else as far as an open row allows, and a
+   *     little further, so that the active set closes that row.
+   *
+   * A motion along which loads do work and which no row stops is F12 at once,
+   * or F42 at the end of the iteration if friction could stop it. Without
+   * begin_iteration() each free motion is F12 or F42. */
+  class FreeMotionSolver : public RowSolver
+  {
+  public:
+    explicit FreeMotionSolver(std::unique_ptr<RowSolver> inner);
+
+    void set_near_null_space(const NearNullSpace &space) override;
+    void reinit(const Stiffness &stiffness, const PointOperator &rows,
+                const std::vector<double> &row_stiffness) override;
+    void renew(const Stiffness &stiffness, const PointOperator &rows,
+               const std::vector<double> &row_stiffness) override;
+    std::vector<PreconditionerState> state() const override;
+    void restore(const std::vector<PreconditionerState> &state) override;
+    void begin_iteration(const ContactIteration &iteration) override;
+    std::vector<FreeMotion> end_iteration(const abut_request &request) override;
+    LinearReport solve(const la::Vector &residual, const abut_request &request,
+                       double smallest_residual,
+                       la::Vector &increment) override;
+
+  private:
+    using Combination = FloatingBodies::Combination;
+    using Combinations = std::vector<Combination>;
+
+    /** The motions that the present request leaves free. */
+    struct Free
+    {
+      Combinations motions;
+      FloatingBodies::Resisting resisting;
+      bool slips = false;         ///< friction acts along some of them
+      std::vector<double> forces; ///< [motions] work of the loads
+      bool works = false;         ///< and it is no round-off
+      std::vector<double> mass;   ///< [motions x motions]
+    };
+
+    const Stiffness &take(const Stiffness &stiffness, const PointOperator &rows,
+                          const std::vector<double> &row_stiffness);
+    void fix_unfelt(const Stiffness &stiffness);
+    void check_unfelt(const la::Vector &residual) const;
+    Free find_free(const la::Vector &residual,
+                   const abut_request &request) const;
+    void find_mass(Free &free) const;
+    la::Vector balanced(const Free &free, const la::Vector &residual) const;
+    LinearReport
+    solve_with_springs(const Free &free, const la::Vector &residual,
+                       const abut_request &request, double smallest_residual,
+                       la::Vector &increment, std::vector<double> &force);
+    void take_forces_of_springs(const std::vector<double> &force,
+                                Free &free) const;
+    /** Solve mass c = right. */
+    static std::vector<double> divide_by_mass(const Free &free,
+                                              const std::vector<double> &right);
+    Combination combine(const Combinations &motions,
+                        const std::vector<double> &coefficients) const;
+    /** How far a motion may go until an open row closes, infinite if none
+     * does; with @p others rows of pairs without closed rows alone count.
+     * Collective. */
+    double way_to_touch(const Combination &motion, const abut_request &request,
+                        bool others) const;
+    void move(const Combination &motion, double distance,
+              const abut_request &request, la::Vector &increment) const;
+    void advance(const Free &free, const abut_request &request,
+                 la::Vector &increment);
+    void settle(const Free &free, const abut_request &request,
+                la::Vector &increment) const;
+    double work_tolerance() const;
+
+    std::unique_ptr<RowSolver> inner_;
+    NearNullSpace space_;
+    FloatingBodies floating_;
+    Combinations unfelt_; ///< motions that no row feels
+    const PointOperator *rows_ = nullptr;
+    std::vector<double> row_stiffness_;
+    la::Matrix fixed_; ///< the matrix with springs against unfelt motions
+    Stiffness stiffness_;
+    LocalElimination local_;
+    ContactIteration iteration_;
+    bool has_begun_ = false;
+    la::Vector moved_;     ///< by this iteration
+    Combination slipping_; ///< motion that friction does not stop; empty: none
+  };
+} // namespace abut::solve
+
+#endif

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Bodies that touch exactly, or but for small distances, and that contact alone
+supports: seeded ladders and blocks, whose forces follow from statics."""
+import math
+import random
+
+from program import Program, set_words
+
+p = Program()
+random.seed(34)
+SHIFTS = [0., 1e-17, -1e-17, 1e-12, -1e-12, 3e-9, -3e-9, 1e-8, 1e-6, -1e-6]
+
+
+def section(name, *lines):
+    return "\n".join([f"subsection {name}",
+                      *(line if line.startswith("subsection")
+                        else f"set {line}" for line in lines), "end"])
+
+
+def ladder(name, length, thickness, degrees, weight, mu, shift):
+    """A bar on a rough floor that leans on a smooth wall; the force of the
+    wall by moments about the foot."""
+    a = math.radians(180 - degrees)
+    c, s = math.cos(a), math.sin(a)
+    move = (-length * c + thickness * s, -thickness * c)
+    middle = length / 2 * c - thickness / 2 * s + move[0]
+    foot, top = -length * c, length * s
+    force = weight * (foot - middle) / top
+    density = weight / (length * thickness)
+    p.write(name, "\n".join([
+        "set Scene = solid", "set Dimension = 2",
+        section("Solid", "Pairs = 2", "Obstacles = 2"),
+        section("Body 1", section(
+            "Mesh", "Generator = subdivided_hyper_rectangle",
+            f"Arguments = 2, 1 : 0, 0 : {length!r}, {thickness!r} : true",
+            f"Rotate = {180 - degrees!r}", f"Move = {move[0]!r}, {move[1]!r}"),
+            "Young modulus = 1e5", "Poisson ratio = 0.3",
+            f"Body force = 0, -{density!r}*t"),
+        section("Obstacle 1", "Kind = plane", f"Point = 0, {shift!r}"),
+        section("Obstacle 2", "Kind = plane", "Normal = 1, 0"),
+        section("Pair 1", "Secondary = 1: 0", "Obstacle = 1",
+                f"Friction = {mu * force / weight!r}"),
+        section("Pair 2", "Secondary = 1: 1", "Obstacle = 2"),
+        section("Refinement", "Level = 0")]) + "\n")
+    return force
+
+
+def run(scene, *settings):
+    return p.call("run", scene, "--output", "out", "--quiet", *set_words(
+        ["Output/Fields=false", "Output/Pictures=false", *settings]))
+
+
+# Friction is a tenth more than what holds, or less.
+for number, shift in enumerate(SHIFTS):
+    length, degrees = random.uniform(2, 6), random.uniform(50, 75)
+    shape = (length, length * random.uniform(0.03, 0.1), degrees,
+             random.uniform(0.5, 2))
+    wall = ladder("ladder.prm", *shape, 1.1, shift)
+    result = run("ladder.prm")
+    p.expect(result.returncode == 0 and "ABUT-" not in result.stderr,
+             f"ladder {number} {shape} {shift}: {result.stderr}")
+    summary = p.results()[0]
+    # Shifts of 1e-6 tilt the body, linearised, by no first order of forces.
+    p.close(summary["pair_2_force"][0], wall, 1e-8, f"ladder {number}")
+    p.close(summary["pair_1_force"][1], shape[3], 1e-8, f"ladder {number}")
+    ladder("ladder.prm", *shape, 0.9, shift)
+    result = run("ladder.prm")
+    p.expect(result.returncode == 3 and "ABUT-F42" in result.stderr
+             and "can rotate about" in result.stderr,
+             f"ladder {number} with less friction: {result.stderr}")
+
+# No load is an answer, as is one that passes zero, and a body that is lifted
+# off its only plane is none.
+block = p.write("block.prm", "\n".join([
+    "set Scene = solid", "set Dimension = 2",
+    section("Solid", "Pairs = 1", "Obstacles = 1"),
+    section("Body 1", section(
+        "Mesh", "Generator = subdivided_hyper_rectangle",
+        "Arguments = 3, 2 : 0, 0 : 1.5, 1 : true"),
+        "Young modulus = 100", "Poisson ratio = 0.25",
+        "Support = 0: 0, free"),
+    section("Obstacle 1", "Kind = plane"),
+    section("Pair 1", "Secondary = 1: 2", "Obstacle = 1"),
+    section("Refinement", "Level = 0")]) + "\n")
+for load, code, force in (("0", 0, 0.), ("-sin(pi*t)", 0, 0.),
+                          ("-t", 0, 1.5), ("t", 3, None)):
+    result = run(block, f"Body 1/Body force=0, {load}", "Load steps/Steps=2")
+    p.expect(result.returncode == code, f"load {load}: {result.stderr}")
+    p.expect(("ABUT-F12" in result.stderr) == (load != "-t"),
+             f"load {load}: {result.stderr}")
+    if force is not None:
+        p.close(p.results()[0]["pair_1_force"][1], force, 1e-9, f"load {load}")
+p.finish()
