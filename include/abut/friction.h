@@ -102,6 +102,9 @@ extern "C"
     /** Nonzero: linearise tau - rho x/|x| as it stands, with nothing held in
      * the disc and nothing kept regular (ABUT_FRICTION_RADIAL_RETURN). */
     int32_t radial_return;
+    /** [m] 1/eps of each tangent, instead of compliance; NULL: that of the
+     * point. */
+    const double *tangent_compliance;
   } abut_friction_points;
 
   /** The linearisation of the head of the file; arrays owned by the caller. M

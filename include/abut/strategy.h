@@ -240,6 +240,20 @@ extern "C"
   /** Destroy a strategy and set the handle to NULL. */
   ABUT_API abut_status abut_strategy_destroy(abut_strategy **strategy);
 
+  /** What supports leave of a tangent: where they fix the node of a point,
+   * stick is no constraint, but friction remains. Along such tangents a point
+   * that sticks has springs of 1e4 times the stiffness of its row, which go on
+   * from the traction at the last accepted step; laws that keep their penalty
+   * have their own. */
+  typedef enum abut_tangent
+  {
+    ABUT_TANGENT_FREE,
+    /** Stick would be a condition for what other points fix already. */
+    ABUT_TANGENT_GUIDED,
+    /** The slip is prescribed: it does not change with the unknowns. */
+    ABUT_TANGENT_PRESCRIBED
+  } abut_tangent;
+
   /** Points with friction; arrays are owned by the caller. The rows of such a
    * point stand together, the normal first; in the tangents' rows gap means
    * slip since the last accepted step and pressure means traction. */
@@ -262,6 +276,8 @@ extern "C"
     int32_t n_rivals;
     const int32_t *rival_point; /**< [n_rivals] index of a point, ascending */
     const int32_t *rival_row;   /**< [n_rivals] row */
+    /** [m] abut_tangent of each tangent; NULL: all are free. */
+    const uint8_t *tangent;
   } abut_strategy_friction;
 
   /** Friction for all starts that follow, copied; NULL: none. Where it is given

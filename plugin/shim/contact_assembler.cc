@@ -167,7 +167,7 @@ namespace abut
     i.start_displacement = la::Vector();
     i.committed_is_lost = i.committed_is_lost || i.committed.size() > 0;
     i.committed = la::Vector();
-    i.slip_reference.clear();
+    i.slip_reference = {};
     i.start_pressure.clear();
     i.reference.reset();
     i.law_compliance = la::Vector();
@@ -390,8 +390,7 @@ namespace abut
     add_contact_forces(forces);
     std::vector<double> gap(i.coefficients.n_rows());
     i.coefficients.gap(displacement, gap.data());
-    for (std::size_t row = 0; row < i.slip_reference.size(); ++row)
-      gap[row] -= i.slip_reference[row];
+    i.slip_reference.subtract_from(gap);
     double sum = 0.;
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {

@@ -260,8 +260,7 @@ namespace abut
         solve::row_stiffness(law_compliance, rows);
     std::vector<double> gap_there(n), force(n, 0.);
     rows.gap(displacement, gap_there.data());
-    for (std::size_t row = 0; row < there.slip_reference.size(); ++row)
-      gap_there[row] -= there.slip_reference[row];
+    there.slip_reference.subtract_from(gap_there);
     double sum = 0.;
     for (int row = 0; row < n; ++row)
     {

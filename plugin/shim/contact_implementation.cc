@@ -371,7 +371,7 @@ namespace abut
   template <int dim>
   void ContactAssembler<dim>::Implementation::find_slip_reference()
   {
-    slip_reference.clear();
+    slip_reference = {};
     has_friction = MPI::logical_or(coefficients.has_tangents(), communicator);
     if (!has_friction)
       return;
@@ -402,6 +402,7 @@ namespace abut
     friction.n_tangents = points_with_friction.n_tangents.data();
     friction.coefficient = points_with_friction.coefficient.data();
     friction.cap = points_with_friction.cap.data();
+    friction.tangent = points_with_friction.tangent.data();
     friction.reference_traction = traction.empty() ? nullptr : traction.data();
     if (!abut_law_has_penalty(method.options.law))
     {
@@ -446,8 +447,7 @@ namespace abut
   {
     gap.resize(coefficients.n_rows());
     coefficients.gap(displacement, gap.data());
-    for (std::size_t row = 0; row < slip_reference.size(); ++row)
-      gap[row] -= slip_reference[row];
+    slip_reference.subtract_from(gap);
     if (is_nitsche())
       nitsche.stress.gap(displacement, nitsche.present.data());
   }

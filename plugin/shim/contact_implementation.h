@@ -136,7 +136,7 @@ namespace abut
     {
       shim::Handle<abut_points> points;
       solve::PointOperator rows;
-      std::vector<double> slip_reference; ///< [rows] empty: 0
+      shim::RowSource::SlipReference slip_reference;
     };
     /** The rows at this displacement, while the present ones stay. Collective.
      */
@@ -276,7 +276,7 @@ namespace abut
     std::vector<RigidPose<dim>> committed_poses; ///< of obstacles; empty: first
     std::vector<double> committed_times;         ///< of obstacles, likewise
     bool committed_is_lost = false;              ///< of another mesh or run
-    std::vector<double> slip_reference;          ///< [rows] slip then; empty: 0
+    shim::RowSource::SlipReference slip_reference;
     /** [rows] place of a row's own derivatives in those of the request. */
     std::vector<std::int64_t> diagonal;
     /** Of each unknown of this rank, in the matrix that penalties are

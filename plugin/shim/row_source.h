@@ -65,10 +65,9 @@ namespace abut::shim
                         abut_points *points) = 0;
 
     /** Mark with 0 the rows that are no constraints although they have
-     * unknowns. Tangents along which supports hold the node of the point, where
-     * the unknowns are those of its neighbours: with them standard multipliers
-     * would outnumber what they hold. Contacts with friction, or beside such,
-     * that another one of the same node and direction keeps from closing. Not
+     * unknowns: contacts with friction, or beside such, that another one of the
+     * same node and direction keeps from closing. Tangents stay with their
+     * normal, also without unknowns: friction there is a force on supports. Not
      * collective. */
     virtual void drop_needless(std::vector<std::uint8_t> &) const
     {
@@ -123,6 +122,8 @@ namespace abut::shim
       std::vector<std::int32_t> first;      ///< row of the normal
       std::vector<std::uint8_t> n_tangents; ///< rows behind it
       std::vector<double> coefficient, cap; ///< mu, and largest traction
+      /** [tangents] what supports leave of them, see abut_tangent */
+      std::vector<std::uint8_t> tangent;
       /** Points, by their place in these lists, and normals of other contacts
        * of the same node. */
       std::vector<std::int32_t> rival_point, rival_row;
@@ -134,11 +135,25 @@ namespace abut::shim
       return {};
     }
 
-    /** [rows] what the slips of tangents are measured from: their values at
-     * the displacement of the last commit(), prescribed values as they were
-     * then (empty: 0), and what obstacles have moved since; 0 in other rows.
-     * Collective. */
-    virtual std::vector<double> slip_reference(const la::Vector &)
+    /** What the slips of tangents are measured from. */
+    struct SlipReference
+    {
+      std::vector<double> value; ///< [rows] empty: 0
+      /** [rows] nonzero: the slip is minus the value, whatever the unknowns. */
+      std::vector<std::uint8_t> is_prescribed;
+
+      /** From the rows' values to slips, in place. */
+      void subtract_from(std::vector<double> &gap) const
+      {
+        for (std::size_t row = 0; row < value.size(); ++row)
+          gap[row] = (is_prescribed[row] != 0 ? 0. : gap[row]) - value[row];
+      }
+    };
+
+    /** The values of tangents at the displacement of the last commit(),
+     * prescribed values as they were then (empty: 0), and what obstacles have
+     * moved since; 0 in other rows. Collective. */
+    virtual SlipReference slip_reference(const la::Vector &)
     {
       return {};
     }

@@ -60,6 +60,10 @@ namespace abut::shim
 
     /** Normals that differ by less, 1 - cosine, are the same. */
     constexpr double same_direction = 1e-12;
+
+    /** A node that can move along a tangent only this little (1: freely) takes
+     * part in stick by springs, and below the second number not at all. */
+    constexpr double least_freedom = 0.5, no_freedom = 1e-8;
   } // namespace
 
   template <int dim>
@@ -98,7 +102,59 @@ namespace abut::shim
   }
 
   template <int dim>
-  bool SurfacePairRows<dim>::is_guided(const std::size_t point) const
+  typename SurfacePairRows<dim>::TangentSupport
+  SurfacePairRows<dim>::support_of(const Component &row) const
+  {
+    const auto is_fixed = [&](const Node node)
+    { return freedom(node, row.direction) < no_freedom; };
+    const auto own = static_cast<Node>(row.place.node);
+    if (own < 0)
+    {
+      bool moves = false;
+      const auto look = [&](const Node node, double)
+      { moves = moves || !is_fixed(node); };
+      for_each_secondary(row.point, look);
+      for_each_primary(row.point, look);
+      return {moves ? ABUT_TANGENT_FREE : ABUT_TANGENT_PRESCRIBED, -1};
+    }
+    if (freedom(own, row.direction) >= least_freedom)
+      return {};
+    if (!is_fixed(own))
+      return {ABUT_TANGENT_GUIDED, -1};
+    if (pairs_[row.place.pair].data.obstacle != nullptr)
+      return {ABUT_TANGENT_PRESCRIBED, -1};
+    Node opposite = -1;
+    double largest = 0.;
+    for_each_primary(row.point,
+                     [&](const Node node, const double c)
+                     {
+                       if (std::abs(c) <= largest || !is_fixed(node))
+                         return;
+                       largest = std::abs(c);
+                       opposite = node;
+                     });
+    return {opposite < 0 ? ABUT_TANGENT_GUIDED : ABUT_TANGENT_PRESCRIBED,
+            opposite};
+  }
+
+  template <int dim>
+  std::vector<abut_tangent>
+  SurfacePairRows<dim>::tangent_kinds(const std::size_t point) const
+  {
+    std::vector<abut_tangent> kinds;
+    for (std::int32_t row = view_.component_start[point] + 1;
+         row < view_.component_start[point + 1]; ++row)
+      kinds.push_back(support_of(component(point, row)).kind);
+    if (is_guided(point, kinds))
+      std::replace(kinds.begin(), kinds.end(), ABUT_TANGENT_FREE,
+                   ABUT_TANGENT_GUIDED);
+    return kinds;
+  }
+
+  template <int dim>
+  bool
+  SurfacePairRows<dim>::is_guided(const std::size_t point,
+                                  const std::vector<abut_tangent> &kinds) const
   {
     constexpr double small = 1e-8;
     const std::int32_t first = view_.component_start[point];
@@ -106,6 +162,8 @@ namespace abut::shim
     for (std::int32_t row = first; row < view_.component_start[point + 1];
          ++row)
     {
+      if (row > first && kinds[row - first - 1] != ABUT_TANGENT_FREE)
+        continue;
       Motion motion;
       double whole = 0.;
       const auto add = [&](const Node node, const double c)
@@ -122,7 +180,7 @@ namespace abut::shim
       for_each_secondary(point, add);
       for_each_primary(point, add);
       if (product(motion, motion) <= small * whole)
-        continue; // held, and so there is nothing to hold
+        continue;
       for (const Motion &other : seen)
       {
         const double part = product(motion, other) / product(other, other);
@@ -160,8 +218,9 @@ namespace abut::shim
       result.n_tangents.push_back(static_cast<std::uint8_t>(n - 1));
       const double coefficient = value_of<dim>(
           friction.coefficient, place, "coefficient of friction", wrong);
-      // Stick and contact would be two conditions for one way that is left.
-      result.coefficient.push_back(is_guided(i) ? 0. : coefficient);
+      result.coefficient.push_back(coefficient);
+      for (const abut_tangent kind : tangent_kinds(i))
+        result.tangent.push_back(static_cast<std::uint8_t>(kind));
       result.cap.push_back(
           friction.cap
               ? value_of<dim>(friction.cap, place, "largest traction", wrong)
@@ -281,7 +340,24 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::vector<double>
+  double
+  SurfacePairRows<dim>::prescribed_slip(const Component &row,
+                                        const Node opposite,
+                                        const std::vector<Direction> &u) const
+  {
+    const auto way = [&](const Node node)
+    {
+      Direction now;
+      for (unsigned int d = 0; d < dim; ++d)
+        now[d] = surface_.map.constant(node, d);
+      return (now - u[node]) * row.direction;
+    };
+    return (opposite < 0 ? 0. : way(opposite))
+           - way(static_cast<Node>(row.place.node));
+  }
+
+  template <int dim>
+  RowSource::SlipReference
   SurfacePairRows<dim>::slip_reference(const la::Vector &committed)
   {
     std::vector<Direction> u(surface_.nodes.size());
@@ -291,7 +367,8 @@ namespace abut::shim
                                       then = poses_before(now, true);
     refuse_turns(then, now);
     find_partners(u);
-    std::vector<double> result(view_.n_components, 0.);
+    SlipReference result = {std::vector<double>(view_.n_components, 0.),
+                            std::vector<std::uint8_t>(view_.n_components, 0)};
     for_each_row(
         [&](const Component &row)
         {
@@ -299,11 +376,16 @@ namespace abut::shim
             return;
           const std::size_t p = row.place.pair;
           const Partners *const partners = partners_of(row);
-          result[row.row] = partners != nullptr
-                                ? reference_of_slip(row, *partners)
-                                : reference_of_slip(row, u);
+          const TangentSupport support = support_of(row);
+          const bool is_prescribed =
+              row.place.node >= 0 && support.kind == ABUT_TANGENT_PRESCRIBED;
+          result.is_prescribed[row.row] = is_prescribed;
+          result.value[row.row] =
+              is_prescribed         ? -prescribed_slip(row, support.opposite, u)
+              : partners != nullptr ? reference_of_slip(row, *partners)
+                                    : reference_of_slip(row, u);
           if (pairs_[p].data.obstacle != nullptr)
-            result[row.row] -=
+            result.value[row.row] -=
                 way_of(row.place.position, then[p], now[p]) * row.direction;
         });
     return result;
@@ -372,7 +454,7 @@ namespace abut::shim
   template RowSource::FrictionalPoints SurfacePairRows<dim>::friction() const; \
   template double SurfacePairRows<dim>::reference_of_slip(                     \
       const Component &, const std::vector<Direction> &) const;                \
-  template std::vector<double> SurfacePairRows<dim>::slip_reference(           \
+  template RowSource::SlipReference SurfacePairRows<dim>::slip_reference(      \
       const la::Vector &);                                                     \
   template dealii::Tensor<1, dim> SurfacePairRows<dim>::way_of(                \
       const dealii::Point<dim> &, const RigidPose<dim> &,                      \
@@ -380,7 +462,6 @@ namespace abut::shim
   template std::vector<RigidPose<dim>> SurfacePairRows<dim>::poses() const;    \
   template std::vector<RigidPose<dim>> SurfacePairRows<dim>::poses_before(     \
       std::vector<RigidPose<dim>>, bool) const;                                \
-  template bool SurfacePairRows<dim>::is_guided(std::size_t) const;            \
   template void SurfacePairRows<dim>::drop_covered(                            \
       std::vector<std::uint8_t> &) const;                                      \
   template void SurfacePairRows<dim>::find_rivals(FrictionalPoints &) const;   \

@@ -9,21 +9,26 @@
 namespace abut::shim
 {
   template <int dim>
+  typename SurfacePairRows<dim>::Component
+  SurfacePairRows<dim>::component(const std::size_t point,
+                                  const std::int32_t row) const
+  {
+    const double sign =
+        abut_point_sign(view_.kind[point], row - view_.component_start[point]);
+    Direction direction;
+    for (unsigned int d = 0; d < dim; ++d)
+      direction[d] = -sign * view_.frame[row * std::size_t(dim) + d];
+    return {point, static_cast<std::size_t>(row), places_[point], direction};
+  }
+
+  template <int dim>
   template <typename Function>
   void SurfacePairRows<dim>::for_each_row(const Function &function) const
   {
     for (std::size_t i = 0; i < places_.size(); ++i)
       for (std::int32_t row = view_.component_start[i];
            row < view_.component_start[i + 1]; ++row)
-      {
-        const double sign =
-            abut_point_sign(view_.kind[i], row - view_.component_start[i]);
-        Direction direction;
-        for (unsigned int d = 0; d < dim; ++d)
-          direction[d] = -sign * view_.frame[row * std::size_t(dim) + d];
-        function(
-            Component{i, static_cast<std::size_t>(row), places_[i], direction});
-      }
+        function(component(i, row));
   }
 
   template <int dim>

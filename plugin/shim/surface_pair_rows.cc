@@ -26,8 +26,8 @@ namespace abut::shim
 
   namespace
   {
-    /** A node that can move along a direction only this little (1: freely)
-     * is held there. */
+    /** A node that can move along a normal only this little (1: freely) has no
+     * contact of its own. */
     constexpr double least_freedom = 0.5;
 
     /** Lists of candidates where bodies are are too long by this part of a
@@ -656,16 +656,12 @@ namespace abut::shim
   void
   SurfacePairRows<dim>::drop_needless(std::vector<std::uint8_t> &keep) const
   {
+    for (std::int32_t i = 0; i < view_.n_points; ++i)
+      if (view_.kind[i] == ABUT_POINT_CONTACT)
+        for (auto row = view_.component_start[i] + 1;
+             row < view_.component_start[i + 1]; ++row)
+          keep[row] = keep[view_.component_start[i]];
     drop_covered(keep);
-    for_each_row(
-        [&](const Component &row)
-        {
-          // Tangents that turn are not quite along what supports hold.
-          if (is_tangent(row) && row.place.node >= 0
-              && freedom(static_cast<Node>(row.place.node), row.direction)
-                     < least_freedom)
-            keep[row.row] = 0;
-        });
   }
 
   template <int dim>

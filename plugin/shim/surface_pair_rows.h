@@ -9,6 +9,7 @@
 
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/surface_traction.h>
+#include <abut/strategy.h>
 
 #include <algorithm>
 #include <optional>
@@ -107,7 +108,7 @@ namespace abut::shim
     std::uint64_t mesh_signature() const override;
     std::vector<PlacedRow> placed_rows() const override;
     FrictionalPoints friction() const override;
-    std::vector<double> slip_reference(const la::Vector &committed) override;
+    SlipReference slip_reference(const la::Vector &committed) override;
     std::vector<double> row_pressure(const la::Vector &field) const override;
     la::Vector pressure(const double *row_pressure) const override;
     la::Vector gap(const double *row_gap) const override;
@@ -334,6 +335,8 @@ namespace abut::shim
       Direction direction;
     };
 
+    Component component(std::size_t point, std::int32_t row) const;
+
     bool is_tangent(const Component &row) const
     {
       return view_.kind[row.point] == ABUT_POINT_CONTACT
@@ -392,9 +395,25 @@ namespace abut::shim
     double reference_of_slip(const Component &row,
                              const std::vector<Direction> &u) const;
     bool has_partners(const Pair &pair) const;
-    /** Whether what supports leave free at a point moves it along a tangent
-     * only as it moves along the normal or the other tangent. */
-    bool is_guided(std::size_t point) const;
+    /** What supports leave of a tangent of a point. */
+    struct TangentSupport
+    {
+      abut_tangent kind = ABUT_TANGENT_FREE;
+      /** Node of the primary that moves as what is opposite of the point, where
+       * a support prescribes that, too; or -1. */
+      Node opposite = -1;
+    };
+    TangentSupport support_of(const Component &tangent) const;
+    /** Whether what supports leave free at a point moves it along a tangent of
+     * @p kinds free only as it moves along the normal or the other tangent. */
+    bool is_guided(std::size_t point,
+                   const std::vector<abut_tangent> &kinds) const;
+    /** What supports leave of the tangents of a point. */
+    std::vector<abut_tangent> tangent_kinds(std::size_t point) const;
+    /** How far supports take a point along a tangent since nodes were displaced
+     * by @p u. */
+    double prescribed_slip(const Component &row, Node opposite,
+                           const std::vector<Direction> &u) const;
     /** Mark with 0 the rows of contacts that are behind another one. */
     void drop_covered(std::vector<std::uint8_t> &keep) const;
     /** Note where contacts share a node of the secondary. */

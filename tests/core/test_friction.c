@@ -18,6 +18,8 @@ typedef struct sample
   uint8_t n_tangents[MANY], state[MANY];
   double slip[2 * MANY], traction[2 * MANY], reference[2 * MANY];
   double compliance[MANY], scale[MANY], bound[MANY], d_bound[MANY];
+  bool has_tangent_compliance;
+  double tangent_compliance[2 * MANY];
   double residual[2 * MANY], d_traction[4 * MANY], d_slip[4 * MANY];
   double d_pressure[2 * MANY], direction[2 * MANY];
 } sample;
@@ -72,6 +74,8 @@ points_of(const sample *s)
       .scale = s->scale,
       .bound = s->bound,
       .d_bound = s->d_bound,
+      .tangent_compliance =
+          s->has_tangent_compliance ? s->tangent_compliance : NULL,
   };
   return points;
 }
@@ -171,8 +175,11 @@ length_at(const sample *s, int32_t point, int32_t first)
   double square = 0;
   for (int32_t k = first; k < first + s->n_tangents[point]; ++k)
   {
+    const double compliance = s->has_tangent_compliance
+                                  ? s->tangent_compliance[k]
+                                  : s->compliance[point];
     const double shifted =
-        s->slip[k] + (s->traction[k] - s->reference[k]) * s->compliance[point];
+        s->slip[k] + (s->traction[k] - s->reference[k]) * compliance;
     const double x = s->traction[k] - s->scale[point] * shifted;
     square += x * x;
   }
@@ -231,11 +238,14 @@ check_differences(const sample *s, int c, bool by_slip)
 }
 
 static void
-differences(void **unused)
+check_all_differences(bool has_tangent_compliance)
 {
-  (void)unused;
   static sample s;
   draw(&s, 3);
+  s.has_tangent_compliance = has_tangent_compliance;
+  uint64_t seed = 7;
+  for (int32_t k = 0; k < s.m; ++k)
+    s.tangent_compliance[k] = k % 3 == 0 ? 0 : between(&seed, 0, 0.2);
   classify_and_linearise(&s);
   for (int32_t i = 0; i < s.n; i += 5)
     s.state[i] = ABUT_STATE_OPEN;
@@ -245,6 +255,21 @@ differences(void **unused)
     assert_true(check_differences(&s, 0, by_slip != 0) > MANY / 2);
     assert_true(check_differences(&s, 1, by_slip != 0) > MANY / 4);
   }
+}
+
+static void
+differences(void **unused)
+{
+  (void)unused;
+  check_all_differences(false);
+}
+
+/* With one spring for each tangent. */
+static void
+differences_of_tangents(void **unused)
+{
+  (void)unused;
+  check_all_differences(true);
 }
 
 /* Where the law holds, tau = rho e, the blocks are C's own derivatives, that by
@@ -545,6 +570,7 @@ main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_residual_vanishes_where_the_law_holds),
       cmocka_unit_test(differences),
+      cmocka_unit_test(differences_of_tangents),
       cmocka_unit_test(differences_at_slip),
       cmocka_unit_test(the_block_is_regular),
       cmocka_unit_test(opposed_tractions),

@@ -66,11 +66,8 @@ class PairFriction:
             bound = self.constant * s[f"{key}_normal_force"]
             total = s[f"{key}_friction_force"]
             self.check("sum of friction below mu N", (total - bound) / size)
-            # where a support holds a node there is no friction
-            held = any(any(self.solid.held[i]) and norm(self.solid.contact[i])
-                       for i in self.nodes)
             if (s[f"{key}_slipping"] == s[f"{key}_active"] and not self.cap
-                    and not self.shared and not held):
+                    and not self.shared):
                 self.check("all slips: sum of friction is mu N",
                            (bound - total) / size)
         self.check("dissipation is not negative",

@@ -18,8 +18,9 @@ typedef struct contact
 {
   int32_t t;
   double x[MAX_T], tau[MAX_T], shifted[MAX_T]; /* x, tau, s~ */
+  double compliance[MAX_T];                    /* 1/eps */
   double length, rho;                          /* |x|, rho */
-  double c, compliance;
+  double c;
   bool radial_return;
 } contact;
 
@@ -41,17 +42,19 @@ contact_at(const abut_friction_points *points, int32_t i, int64_t first)
   contact at = {.t = points->n_tangents[i],
                 .rho = points->bound[i],
                 .c = points->scale[i],
-                .radial_return = points->radial_return != 0,
-                .compliance =
-                    points->compliance == NULL ? 0 : points->compliance[i]};
+                .radial_return = points->radial_return != 0};
   for (int32_t k = 0; k < at.t; ++k)
   {
     const double reference = points->reference_traction == NULL
                                  ? 0
                                  : points->reference_traction[first + k];
+    at.compliance[k] = points->tangent_compliance != NULL
+                           ? points->tangent_compliance[first + k]
+                       : points->compliance != NULL ? points->compliance[i]
+                                                    : 0;
     at.tau[k] = points->traction[first + k];
     at.shifted[k] =
-        points->slip[first + k] + (at.tau[k] - reference) * at.compliance;
+        points->slip[first + k] + (at.tau[k] - reference) * at.compliance[k];
     at.x[k] = at.tau[k] - at.c * at.shifted[k];
   }
   at.length = norm(at.x, at.t);
@@ -129,9 +132,10 @@ open_point(const contact *at, const target *to)
 static void
 stick(const contact *at, const target *to)
 {
-  set_blocks(to, at->t, at->compliance, 1);
+  set_blocks(to, at->t, 0, 1);
   for (int32_t k = 0; k < at->t; ++k)
   {
+    to->a[k * at->t + k] = at->compliance[k];
     to->residual[k] = at->shifted[k];
     to->d_pressure[k] = 0;
   }
@@ -175,13 +179,12 @@ slip(const contact *at, double d_bound, const double *e, const target *to)
     return;
   }
   const double beta = safeguard(at, e, inside);
-  const double kept = 1 - at->c * at->compliance;
   for (int32_t i = 0; i < t; ++i)
     for (int32_t j = 0; j < t; ++j)
     {
       const double unit = i == j ? 1 : 0;
       const double m = beta / length * (at->rho * unit - inside[i] * e[j]);
-      to->a[i * t + j] = unit - m * kept;
+      to->a[i * t + j] = unit - m * (1 - at->c * at->compliance[j]);
       to->b[i * t + j] = at->c * m;
     }
   for (int32_t i = 0; i < t; ++i)

@@ -35,20 +35,20 @@ place_arrays(abut_strategy *s)
   /* One more of each: without rows on this rank a request has blocks, too. */
   abut_status status = abut_array_reserve(
       s->context, &f->numbers, 0,
-      1 + 6 * n + 7 * m + 2 * (int64_t)f->blocks + 2 * f->block_numbers + rows);
+      1 + 5 * n + 8 * m + 2 * (int64_t)f->blocks + 2 * f->block_numbers + rows);
   if (status == ABUT_SUCCESS)
     status = abut_array_reserve(s->context, &f->bytes, 0,
                                 1 + f->n_blocks + 2 * n + 3 * rows);
   if (status != ABUT_SUCCESS)
     return status;
   double *next = f->numbers.data;
-  double **by_point[] = {&f->pressure, &f->scale,   &f->compliance,
-                         &f->bound,    &f->d_bound, &f->frozen};
+  double **by_point[] = {&f->pressure, &f->scale, &f->bound, &f->d_bound,
+                         &f->frozen};
   for (size_t k = 0; k < sizeof(by_point) / sizeof(by_point[0]); ++k, next += n)
     *by_point[k] = next;
-  double **by_tangent[] = {&f->slip,     &f->traction,   &f->reference,
-                           &f->residual, &f->d_pressure, &f->direction,
-                           &f->turned};
+  double **by_tangent[] = {&f->slip,       &f->traction, &f->reference,
+                           &f->compliance, &f->residual, &f->d_pressure,
+                           &f->direction,  &f->turned};
   for (size_t k = 0; k < sizeof(by_tangent) / sizeof(by_tangent[0]);
        ++k, next += m)
     *by_tangent[k] = next;
@@ -127,12 +127,77 @@ abut_friction_start(abut_strategy *s)
   return ABUT_SUCCESS;
 }
 
+/* Springs of stick along tangents that supports hold, as a multiple of the
+ * stiffness, and the prescribed slip, as a part of the length scale, below
+ * which there is none. */
+static const double stiff = 1e4, no_slip = 1e-14;
+
+/* Continuous, so that no digit decides. */
+static double
+beyond_noise(double slip, double noise)
+{
+  return slip > noise ? slip - noise : slip < -noise ? slip + noise : 0;
+}
+
+/* Whether supports hold a tangent, and the law has no penalty of its own. */
+static bool
+is_held(const abut_strategy *s, int32_t t)
+{
+  const abut_law *law = s->options.law;
+  return s->friction.tangent[t] != ABUT_TANGENT_FREE
+         && (abut_law_is_exact(law) || !abut_law_solves_once(law));
+}
+
+/* Slip, traction, and spring of a tangent. */
+static void
+gather_tangent(abut_strategy *s, int32_t row, int32_t t)
+{
+  abut_friction_rows *f = &s->friction;
+  const bool held = is_held(s, t);
+  f->slip[t] = s->gap[row];
+  if (f->tangent[t] == ABUT_TANGENT_PRESCRIBED)
+    f->slip[t] = beyond_noise(f->slip[t], no_slip * s->options.length_scale);
+  f->traction[t] = s->pressure[row];
+  f->reference[t] =
+      s->reference != NULL && !held ? s->reference[row] : f->committed[t];
+  f->compliance[t] = held                    ? 1 / (stiff * s->stiffness[row])
+                     : s->compliance == NULL ? 0
+                                             : s->compliance[row];
+}
+
+/* Whether the slip of a point is known before anything is solved. */
+static bool
+is_prescribed(const abut_friction_rows *f, int32_t i, int32_t tangent)
+{
+  for (int32_t k = tangent; k < tangent + f->n_tangents[i]; ++k)
+    if (f->tangent[k] != ABUT_TANGENT_PRESCRIBED)
+      return false;
+  return true;
+}
+
+/* What slips has no springs: its traction is against the slip alone, the
+ * committed one where there is none. */
+static void
+release_slip(abut_strategy *s, int32_t i, int32_t tangent)
+{
+  abut_friction_rows *f = &s->friction;
+  const bool known = is_prescribed(f, i, tangent);
+  bool any = false;
+  for (int32_t k = tangent; k < tangent + f->n_tangents[i]; ++k)
+    any |= f->slip[k] != 0;
+  for (int32_t k = tangent; k < tangent + f->n_tangents[i]; ++k)
+    if (f->state[i] == ABUT_STATE_SLIP && is_held(s, k))
+    {
+      f->compliance[k] = known ? f->compliance[k] : 0;
+      f->reference[k] = known && any ? 0 : f->reference[k];
+    }
+}
+
 /* Pressures, slips and tractions of the rows, by point. */
 static void
 gather(abut_strategy *s)
 {
   abut_friction_rows *f = &s->friction;
-  const bool updates = s->reference != NULL;
   const bool returns = f->iteration == ABUT_FRICTION_RADIAL_RETURN;
   int32_t t = 0;
   for (int32_t i = 0; i < f->n; ++i)
@@ -140,16 +205,13 @@ gather(abut_strategy *s)
     const int32_t row = f->first[i];
     f->pressure[i] = s->pressure[row];
     f->scale[i] = s->scale[row + 1];
-    f->compliance[i] = s->compliance == NULL ? 0 : s->compliance[row + 1];
-    /* So that x is the trial traction of the spring. */
-    if (returns && f->compliance[i] > 0)
-      f->scale[i] = 1 / f->compliance[i];
+    const int32_t first = t;
     for (int32_t k = 1; k <= f->n_tangents[i]; ++k, ++t)
-    {
-      f->slip[t] = s->gap[row + k];
-      f->traction[t] = s->pressure[row + k];
-      f->reference[t] = updates ? s->reference[row + k] : f->committed[t];
-    }
+      gather_tangent(s, row + k, t);
+    /* So that x is the trial traction of the spring. */
+    if ((returns || is_prescribed(f, i, first)) && f->compliance[first] > 0)
+      f->scale[i] = 1 / f->compliance[first];
+    release_slip(s, i, first);
   }
 }
 
@@ -240,7 +302,7 @@ points_of(const abut_strategy *s)
       .slip = f->slip,
       .traction = f->traction,
       .reference_traction = f->reference,
-      .compliance = f->compliance,
+      .tangent_compliance = f->compliance,
       .scale = f->scale,
       .bound = f->bound,
       .d_bound = f->d_bound,
@@ -267,18 +329,21 @@ abut_friction_first_state(abut_strategy *s, const uint8_t *state)
   abut_friction_rows *f = &s->friction;
   if (!abut_friction_is_on(f))
     return ABUT_SUCCESS;
+  for (int32_t i = 0; i < f->n; ++i)
+    f->state[i] = s->state[f->first[i]];
   abut_status status = f->iteration == ABUT_FRICTION_TRESCA
                            ? abut_friction_begin_tresca(s)
                            : ABUT_SUCCESS;
   if (status == ABUT_SUCCESS)
     status = abut_friction_find_bounds(s);
-  for (int32_t i = 0; i < f->n; ++i)
-    f->state[i] = s->state[f->first[i]];
   const abut_friction_points points = points_of(s);
   if (status == ABUT_SUCCESS)
     status = abut_friction_classify(&points, f->state);
-  for (int32_t i = 0; i < f->n; ++i)
-    if (state != NULL)
+  int32_t tangent = 0;
+  for (int32_t i = 0; i < f->n; tangent += f->n_tangents[i++])
+    if (is_prescribed(f, i, tangent))
+      continue;
+    else if (state != NULL)
       f->state[i] = state[f->first[i]];
     /* Before anything presses nothing is known: stick holds bodies that
      * friction alone holds. */
@@ -310,7 +375,9 @@ write_block(abut_strategy *s, int32_t i, int32_t tangent, int32_t part,
     for (int32_t c = 0; c < t; ++c)
     {
       a[c + 1] = f->d_traction[part + r * t + c];
-      b[c + 1] = f->d_slip[part + r * t + c];
+      b[c + 1] = f->tangent[tangent + c] == ABUT_TANGENT_PRESCRIBED
+                     ? 0
+                     : f->d_slip[part + r * t + c];
     }
     s->residual[row + 1 + r] = f->residual[tangent + r];
     /* What stands on the diagonal tells a length from a pressure. */
@@ -401,7 +468,7 @@ excess(const abut_friction_rows *f, int32_t i, int32_t tangent)
   for (int32_t k = tangent; k < tangent + f->n_tangents[i]; ++k)
   {
     const double shifted =
-        f->slip[k] + (f->traction[k] - f->reference[k]) * f->compliance[i];
+        f->slip[k] + (f->traction[k] - f->reference[k]) * f->compliance[k];
     const double x = f->traction[k] - f->scale[i] * shifted;
     square += x * x;
   }
@@ -413,9 +480,13 @@ excess(const abut_friction_rows *f, int32_t i, int32_t tangent)
 static void
 allow_noise(abut_friction_rows *f, double pressure_noise, double slip_noise)
 {
-  for (int32_t i = 0; i < f->n; ++i)
+  int32_t tangent = 0;
+  for (int32_t i = 0; i < f->n; tangent += f->n_tangents[i++])
   {
-    const double noise = pressure_noise + slip_noise * f->scale[i];
+    /* A slip that is prescribed has none. */
+    const double noise =
+        pressure_noise
+        + (is_prescribed(f, i, tangent) ? 0 : slip_noise * f->scale[i]);
     f->bound[i] = f->state[i] == ABUT_STATE_CLOSED
                       ? f->bound[i] + noise
                       : fmax(f->bound[i] - noise, 0);
@@ -431,12 +502,18 @@ abut_friction_find_states(abut_strategy *s, double pressure_noise,
     return ABUT_SUCCESS;
   abut_status status = abut_friction_find_bounds(s);
   allow_noise(f, pressure_noise, slip_noise);
-  for (int32_t i = 0; i < f->n; ++i)
+  int32_t tangent = 0;
+  for (int32_t i = 0; i < f->n; tangent += f->n_tangents[i++])
+  {
     f->trial[i] = s->trial_state[f->first[i]];
+    for (int32_t k = tangent; k < tangent + f->n_tangents[i]; ++k)
+      if (is_held(s, k))
+        f->reference[k] = f->committed[k];
+  }
   const abut_friction_points points = points_of(s);
   if (status == ABUT_SUCCESS)
     status = abut_friction_classify(&points, f->trial);
-  int32_t tangent = 0;
+  tangent = 0;
   for (int32_t i = 0; i < f->n; tangent += f->n_tangents[i++])
   {
     const int32_t row = f->first[i];

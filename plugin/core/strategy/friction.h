@@ -48,15 +48,16 @@ typedef struct abut_friction_rows
   double *coefficient, *cap, *committed;     /* [n], [n], [m] */
   int32_t *first;                            /* [n] row of the normal */
   uint8_t *n_tangents;                       /* [n] */
+  uint8_t *tangent;                          /* [m] abut_tangent */
   int32_t n_rivals;
   int32_t *rival_point, *rival_row; /* [n_rivals] */
 
   /* Made at the start of a solve. */
   abut_array numbers, bytes;
-  double *pressure, *scale, *compliance, *bound, *d_bound, *frozen; /* [n] */
-  double *slip, *traction, *reference;                              /* [m] */
-  double *residual, *d_pressure, *direction, *turned;               /* [m] */
-  double *d_traction, *d_slip; /* [blocks] */
+  double *pressure, *scale, *bound, *d_bound, *frozen; /* [n] */
+  double *slip, *traction, *reference, *compliance;    /* [m] */
+  double *residual, *d_pressure, *direction, *turned;  /* [m] */
+  double *d_traction, *d_slip;                         /* [blocks] */
   double *a, *b;       /* blocks of all points, those without friction, too */
   uint8_t *block_size; /* [n_blocks] */
   int32_t n_blocks;

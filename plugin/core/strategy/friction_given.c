@@ -47,6 +47,10 @@ check_point(abut_strategy *s, const abut_strategy_friction *in, int32_t i,
     return abut_friction_reject(
         s, ABUT_INVALID_ARGUMENT, i,
         "its rows do not come after those of the point before");
+  for (int32_t k = 0; in->tangent != NULL && k < in->n_tangents[i]; ++k)
+    if (in->tangent[tangent + k] > ABUT_TANGENT_PRESCRIBED)
+      return abut_friction_reject(s, ABUT_INVALID_ARGUMENT, i,
+                                  "one of its tangents is no abut_tangent");
   double probe = 0 * in->coefficient[i];
   for (int32_t k = 0; in->reference_traction != NULL && k < in->n_tangents[i];
        ++k)
@@ -119,7 +123,7 @@ copy_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t m)
     status = abut_array_reserve(s->context, &f->given_rows, 0,
                                 (int64_t)n + 2 * (int64_t)in->n_rivals);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(s->context, &f->given_bytes, 0, n);
+    status = abut_array_reserve(s->context, &f->given_bytes, 0, (int64_t)n + m);
   if (status != ABUT_SUCCESS || n == 0)
     return status;
   f->coefficient = f->given.data;
@@ -127,6 +131,7 @@ copy_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t m)
   f->committed = f->cap + n;
   f->first = f->given_rows.data;
   f->n_tangents = f->given_bytes.data;
+  f->tangent = f->n_tangents + n;
   f->rival_point = f->first + n;
   f->rival_row = f->rival_point + in->n_rivals;
   for (int32_t k = 0; k < in->n_rivals; ++k)
@@ -145,7 +150,11 @@ copy_friction(abut_strategy *s, const abut_strategy_friction *in, int32_t m)
   const bool remembers =
       in->reference_traction != NULL && !abut_law_needs_stress(s->options.law);
   for (int32_t k = 0; k < m; ++k)
+  {
     f->committed[k] = remembers ? in->reference_traction[k] : 0;
+    f->tangent[k] =
+        in->tangent == NULL ? (uint8_t)ABUT_TANGENT_FREE : in->tangent[k];
+  }
   return status;
 }
 
