@@ -3,6 +3,8 @@
 // but for round-off are closed.
 #include "surface_pair_rows.h"
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 namespace abut::shim
@@ -15,14 +17,18 @@ namespace abut::shim
     if (std::none_of(pairs_.begin(), pairs_.end(),
                      [](const auto &pair) { return pair.data.holds_body; }))
       return {};
+    // Pressures of an earlier solve say more, and states of slip with them.
+    const bool is_pressed = std::any_of(pressure.begin(), pressure.end(),
+                                        [](const double p) { return p > 0.; });
+    if (dealii::Utilities::MPI::logical_or(is_pressed, communicator_))
+      return {};
     std::vector<std::uint8_t> state(view_.n_components);
     for_each_component(
         [&](const Component &component)
         {
           const std::size_t i = component.row;
           const auto &pair = pairs_[component.place.pair].data;
-          const double p = pressure.empty() ? 0. : std::max(0., pressure[i]);
-          state[i] = pair.tied || p - scale[i] * gap[i] > 0.
+          state[i] = pair.tied || scale[i] * gap[i] < 0.
                      || (pair.holds_body && gap[i] <= touching);
         });
     return state;

@@ -159,8 +159,8 @@ namespace abut::shim
     }
 
     /** States to start from when a pair must hold a body: closed are the rows
-     * with pressure, or those that touch. Empty if there is no such pair.
-     * Not collective.
+     * with pressure, or those that touch. Empty if there is no such pair, or
+     * rows have pressures. Collective.
      * @param pressure empty: 0
      * @param scale rows are closed where p - scale gap > 0
      * @param touching gap of rows that are closed in any case */
