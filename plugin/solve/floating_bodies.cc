@@ -34,10 +34,6 @@ namespace abut::solve
      * surface's own stiffness. */
     constexpr double no_spring = 1e-9;
 
-    /** Loads do no work along a motion if it is less, as a part of the sum of
-     * their magnitudes times the largest displacement. */
-    constexpr double no_work = 1e-10;
-
     /** Rigid motions of a body in space. */
     constexpr unsigned int most_modes = 6;
 

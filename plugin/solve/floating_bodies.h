@@ -24,6 +24,11 @@ namespace abut::solve
      * each. */
     using Combination = std::vector<double>;
 
+    /** Loads do no work along a motion if it is less, as a part of the sum of
+     * their magnitudes times the largest displacement; pressures are none
+     * likewise. */
+    static constexpr double no_work = 1e-10;
+
     /** Find the motions that K leaves free: translations, and rotations if the
      * positions of unknowns are known. Nothing is done for scalar fields. One
      * pass over a matrix, a product for each motion of a host's, unless

@@ -17,10 +17,6 @@ namespace abut::solve
 
   namespace
   {
-    /** Loads do no work along a motion if it is less, as a part of the load
-     * times the size; pressures are none likewise. */
-    constexpr double no_work = 1e-10;
-
     /** Distance beyond a touch, as a part of the size and of the distance:
      * facets that are nearly parallel to the other side close together. */
     constexpr double beyond_size = 1e-6, beyond_distance = 1e-3;
@@ -117,7 +113,7 @@ namespace abut::solve
 
   double FreeMotionSolver::work_tolerance() const
   {
-    return no_work * iteration_.load;
+    return FloatingBodies::no_work * iteration_.load;
   }
 
   void FreeMotionSolver::check_unfelt(const la::Vector &residual) const
@@ -430,7 +426,7 @@ namespace abut::solve
       weight += rows_->weight(i);
     weight = MPI::sum(weight, rows_->communicator());
     const double no_pressure =
-        weight > 0. ? no_work * iteration_.load / weight : 0.;
+        weight > 0. ? FloatingBodies::no_work * iteration_.load / weight : 0.;
     // Rows that are closed by chance resist nothing.
     std::vector<std::uint8_t> resists(rows_->n_rows(), 0);
     bool is_pressed = false;
