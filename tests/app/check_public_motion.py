@@ -92,7 +92,8 @@ for _ in range(2):
     depth = round(generator.uniform(.03, .09), 3)
     inside = {"Obstacle 1/Expression": f"x^2/2 - {depth}",
               "Refinement/Adaptive cycles": "0"}
-    run(BALL, inside, 0, "ABUT-F11: Pair 1", f"inside of the obstacle by {depth} ")
+    run(BALL, inside, 0, "ABUT-F11: Pair 1",
+        f"inside of the obstacle by {depth} ")
     moved, _ = p.solve_with(BALL, inside)
     p.close(moved["obstacle_1_displacement"][1],
             free["obstacle_1_displacement"][1] + depth, 1e-6, "pushed out")
