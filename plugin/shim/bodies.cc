@@ -8,6 +8,8 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -121,6 +123,40 @@ namespace abut::shim
     return mine;
   }
 
+  template <int dim>
+  double least_extent(const dealii::Mapping<dim> &mapping,
+                      const dealii::DoFHandler<dim> &dof_handler,
+                      const std::set<dealii::types::boundary_id> &ids)
+  {
+    namespace MPI = dealii::Utilities::MPI;
+    const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
+    const std::vector<int> is_meant = bodies_with(dof_handler, bodies, ids);
+    // [bodies * dim] of the least coordinates and of the largest, negative.
+    std::vector<double> low(dim * bodies.n_bodies(), INFINITY), high(low);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && is_meant[bodies.of(cell)] != 0)
+        for (const dealii::Point<dim> &vertex : mapping.get_vertices(cell))
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            const std::size_t i = dim * bodies.of(cell) + d;
+            low[i] = std::min(low[i], vertex[d]);
+            high[i] = std::min(high[i], -vertex[d]);
+          }
+    MPI::min(low, dof_handler.get_communicator(), low);
+    MPI::min(high, dof_handler.get_communicator(), high);
+    double least = INFINITY;
+    for (std::size_t i = 0; i < low.size(); ++i)
+      if (is_meant[i / dim] != 0)
+        least = std::min(least, -high[i] - low[i]);
+    return least;
+  }
+
+  template double least_extent(const dealii::Mapping<2> &,
+                               const dealii::DoFHandler<2> &,
+                               const std::set<dealii::types::boundary_id> &);
+  template double least_extent(const dealii::Mapping<3> &,
+                               const dealii::DoFHandler<3> &,
+                               const std::set<dealii::types::boundary_id> &);
   template std::vector<int>
   bodies_with(const dealii::DoFHandler<2> &, const BodyNumbers<2> &,
               const std::set<dealii::types::boundary_id> &);

@@ -41,6 +41,14 @@ namespace abut::shim
                                const BodyNumbers<dim> &bodies,
                                const std::set<dealii::types::boundary_id> &ids);
 
+  /** Least extent along an axis of the bodies with faces of these boundary ids,
+   * of their vertices, before anything is displaced; infinite without one. One
+   * pass over the cells. Collective. */
+  template <int dim>
+  double least_extent(const dealii::Mapping<dim> &mapping,
+                      const dealii::DoFHandler<dim> &dof_handler,
+                      const std::set<dealii::types::boundary_id> &ids);
+
   /** Bodies are the connected parts of the mesh. Component, body and place of
    * each owned unknown of a field with support points. One pass over the
    * cells. Collective. */

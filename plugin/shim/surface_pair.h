@@ -93,6 +93,8 @@ namespace abut::shim
     /** The deepest node in the other body, or in an obstacle that bodies fly
      * towards, before anything is displaced. */
     NodeInside<dim> first_inside;
+    /** Of the thinner body; 0: was not needed. */
+    double least_extent = 0.;
     /** Known failures that it was made with all the same. */
     std::vector<ContactFinding> refused;
     double slip = 0., gap_error = 0., missed_depth = 0.;

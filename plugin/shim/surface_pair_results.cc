@@ -2,6 +2,9 @@
 // What was met on pairs of surfaces, and what a solve found there.
 #include "surface_pair_rows.h"
 
+#include "agree.h"
+#include "bodies.h"
+
 #include <abut/dealii/coded.h>
 #include <abut/strategy.h>
 
@@ -27,6 +30,8 @@ namespace abut::shim
 
     /** Initial overlap, in sizes of a facet, that is worth a word. */
     constexpr double large_overlap = 0.3;
+    /** The same in thicknesses of the thinner body, of bodies that fly. */
+    constexpr double visible_part = 0.1;
     /** Surfaces that meet on less of a facet's width are between nodes. */
     constexpr double narrow_zone = 0.5;
 
@@ -95,6 +100,75 @@ namespace abut::shim
   }
 
   template <int dim>
+  double SurfacePairRows<dim>::first_overlap(const std::size_t number,
+                                             const double overlap)
+  {
+    Pair &pair = pairs_[number];
+    if (!pair.data.obstacle)
+      return pair.is_present() ? pair.first_inside.depth : overlap;
+    // At rest obstacles are moved into bodies on purpose.
+    if (!pair.data.may_be_apart || !pair.data.geometric_gap)
+      return 0.;
+    // Points that move are later those of a step on its way, and a force has
+    // moved the obstacle before the first.
+    if (n_finds_ > 1)
+      return pair.first_inside.depth;
+    const RigidPose<dim> now = pair.data.obstacle->pose();
+    const RigidPose<dim> first = pair.data.first_pose.value_or(now);
+    std::vector<dealii::Point<dim>> nodes;
+    for_each_row(
+        [&](const Component &row)
+        {
+          if (row.place.pair != number)
+            return;
+          const dealii::Point<dim> place =
+              row.place.node < 0 ? row.place.position
+                                 : surface_.nodes[row.place.node].point;
+          nodes.push_back(place - way_of(place, now, first));
+        });
+    std::vector<double> distance;
+    run_everywhere<ContactError>(
+        communicator_, [&] { pair.data.obstacle->distance(nodes, distance); });
+    double depth = 0.;
+    for (const double value : distance)
+      depth = std::max(depth, -value);
+    pair.first_inside.depth = MPI::max(depth, communicator_);
+    return pair.first_inside.depth;
+  }
+
+  template <int dim>
+  std::string SurfacePairRows<dim>::overlap_at_start(Pair &pair,
+                                                     const PairCheck &found)
+  {
+    const double depth = found.first_overlap;
+    const bool is_large = depth > large_overlap * found.facet_size;
+    if (pair.data.may_be_apart && !is_large && depth > 0.
+        && pair.least_extent == 0.)
+      pair.least_extent =
+          std::min(least_extent(mapping_, dof_handler_, pair.data.secondary),
+                   least_extent(mapping_, dof_handler_, pair.data.primary));
+    const double body = pair.least_extent;
+    if (!is_large && (body == 0. || depth <= visible_part * body))
+      return "";
+    const bool is_obstacle = pair.data.obstacle != nullptr;
+    return coded(
+        ABUT_FAILURE_OVERLAP,
+        (is_obstacle ? "Nodes of the surface are inside of the obstacle by "
+                     : "The surfaces overlap by ")
+            + text(depth) + " before anything "
+            + (is_obstacle ? "moves, " : "is loaded, ")
+            + (is_large
+                   ? text(depth / found.facet_size)
+                         + " times the size of a facet. "
+                   : text(depth / body) + " times the thickness of a body. ")
+            + (is_obstacle ? "Motions throw them out in their first step, in "
+                             "equilibrium its force moves the obstacle out: "
+                             "begin where the two are apart."
+                           : "If that is not meant as interference, move "
+                             "the bodies apart."));
+  }
+
+  template <int dim>
   void SurfacePairRows<dim>::make_check(const std::size_t number,
                                         const unsigned int n_dropped)
   {
@@ -116,7 +190,7 @@ namespace abut::shim
     result.facet_size = sizes.median;
     if (!pair.data.obstacle)
       result.size_ratio = sizes.median / pair.primary.everywhere.median;
-    double covered = 0., overlap = 0.;
+    double covered = 0., deepest = 0.;
     dealii::types::global_dof_index n_rows = 0;
     for_each_component(
         [&](const Component &row)
@@ -125,12 +199,12 @@ namespace abut::shim
             return;
           ++n_rows;
           covered += view_.weight[row.point] / (pair.data.tied ? dim : 1.);
-          overlap =
-              std::max(overlap, pair.data.tied ? 0. : -view_.gap[row.row]);
+          deepest =
+              std::max(deepest, pair.data.tied ? 0. : -view_.gap[row.row]);
         });
     result.n_rows = MPI::sum(n_rows, communicator_);
     result.covered_area = MPI::sum(covered, communicator_);
-    result.overlap = MPI::max(overlap, communicator_);
+    result.overlap = MPI::max(deepest, communicator_);
 
     if (result.size_ratio > coarse_secondary)
       result.warnings.push_back(coded(
@@ -139,27 +213,10 @@ namespace abut::shim
               + " times as coarse as the primary, whose nodes can pass between "
                 "those of the secondary: exchange the two sides, or refine the "
                 "secondary."));
-    // Before anything moves: points that move are those of a step on its way.
-    // At rest obstacles are moved into bodies on purpose.
-    const bool is_obstacle = pair.data.obstacle != nullptr;
-    if (is_obstacle && n_finds_ == 1)
-      pair.first_inside.depth = result.overlap + std::min(0., pair.data.gap);
-    const double first = is_obstacle || pair.is_present()
-                             ? pair.first_inside.depth
-                             : result.overlap;
-    if ((!is_obstacle || pair.data.may_be_apart)
-        && first > large_overlap * sizes.median)
-      result.warnings.push_back(coded(
-          ABUT_FAILURE_OVERLAP,
-          (is_obstacle ? "Nodes of the surface are inside of the obstacle by "
-                       : "The surfaces overlap by ")
-              + text(first) + " before anything "
-              + (is_obstacle ? "moves, " : "is loaded, ")
-              + text(first / sizes.median) + " times the size of a facet. "
-              + (is_obstacle ? "Motions throw them out in their first step: "
-                               "begin where the two are apart."
-                             : "If that is not meant as interference, move "
-                               "the bodies apart.")));
+    result.first_overlap = first_overlap(number, result.overlap);
+    const std::string overlap = overlap_at_start(pair, result);
+    if (!overlap.empty())
+      result.warnings.push_back(overlap);
     if (!pair.data.obstacle && !pair.is_present() && result.covered_area > 0.)
     {
       // Of graded meshes the smallest facets are likely to be those that meet.

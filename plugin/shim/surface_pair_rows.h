@@ -623,6 +623,11 @@ namespace abut::shim
     std::vector<Origin> origins(const std::vector<Direction> &u) const;
     solve::NodeMap append_stress(const SurfaceTraction<dim> &traction,
                                  abut_points *stress) const;
+    /** PairCheck::first_overlap, where the rows have that @p overlap.
+     * Collective. */
+    double first_overlap(std::size_t pair, double overlap);
+    /** What to say of it, or nothing. Collective. */
+    std::string overlap_at_start(Pair &pair, const PairCheck &found);
     void make_check(std::size_t pair, unsigned int n_dropped);
     la::Vector field() const;
     /** Pairs with rows at quadrature points, and these rows. Collective. */

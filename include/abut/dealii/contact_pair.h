@@ -101,6 +101,10 @@ namespace abut
     double covered_area = 0.;   /**< part of it that has a partner: the sum of
                                      the weights of the rows */
     double overlap = 0.;        /**< largest initial penetration, length >= 0 */
+    double first_overlap = 0.;  /**< the same before anything moves; of an
+                                     obstacle that may be apart, where it is
+                                     first and without the gap added, and 0 of
+                                     others */
     unsigned int n_dropped = 0; /**< nodes without a multiplier: prescribed
                                      along the normal, or taken by another
                                      pair */

@@ -240,6 +240,41 @@ namespace abut::app
            + ", or a shorter Time/Step.";
   }
 
+  template <int dim>
+  const PairCheck *
+  ModelMotion<dim>::overlap_of(const std::vector<PairCheck> &checks) const
+  {
+    constexpr double round_off = 1e-8;
+    if (checks.empty() || records.size() < 2)
+      return nullptr;
+    const double before = records.front().balance();
+    const double of_first = records[1].balance() - before,
+                 all = records.back().balance() - before;
+    const auto deepest =
+        std::max_element(checks.begin(), checks.end(),
+                         [](const PairCheck &one, const PairCheck &other)
+                         { return one.first_overlap < other.first_overlap; });
+    return 2. * of_first > all
+                   && deepest->first_overlap > round_off * deepest->facet_size
+               ? &*deepest
+               : nullptr;
+  }
+
+  template <int dim>
+  std::string ModelMotion<dim>::explain_gain(const abut_failure failure,
+                                             const std::string &judgement) const
+  {
+    const std::vector<PairCheck> checks = run.contact.pair_checks();
+    if (const PairCheck *const found = overlap_of(checks))
+      return coded(ABUT_FAILURE_OVERLAP,
+                   judgement + "The first step made most of it: surfaces of "
+                       + found->name + " overlap by "
+                       + short_number(found->first_overlap, 3)
+                       + " before anything moves, and are thrown apart. Begin "
+                         "where they are apart.");
+    return coded(failure, judgement + cure_of_gain());
+  }
+
   template <int dim> std::string ModelMotion<dim>::commit()
   {
     motion.commit();
@@ -256,12 +291,11 @@ namespace abut::app
                              + short_number(100. * balance.gain, 3)
                              + " % above that of the start: ";
     if (verdict == ABUT_TIME_BLOWS_UP)
-      return coded(ABUT_FAILURE_BLOW_UP,
-                   what + "the motion is unstable. " + cure_of_gain());
+      return explain_gain(ABUT_FAILURE_BLOW_UP,
+                          what + "the motion is unstable. ");
     if (!has_warned)
-      run.report.warn(
-          coded(ABUT_FAILURE_ENERGY_GAIN,
-                what + "more than the scheme may gain. " + cure_of_gain()));
+      run.report.warn(explain_gain(ABUT_FAILURE_ENERGY_GAIN,
+                                   what + "more than the scheme may gain. "));
     has_warned = true;
     return "";
   }

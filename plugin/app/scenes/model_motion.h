@@ -178,6 +178,13 @@ namespace abut::app
     void warn_of_loss() const;
     /** What to try where energy was made: nothing that the motion has. */
     std::string cure_of_gain() const;
+    /** The pair that begins with an overlap, the deepest, if the first step has
+     * made most of the energy; or null. */
+    const PairCheck *overlap_of(const std::vector<PairCheck> &checks) const;
+    /** The reason and the cure of energy that was made: @p failure, unless
+     * bodies that overlap at the start are it. */
+    std::string explain_gain(abut_failure failure,
+                             const std::string &judgement) const;
 
     const InertiaParameters &time;
     const MotionWords words;
