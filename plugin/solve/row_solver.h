@@ -36,7 +36,7 @@ namespace abut::solve
   struct FreeMotion
   {
     unsigned int body = 0;   ///< from 0
-    std::string description; ///< "body 1 can move along (1, 0)"
+    std::string description; ///< "body 1 can slide along (1, 0)"
   };
 
   /** One linearised step of a contact problem: find du and dp with
