@@ -291,6 +291,10 @@ namespace abut::shim
                                       then = poses_before(now, true);
     refuse_turns(then, now);
     find_partners(u);
+    std::vector<std::vector<Direction>> approach(pairs_.size());
+    for (std::size_t p = 0; p < approach_.size(); ++p)
+      if (approach_[p].size() > 0)
+        approach[p] = exchange_->displacements_as_given(surface_, approach_[p]);
     std::vector<double> result(view_.n_components, 0.);
     for_each_row(
         [&](const Component &row)
@@ -302,6 +306,13 @@ namespace abut::shim
           result[row.row] = partners != nullptr
                                 ? reference_of_slip(row, *partners)
                                 : reference_of_slip(row, u);
+          const auto add = [&](const Node node, const double c)
+          { result[row.row] -= c * (approach[p][node] * row.direction); };
+          if (!approach[p].empty())
+          {
+            for_each_secondary(row.point, add);
+            for_each_primary(row.point, add);
+          }
           if (pairs_[p].data.obstacle != nullptr)
             result[row.row] -=
                 way_of(row.place.position, then[p], now[p]) * row.direction;
