@@ -196,6 +196,7 @@ namespace abut
       i.surfaces->set_gaps(i.pairs);
     i.has_new_gaps = false;
     i.has_rows = false;
+    i.check_approach(displacement);
     i.find_rows(displacement);
     i.has_rows = true;
     i.start_state.clear();

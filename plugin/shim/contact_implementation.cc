@@ -377,7 +377,73 @@ namespace abut
       return;
     check_committed("Slips with friction are measured from");
     surfaces->set_committed_poses(committed_poses, committed_times);
+    if (approach.size() != pairs.size())
+      approach.clear();
+    std::vector<la::Vector> way;
+    for (const auto &motions : approach)
+      way.push_back(motions.empty() ? la::Vector() : displacement_of(motions));
+    surfaces->set_approach(std::move(way));
     slip_reference = source->slip_reference(committed);
+  }
+
+  template <int dim>
+  la::Vector ContactAssembler<dim>::Implementation::displacement_of(
+      const std::vector<solve::RigidMotion> &motions) const
+  {
+    const solve::NearNullSpace &space = near_null_space();
+    la::Vector result(dof_handler->locally_owned_dofs(), communicator);
+    for (std::size_t i = 0; i < space.point.size(); ++i)
+    {
+      const solve::RigidMotion &motion =
+          motions[space.body.empty() ? 0 : space.body[i]];
+      if (space.component[i] < dim
+          && (space.prescribed.empty() || space.prescribed[i] == 0))
+        la::data(result)[i] =
+            motion.translation[space.component[i]]
+            + cross_product_3d(
+                motion.rotation,
+                dealii::Tensor<1, 3>(space.point[i]))[space.component[i]];
+    }
+    return result;
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::add_approach(
+      const std::vector<solve::RigidMotion> &motions,
+      const std::vector<std::uint8_t> &is_apart)
+  {
+    if (!has_friction)
+      return;
+    approach.resize(pairs.size());
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+    {
+      if (is_apart[p] == 0)
+        continue;
+      approach[p].resize(motions.size());
+      for (std::size_t body = 0; body < motions.size(); ++body)
+      {
+        approach[p][body].translation += motions[body].translation;
+        approach[p][body].rotation += motions[body].rotation;
+      }
+    }
+    find_slip_reference();
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::check_approach(
+      const la::Vector &displacement)
+  {
+    for (auto &motions : approach)
+    {
+      if (motions.empty())
+        continue;
+      const la::Vector way = displacement_of(motions);
+      la::Vector moved(displacement);
+      if (committed.size() > 0)
+        moved -= committed;
+      if (way * moved < 0.5 * (way * way))
+        motions.clear();
+    }
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::set_friction()
@@ -549,8 +615,7 @@ namespace abut
   }
 
   template <int dim>
-  solve::ContactIteration
-  ContactAssembler<dim>::Implementation::iteration() const
+  solve::ContactIteration ContactAssembler<dim>::Implementation::iteration()
   {
     solve::ContactIteration result;
     result.gap = &gap;
@@ -559,6 +624,9 @@ namespace abut
       result.group = surfaces->row_pairs();
       result.n_groups = pairs.size();
     }
+    result.approach = [this](const std::vector<solve::RigidMotion> &motions,
+                             const std::vector<std::uint8_t> &is_apart)
+    { add_approach(motions, is_apart); };
     result.load = largest_load;
     result.linear_tolerance = method.options.final_linear_tolerance;
     return result;

@@ -84,6 +84,16 @@ namespace abut
     void note_poses();
     /** What slips are measured from, with the present points. Collective. */
     void find_slip_reference();
+    /** Note what bodies move before pairs touch, which is no slip. Collective.
+     */
+    void add_approach(const std::vector<solve::RigidMotion> &motions,
+                      const std::vector<std::uint8_t> &is_apart);
+    /** Forget it where @p displacement has not gone that way, as at a new
+     * attempt. Collective. */
+    void check_approach(const la::Vector &displacement);
+    /** A motion on the present mesh. */
+    la::Vector
+    displacement_of(const std::vector<solve::RigidMotion> &motions) const;
     /** Give the strategy what it must know of friction. Collective. */
     void set_friction();
     /** Whether the law needs the normal stress of the bodies. */
@@ -161,7 +171,7 @@ namespace abut
      * Collective. */
     double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
     /** What the solver must know of the iteration that begins. */
-    solve::ContactIteration iteration() const;
+    solve::ContactIteration iteration();
     /** Find what an iteration that stopped leaves undetermined. Collective. */
     void note_end();
     void begin(const solve::Stiffness &matrix, const la::Vector &residual);
@@ -277,6 +287,9 @@ namespace abut
     std::vector<double> committed_times;         ///< of obstacles, likewise
     bool committed_is_lost = false;              ///< of another mesh or run
     shim::RowSource::SlipReference slip_reference;
+    /** [pairs][bodies] what bodies have moved since then before the pair
+     * touched; empty: nothing. */
+    std::vector<std::vector<solve::RigidMotion>> approach;
     /** [rows] place of a row's own derivatives in those of the request. */
     std::vector<std::int64_t> diagonal;
     /** Of each unknown of this rank, in the matrix that penalties are

@@ -167,6 +167,7 @@ namespace abut
     i.check_size("commit()", "displacement", displacement.size());
     i.record_present();
     i.history.commit();
+    i.approach.clear();
     if (i.surfaces != nullptr && i.has_rows)
       i.elements.commit(i.surfaces->contact_elements(), i.communicator);
     if (i.surfaces != nullptr)
@@ -193,6 +194,7 @@ namespace abut
     i.check_mesh("set_committed()");
     i.check_size("set_committed()", "displacement", displacement.size());
     i.committed = displacement;
+    i.approach.clear();
     i.committed_is_lost = false;
     if (i.surfaces != nullptr)
       i.surfaces->note_commit(displacement);

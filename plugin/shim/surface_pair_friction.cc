@@ -369,6 +369,10 @@ namespace abut::shim
     find_partners(u);
     SlipReference result = {std::vector<double>(view_.n_components, 0.),
                             std::vector<std::uint8_t>(view_.n_components, 0)};
+    std::vector<std::vector<Direction>> approach(pairs_.size());
+    for (std::size_t p = 0; p < approach_.size(); ++p)
+      if (approach_[p].size() > 0)
+        approach[p] = exchange_->displacements_as_given(surface_, approach_[p]);
     for_each_row(
         [&](const Component &row)
         {
@@ -384,6 +388,13 @@ namespace abut::shim
               is_prescribed         ? -prescribed_slip(row, support.opposite, u)
               : partners != nullptr ? reference_of_slip(row, *partners)
                                     : reference_of_slip(row, u);
+          const auto add = [&](const Node node, const double c)
+          { result.value[row.row] -= c * (approach[p][node] * row.direction); };
+          if (!approach[p].empty() && !is_prescribed)
+          {
+            for_each_secondary(row.point, add);
+            for_each_primary(row.point, add);
+          }
           if (pairs_[p].data.obstacle != nullptr)
             result.value[row.row] -=
                 way_of(row.place.position, then[p], now[p]) * row.direction;

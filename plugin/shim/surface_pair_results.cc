@@ -252,7 +252,10 @@ namespace abut::shim
       result.warnings.push_back(coded(
           side.empty() ? ABUT_FAILURE_NO_PARTNER : ABUT_FAILURE_WRONG_SIDE,
           "no node of the surface is within reach of the obstacle"
-              + (side.empty() ? "." : ": " + side)));
+              + (side.empty()
+                     ? ". Give the pair a larger reach if the surface is "
+                       "to come to the obstacle."
+                     : ": " + side)));
     }
     else if (result.n_rows == 0)
       result.warnings.push_back(explain_no_rows(number));

@@ -204,6 +204,13 @@ namespace abut::shim
       committed_times_ = times;
     }
 
+    /** What bodies have moved since then before pairs touched, which is no
+     * slip: [pairs] displacements (owned; empty: none), or empty. */
+    void set_approach(std::vector<la::Vector> approach)
+    {
+      approach_ = std::move(approach);
+    }
+
     /** Where the bodies were at the last commit() (owned; empty: nothing has
      * moved), which must outlive its use here: find() makes the points of
      * Sliding::step there. */
@@ -656,6 +663,7 @@ namespace abut::shim
     abut_points *points_ = nullptr; ///< of the last find()
     abut_points_view view_ = {};
     std::vector<RigidPose<dim>> committed_poses_; ///< [pairs], or empty
+    std::vector<la::Vector> approach_;            ///< see set_approach()
     std::vector<double> committed_times_;         ///< [pairs], or empty
     /** [pairs] that PairResult::slip is measured from. */
     std::vector<RigidPose<dim>> slip_poses_;

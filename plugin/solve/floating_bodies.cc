@@ -440,6 +440,32 @@ namespace abut::solve
     return result;
   }
 
+  std::vector<RigidMotion>
+  FloatingBodies::of_bodies(const Combination &combination) const
+  {
+    std::vector<RigidMotion> result(space_.n_bodies);
+    const unsigned int dim = space_.n_components;
+    const unsigned int n_rotations = n_modes_ - dim;
+    for (std::size_t k = 0; k < motions_.size(); ++k)
+    {
+      const Motion &motion = motions_[k];
+      dealii::Tensor<1, 3> translation, rotation;
+      for (unsigned int d = 0; d < dim; ++d)
+        translation[d] = combination[k] * motion.coefficient[d];
+      for (unsigned int r = 0; r < n_rotations; ++r)
+        rotation[n_rotations == 1 ? 2 : r] =
+            combination[k] * motion.coefficient[dim + r] / radius_[motion.body];
+      // From the centre of the body to the origin.
+      RigidMotion &sum = result[motion.body];
+      sum.rotation += rotation;
+      sum.translation += translation;
+      if (n_rotations > 0)
+        sum.translation -= cross_product_3d(
+            rotation, dealii::Tensor<1, 3>(center_[motion.body]));
+    }
+    return result;
+  }
+
   unsigned int FloatingBodies::body(const Combination &combination) const
   {
     std::vector<double> weight(space_.n_bodies, 0.);

@@ -99,6 +99,9 @@ namespace abut::solve
     /** Size of the smallest body with a free motion: half its diameter. */
     double smallest_radius() const;
 
+    /** [bodies] the same motion of each body. */
+    std::vector<RigidMotion> of_bodies(const Combination &combination) const;
+
     /** The body that takes part most in a motion, from 0. */
     unsigned int body(const Combination &combination) const;
 

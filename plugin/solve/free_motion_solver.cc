@@ -277,6 +277,21 @@ namespace abut::solve
     }
   }
 
+  std::vector<std::uint8_t>
+  FreeMotionSolver::groups_apart(const abut_request &request) const
+  {
+    const auto &group = iteration_.group;
+    std::vector<double> touched(iteration_.n_groups, 0.);
+    for (int i = 0; i < rows_->n_rows() && !group.empty(); ++i)
+      if (request.state[i] != ABUT_STATE_OPEN)
+        touched[group[i]] = 1.;
+    MPI::max(touched, rows_->communicator(), touched);
+    std::vector<std::uint8_t> result;
+    for (const double value : touched)
+      result.push_back(value == 0.);
+    return result;
+  }
+
   double FreeMotionSolver::way_to_touch(const Combination &motion,
                                         const abut_request &request,
                                         const bool others) const
@@ -284,21 +299,16 @@ namespace abut::solve
     constexpr double parallel = 1e-10;
     const std::vector<double> change = floating_.gap_change(motion);
     const auto &group = iteration_.group;
-    std::vector<double> touched(iteration_.n_groups, 0.);
+    const std::vector<std::uint8_t> apart =
+        others ? groups_apart(request) : std::vector<std::uint8_t>();
     double largest = 0.;
-    for (int i = 0; i < rows_->n_rows(); ++i)
-    {
-      largest = std::max(largest, std::abs(change[i]));
-      if (request.state[i] != ABUT_STATE_OPEN && !group.empty())
-        touched[group[i]] = 1.;
-    }
-    if (others)
-      MPI::max(touched, rows_->communicator(), touched);
+    for (const double value : change)
+      largest = std::max(largest, std::abs(value));
     largest = MPI::max(largest, rows_->communicator());
     double way = -infinite;
     for (int i = 0; i < rows_->n_rows(); ++i)
       if (is_open(*rows_, request, i) && change[i] < -parallel * largest
-          && !(others && !group.empty() && touched[group[i]] > 0.))
+          && (!others || group.empty() || apart[group[i]] != 0))
         way = std::max(way, ((*iteration_.gap)[i] + request.gap_change[i])
                                 / change[i]);
     return -MPI::max(way, rows_->communicator());
@@ -317,6 +327,26 @@ namespace abut::solve
       request.gap_change[i] += change[i];
   }
 
+  void FreeMotionSolver::approach(const Combination &motion,
+                                  const double distance,
+                                  const abut_request &request,
+                                  la::Vector &increment) const
+  {
+    const std::vector<double> before(request.gap_change,
+                                     request.gap_change + rows_->n_rows());
+    move(motion, distance, request, increment);
+    if (!iteration_.approach)
+      return;
+    const std::vector<std::uint8_t> apart = groups_apart(request);
+    for (int i = 0; i < rows_->n_rows(); ++i)
+      if (rows_->is_tangent(i) && apart[iteration_.group[i]] != 0)
+        request.gap_change[i] = before[i];
+    Combination part(motion);
+    for (double &value : part)
+      value *= distance;
+    iteration_.approach(floating_.of_bodies(part), apart);
+  }
+
   void FreeMotionSolver::advance(const Free &free, const abut_request &request,
                                  la::Vector &increment)
   {
@@ -331,10 +361,12 @@ namespace abut::solve
     if (way < infinite)
     {
       if (way > 0.)
+      {
+        approach(motion, way, request, increment);
         move(motion,
-             way * (1. + beyond_distance)
-                 + beyond_size * floating_.smallest_radius(),
+             way * beyond_distance + beyond_size * floating_.smallest_radius(),
              request, increment);
+      }
       return;
     }
     if (!free.slips

@@ -76,6 +76,8 @@ namespace abut::solve
                                               const std::vector<double> &right);
     Combination combine(const Combinations &motions,
                         const std::vector<double> &coefficients) const;
+    /** [groups] whether no row of the group is closed. Collective. */
+    std::vector<std::uint8_t> groups_apart(const abut_request &request) const;
     /** How far a motion may go until an open row closes, infinite if none
      * does; with @p others rows of pairs without closed rows alone count.
      * Collective. */
@@ -83,6 +85,10 @@ namespace abut::solve
                         bool others) const;
     void move(const Combination &motion, double distance,
               const abut_request &request, la::Vector &increment) const;
+    /** The same until bodies touch: slips of groups without closed rows begin
+     * there. Collective. */
+    void approach(const Combination &motion, double distance,
+                  const abut_request &request, la::Vector &increment) const;
     void advance(const Free &free, const abut_request &request,
                  la::Vector &increment);
     void settle(const Free &free, const abut_request &request,

@@ -14,6 +14,13 @@
 
 namespace abut::solve
 {
+  /** A rigid motion: the displacement of a point is translation +
+   * rotation x point. */
+  struct RigidMotion
+  {
+    dealii::Tensor<1, 3> translation, rotation;
+  };
+
   /** Which unknown is what: the motions that a stiffness barely resists. By
    * default the field is scalar and in one piece. */
   struct NearNullSpace

@@ -42,7 +42,7 @@ namespace abut::solve
       rotation[n_rotations == 1 ? 2 : r] = mode[dim + r];
     const double spin = rotation.norm();
     if (spin * far_axis <= translation.norm())
-      return "move along "
+      return "slide along "
              + triple_in_words(translation / translation.norm(), dim, 1.);
     // v = t + w x (x - c) / r is along w where x - c = r w x t / w^2.
     const Triple axis = rotation / spin;

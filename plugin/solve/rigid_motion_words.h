@@ -9,7 +9,7 @@
 
 namespace abut::solve
 {
-  /** A rigid motion in words: "move along (1, 0)", "rotate about (0.5, 0)" in
+  /** A rigid motion in words: "slide along (1, 0)", "rotate about (0.5, 0)" in
    * the plane, "rotate about the axis through (0, 0, 1) along (0, 1, 0)" in
    * space, with a translation along the axis if there is one.
    * @param mode translations, then rotations about @p center whose

@@ -11,9 +11,9 @@
 #include <abut/dealii/solver_parameters.h>
 #include <abut/strategy.h>
 
-#include <vector>
-
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace abut::solve
 {
@@ -29,6 +29,12 @@ namespace abut::solve
     double load = 0.;
     /** Tolerance of the last linear systems. */
     double linear_tolerance = 0.;
+    /** Called where bodies move as rigid bodies until they touch: the [bodies]
+     * motions, and the [n_groups] groups without a closed row before, whose
+     * slips are measured from there. The same on all ranks. */
+    std::function<void(const std::vector<RigidMotion> &motions,
+                       const std::vector<std::uint8_t> &is_apart)>
+        approach;
   };
 
   /** A rigid motion of a body along which loads do no work and which nothing
@@ -36,7 +42,7 @@ namespace abut::solve
   struct FreeMotion
   {
     unsigned int body = 0;   ///< from 0
-    std::string description; ///< "body 1 can move along (1, 0)"
+    std::string description; ///< "body 1 can slide along (1, 0)"
   };
 
   /** One linearised step of a contact problem: find du and dp with

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Bodies that a force moves across clearances to walls or to each other: seeded
-rows of blocks, whose forces are the sums of loads before them."""
+rows of blocks, whose forces are the sums of loads before them, and blocks drawn
+into corners with friction, which do not depend on the clearance."""
 import random
 
 from program import Program, set_words
@@ -84,4 +85,52 @@ for number, clearance in enumerate(CLEARANCES):
             between = sum(loads[:k]) if sign > 0 else sum(loads[k:])
             p.close(-summary[f"pair_{k + 2}_force"][0] / total,
                     between / total, 1e-6, f"{what}, after block {k}")
+
+
+def corner(name, clearance, load, size, level):
+    """A block drawn into a corner that all of it is as far from as the load
+    takes it, so that it touches both walls at once."""
+    walls = []
+    for k, normal in enumerate(("-1, 0", "0, -1")):
+        point = [0., 0.]
+        point[k] = size[k] + clearance * load[k]
+        walls += [section(f"Obstacle {k + 1}", "Kind = plane",
+                          f"Point = {point[0]!r}, {point[1]!r}",
+                          f"Normal = {normal}"),
+                  section(f"Pair {k + 1}", f"Secondary = 1: {2 * k + 1}",
+                          f"Obstacle = {k + 1}", "Friction = 0.3")]
+    return p.write(name, "\n".join([
+        "set Scene = solid", "set Dimension = 2",
+        section("Solid", "Pairs = 2", "Obstacles = 2"),
+        section("Body 1", section(
+            "Mesh", "Generator = subdivided_hyper_rectangle",
+            f"Arguments = 3, 3 : 0, 0 : {size[0]!r}, {size[1]!r} : true"),
+            "Young modulus = 100", "Poisson ratio = 0.3",
+            f"Body force = {load[0]!r}*t, {load[1]!r}*t"),
+        *walls, section("Refinement", f"Level = {level}")]) + "\n")
+
+
+# Slips begin with the touch, on nested meshes too.
+for number in range(2):
+    block = ((random.uniform(0.8, 1.2), random.uniform(0.3, 0.5)),
+             (random.uniform(0.9, 1.1), random.uniform(0.9, 1.1)), number)
+    touching = None
+    for clearance in (0., 1e-4, 0.01, 0.1, 0.5):
+        scene = corner("corner.prm", clearance, *block)
+        if clearance == 0.5:
+            result = run(scene)
+            p.expect(result.returncode == 3
+                     and "Give the pair a larger reach" in result.stderr,
+                     f"out of reach: {result.stderr}")
+        result = run(scene, *([f"Pair {k}/Reach=1" for k in (1, 2)]
+                              if clearance == 0.5 else []))
+        what = f"corner {number}, clearance {clearance}"
+        p.expect(result.returncode == 0, f"{what}: {result.stderr}")
+        summary = p.results()[0]
+        forces = [summary[f"pair_{k}_{key}"][d] for k in (1, 2)
+                  for key in ("force", "friction") for d in (0, 1)]
+        p.expect(abs(summary["pair_2_friction"][0]) > 0.01, what)
+        touching = touching or forces
+        for value, expected in zip(forces, touching):
+            p.close(value, expected, 1e-9, what)
 p.finish()

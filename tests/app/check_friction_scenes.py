@@ -113,7 +113,7 @@ for settings in ((), ("Pair 1/Secondary=1: 2, 3", "Pair 1/Primary=1: 2, 3")):
 result = run(parts, "Body 1/Support=1: 0, 0")
 # No load along it: the answer has the least such motion, which is reported.
 p.expect(result.returncode == 0 and "ABUT-F12" in result.stderr
-         and "body 1, of whose 2 parts the one with the corner (0 1), can move"
+         and "body 1, of whose 2 parts the one with the corner (0 1), can slide"
          in result.stderr, f"a part that slides: {result.stderr}")
 p.expect_error(run(parts, "Pair 1/Secondary=1: 1", "Pair 1/Primary=1: 2",
                    "Body 1/Support=1: free, 0; 2: 0, free"),

@@ -306,9 +306,10 @@ namespace
       {
         message = failure.what();
       }
-      expect(tied ? message.empty()
-                  : message.find("ABUT-F12") != std::string::npos
-                        && message.find("body 2 can move") != std::string::npos,
+      expect(tied
+                 ? message.empty()
+                 : message.find("ABUT-F12") != std::string::npos
+                       && message.find("body 2 can slide") != std::string::npos,
              "a block that can slide: '" + message + "'");
     }
   }
