@@ -2,6 +2,7 @@
 """Mortar between bodies of large strain: partners that follow or stay, turned as
 a whole, sliding over facets, steps of Newton's method, ranks, refusals."""
 import math
+import re
 import statistics
 
 from block_scene import block, pair, section, solid
@@ -154,11 +155,11 @@ if not p.short:
     check_counts(8, 4.8, hard=True)
 check_counts(8, 4.9, hard=True, die_young=1)
 
-# Partners that stay are left behind: the run says that it finds no way on, and
-# what to take instead; of bodies that do not slide it would not.
+# Partners that stay are left behind: the run reports how far the surfaces slid,
+# and what to take instead; of bodies that do not slide it would not.
 left = run("slide.prm", SMALL)
-p.expect(left.returncode == 3 and "Newton's method" in left.stderr
-         and "slid on each other" in left.stderr
+p.expect(left.returncode == 3
+         and re.search("slide? on each other", left.stderr)
          and "Method/Sliding = large" in left.stderr,
          f"partners left behind: {left.returncode}\n{left.stderr}")
 stuck = run("patch-2.prm", SMALL, "Load steps/Newton steps=1",
