@@ -247,7 +247,7 @@ add_all(seeker *s, const double *y, const double *v, double weight, flanks *f)
 static bool
 find_straight(seeker *s, const double *y, const double *own, double *e)
 {
-  double distance, normal[3], hessian[9], around[3] = {0., 0., 0.};
+  double distance = 0., normal[3], hessian[9], around[3] = {0., 0., 0.};
   if (s->status == ABUT_SUCCESS)
     s->status = (s->moving ? abut_obstacle_gap : abut_obstacle_distance)(
         s->obstacle, 1, y, &distance, normal, hessian);
