@@ -61,7 +61,8 @@ namespace abut::app
       return is_number(word, value);
     }
 
-    /** The first number that is none or not finite, in words; else empty. */
+    /** The first word that is not a number or not finite, as an error; else
+     * empty. */
     std::string wrong_number_in(const std::filesystem::path &path)
     {
       std::string found;
