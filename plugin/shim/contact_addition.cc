@@ -39,7 +39,7 @@ namespace abut
     class Addition
     {
     public:
-      Addition(const solve::PointOperator &rows, la::Matrix &matrix,
+      Addition(const solve::PointOperator &rows, const la::MatrixTarget &matrix,
                la::Vector &residual)
           : rows_(rows), matrix_(matrix), residual_(residual)
       {
@@ -74,13 +74,12 @@ namespace abut
           for (std::size_t k = 0; k < columns_.size(); ++k)
             values_[k] =
                 stiffness * b * rows_.coefficient(rows_.begin(other) + k);
-          matrix_.add(lines_[j], columns_.size(), columns_.data(),
-                      values_.data());
+          matrix_.add(lines_[j], columns_, values_);
         }
       }
 
       const solve::PointOperator &rows_;
-      la::Matrix &matrix_;
+      const la::MatrixTarget &matrix_;
       la::Vector &residual_;
       std::vector<global_dof_index> lines_, columns_;
       std::vector<double> values_;
@@ -116,12 +115,13 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::add(la::Matrix &matrix, la::Vector &residual)
+  void ContactAssembler<dim>::add(const la::MatrixTarget &matrix,
+                                  const la::MutableVectorView &given_residual)
   {
     Implementation &i = *implementation;
     i.check_rows("add()");
-    i.check_size("add()", "matrix", matrix.m());
-    i.check_size("add()", "residual", residual.size());
+    la::Vector &residual = i.take_mutable("add()", "residual", given_residual);
+    const solve::Stiffness stiffness = i.stiffness_of("add()", Tangent(matrix));
     AssertThrow(abut_law_has_penalty(i.method.options.law)
                     && !abut_law_needs_stress(i.method.options.law),
                 ExcMessage(std::string("The law '") + i.method.options.law->name
@@ -129,8 +129,8 @@ namespace abut
                              "ContactAssembler::solve()."));
     if (!i.is_started)
     {
-      i.take_matrix(matrix);
-      i.begin(matrix, residual);
+      i.take_matrix(stiffness);
+      i.begin(stiffness, residual);
     }
     if (i.geometry != nullptr)
     {
@@ -144,7 +144,7 @@ namespace abut
     Addition addition(rows, matrix, residual);
     for_each_point(i.local, rows.n_rows(),
                    [&](const CondensedPoint &point) { addition.add(point); });
-    matrix.compress(dealii::VectorOperation::add);
+    matrix.compress();
     residual.compress(dealii::VectorOperation::add);
     i.was_added = true;
   }
@@ -153,6 +153,8 @@ namespace abut
   ContactAssembler<2>::add_to_sparsity(dealii::DynamicSparsityPattern &) const;
   template void
   ContactAssembler<3>::add_to_sparsity(dealii::DynamicSparsityPattern &) const;
-  template void ContactAssembler<2>::add(la::Matrix &, la::Vector &);
-  template void ContactAssembler<3>::add(la::Matrix &, la::Vector &);
+  template void ContactAssembler<2>::add(const la::MatrixTarget &,
+                                         const la::MutableVectorView &);
+  template void ContactAssembler<3>::add(const la::MatrixTarget &,
+                                         const la::MutableVectorView &);
 } // namespace abut

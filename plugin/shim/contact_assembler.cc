@@ -35,11 +35,21 @@ namespace abut
                    && x.may_be_apart == y.may_be_apart && x.reach == y.reach;
           });
     }
+
+    /** Programs without MPI of their own need it, too: Trilinos does. */
+    void check_mpi()
+    {
+      AssertThrow(dealii::Utilities::MPI::job_supports_mpi(),
+                  ExcMessage("MPI is not initialised. Begin main() with: "
+                             "dealii::Utilities::MPI::MPI_InitFinalize "
+                             "mpi(argc, argv, 1);"));
+    }
   } // namespace
 
   template <int dim>
   ContactAssembler<dim>::ContactAssembler(const MPI_Comm communicator)
-      : implementation(std::make_unique<Implementation>(communicator))
+      : implementation(
+          (check_mpi(), std::make_unique<Implementation>(communicator)))
   {
   }
 
@@ -170,16 +180,19 @@ namespace abut
     i.slip_reference = {};
     i.start_pressure.clear();
     i.reference.reset();
+    i.copied.clear();
+    i.copied_reference.clear();
     i.law_compliance = la::Vector();
     i.report = LinearReport();
   }
 
   template <int dim>
-  void ContactAssembler<dim>::detect(const la::Vector &displacement)
+  void ContactAssembler<dim>::detect(const la::VectorView &given_displacement)
   {
     Implementation &i = *implementation;
     i.check_mesh("detect()");
-    i.check_size("detect()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("detect()", "displacement", given_displacement);
     // The pressures reached so far are the start of the next solve.
     i.record_present();
     if (i.is_started || i.is_restarted)
@@ -206,12 +219,14 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::linearise(const la::Vector &displacement,
-                                        const double linear_tolerance)
+  void
+  ContactAssembler<dim>::linearise(const la::VectorView &given_displacement,
+                                   const double linear_tolerance)
   {
     Implementation &i = *implementation;
     i.check_rows("linearise()");
-    i.check_size("linearise()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("linearise()", "displacement", given_displacement);
     AssertThrow(!i.is_nitsche(), ExcMessage("Nitsche's method is for linear "
                                             "elastic bodies: do not call "
                                             "linearise() with it."));
@@ -228,11 +243,12 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::follow(const la::Vector &displacement)
+  void ContactAssembler<dim>::follow(const la::VectorView &given_displacement)
   {
     Implementation &i = *implementation;
     i.check_rows("follow()");
-    i.check_size("follow()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("follow()", "displacement", given_displacement);
     if (i.moves())
       i.follow(displacement);
   }
@@ -243,21 +259,26 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::set_pressure(const la::Vector &pressure)
+  void ContactAssembler<dim>::set_pressure(const la::VectorView &pressure)
   {
-    implementation->given_field = pressure;
+    const Implementation &i = *implementation;
+    i.check_mesh("set_pressure()");
+    implementation->given_field =
+        i.take("set_pressure()", "pressure", pressure);
   }
 
   template <int dim>
-  void ContactAssembler<dim>::relax(const Tangent &tangent,
-                                    const la::Vector &residual,
-                                    const unsigned int n_sweeps,
-                                    la::Vector &displacement)
+  void
+  ContactAssembler<dim>::relax(const Tangent &tangent,
+                               const la::VectorView &given_residual,
+                               const unsigned int n_sweeps,
+                               const la::MutableVectorView &given_displacement)
   {
     Implementation &i = *implementation;
     i.check_rows("relax()");
-    i.check_size("relax()", "residual", residual.size());
-    i.check_size("relax()", "displacement", displacement.size());
+    const la::Vector &residual = i.take("relax()", "residual", given_residual);
+    la::Vector &displacement =
+        i.take_mutable("relax()", "displacement", given_displacement);
     AssertThrow(!i.is_started, ExcMessage("Call relax() between detect() and "
                                           "the first solve()."));
     if (abut_law_needs_open_start(i.method.options.law))
@@ -270,15 +291,17 @@ namespace abut
   }
 
   template <int dim>
-  LinearReport ContactAssembler<dim>::solve(const Tangent &tangent,
-                                            const la::Vector &residual,
-                                            la::Vector &increment)
+  LinearReport
+  ContactAssembler<dim>::solve(const Tangent &tangent,
+                               const la::VectorView &given_residual,
+                               const la::MutableVectorView &given_increment)
   {
     Implementation &i = *implementation;
     i.check_rows("solve()");
     const solve::Stiffness matrix = i.stiffness_of("solve()", tangent);
-    i.check_size("solve()", "residual", residual.size());
-    i.check_size("solve()", "increment", increment.size());
+    const la::Vector &residual = i.take("solve()", "residual", given_residual);
+    la::Vector &increment =
+        i.take_mutable("solve()", "increment", given_increment);
     i.prepare_solver(matrix);
     AssertThrow(!i.is_started || i.request.action == ABUT_ACTION_SOLVE,
                 ExcMessage("The contact iteration has stopped: call detect() "
@@ -311,11 +334,12 @@ namespace abut
   }
 
   template <int dim>
-  bool ContactAssembler<dim>::update(const la::Vector &displacement)
+  bool ContactAssembler<dim>::update(const la::VectorView &given_displacement)
   {
     Implementation &i = *implementation;
     i.check_rows("update()");
-    i.check_size("update()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("update()", "displacement", given_displacement);
     AssertThrow(i.is_started,
                 ExcMessage("Call solve() or add() before update()."));
     if (i.request.action == ABUT_ACTION_STOP)
@@ -340,11 +364,13 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::add_contact_forces(la::Vector &forces) const
+  void ContactAssembler<dim>::add_contact_forces(
+      const la::MutableVectorView &given_forces) const
   {
     const Implementation &i = *implementation;
     i.check_rows("add_contact_forces()");
-    i.check_size("add_contact_forces()", "force", forces.size());
+    la::Vector &forces =
+        i.take_mutable("add_contact_forces()", "force", given_forces);
     AssertThrow(!i.is_nitsche(), ExcMessage("The forces of Nitsche's method "
                                             "are not those of its pressures "
                                             "alone."));
@@ -353,11 +379,15 @@ namespace abut
 
   template <int dim>
   LinearReport ContactAssembler<dim>::solve_linearised(
-      const Tangent &tangent, const la::Vector &residual, la::Vector &step)
+      const Tangent &given_tangent, const la::VectorView &given_residual,
+      const la::MutableVectorView &given_step)
   {
     Implementation &i = *implementation;
     i.check_rows("solve_linearised()");
-    i.check_size("solve_linearised()", "residual", residual.size());
+    const la::Vector &residual =
+        i.take("solve_linearised()", "residual", given_residual);
+    la::Vector &step = i.take_mutable("solve_linearised()", "step", given_step);
+    const Tangent tangent = i.stiffness_of("solve_linearised()", given_tangent);
     const la::Vector start(i.start_displacement);
     la::Vector end(start);
     const LinearReport cost =
@@ -377,13 +407,15 @@ namespace abut
   }
 
   template <int dim>
-  double ContactAssembler<dim>::evaluate(const la::Vector &displacement,
-                                         la::Vector &forces) const
+  double ContactAssembler<dim>::evaluate(
+      const la::VectorView &given_displacement,
+      const la::MutableVectorView &given_forces) const
   {
     const Implementation &i = *implementation;
     i.check_rows("evaluate()");
-    i.check_size("evaluate()", "displacement", displacement.size());
-    i.check_size("evaluate()", "force", forces.size());
+    const la::Vector &displacement =
+        i.take("evaluate()", "displacement", given_displacement);
+    la::Vector &forces = i.take_mutable("evaluate()", "force", given_forces);
     AssertThrow(i.is_started, ExcMessage("Call solve() before evaluate()."));
     if (i.moves())
       return implementation->evaluate_moved(displacement, forces);
@@ -406,7 +438,8 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_mesh("set_reference_stiffness()");
-    i.reference = i.stiffness_of("set_reference_stiffness()", tangent);
+    i.reference = i.stiffness_of("set_reference_stiffness()", tangent,
+                                 &i.copied_reference);
     i.law_compliance = la::Vector();
     i.has_new_matrix = true;
   }
@@ -420,12 +453,13 @@ namespace abut
   }
 
   template <int dim>
-  double
-  ContactAssembler<dim>::length_scale(const la::Vector &displacement) const
+  double ContactAssembler<dim>::length_scale(
+      const la::VectorView &given_displacement) const
   {
     const Implementation &i = *implementation;
     i.check_rows("length_scale()");
-    i.check_size("length_scale()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("length_scale()", "displacement", given_displacement);
     const double length = i.length_scale(displacement);
     // Obstacles may come to bodies that rest.
     return length == 0. && i.surfaces != nullptr && i.surfaces->has_steps()
@@ -505,13 +539,17 @@ namespace abut
   }
 
   template <int dim>
-  double ContactAssembler<dim>::inf_sup_constant(const la::Matrix &matrix) const
+  double ContactAssembler<dim>::inf_sup_constant(const Tangent &tangent) const
   {
     const Implementation &i = *implementation;
     i.check_rows("inf_sup_constant()");
-    i.check_size("inf_sup_constant()", "matrix", matrix.m());
-    return solve::inf_sup_constant(matrix, i.coefficients, i.solver_parameters,
-                                   i.near_null_space())
+    AssertThrow(
+        tangent.has_matrix(),
+        ExcMessage("inf_sup_constant() needs a matrix, not a HostOperator."));
+    const solve::Stiffness stiffness =
+        i.stiffness_of("inf_sup_constant()", tangent);
+    return solve::inf_sup_constant(stiffness.matrix(), i.coefficients,
+                                   i.solver_parameters, i.near_null_space())
         .constant;
   }
 

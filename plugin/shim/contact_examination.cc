@@ -429,8 +429,8 @@ namespace abut
 
   template <int dim>
   ContactExamination
-  ContactAssembler<dim>::examine(const la::Vector &displacement,
-                                 const la::Vector *residual,
+  ContactAssembler<dim>::examine(const la::VectorView &given_displacement,
+                                 const la::VectorView &residual,
                                  const bool allow_large_strain)
   {
     Implementation &i = *implementation;
@@ -440,12 +440,13 @@ namespace abut
       i.check_rows("examine()");
     else
       i.check_mesh("examine()");
-    i.check_size("examine()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("examine()", "displacement", given_displacement);
     ContactExamination result;
     Findings findings(result);
-    if (residual != nullptr)
+    if (residual)
     {
-      result.imbalance = imbalance(*residual);
+      result.imbalance = imbalance(residual);
       judge_balance(result.imbalance, findings);
     }
     if (can_touch && i.surfaces == nullptr)
@@ -517,12 +518,14 @@ namespace abut
   }
 
   template <int dim>
-  double ContactAssembler<dim>::missed_depth(const la::Vector &displacement,
-                                             dealii::Vector<float> &depth)
+  double
+  ContactAssembler<dim>::missed_depth(const la::VectorView &given_displacement,
+                                      dealii::Vector<float> &depth)
   {
     Implementation &i = *implementation;
     i.check_rows("missed_depth()");
-    i.check_size("missed_depth()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("missed_depth()", "displacement", given_displacement);
     depth.reinit(i.dof_handler->get_triangulation().n_active_cells());
     const double least_peak = useless * i.deformation(displacement);
     double largest = 0.;
@@ -564,11 +567,11 @@ namespace abut
       const la::Vector &, double, ContactExamination &);                       \
   template void ContactAssembler<dim>::check_supports(const Tangent &) const;  \
   template ContactExamination ContactAssembler<dim>::examine(                  \
-      const la::Vector &, const la::Vector *, bool);                           \
+      const la::VectorView &, const la::VectorView &, bool);                   \
   template double ContactAssembler<dim>::Implementation::soft_on_purpose()     \
       const;                                                                   \
   template double ContactAssembler<dim>::missed_depth(                         \
-      const la::Vector &, dealii::Vector<float> &);
+      const la::VectorView &, dealii::Vector<float> &);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

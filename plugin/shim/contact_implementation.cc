@@ -656,16 +656,6 @@ namespace abut
   }
 
   template <int dim>
-  solve::Stiffness ContactAssembler<dim>::Implementation::stiffness_of(
-      const std::string &call, const Tangent &tangent) const
-  {
-    if (!tangent.has_matrix())
-      return {tangent, dof_handler->locally_owned_dofs(), communicator};
-    check_size(call, "matrix", tangent.matrix().m());
-    return tangent.matrix();
-  }
-
-  template <int dim>
   void ContactAssembler<dim>::Implementation::check_host() const
   {
     const auto need = [](const bool is_wanted, const std::string &what)

@@ -4,6 +4,7 @@
 
 #include "contact_history.h"
 #include "handles.h"
+#include "host_matrix_copy.h"
 #include "row_source.h"
 #include "solve/gap_substitution.h"
 #include "solve/local_elimination.h"
@@ -177,8 +178,21 @@ namespace abut
     void begin(const solve::Stiffness &matrix, const la::Vector &residual);
     /** The tangent with its unknowns. Throws where it is not of as many as in
      * reinit(). */
+    /** What a host gives to a @p call: the vector itself, or its view's copy.
+     * Throws, on all ranks, if it is not one of the present unknowns.
+     * Collective. */
+    const la::Vector &take(const std::string &call, const std::string &what,
+                           const la::VectorView &given) const;
+    la::Vector &take_mutable(const std::string &call, const std::string &what,
+                             const la::MutableVectorView &given) const;
+    /** Unknowns of the displacement if they come before all others, else 0. */
+    dealii::types::global_dof_index displacement_block() const;
+    /** A matrix of another type is copied, to @p copy or the one of the present
+     * step. Throws, on all ranks, if it is not one of the present unknowns.
+     * Collective. */
     solve::Stiffness stiffness_of(const std::string &call,
-                                  const Tangent &tangent) const;
+                                  const Tangent &tangent,
+                                  shim::HostMatrixCopy *copy = nullptr) const;
     /** Throws if a matrix is needed. */
     void check_host() const;
     /** Made once for each mesh. Collective. */
@@ -222,6 +236,8 @@ namespace abut
     SolverParameters solver_parameters;
     bool constant_matrix = false;
     std::optional<solve::Stiffness> reference; ///< none: the present one
+    /** Of hosts' matrices of other types: the present one, and reference. */
+    mutable shim::HostMatrixCopy copied, copied_reference;
     double given_length = 0.;                  ///< 0: none
 
     /** Before all that is made with it, and so destroyed after it. */

@@ -41,12 +41,13 @@ namespace abut
   }
 
   template <int dim>
-  std::vector<StepMotion>
-  ContactAssembler<dim>::step_motion(const la::Vector &displacement) const
+  std::vector<StepMotion> ContactAssembler<dim>::step_motion(
+      const la::VectorView &given_displacement) const
   {
     Implementation &i = *implementation;
     i.check_rows("step_motion()");
-    i.check_size("step_motion()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("step_motion()", "displacement", given_displacement);
     if (i.surfaces == nullptr)
       return {};
     const std::vector<std::uint8_t> states = i.row_states();
@@ -151,11 +152,13 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::add_forces_on_supports(la::Vector &forces) const
+  void ContactAssembler<dim>::add_forces_on_supports(
+      const la::MutableVectorView &given_forces) const
   {
     const Implementation &i = *implementation;
     i.check_rows("add_forces_on_supports()");
-    i.check_size("add_forces_on_supports()", "force", forces.size());
+    la::Vector &forces =
+        i.take_mutable("add_forces_on_supports()", "force", given_forces);
     if (i.surfaces == nullptr)
       return;
     const la::Vector all = forces_of(*i.surfaces, i.row_pressures(), forces);
@@ -167,11 +170,13 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::add_pressure_forces(la::Vector &forces) const
+  void ContactAssembler<dim>::add_pressure_forces(
+      const la::MutableVectorView &given_forces) const
   {
     const Implementation &i = *implementation;
     i.check_rows("add_pressure_forces()");
-    i.check_size("add_pressure_forces()", "force", forces.size());
+    la::Vector &forces =
+        i.take_mutable("add_pressure_forces()", "force", given_forces);
     if (i.surfaces == nullptr)
       return;
     std::vector<double> pressures = i.row_pressures();
@@ -229,12 +234,13 @@ namespace abut
   }
 
   template <int dim>
-  double ContactAssembler<dim>::imbalance(const la::Vector &residual,
+  double ContactAssembler<dim>::imbalance(const la::VectorView &given_residual,
                                           const double least) const
   {
     const Implementation &i = *implementation;
     i.check_rows("imbalance()");
-    i.check_size("imbalance()", "residual", residual.size());
+    const la::Vector &residual =
+        i.take("imbalance()", "residual", given_residual);
     la::Vector contact(residual);
     contact = 0.;
     i.add_forces(contact);
@@ -244,7 +250,7 @@ namespace abut
   }
 
   template <int dim>
-  double ContactAssembler<dim>::imbalance(const la::Vector &residual) const
+  double ContactAssembler<dim>::imbalance(const la::VectorView &residual) const
   {
     const Implementation &i = *implementation;
     const double tolerance = i.method.options.final_linear_tolerance;
@@ -280,24 +286,25 @@ namespace abut
   }
 
   template <int dim>
-  std::vector<double>
-  ContactAssembler<dim>::transfer_errors(const la::Vector &displacement) const
+  std::vector<double> ContactAssembler<dim>::transfer_errors(
+      const la::VectorView &given_displacement) const
   {
     const Implementation &i = *implementation;
     i.check_rows("transfer_errors()");
-    i.check_size("transfer_errors()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("transfer_errors()", "displacement", given_displacement);
     return i.surfaces == nullptr ? std::vector<double>()
                                  : i.surfaces->transfer_errors(displacement);
   }
 
   template <int dim>
-  std::vector<Penetration<dim>>
-  ContactAssembler<dim>::check_penetration(const la::Vector &displacement,
-                                           const double tolerance)
+  std::vector<Penetration<dim>> ContactAssembler<dim>::check_penetration(
+      const la::VectorView &given_displacement, const double tolerance)
   {
     Implementation &i = *implementation;
     i.check_rows("check_penetration()");
-    i.check_size("check_penetration()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("check_penetration()", "displacement", given_displacement);
     if (i.surfaces == nullptr)
       return {};
     return i.surfaces->penetrations(displacement, tolerance);
@@ -305,23 +312,24 @@ namespace abut
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template std::vector<StepMotion> ContactAssembler<dim>::step_motion(         \
-      const la::Vector &) const;                                               \
+      const la::VectorView &) const;                                           \
   template DetectionReport ContactAssembler<dim>::detection_report() const;    \
   template PartnerChanges ContactAssembler<dim>::partner_changes() const;      \
   template typename ContactAssembler<dim>::PointCount                          \
   ContactAssembler<dim>::point_count() const;                                  \
   template double ContactAssembler<dim>::contact_force() const;                \
-  template double ContactAssembler<dim>::imbalance(const la::Vector &) const;  \
+  template double ContactAssembler<dim>::imbalance(const la::VectorView &)     \
+      const;                                                                   \
   template double ContactAssembler<dim>::complementarity() const;              \
   template double ContactAssembler<dim>::complementarity_error() const;        \
   template double ContactAssembler<dim>::allowed_penetration() const;          \
-  template void ContactAssembler<dim>::add_forces_on_supports(la::Vector &)    \
-      const;                                                                   \
-  template void ContactAssembler<dim>::add_pressure_forces(la::Vector &)       \
-      const;                                                                   \
+  template void ContactAssembler<dim>::add_forces_on_supports(                 \
+      const la::MutableVectorView &) const;                                    \
+  template void ContactAssembler<dim>::add_pressure_forces(                    \
+      const la::MutableVectorView &) const;                                    \
   template double ContactAssembler<dim>::penetration() const;                  \
-  template double ContactAssembler<dim>::imbalance(const la::Vector &, double) \
-      const;                                                                   \
+  template double ContactAssembler<dim>::imbalance(const la::VectorView &,     \
+                                                   double) const;              \
   template la::Vector ContactAssembler<dim>::pressure() const;                 \
   template la::Vector ContactAssembler<dim>::gap() const;                      \
   template la::Vector ContactAssembler<dim>::slip() const;                     \
@@ -330,9 +338,9 @@ namespace abut
   template std::vector<PairResult<dim>> ContactAssembler<dim>::pair_results()  \
       const;                                                                   \
   template std::vector<double> ContactAssembler<dim>::transfer_errors(         \
-      const la::Vector &) const;                                               \
+      const la::VectorView &) const;                                           \
   template std::vector<Penetration<dim>>                                       \
-  ContactAssembler<dim>::check_penetration(const la::Vector &, double);
+  ContactAssembler<dim>::check_penetration(const la::VectorView &, double);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

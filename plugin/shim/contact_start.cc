@@ -160,11 +160,12 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::commit(const la::Vector &displacement)
+  void ContactAssembler<dim>::commit(const la::VectorView &given_displacement)
   {
     Implementation &i = *implementation;
     i.check_mesh("commit()");
-    i.check_size("commit()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("commit()", "displacement", given_displacement);
     i.record_present();
     i.history.commit();
     i.approach.clear();
@@ -188,11 +189,13 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::set_committed(const la::Vector &displacement)
+  void
+  ContactAssembler<dim>::set_committed(const la::VectorView &given_displacement)
   {
     Implementation &i = *implementation;
     i.check_mesh("set_committed()");
-    i.check_size("set_committed()", "displacement", displacement.size());
+    const la::Vector &displacement =
+        i.take("set_committed()", "displacement", given_displacement);
     i.committed = displacement;
     i.approach.clear();
     i.committed_is_lost = false;
@@ -248,8 +251,8 @@ namespace abut
       abut_strategy_options &);                                                \
   template void ContactAssembler<dim>::Implementation::start_from_present();   \
   template void ContactAssembler<dim>::Implementation::abandon_iteration();    \
-  template void ContactAssembler<dim>::commit(const la::Vector &);             \
-  template void ContactAssembler<dim>::set_committed(const la::Vector &);      \
+  template void ContactAssembler<dim>::commit(const la::VectorView &);         \
+  template void ContactAssembler<dim>::set_committed(const la::VectorView &);  \
   template void ContactAssembler<dim>::rollback();                             \
   template void ContactAssembler<dim>::save(std::ostream &);                   \
   template void ContactAssembler<dim>::load(std::istream &);

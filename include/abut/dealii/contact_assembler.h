@@ -168,7 +168,7 @@ namespace abut
      * facet, one and a half times their relative motion in @p displacement,
      * or the reach given, whichever is most. Pressures of the last solve, or
      * those of set_pressure(), are its start. */
-    virtual void detect(const la::Vector &displacement);
+    virtual void detect(const la::VectorView &displacement);
 
     /** Begin a new iteration at @p displacement with the rows of the last
      * detect(), from the pressures and the set reached so far: for Newton's
@@ -178,7 +178,7 @@ namespace abut
      * `nitsche`, whose stress is linear.
      * @param linear_tolerance relative tolerance of the linear systems of this
      *   iteration; 0: as the parameters say */
-    virtual void linearise(const la::Vector &displacement,
+    virtual void linearise(const la::VectorView &displacement,
                            double linear_tolerance = 0.);
 
     /** Whether points move with the bodies (MethodParameters::sliding): then
@@ -192,11 +192,11 @@ namespace abut
      * states: what pair_results() and the fields tell is then of there. To be
      * called at the end of a Newton iteration; ContactSolver does. Does nothing
      * where points are fixed. */
-    virtual void follow(const la::Vector &displacement);
+    virtual void follow(const la::VectorView &displacement);
 
     /** Earlier name of linearise(). */
     [[deprecated("is called linearise()")]] void
-    restart(const la::Vector &displacement, double linear_tolerance = 0.)
+    restart(const la::VectorView &displacement, double linear_tolerance = 0.)
     {
       linearise(displacement, linear_tolerance);
     }
@@ -207,12 +207,12 @@ namespace abut
      * any ranks, rows start from the pressures that they had themselves. From
      * detect() on it is what pressure(), status() and pair_results() tell,
      * until there is a solve. */
-    virtual void set_pressure(const la::Vector &pressure);
+    virtual void set_pressure(const la::VectorView &pressure);
 
     /** Accept the step that has been solved: its pressures, states and the
      * penalty reached are what rollback() returns to and save() writes. To be
      * called once per load or time step, at its @p displacement. */
-    virtual void commit(const la::Vector &displacement);
+    virtual void commit(const la::VectorView &displacement);
 
     /** Give up the step since commit(), as if it had never been tried: the next
      * detect(), which must follow, begins with what was committed, or with
@@ -251,7 +251,7 @@ namespace abut
      * prescribed values as they were then, brought to this mesh. Needed after
      * reinit() for pairs with friction and for Sliding::step only, and after
      * load(). Collective. */
-    virtual void set_committed(const la::Vector &displacement);
+    virtual void set_committed(const la::VectorView &displacement);
 
     /** Add the couplings that add() needs: those of all rows, in contact or
      * not. Rows on single unknowns, as those of a membrane's obstacle, need
@@ -266,8 +266,9 @@ namespace abut
      * @p displacement; its residual must be computed again. Does nothing for
      * pairs, except with the law `barrier`, whose gaps are opened, and needs no
      * matrix for either. */
-    virtual void relax(const Tangent &tangent, const la::Vector &residual,
-                       unsigned int n_sweeps, la::Vector &displacement);
+    virtual void relax(const Tangent &tangent, const la::VectorView &residual,
+                       unsigned int n_sweeps,
+                       const la::MutableVectorView &displacement);
 
     /** One linearised step with contact: returns the increment of the
      * displacement, already damped where the method asks for it. @p tangent is
@@ -276,8 +277,8 @@ namespace abut
      * needs a matrix: Nitsche's method, saddle points, points that move, and
      * solvers that are not iterative. Throws when the linear solver fails. */
     virtual LinearReport solve(const Tangent &tangent,
-                               const la::Vector &residual,
-                               la::Vector &increment);
+                               const la::VectorView &residual,
+                               const la::MutableVectorView &increment);
 
     /** For hosts with a linear solver of their own: add the condensed contact
      * terms to @p matrix and @p residual, so that matrix increment =
@@ -285,7 +286,8 @@ namespace abut
      * the matrix is not symmetric any more: solve it by what can do that.
      * Throws for laws with true constraints (lagrange), for interior point and
      * for nitsche, which need solve(). */
-    virtual void add(la::Matrix &matrix, la::Vector &residual);
+    virtual void add(const la::MatrixTarget &matrix,
+                     const la::MutableVectorView &residual);
 
     /** The contact problem of one linearisation, from the displacement of the
      * last detect() or linearise() to its end, for hosts with a Newton loop of
@@ -295,18 +297,18 @@ namespace abut
      * tells whether it has an answer. Assemble, call this, shorten the step if
      * you must, and linearise() where you have gone. */
     virtual LinearReport solve_linearised(const Tangent &tangent,
-                                          const la::Vector &residual,
-                                          la::Vector &step);
+                                          const la::VectorView &residual,
+                                          const la::MutableVectorView &step);
 
     /** Tell the displacement after the step; advances active set, multipliers
      * and parameters. Returns whether another step is needed; if not,
      * reason() tells why. */
-    virtual bool update(const la::Vector &displacement);
+    virtual bool update(const la::VectorView &displacement);
 
     /** Add the present contact forces sum w p B to @p forces: in equilibrium
      * they are the residual R at unknowns that are free. Throws for nitsche.
      */
-    virtual void add_contact_forces(la::Vector &forces) const;
+    virtual void add_contact_forces(const la::MutableVectorView &forces) const;
 
     /** What a line search wants to know of contact at @p displacement, without
      * a step of the iteration: writes the forces of the present pressures into
@@ -316,8 +318,8 @@ namespace abut
      * closed r is the residual of the present linearisation of the law as a
      * length, else the penetration. 0 where the problem is solved. After the
      * first solve(); not for `nitsche`. */
-    virtual double evaluate(const la::Vector &displacement,
-                            la::Vector &forces) const;
+    virtual double evaluate(const la::VectorView &displacement,
+                            const la::MutableVectorView &forces) const;
 
     /** Take the stiffness that penalties are multiples of from this tangent,
      * and not from the first one that solve() or add() is given after
@@ -339,7 +341,7 @@ namespace abut
      * not more than a facet, the median of their secondary surfaces: a body
      * may travel far. With Sliding::step it is a facet where nothing has moved.
      */
-    virtual double length_scale(const la::Vector &displacement) const;
+    virtual double length_scale(const la::VectorView &displacement) const;
 
     /** The unknowns of this rank that may take part in contact: those of all
      * rows of the last detect(), in contact or not, on both sides; hanging
@@ -394,7 +396,7 @@ namespace abut
      * of its beginning. To be called after the solve and before commit(). Where
      * partners stay: how far they have slid in all. Collective. */
     virtual std::vector<StepMotion>
-    step_motion(const la::Vector &displacement) const;
+    step_motion(const la::VectorView &displacement) const;
 
     /** How often points between surfaces were asked for on this mesh. */
     struct PointCount
@@ -448,12 +450,13 @@ namespace abut
      * forces of the present pressures, by the norm of the latter or @p least,
      * whichever is more. Not small: a linear solver has failed its promise. Not
      * for nitsche with theta other than 0, which is no balance of forces. */
-    virtual double imbalance(const la::Vector &residual, double least) const;
+    virtual double imbalance(const la::VectorView &residual,
+                             double least) const;
 
     /** The same as a part of the load of the last iteration, or of the contact
      * forces if these are more; 0 where there is no such balance. About 2 where
      * the residual has the wrong sign. */
-    virtual double imbalance(const la::Vector &residual) const;
+    virtual double imbalance(const la::VectorView &residual) const;
 
     /** What detect() met on each pair; empty without pairs. Not collective. */
     virtual std::vector<PairCheck> pair_checks() const;
@@ -467,7 +470,7 @@ namespace abut
      * that refinement does not lower. 0 against obstacles. To be called after
      * detect(), which it costs as much as. */
     virtual std::vector<double>
-    transfer_errors(const la::Vector &displacement) const;
+    transfer_errors(const la::VectorView &displacement) const;
 
     /** Search the bodies displaced by @p displacement, without regard to
      * rows, for points of secondary surfaces that are inside the other body (or
@@ -481,7 +484,7 @@ namespace abut
      * search helps against them, see PairResult::between_rows. The same list on
      * all ranks; empty without pairs. As costly as detect(). */
     virtual std::vector<Penetration<dim>>
-    check_penetration(const la::Vector &displacement, double tolerance);
+    check_penetration(const la::VectorView &displacement, double tolerance);
 
     /** Look at the answer at @p displacement for what the iteration cannot see:
      * strains that are not small (a warning from 5 %, an error from 50 %, or
@@ -497,8 +500,8 @@ namespace abut
      * them, of a membrane in all its cells. Throws ObstacleError for
      * formulas without a value there. Where nothing can touch it only looks at
      * strains. Collective. */
-    virtual ContactExamination examine(const la::Vector &displacement,
-                                       const la::Vector *residual = nullptr,
+    virtual ContactExamination examine(const la::VectorView &displacement,
+                                       const la::VectorView &residual = {},
                                        bool allow_large_strain = false);
 
     /** How deep obstacles are in what has no contact, by active cell of this
@@ -508,7 +511,7 @@ namespace abut
      * Error estimates that only look at nodes know nothing of it. 0
      * elsewhere. Resizes @p depth; returns the largest on all ranks. See
      * examine(). Collective. */
-    virtual double missed_depth(const la::Vector &displacement,
+    virtual double missed_depth(const la::VectorView &displacement,
                                 dealii::Vector<float> &depth);
 
     /** Look for rigid motions that neither @p tangent nor any row resists, be
@@ -528,7 +531,7 @@ namespace abut
      * means that some pressure moves nothing. Call after detect(). A few dozen
      * solves with @p matrix: for studies, not for each step. Throws
      * SolverFailure if a body is held by nothing. */
-    virtual double inf_sup_constant(const la::Matrix &matrix) const;
+    virtual double inf_sup_constant(const Tangent &tangent) const;
 
     /** What this rank has sent about the surfaces of pairs since construction,
      * and what it has of them now. Not collective. */
@@ -548,13 +551,34 @@ namespace abut
      * nodes by their parents. What is left of a support's reaction holds the
      * body against all else. Nothing for membranes, which have no contact
      * there; for nitsche that of its pressures. Collective. */
-    virtual void add_forces_on_supports(la::Vector &forces) const;
+    virtual void
+    add_forces_on_supports(const la::MutableVectorView &forces) const;
 
     /** Add the forces of pairs at all unknowns, be they prescribed or not, as
      * far as they are those of pressures: with friction, without the forces
      * along the surfaces. Hanging nodes by their parents. Nothing for
      * membranes; for nitsche that of its pressures. Collective. */
-    virtual void add_pressure_forces(la::Vector &forces) const;
+    virtual void add_pressure_forces(const la::MutableVectorView &forces) const;
+
+    /** The tangent with Abut's own copy of a matrix that is of another type, as
+     * it is now and until the next call with a matrix; any other one as it is.
+     * Collective. */
+    virtual Tangent copy_of(const Tangent &tangent) const;
+
+    /** A vector of Abut's type with the values of @p vector. Collective. */
+    virtual la::Vector copy_of(const la::VectorView &vector) const;
+
+    /** examine() with the address of the residual, which may be null. */
+    template <typename V>
+    ContactExamination examine(const la::VectorView &displacement,
+                               const V *residual,
+                               const bool allow_large_strain = false)
+    {
+      return residual == nullptr
+                 ? examine(displacement, la::VectorView(), allow_large_strain)
+                 : examine(displacement, la::VectorView(*residual),
+                           allow_large_strain);
+    }
 
   private:
     struct Implementation;

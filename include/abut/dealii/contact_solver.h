@@ -111,6 +111,17 @@ namespace abut
       return result_;
     }
 
+    /** The same for a displacement of any other type. */
+    template <typename V,
+              typename = std::enable_if_t<la::internal::is_host_vector<V>>>
+    NewtonResult solve(V &u)
+    {
+      la::Vector own = contact_.copy_of(la::VectorView(u));
+      const NewtonResult result = solve(own);
+      la::copy(own, u);
+      return result;
+    }
+
   private:
     /** A linear problem has u in it from the start, and needs no more than
      * its forces. */
@@ -221,7 +232,7 @@ namespace abut
     /** A linear problem is its own linearisation. */
     bool solve_linear(la::Vector &u)
     {
-      const Tangent tangent = problem_.tangent(u);
+      const Tangent tangent = contact_.copy_of(problem_.tangent(u));
       ++result_.n_steps;
       if (!problem_.residual_is_cheap)
         find_residual(u);
@@ -257,7 +268,7 @@ namespace abut
       last_excess_ = std::numeric_limits<double>::infinity();
       for (unsigned int step = 0; step < parameters_.max_steps; ++step)
       {
-        const Tangent tangent = problem_.tangent(u);
+        const Tangent tangent = contact_.copy_of(problem_.tangent(u));
         ++result_.n_steps;
         add_prescribed_change(u);
         if (!std::isfinite(residual_.l2_norm()))

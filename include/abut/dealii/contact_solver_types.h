@@ -9,6 +9,7 @@
 #include <abut/dealii/contact_assembler.h>
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace abut
@@ -45,6 +46,31 @@ namespace abut
     /** Called after each linear system with its cost; may be empty. */
     std::function<void(const LinearReport &cost)> monitor;
   };
+
+  /** A HostProblem of functions of another type of vector, V: @p residual(u, R)
+   * and @p tangent(u), which returns a matrix by reference or a HostOperator.
+   * @p like is a vector of the unknowns. */
+  template <typename V, typename Residual, typename TangentOf>
+  HostProblem host_problem(const V &like, const Residual &residual,
+                           const TangentOf &tangent)
+  {
+    const auto u = std::make_shared<V>(like),
+               forces = std::make_shared<V>(like);
+    HostProblem problem;
+    problem.residual = [=](const la::Vector &at, la::Vector &result)
+    {
+      la::copy(at, *u);
+      *forces = 0.;
+      residual(*u, *forces);
+      la::copy(*forces, result);
+    };
+    problem.tangent = [=](const la::Vector &at) -> Tangent
+    {
+      la::copy(at, *u);
+      return tangent(*u);
+    };
+    return problem;
+  }
 
   /** What ContactSolver is about to do. */
   enum class SolvePhase

@@ -2,9 +2,13 @@
 #ifndef ABUT_DEALII_HOST_OPERATOR_H
 #define ABUT_DEALII_HOST_OPERATOR_H
 
-#include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/host_matrix.h>
 
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace abut
@@ -46,6 +50,56 @@ namespace abut
     }
   };
 
+  /** The same from functions of vectors of another type, which are copied, such
+   * as LinearAlgebra::distributed::Vector<double>. */
+  template <typename V> class HostOperatorOf : public HostOperator
+  {
+  public:
+    /** dst and src. */
+    using Product = std::function<void(V &dst, const V &src)>;
+
+    /** @p like is a vector of the owned unknowns. */
+    HostOperatorOf(const V &like, Product vmult,
+                   std::function<void(V &)> diagonal, Product precondition)
+        : dst_(like),
+          src_(like),
+          vmult_(std::move(vmult)),
+          diagonal_(std::move(diagonal)),
+          precondition_(std::move(precondition))
+    {
+    }
+
+    void vmult(la::Vector &dst, const la::Vector &src) const override
+    {
+      apply(vmult_, dst, src);
+    }
+
+    void diagonal(la::Vector &result) const override
+    {
+      diagonal_(dst_);
+      la::copy(dst_, result);
+    }
+
+    void precondition(la::Vector &dst, const la::Vector &src) const override
+    {
+      apply(precondition_, dst, src);
+    }
+
+  private:
+    void apply(const Product &product, la::Vector &dst,
+               const la::Vector &src) const
+    {
+      la::copy(src, src_);
+      product(dst_, src_);
+      la::copy(dst_, dst);
+    }
+
+    mutable V dst_, src_;
+    Product vmult_;
+    std::function<void(V &)> diagonal_;
+    Product precondition_;
+  };
+
   /** K of a linearised step: the host's matrix or, where it has none, its
    * HostOperator, either of which is one without being told so. Refers to it,
    * and is copied freely. */
@@ -57,8 +111,23 @@ namespace abut
     {
     }
 
+    /** A matrix of another type, of which Abut makes a copy. It must stay where
+     * it is. */
+    template <typename M,
+              typename = std::enable_if_t<la::internal::is_host_matrix<M>>>
+    Tangent(const M &matrix)
+        : other_(std::make_shared<la::HostMatrixOf<M>>(matrix))
+    {
+    }
+
     /** Not one that is gone when it is needed. */
     Tangent(const la::Matrix &&) = delete;
+
+    /** What contact terms are added to. */
+    explicit Tangent(const la::MatrixTarget &matrix)
+        : matrix_(matrix.native()), other_(matrix.host())
+    {
+    }
 
     /** No matrix. */
     Tangent(HostOperator &host) : host_(&host)
@@ -68,24 +137,32 @@ namespace abut
     /** Whether it is a matrix. */
     bool has_matrix() const
     {
-      return matrix_ != nullptr;
+      return host_ == nullptr;
     }
 
-    /** Only if it is one. */
+    /** Only if it is one of Abut's type. */
     const la::Matrix &matrix() const
     {
       return *matrix_;
     }
 
-    /** Only if it is none. */
+    /** A matrix of another type, else null. */
+    const la::HostMatrix *other() const
+    {
+      return other_.get();
+    }
+
+    /** Only if it is no matrix. */
     HostOperator &host() const
     {
       return *host_;
     }
 
-    /** dst = K src. Collective. */
+    /** dst = K src; of a matrix of another type see
+     * ContactAssembler::copy_of(). Collective. */
     void vmult(la::Vector &dst, const la::Vector &src) const
     {
+      Assert(other_ == nullptr, dealii::ExcInternalError());
       if (has_matrix())
         matrix_->vmult(dst, src);
       else
@@ -98,6 +175,7 @@ namespace abut
 
   private:
     const la::Matrix *matrix_ = nullptr;
+    std::shared_ptr<const la::HostMatrix> other_;
     HostOperator *host_ = nullptr;
   };
 } // namespace abut

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "host_matrix_copy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace abut::shim
+{
+  using Index = la::HostMatrix::Index;
+
+  namespace
+  {
+    /** Throw, on all ranks, if one of them names a row; the first of them. */
+    void refuse_row(const Index row, const std::string &name,
+                    const std::string &what, const MPI_Comm communicator)
+    {
+      const Index first = dealii::Utilities::MPI::min(row, communicator);
+      AssertThrow(first == dealii::numbers::invalid_dof_index,
+                  dealii::ExcMessage("The " + name + " has " + what + " in row "
+                                     + std::to_string(first) + "."));
+    }
+
+    /** Of a row of @p matrix: global columns, and where their values are. */
+    std::vector<std::pair<Index, int>> places_of_row(const la::Matrix &matrix,
+                                                     const la::LocalRows &rows,
+                                                     const int row)
+    {
+      std::vector<std::pair<Index, int>> result;
+      for (int k = rows.start[row]; k < rows.start[row + 1]; ++k)
+        result.emplace_back(la::global_column(matrix, rows.column[k]), k);
+      std::sort(result.begin(), result.end());
+      return result;
+    }
+  } // namespace
+
+  void HostMatrixCopy::clear()
+  {
+    matrix_.clear();
+    start_.clear();
+  }
+
+  void HostMatrixCopy::build(const la::HostMatrix &host,
+                             const std::string &name,
+                             const dealii::IndexSet &owned,
+                             const MPI_Comm communicator)
+  {
+    host.pattern(start_, column_);
+    n_host_rows_ = static_cast<int>(start_.size()) - 1;
+    dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), owned);
+    Index lacking = dealii::numbers::invalid_dof_index;
+    for (std::size_t r = 0; r < owned.n_elements(); ++r)
+    {
+      const Index row = owned.nth_index_in_set(r);
+      if (r >= std::size_t(n_host_rows_))
+      {
+        pattern.add(row, row);
+        continue;
+      }
+      const auto begin = column_.begin() + start_[r];
+      const auto end = column_.begin() + start_[r + 1];
+      pattern.add_entries(row, begin, end);
+      if (lacking == dealii::numbers::invalid_dof_index
+          && std::find(begin, end, row) == end)
+        lacking = row;
+    }
+    refuse_row(lacking, name,
+               "no entry on the diagonal, which eliminated rows need, too,",
+               communicator);
+    matrix_.clear();
+    matrix_.reinit(owned, owned, pattern, communicator);
+    const la::LocalRows rows = la::local_rows(matrix_);
+    place_.resize(column_.size());
+    for (int r = 0; r < n_host_rows_; ++r)
+    {
+      const auto places = places_of_row(matrix_, rows, r);
+      for (std::size_t k = start_[r]; k < start_[r + 1]; ++k)
+        place_[k] = std::lower_bound(places.begin(), places.end(),
+                                     std::make_pair(column_[k], 0))
+                        ->second;
+    }
+  }
+
+  void HostMatrixCopy::fill_rest(const la::LocalRows &rows) const
+  {
+    if (n_host_rows_ == rows.n_rows)
+      return;
+    double mean = 0.;
+    const std::vector<double> diagonal = la::diagonal(rows);
+    for (int r = 0; r < n_host_rows_; ++r)
+      mean += std::abs(diagonal[r]) / n_host_rows_;
+    for (int r = n_host_rows_; r < rows.n_rows; ++r)
+      rows.value[rows.start[r]] = mean;
+  }
+
+  const la::Matrix &HostMatrixCopy::take(const la::HostMatrix &host,
+                                         const std::string &name,
+                                         const dealii::IndexSet &owned,
+                                         const MPI_Comm communicator)
+  {
+    la::HostMatrix::Pass pass;
+    pass.fits = matrix_.m() == owned.size();
+    for (int attempt = 0; attempt < 2; ++attempt)
+    {
+      la::LocalRows rows;
+      if (pass.fits)
+      {
+        rows = la::local_rows(matrix_);
+        pass = host.values(start_, column_, place_, rows.value);
+      }
+      if (dealii::Utilities::MPI::min(int(pass.fits), communicator) == 1)
+      {
+        fill_rest(rows);
+        break;
+      }
+      build(host, name, owned, communicator);
+      pass.fits = true;
+    }
+    refuse_row(pass.row, name, "a value that is not finite", communicator);
+    return matrix_;
+  }
+} // namespace abut::shim

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_HOST_MATRIX_COPY_H
+#define ABUT_SHIM_HOST_MATRIX_COPY_H
+
+#include <abut/dealii/host_matrix.h>
+
+#include <string>
+#include <vector>
+
+namespace abut::shim
+{
+  /** A matrix of Abut's type with the values of a host's, whose pattern is kept
+   * while the host's is the same. */
+  class HostMatrixCopy
+  {
+  public:
+    /** The matrix with the values of now; it stays at its address. Unknowns
+     * @p owned that @p host does not have, those after its last one, get a
+     * diagonal entry. One pass over the entries where the pattern is as before.
+     * Throws dealii::ExceptionBase, on all ranks, for rows without a diagonal
+     * entry and for values that are not finite. Collective.
+     * @param name of the matrix in messages */
+    const la::Matrix &take(const la::HostMatrix &host, const std::string &name,
+                           const dealii::IndexSet &owned,
+                           MPI_Comm communicator);
+
+    /** Forget the pattern and the values. */
+    void clear();
+
+  private:
+    void build(const la::HostMatrix &host, const std::string &name,
+               const dealii::IndexSet &owned, MPI_Comm communicator);
+    /** Give unknowns that the host does not have the mean of the others'
+     * diagonal. */
+    void fill_rest(const la::LocalRows &rows) const;
+
+    la::Matrix matrix_;
+    int n_host_rows_ = 0;
+    std::vector<std::size_t> start_; ///< the host's pattern
+    std::vector<la::HostMatrix::Index> column_;
+    std::vector<int> place_; ///< of each of its entries in matrix_
+  };
+} // namespace abut::shim
+
+#endif

@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The same contact problem through each kind of matrix and vector that a host
+// may have, by the same lines; and what is refused. One set of values goes into
+// all of them; the answers of other types are compared with those of Abut's
+// own.
+#include "elastic_blocks.h"
+#include "expect.h"
+
+#include <abut/dealii/contact_solver.h>
+
+#include <deal.II/base/timer.h>
+#include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/lac/block_sparse_matrix.h>
+#include <deal.II/lac/block_vector.h>
+#include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/trilinos_parallel_block_vector.h>
+#include <deal.II/lac/vector.h>
+#ifdef DEAL_II_WITH_PETSC
+#include <deal.II/lac/petsc_sparse_matrix.h>
+#include <deal.II/lac/petsc_vector.h>
+#endif
+
+#include <iostream>
+#include <limits>
+#include <string>
+
+using namespace abut;
+using dealii::types::global_dof_index;
+
+namespace
+{
+  constexpr int dim = 2;
+  using Blocks = hosts::ElasticBlocks<dim>;
+  using Serial = dealii::Vector<double>;
+  using Distributed = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  bool all_good = true;
+
+  void note(const std::string &name, const double error, const double tolerance)
+  {
+    const bool good = error <= tolerance;
+    all_good = all_good && good;
+    if (!good && dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << "FAILED: " << name << ": " << error << " > " << tolerance
+                << std::endl;
+  }
+
+  /** The problem as Abut's own types have it: matrix u = rhs. */
+  struct Problem
+  {
+    Problem(const bool by_component, const bool add)
+        : blocks(hosts::BlockCase{1, 2, {2, 3}, {{1., 1.}, {3., 2.}}})
+    {
+      if (by_component)
+        dealii::DoFRenumbering::component_wise(blocks.dof_handler);
+      blocks.move(hosts::block_side::top,
+                  dealii::Tensor<1, dim>({0.02, -0.03}));
+      blocks.assemble(matrix, rhs);
+      ContactAssembler<dim> contact(MPI_COMM_WORLD);
+      start(contact, add);
+      contact.detect(blocks.start());
+      // With places for what add() adds.
+      const dealii::IndexSet &owned = blocks.dof_handler.locally_owned_dofs();
+      pattern.reinit(owned.size(), owned.size(), blocks.relevant);
+      dealii::DoFTools::make_sparsity_pattern(blocks.dof_handler, pattern,
+                                              blocks.constraints, false);
+      contact.add_to_sparsity(pattern);
+      dealii::SparsityTools::distribute_sparsity_pattern(
+          pattern, owned, MPI_COMM_WORLD, blocks.relevant);
+      la::Matrix wider;
+      wider.reinit(owned, owned, pattern, MPI_COMM_WORLD);
+      copy_values(wider);
+      matrix.clear();
+      matrix.reinit(wider);
+      matrix.copy_from(wider);
+    }
+
+    /** Pressed and pushed aside, with friction. */
+    void start(ContactAssembler<dim> &contact, const bool add) const
+    {
+      MethodParameters method;
+      if (add)
+        method.options.law = abut_law_find("penalty");
+      SolverParameters solver;
+      solver.linear = SolverParameters::Linear::direct;
+      contact.set_parameters(method, solver);
+      ContactPair<dim> pair;
+      pair.name = "blocks";
+      pair.secondary = {hosts::block_side::lower_interface};
+      pair.primary = {hosts::block_side::upper_interface};
+      pair.friction = std::make_shared<Friction<dim>>(
+          Friction<dim>{[](const dealii::Point<dim> &) { return 0.3; }, {}});
+      contact.set_pairs({pair});
+      contact.reinit(blocks.mapping, blocks.dof_handler, blocks.constraints);
+    }
+
+    template <typename M> void copy_values(M &target) const
+    {
+      for (const global_dof_index i : blocks.dof_handler.locally_owned_dofs())
+        for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
+          target.set(i, entry->column(), entry->value());
+      if constexpr (la::internal::Has<la::internal::Compressible, M>::value)
+        target.compress(dealii::VectorOperation::insert);
+    }
+
+    Blocks blocks;
+    dealii::DynamicSparsityPattern pattern;
+    la::Matrix matrix;
+    la::Vector rhs;
+  };
+
+  struct Answer
+  {
+    la::Vector u;
+    dealii::Tensor<1, dim> force;
+    unsigned int systems = 0;
+  };
+
+  /** The lines of a host, the same for all types. */
+  template <typename M, typename V>
+  Answer solve(const Problem &problem, const M &K, const V &rhs)
+  {
+    ContactAssembler<dim> contact(MPI_COMM_WORLD);
+    problem.start(contact, false);
+    V u(rhs), R(rhs), du(rhs);
+    la::copy(problem.blocks.start(), u);
+    contact.detect(u);
+    do
+    {
+      K.vmult(R, u);
+      R -= rhs;
+      problem.blocks.constraints.set_zero(R);
+      contact.solve(K, R, du);
+      u += du;
+      problem.blocks.constraints.distribute(u);
+    } while (contact.update(u));
+    AssertThrow(contact.reason() == ABUT_REASON_CONVERGED,
+                dealii::ExcMessage(contact.explanation()));
+    V forces(rhs), pressure(rhs);
+    forces = 0.;
+    contact.add_contact_forces(forces);
+    forces -= R;
+    // R is that before the last step.
+    K.vmult(R, u);
+    R -= rhs;
+    problem.blocks.constraints.set_zero(R);
+    note("balance", contact.imbalance(R), 1e-10);
+    note("examination", contact.examine(u, &R).imbalance, 1e-10);
+    la::copy(contact.pressure(), pressure);
+    contact.commit(u);
+    return {contact.copy_of(la::VectorView(u)),
+            contact.pair_results()[0].secondary_force,
+            contact.linear_report().n_systems};
+  }
+
+  /** The same by the loop that comes with Abut. */
+  template <typename M, typename V>
+  Answer solve_by_newton(const Problem &problem, const M &K, const V &rhs)
+  {
+    ContactAssembler<dim> contact(MPI_COMM_WORLD);
+    problem.start(contact, false);
+    const V like(rhs);
+    const HostProblem host = host_problem(
+        like,
+        [&](const V &u, V &R)
+        {
+          K.vmult(R, u);
+          R -= rhs;
+          problem.blocks.constraints.set_zero(R);
+        },
+        [&](const V &) -> const M & { return K; });
+    ContactSolver<dim> solver(contact, problem.blocks.constraints, host);
+    V u(rhs);
+    la::copy(problem.blocks.start(), u);
+    const NewtonResult result = solver.solve(u);
+    AssertThrow(result.converged(), dealii::ExcMessage(result.explanation));
+    return {contact.copy_of(la::VectorView(u)),
+            contact.pair_results()[0].secondary_force, result.n_systems};
+  }
+
+  double distance(const Answer &a, const Answer &b)
+  {
+    la::Vector difference(a.u);
+    difference -= b.u;
+    return std::max(difference.linfty_norm() / b.u.linfty_norm(),
+                    (a.force - b.force).norm() / b.force.norm());
+  }
+
+  /** All entries of a matrix and a vector after add(), as one of Abut's. */
+  template <typename M, typename V>
+  void compare_addition(const std::string &name, const Problem &problem, M &K,
+                        const V &rhs)
+  {
+    la::Matrix reference;
+    reference.reinit(problem.matrix);
+    reference.copy_from(problem.matrix);
+    la::Vector expected(problem.rhs);
+    V found(rhs);
+    for (const bool own : {true, false})
+    {
+      ContactAssembler<dim> contact(MPI_COMM_WORLD);
+      problem.start(contact, true);
+      V u(rhs);
+      la::copy(problem.blocks.start(), u);
+      contact.detect(u);
+      if (own)
+        contact.add(reference, expected);
+      else
+        contact.add(K, found);
+    }
+    double largest = 0., error = 0.;
+    for (const global_dof_index i :
+         problem.blocks.dof_handler.locally_owned_dofs())
+      for (auto entry = reference.begin(i); entry != reference.end(i); ++entry)
+      {
+        largest = std::max(largest, std::abs(entry->value()));
+        error = std::max(error,
+                         std::abs(K.el(i, entry->column()) - entry->value()));
+      }
+    note(name + ": matrix of add()",
+         dealii::Utilities::MPI::max(error / largest, MPI_COMM_WORLD), 1e-13);
+    la::Vector residual(expected);
+    la::copy(found, residual);
+    residual -= expected;
+    note(name + ": residual of add()",
+         residual.linfty_norm() / expected.linfty_norm(), 1e-13);
+    note(name + ": add() adds something", expected.linfty_norm() > 0. ? 0. : 1.,
+         0.);
+  }
+
+  template <typename M, typename V>
+  void compare(const std::string &name, const Problem &problem, M &K,
+               const V &rhs)
+  {
+    const Answer expected = solve(problem, problem.matrix, problem.rhs);
+    note(name + ": answer", distance(solve(problem, K, rhs), expected), 1e-10);
+    note(name + ": answer by ContactSolver",
+         distance(solve_by_newton(problem, K, rhs), expected), 1e-9);
+  }
+
+  /** That a call throws on all ranks, with these words in what it says. */
+  template <typename Call>
+  void refuses(const std::string &words, const Call &call)
+  {
+    std::string said = "nothing";
+    try
+    {
+      call();
+    }
+    catch (const std::exception &error)
+    {
+      said = error.what();
+    }
+    const bool good = said.find(words) != std::string::npos;
+    if (!good)
+      std::cout << "FAILED: expected '" << words << "', but it said " << said
+                << std::endl;
+    all_good = all_good && good;
+  }
+
+  using Sparse = dealii::SparseMatrix<double>;
+
+  void check_serial()
+  {
+    const Problem problem(false, true);
+    dealii::SparsityPattern pattern;
+    pattern.copy_from(problem.pattern);
+    Sparse K(pattern);
+    problem.copy_values(K);
+    Serial rhs(problem.rhs.size());
+    la::copy(problem.rhs, rhs);
+    compare("SparseMatrix", problem, K, rhs);
+
+    // A pattern that changes, and one that lacks what is needed.
+    ContactAssembler<dim> contact(MPI_COMM_WORLD);
+    problem.start(contact, false);
+    Serial u(rhs), du(rhs);
+    la::copy(problem.blocks.start(), u);
+    contact.detect(u);
+    dealii::SparsityPattern small(rhs.size(), rhs.size(), 1);
+    small.compress();
+    Sparse diagonal(small);
+    for (unsigned int i = 0; i < rhs.size(); ++i)
+      diagonal.set(i, i, K.diag_element(i));
+    contact.solve(diagonal, rhs, du);
+    note("a diagonal matrix solves", du.linfty_norm() > 0. ? 0. : 1., 0.);
+    const double value = K(3, 3);
+    K.set(3, 3, std::numeric_limits<double>::infinity());
+    refuses("not finite in row 3", [&] { contact.solve(K, rhs, du); });
+    K.set(3, 3, std::numeric_limits<double>::quiet_NaN());
+    refuses("matrix given to solve()", [&] { contact.solve(K, rhs, du); });
+    K.set(3, 3, value);
+    const Serial longer(rhs.size() + 1);
+    refuses("residual given to solve()", [&] { contact.solve(K, longer, du); });
+    refuses("displacement given to detect()", [&] { contact.detect(longer); });
+    dealii::SparsityPattern other(rhs.size() + 1, rhs.size() + 1, 1);
+    other.compress();
+    const Sparse larger(other);
+    refuses("matrix given to solve()", [&] { contact.solve(larger, rhs, du); });
+
+    compare_addition("SparseMatrix", problem, K, rhs);
+  }
+
+  void check_blocks()
+  {
+    const Problem problem(true, true);
+    const global_dof_index half = problem.rhs.size() / dim;
+    dealii::BlockDynamicSparsityPattern pattern(dim, dim);
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        pattern.block(i, j).reinit(half, half);
+    pattern.collect_sizes();
+    for (const auto &entry : problem.pattern)
+      pattern.add(entry.row(), entry.column());
+    dealii::BlockSparsityPattern compressed;
+    compressed.copy_from(pattern);
+    dealii::BlockSparseMatrix<double> K(compressed);
+    problem.copy_values(K);
+    dealii::BlockVector<double> rhs(dim, half);
+    la::copy(problem.rhs, rhs);
+    compare("BlockSparseMatrix", problem, K, rhs);
+    compare_addition("BlockSparseMatrix", problem, K, rhs);
+  }
+
+  void check_distributed()
+  {
+    const Problem problem(false, false);
+    const dealii::IndexSet &owned =
+        problem.blocks.dof_handler.locally_owned_dofs();
+    Distributed rhs(owned, MPI_COMM_WORLD);
+    la::copy(problem.rhs, rhs);
+    compare("distributed::Vector", problem, problem.matrix, rhs);
+
+    ContactAssembler<dim> contact(MPI_COMM_WORLD);
+    problem.start(contact, false);
+    Distributed ghosted(owned, problem.blocks.relevant, MPI_COMM_WORLD);
+    ghosted.update_ghost_values();
+    refuses("displacement given to detect() has ghost entries",
+            [&] { contact.detect(ghosted); });
+    la::Vector own_ghosted(owned, problem.blocks.relevant, MPI_COMM_WORLD);
+    const unsigned int n_ranks =
+        dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    if (n_ranks == 1)
+      return;
+    refuses("displacement given to detect() has ghost entries",
+            [&] { contact.detect(own_ghosted); });
+    // All on the last rank.
+    dealii::IndexSet last(owned.size());
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) + 1 == n_ranks)
+      last.add_range(0, owned.size());
+    const Distributed elsewhere(last, MPI_COMM_WORLD);
+    refuses("displacement given to detect() is not distributed",
+            [&] { contact.detect(elsewhere); });
+    const Serial whole(owned.size());
+    refuses("displacement given to detect() is not distributed",
+            [&] { contact.detect(whole); });
+    Distributed u(rhs), du(rhs);
+    u = 0.;
+    contact.detect(u);
+    dealii::SparsityPattern pattern(owned.size(), owned.size(), 1);
+    pattern.compress();
+    const Sparse K(pattern);
+    refuses("matrix given to solve() is not square, or its rows are not",
+            [&] { contact.solve(K, u, du); });
+  }
+
+#ifdef DEAL_II_WITH_PETSC
+  void check_petsc()
+  {
+    const Problem problem(false, true);
+    const dealii::IndexSet &owned =
+        problem.blocks.dof_handler.locally_owned_dofs();
+    dealii::PETScWrappers::MPI::SparseMatrix K;
+    K.reinit(owned, owned, problem.pattern, MPI_COMM_WORLD);
+    problem.copy_values(K);
+    dealii::PETScWrappers::MPI::Vector rhs(owned, MPI_COMM_WORLD);
+    la::copy(problem.rhs, rhs);
+    compare("PETSc", problem, K, rhs);
+
+    // A row without a diagonal entry.
+    dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), owned);
+    for (const global_dof_index i : owned)
+      pattern.add(i, i == 5 ? 6 : i);
+    dealii::PETScWrappers::MPI::SparseMatrix lacking;
+    lacking.reinit(owned, owned, pattern, MPI_COMM_WORLD);
+    for (const global_dof_index i : owned)
+      lacking.set(i, i == 5 ? 6 : i, 1.);
+    lacking.compress(dealii::VectorOperation::insert);
+    ContactAssembler<dim> contact(MPI_COMM_WORLD);
+    problem.start(contact, false);
+    dealii::PETScWrappers::MPI::Vector u(rhs);
+    u = 0.;
+    contact.detect(u);
+    refuses("matrix given to solve() has no entry on the diagonal",
+            [&] { contact.solve(lacking, rhs, u); });
+    refuses("in row 5", [&] { contact.solve(lacking, rhs, u); });
+    compare_addition("PETSc", problem, K, rhs);
+  }
+#endif
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  refuses("Begin main() with: dealii::Utilities::MPI::MPI_InitFinalize",
+          [] { ContactAssembler<dim> contact(MPI_COMM_WORLD); });
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
+  {
+    check_serial();
+    check_blocks();
+  }
+  check_distributed();
+#ifdef DEAL_II_WITH_PETSC
+  check_petsc();
+#endif
+  return all_good ? 0 : 1;
+}
