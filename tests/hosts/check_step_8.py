@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""deal.II's step-8 with a wall beside the block: on its first mesh the force of
+a program that shares nothing with Abut or deal.II, later near the one of the
+finest mesh; and 30 lines at most are added to the tutorial."""
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+CELLS, WALL = 16, 0.01
+
+
+def stiffness(h):
+    """8 x 8, of bilinear elements with lambda = mu = 1 and 2 x 2 points."""
+    g = 3 ** -0.5
+    k = [[0.0] * 8 for _ in range(8)]
+    for x in (-g, g):
+        for y in (-g, g):
+            grad = [(0.5 * a * (1 + b * y) / h, 0.5 * b * (1 + a * x) / h)
+                    for a, b in CORNERS]
+            for i in range(8):
+                for j in range(8):
+                    p, q = grad[i // 2], grad[j // 2]
+                    a, b = i % 2, j % 2
+                    k[i][j] += h * h / 4 * (
+                        p[a] * q[b] + p[b] * q[a]
+                        + (p[0] * q[0] + p[1] * q[1] if a == b else 0.0))
+    return k
+
+
+CORNERS = [(-1, -1), (1, -1), (-1, 1), (1, 1)]
+
+
+def load(x, y):
+    right = (x - 0.5) ** 2 + y * y < 0.04 or (x + 0.5) ** 2 + y * y < 0.04
+    return (1.0 if right else 0.0, 1.0 if x * x + y * y < 0.04 else 0.0)
+
+
+def system():
+    """Bands of K, forces; unknown 2 ((n + 1) i + j) + c of node (i, j)."""
+    n, h, g = CELLS, 2.0 / CELLS, 3 ** -0.5
+    size, band = 2 * (n + 1) ** 2, 2 * (n + 3)
+    rows = [dict() for _ in range(size)]
+    forces = [0.0] * size
+    cell = stiffness(h)
+    for i in range(n):
+        for j in range(n):
+            dofs = [2 * ((n + 1) * (i + (a > 0)) + j + (b > 0)) + c
+                    for a, b in CORNERS for c in (0, 1)]
+            for r in range(8):
+                for s in range(8):
+                    row = rows[dofs[r]]
+                    row[dofs[s]] = row.get(dofs[s], 0.0) + cell[r][s]
+            for x in (-g, g):
+                for y in (-g, g):
+                    f = load(-1 + h * (i + 0.5 + x / 2), -1 + h * (j + 0.5 + y / 2))
+                    for r, (a, b) in enumerate(CORNERS):
+                        shape = (1 + a * x) * (1 + b * y) / 4 * h * h / 4
+                        for c in (0, 1):
+                            forces[dofs[2 * r + c]] += shape * f[c]
+    return rows, forces, band
+
+
+def solve(rows, forces, band, held):
+    """Gauss' elimination within the band; values that are held."""
+    size = len(rows)
+    a = []
+    b = list(forces)
+    for i in range(size):
+        line = [0.0] * (2 * band + 1)
+        if i in held:
+            line[band], b[i] = 1.0, held[i]
+        else:
+            for j, value in rows[i].items():
+                if j in held:
+                    b[i] -= value * held[j]
+                else:
+                    line[band + j - i] = value
+        a.append(line)
+    for i in range(size):
+        pivot = a[i]
+        for k in range(i + 1, min(size, i + band + 1)):
+            factor = a[k][band + i - k] / pivot[band]
+            if factor != 0.0:
+                line, shift = a[k], i - k
+                for j in range(band, 2 * band + 1):
+                    if pivot[j] != 0.0:
+                        line[j + shift] -= factor * pivot[j]
+                b[k] -= factor * b[i]
+    for i in reversed(range(size)):
+        last = min(size, i + band + 1)
+        b[i] = (b[i] - sum(a[i][band + j - i] * b[j]
+                           for j in range(i + 1, last))) / a[i][band]
+    return b
+
+
+def expected_force():
+    """By active sets on the first mesh."""
+    rows, forces, band = system()
+    n = CELLS
+    left = {2 * j + c: 0.0 for j in range(n + 1) for c in (0, 1)}
+    side = [2 * ((n + 1) * n + j) for j in range(n + 1)]
+    closed = set()
+    while True:
+        u = solve(rows, forces, band, {**left, **{i: WALL for i in closed}})
+        force = {i: forces[i] - sum(v * u[j] for j, v in rows[i].items())
+                 for i in side}
+        new = {i for i in side
+               if force[i] > 0.0 and i in closed or u[i] > WALL + 1e-12}
+        if new == closed:
+            return sum(force[i] for i in closed)
+        closed = new
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--patch", required=True)
+    arguments = parser.parse_args()
+    patch = pathlib.Path(arguments.patch).read_text()
+    n_lines = len(re.findall(r"^\+(?!\+\+)", patch, re.MULTILINE))
+    with tempfile.TemporaryDirectory(prefix="abut-test-") as folder:
+        text = subprocess.run([arguments.program], cwd=folder, text=True,
+                              check=True, capture_output=True,
+                              timeout=600).stdout
+    forces = [float(f) for f in re.findall(r"Force: (\S+)", text)]
+    expected = expected_force()
+    print(f"{n_lines} lines; forces {forces}; expected first: {expected:.6g}")
+    good = (n_lines <= 30 and len(forces) == 8
+            and abs(forces[0] / expected - 1) < 1e-5
+            and abs(forces[-2] / forces[-1] - 1) < 0.01)
+    if not good:
+        print("FAILED")
+    sys.exit(0 if good else 1)
+
+
+if __name__ == "__main__":
+    main()
