@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""deal.II's step-8 with a wall beside the block: on its first mesh the force of
-a program that shares nothing with Abut or deal.II, later near the one of the
-finest mesh; and 30 lines at most are added to the tutorial."""
+"""deal.II's step-8 and step-17 with a wall beside the block: on their first mesh
+the force of a program that shares nothing with Abut or deal.II, later near the
+one of the finest mesh; step-17 the same on 1 and 3 ranks. At most 30 lines are
+added to step-8."""
 import argparse
 import pathlib
 import re
@@ -9,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-CELLS, WALL = 16, 0.01
+WALL = 0.01
 
 
 def stiffness(h):
@@ -38,9 +39,10 @@ def load(x, y):
     return (1.0 if right else 0.0, 1.0 if x * x + y * y < 0.04 else 0.0)
 
 
-def system():
-    """Bands of K, forces; unknown 2 ((n + 1) i + j) + c of node (i, j)."""
-    n, h, g = CELLS, 2.0 / CELLS, 3 ** -0.5
+def system(n):
+    """K, forces and half the bandwidth on n x n cells; unknown
+    2 ((n + 1) i + j) + c of node (i, j)."""
+    h, g = 2.0 / n, 3 ** -0.5
     size, band = 2 * (n + 1) ** 2, 2 * (n + 3)
     rows = [dict() for _ in range(size)]
     forces = [0.0] * size
@@ -96,10 +98,9 @@ def solve(rows, forces, band, held):
     return b
 
 
-def expected_force():
-    """By active sets on the first mesh."""
-    rows, forces, band = system()
-    n = CELLS
+def expected_force(n):
+    """By active sets on n x n cells."""
+    rows, forces, band = system(n)
     left = {2 * j + c: 0.0 for j in range(n + 1) for c in (0, 1)}
     side = [2 * ((n + 1) * n + j) for j in range(n + 1)]
     closed = set()
@@ -114,23 +115,39 @@ def expected_force():
         closed = new
 
 
+def forces_of(command):
+    with tempfile.TemporaryDirectory(prefix="abut-test-") as folder:
+        text = subprocess.run(command, cwd=folder, text=True, check=True,
+                              capture_output=True, timeout=300).stdout
+    return [float(f) for f in re.findall(r"Force: (\S+)", text)]
+
+
+def is_right(name, forces, n_cells, n_cycles):
+    expected = expected_force(n_cells)
+    print(f"{name}: forces {forces}; expected first: {expected:.6g}")
+    return (len(forces) == n_cycles and abs(forces[0] / expected - 1) < 1e-5
+            and abs(forces[-2] / forces[-1] - 1) < 0.01)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", required=True)
-    parser.add_argument("--patch", required=True)
+    parser.add_argument("--petsc", help="step-17; without: deal.II has no PETSc")
+    parser.add_argument("--patches", type=pathlib.Path, required=True)
     arguments = parser.parse_args()
-    patch = pathlib.Path(arguments.patch).read_text()
+    patch = (arguments.patches / "step-8.patch").read_text()
     n_lines = len(re.findall(r"^\+(?!\+\+)", patch, re.MULTILINE))
-    with tempfile.TemporaryDirectory(prefix="abut-test-") as folder:
-        text = subprocess.run([arguments.program], cwd=folder, text=True,
-                              check=True, capture_output=True,
-                              timeout=600).stdout
-    forces = [float(f) for f in re.findall(r"Force: (\S+)", text)]
-    expected = expected_force()
-    print(f"{n_lines} lines; forces {forces}; expected first: {expected:.6g}")
-    good = (n_lines <= 30 and len(forces) == 8
-            and abs(forces[0] / expected - 1) < 1e-5
-            and abs(forces[-2] / forces[-1] - 1) < 0.01)
+    good = is_right("step-8", forces_of([arguments.program]), 16, 8)
+    if n_lines > 30:
+        print(f"FAILED: {n_lines} lines are added to step-8")
+        good = False
+    if arguments.petsc:
+        alone = forces_of([arguments.petsc])
+        good &= is_right("step-17", alone, 8, 10)
+        shared = forces_of(["mpirun", "--oversubscribe", "-np", "3",
+                            arguments.petsc])
+        good &= all(abs(a / b - 1) < 1e-5 for a, b in zip(alone, shared))
+        good &= len(alone) == len(shared)
     if not good:
         print("FAILED")
     sys.exit(0 if good else 1)
