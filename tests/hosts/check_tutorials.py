@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """deal.II's step-8 and step-17 with a wall beside the block: on their first mesh
 the force of a program that shares nothing with Abut or deal.II, later near the
-one of the finest mesh; step-17 the same on 1 and 3 ranks. At most 30 lines are
+one of the finest mesh; step-17 the same on 1 and 3 ranks; the forces of step-44
+at the same loads whether they are reached in 5 steps or 10. At most 30 lines are
 added to step-8."""
 import argparse
 import pathlib
@@ -11,6 +12,16 @@ import sys
 import tempfile
 
 WALL = 0.01
+STEP_44 = """
+subsection Geometry
+  set Global refinement = 1
+  set Pressure ratio p/p0 = 100
+end
+subsection Time
+  set End time = 1
+  set Time step size = {}
+end
+"""
 
 
 def stiffness(h):
@@ -115,11 +126,14 @@ def expected_force(n):
         closed = new
 
 
-def forces_of(command):
+def forces_of(command, parameters=None):
     with tempfile.TemporaryDirectory(prefix="abut-test-") as folder:
+        if parameters:
+            (pathlib.Path(folder) / "parameters.prm").write_text(parameters)
         text = subprocess.run(command, cwd=folder, text=True, check=True,
                               capture_output=True, timeout=300).stdout
-    return [float(f) for f in re.findall(r"Force: (\S+)", text)]
+    return [float(f) for f in re.findall(r"^ *Force: (\S+)", text,
+                                        re.MULTILINE)]
 
 
 def is_right(name, forces, n_cells, n_cycles):
@@ -133,6 +147,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", required=True)
     parser.add_argument("--petsc", help="step-17; without: deal.II has no PETSc")
+    parser.add_argument("--blocks", help="step-44")
     parser.add_argument("--patches", type=pathlib.Path, required=True)
     arguments = parser.parse_args()
     patch = (arguments.patches / "step-8.patch").read_text()
@@ -148,6 +163,13 @@ def main():
                             arguments.petsc])
         good &= all(abs(a / b - 1) < 1e-5 for a, b in zip(alone, shared))
         good &= len(alone) == len(shared)
+    if arguments.blocks:
+        ways = [[f for f in forces_of([arguments.blocks], STEP_44.format(step))
+                 if f == 0 or f > 1e-3] for step in (0.2, 0.1)]
+        print(f"step-44: {ways}")
+        good &= len(ways[0]) == 4 and len(ways[1]) == 10 and ways[0][-1] > 1
+        good &= all(abs(a - b) <= 1e-3 * a
+                    for a, b in zip(ways[0], ways[1][1::2]))
     if not good:
         print("FAILED")
     sys.exit(0 if good else 1)
