@@ -286,7 +286,7 @@ namespace abut::shim
         dropped[n] = 1;
       else if (direction.norm_square() > 0.
                && freedom(node, direction) < least_freedom)
-        dropped[n] = 2;
+        dropped[n] = of_supports;
     }
     return dropped;
   }

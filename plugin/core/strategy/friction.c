@@ -46,9 +46,9 @@ place_arrays(abut_strategy *s)
                          &f->frozen};
   for (size_t k = 0; k < sizeof(by_point) / sizeof(by_point[0]); ++k, next += n)
     *by_point[k] = next;
-  double **by_tangent[] = {&f->slip,      &f->traction,   &f->reference,
-                           &f->anchor,    &f->compliance, &f->residual,
-                           &f->d_pressure, &f->direction, &f->turned};
+  double **by_tangent[] = {&f->slip,       &f->traction,   &f->reference,
+                           &f->anchor,     &f->compliance, &f->residual,
+                           &f->d_pressure, &f->direction,  &f->turned};
   for (size_t k = 0; k < sizeof(by_tangent) / sizeof(by_tangent[0]);
        ++k, next += m)
     *by_tangent[k] = next;

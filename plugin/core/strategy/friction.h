@@ -57,8 +57,8 @@ typedef struct abut_friction_rows
   double *pressure, *scale, *bound, *d_bound, *frozen; /* [n] */
   double *slip, *traction, *reference, *compliance;    /* [m] */
   double *anchor; /* [m] tractions that springs of stick begin from */
-  double *residual, *d_pressure, *direction, *turned;  /* [m] */
-  double *d_traction, *d_slip;                         /* [blocks] */
+  double *residual, *d_pressure, *direction, *turned; /* [m] */
+  double *d_traction, *d_slip;                        /* [blocks] */
   double *a, *b;       /* blocks of all points, those without friction, too */
   uint8_t *block_size; /* [n_blocks] */
   int32_t n_blocks;

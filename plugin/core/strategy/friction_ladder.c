@@ -8,9 +8,9 @@
 
 enum
 {
-  MAX_STEPS = 60,      /* without a settled set on one rung */
-  MAX_ROUNDS = 100,    /* of frozen bounds */
-  MAX_CORRECTIONS = 4  /* of springs of stick */
+  MAX_STEPS = 60,     /* without a settled set on one rung */
+  MAX_ROUNDS = 100,   /* of frozen bounds */
+  MAX_CORRECTIONS = 4 /* of springs of stick */
 };
 
 /* Change of the frozen bounds, relative to the largest, that is none. */
@@ -176,9 +176,8 @@ abut_friction_settled(abut_strategy *s, bool *goes_on)
     *goes_on = true;
     return ABUT_SUCCESS;
   }
-  const abut_status status = f->rung == ABUT_RUNG_TRESCA
-                                 ? settle_bounds(s, goes_on)
-                                 : ABUT_SUCCESS;
+  const abut_status status =
+      f->rung == ABUT_RUNG_TRESCA ? settle_bounds(s, goes_on) : ABUT_SUCCESS;
   return status != ABUT_SUCCESS || *goes_on ? status
                                             : correct_springs(s, goes_on);
 }
