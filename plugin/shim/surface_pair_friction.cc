@@ -430,12 +430,13 @@ namespace abut::shim
           prescribed[p * n_nodes + pairs_[p].secondary.node[n]] = 1;
           any = true;
         }
-    if (row_state == nullptr || !MPI::logical_or(any, communicator_))
+    if (!MPI::logical_or(any, communicator_))
       return result;
     for_each_component(
         [&](const Component &row)
         {
-          if (row.place.node >= 0 && row_state[row.row] != ABUT_STATE_OPEN)
+          if (row.place.node >= 0 && row_state != nullptr
+              && row_state[row.row] != ABUT_STATE_OPEN)
             closed[row.place.pair * n_nodes + row.place.node] = 1;
         });
     exchange_->merge_marks(surface_, closed);
