@@ -135,9 +135,9 @@ abut_friction_start(abut_strategy *s)
 }
 
 /* Springs of stick along tangents that supports or other contacts hold, as a
- * multiple of the stiffness, and the prescribed slip, as a part of the length
+ * multiple of the stiffness, and the slip there, as a part of the length
  * scale, below which there is none. */
-static const double stiff = 1e4, no_slip = 1e-14;
+static const double stiff = 1e4, no_slip = 1e-12;
 
 /* Continuous, so that no digit decides. */
 static double
@@ -164,7 +164,7 @@ gather_tangent(abut_strategy *s, int32_t i, int32_t row, int32_t t)
   abut_friction_rows *f = &s->friction;
   const bool held = is_held(s, i, t);
   f->slip[t] = s->gap[row];
-  if (f->tangent[t] == ABUT_TANGENT_PRESCRIBED)
+  if (held || f->tangent[t] == ABUT_TANGENT_PRESCRIBED)
     f->slip[t] = beyond_noise(f->slip[t], no_slip * s->options.length_scale);
   f->traction[t] = s->pressure[row];
   f->reference[t] =
