@@ -272,7 +272,7 @@ extern "C"
     const void *parameters; /**< handed to the friction law */
     /** Where contacts share a node, which has no more ways to go than its
      * dimensions: [n_rivals] points that stick by springs while the other
-     * contact's normal, a row, is closed or touches. Laws with springs: none. */
+     * contact's normal, a row, is closed or touches. Springs need none. */
     int32_t n_rivals;
     const int32_t *rival_point; /**< [n_rivals] index of a point, ascending */
     const int32_t *rival_row;   /**< [n_rivals] row */
