@@ -242,9 +242,9 @@ extern "C"
 
   /** What supports leave of a tangent: where they fix the node of a point,
    * stick is no constraint, but friction remains. Along such tangents a point
-   * that sticks has springs of 1e4 times the stiffness of its row, which go on
-   * from the traction at the last accepted step; laws that keep their penalty
-   * have their own. */
+   * that sticks has springs of 1e4 times the stiffness of its row from the
+   * traction at the last accepted step, then from the one found, until it
+   * stays; laws that keep their penalty have their own. */
   typedef enum abut_tangent
   {
     ABUT_TANGENT_FREE,
@@ -271,8 +271,8 @@ extern "C"
     const double *reference_traction;
     const void *parameters; /**< handed to the friction law */
     /** Where contacts share a node, which has no more ways to go than its
-     * dimensions: [n_rivals] points that have no friction while the other
-     * contact's normal, a row, is closed. Laws with springs need none. */
+     * dimensions: [n_rivals] points that stick by springs while the other
+     * contact's normal, a row, is closed or touches. Springs need none. */
     int32_t n_rivals;
     const int32_t *rival_point; /**< [n_rivals] index of a point, ascending */
     const int32_t *rival_row;   /**< [n_rivals] row */

@@ -239,6 +239,16 @@ namespace abut
                          + ": contact cannot move them. Leave these nodes "
                            "free along the normal, or move what supports "
                            "them.");
+      if (pair.n_prescribed > 0)
+        findings.add(ABUT_FAILURE_HELD_NODES, false,
+                     pair.name
+                         + ": supports prescribe the displacement along the "
+                           "normal at nodes of the secondary surface in or "
+                           "beside the contact zone ("
+                         + std::to_string(pair.n_prescribed)
+                         + "): the forces there are reactions of the supports, "
+                           "without friction. Leave these nodes free along the "
+                           "normal if contact is to carry them.");
     }
 
     /** Facets that turn by a large angle: polygons that are in each other. */

@@ -101,7 +101,7 @@ namespace abut::shim
     template <typename Pair>
     bool is_supported(const Pair &pair, const std::size_t n)
     {
-      return n < pair.dropped.size() && pair.dropped[n] == 2;
+      return n < pair.dropped.size() && pair.dropped[n] == of_supports;
     }
   } // namespace
 

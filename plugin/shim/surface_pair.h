@@ -49,6 +49,9 @@ namespace abut::shim
     }
   };
 
+  /** SurfacePair::dropped of a node that supports hold. */
+  constexpr std::uint8_t of_supports = 2;
+
   /** A pair with its two sides and their coupling. */
   template <int dim> struct SurfacePair
   {
@@ -85,7 +88,7 @@ namespace abut::shim
     /** Distances that the facets known here suffice for. */
     double reach = 0., margin = 0.;
     /** [nodes of the secondary] without a multiplier in the present rows:
-     * 1 because of another pair, 2 because of supports. */
+     * 1 because of another pair, of_supports because of supports. */
     std::vector<std::uint8_t> dropped;
     // As in PairResult.
     double between_rows = 0., held_inside = 0.;

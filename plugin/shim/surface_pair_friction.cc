@@ -414,6 +414,51 @@ namespace abut::shim
   }
 
   template <int dim>
+  std::vector<unsigned int> SurfacePairRows<dim>::prescribed_nodes(
+      const std::uint8_t *const row_state) const
+  {
+    std::vector<unsigned int> result(pairs_.size(), 0);
+    const std::size_t n_nodes = surface_.nodes.size();
+    std::vector<std::uint8_t> prescribed(n_nodes * pairs_.size(), 0),
+        closed(prescribed), found(prescribed);
+    bool any = false;
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      for (std::size_t n = 0; n < pairs_[p].dropped.size(); ++n)
+        if (pairs_[p].dropped[n] == of_supports
+            && pairs_[p].data.friction != nullptr)
+        {
+          prescribed[p * n_nodes + pairs_[p].secondary.node[n]] = 1;
+          any = true;
+        }
+    if (!MPI::logical_or(any, communicator_))
+      return result;
+    for_each_component(
+        [&](const Component &row)
+        {
+          if (row.place.node >= 0 && row_state != nullptr
+              && row_state[row.row] != ABUT_STATE_OPEN)
+            closed[row.place.pair * n_nodes + row.place.node] = 1;
+        });
+    exchange_->merge_marks(surface_, closed);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      for (const std::int32_t f : pairs_[p].secondary.facet)
+      {
+        const auto &node = surface_.facets[f].node;
+        const std::size_t first = p * n_nodes;
+        bool touches = false;
+        for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)
+          touches = touches || closed[first + node[a]] != 0;
+        for (unsigned int a = 0; a < surface_.nodes_per_facet() && touches; ++a)
+          if (prescribed[first + node[a]] != 0 && is_owned(node[a]))
+            found[first + node[a]] = 1;
+      }
+    for (std::size_t i = 0; i < found.size(); ++i)
+      result[i / n_nodes] += found[i];
+    MPI::sum(result, communicator_, result);
+    return result;
+  }
+
+  template <int dim>
   void SurfacePairRows<dim>::add_friction(
       const double *row_pressure, const double *row_gap,
       const std::uint8_t *row_state,
@@ -446,6 +491,9 @@ namespace abut::shim
       result.traction = std::max(result.traction, std::sqrt(square));
       result.dissipation += w * std::max(0., work);
     }
+    const std::vector<unsigned int> prescribed = prescribed_nodes(row_state);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      results[p].n_prescribed = prescribed[p];
     for (PairResult<dim> &result : results)
     {
       double sums[3] = {result.normal_force, result.friction_force,
@@ -481,6 +529,8 @@ namespace abut::shim
       const std::vector<RigidPose<dim>> &) const;                              \
   template void SurfacePairRows<dim>::copy_to_tangents(std::vector<double> &)  \
       const;                                                                   \
+  template std::vector<unsigned int> SurfacePairRows<dim>::prescribed_nodes(   \
+      const std::uint8_t *) const;                                             \
   template void SurfacePairRows<dim>::add_friction(                            \
       const double *, const double *, const std::uint8_t *,                    \
       std::vector<PairResult<dim>> &) const;

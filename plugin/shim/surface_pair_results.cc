@@ -246,7 +246,14 @@ namespace abut::shim
       checks_.push_back(result);
       return;
     }
-    if (result.n_rows == 0 && pair.data.obstacle)
+    if (result.n_rows == 0 && is_prescribed(pair))
+      result.warnings.push_back(
+          coded(ABUT_FAILURE_HELD_NODES,
+                "supports prescribe the displacement along the normal of all "
+                "nodes of the secondary surface, so that contact cannot move "
+                "them. Exchange the two sides, or leave some of the nodes free "
+                "along the normal."));
+    else if (result.n_rows == 0 && pair.data.obstacle)
     {
       const std::string side = wrong_side(pairs_[number]);
       result.warnings.push_back(coded(

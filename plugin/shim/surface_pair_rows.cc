@@ -286,7 +286,7 @@ namespace abut::shim
         dropped[n] = 1;
       else if (direction.norm_square() > 0.
                && freedom(node, direction) < least_freedom)
-        dropped[n] = 2;
+        dropped[n] = of_supports;
     }
     return dropped;
   }
@@ -544,17 +544,21 @@ namespace abut::shim
   {
     const std::vector<std::vector<std::uint8_t>> nearer =
         nodes_of_nearer_pairs(moved);
-    std::vector<std::uint8_t> taken(surface_.nodes.size(), 0);
+    // Obstacles hold nodes that bodies touch, too, whichever pair comes first.
+    std::vector<std::uint8_t> taken(surface_.nodes.size(), 0), tied(taken);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
-      std::vector<std::uint8_t> others(taken);
+      std::vector<std::uint8_t> others(pairs_[p].data.obstacle ? tied : taken);
       for (std::size_t n = 0; n < others.size(); ++n)
         others[n] = others[n] != 0 || nearer[p][n] != 0;
       const std::vector<std::uint8_t> before(others);
       find_pair(p, moved[p], others);
       for (std::size_t n = 0; n < others.size(); ++n)
         if (others[n] != before[n])
+        {
           taken[n] = 1;
+          tied[n] = tied[n] != 0 || pairs_[p].data.tied;
+        }
     }
   }
 

@@ -260,6 +260,10 @@ namespace abut::shim
                       const std::uint8_t *row_state,
                       std::vector<PairResult<dim>> &results) const;
 
+    /** [pairs] PairResult::n_prescribed. Collective. */
+    std::vector<unsigned int>
+    prescribed_nodes(const std::uint8_t *row_state) const;
+
     /** Give the tangents of a point the value [rows] of its normal. */
     void copy_to_tangents(std::vector<double> &value) const;
 
@@ -530,6 +534,9 @@ namespace abut::shim
     const la::Vector &last_commit() const;
     void renew(const la::Vector *place);
     std::string explain_no_rows(std::size_t pair);
+    /** Whether supports prescribe the displacement along the normal of all
+     * nodes of the secondary. Collective. */
+    bool is_prescribed(const Pair &pair) const;
     bool is_owned(Node node) const;
     double motion(const Pair &pair, const std::vector<Direction> &u) const;
     /** [pairs] how far they have come since the last search. */

@@ -384,6 +384,15 @@ namespace abut::shim
   }
 
   template <int dim>
+  bool SurfacePairRows<dim>::is_prescribed(const Pair &pair) const
+  {
+    const bool any_free =
+        std::any_of(pair.dropped.begin(), pair.dropped.end(),
+                    [](const auto mark) { return mark != of_supports; });
+    return !MPI::logical_or(any_free, communicator_);
+  }
+
+  template <int dim>
   std::string SurfacePairRows<dim>::explain_no_rows(const std::size_t number)
   {
     // Nothing but this message needs facets from so far.
@@ -399,6 +408,7 @@ namespace abut::shim
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
+  template bool SurfacePairRows<dim>::is_prescribed(const Pair &) const;       \
   template std::set<global_dof_index> SurfacePairRows<dim>::used_nodes()       \
       const;                                                                   \
   template void SurfacePairRows<dim>::gather(const la::Vector *);              \

@@ -180,12 +180,33 @@ namespace abut::solve
     }
   } // namespace
 
+  namespace
+  {
+    /** Rows that constraints of their point have a part of, or that forces of
+     * constraints act on. */
+    std::vector<std::uint8_t> rows_of_constraints(const LocalElimination &local)
+    {
+      const RowBlocks &blocks = local.blocks();
+      std::vector<std::uint8_t> result(local.held());
+      for (int block = 0; block < blocks.n_blocks(); ++block)
+        for (int h = 0, k = blocks.size(block); h < k; ++h)
+          for (int c = 0; c < k && local.is_held(blocks.first[block] + h); ++c)
+          {
+            const auto number = blocks.at[block] + h * k + c;
+            if (local.trial()[number] != 0. || local.test()[number] != 0.)
+              result[blocks.first[block] + c] = 1;
+          }
+      return result;
+    }
+  } // namespace
+
   bool choose_pivots(const PointOperator &rows, const LocalElimination &local,
                      Condensate &condensate)
   {
     const RowBlocks &blocks = local.blocks();
     la::Vector count(rows.owned(), rows.communicator());
-    rows.add_group_counts(local.held().data(), blocks.first, count);
+    rows.add_group_counts(rows_of_constraints(local).data(), blocks.first,
+                          count);
     condensate.blocks = blocks;
     condensate.stiffness = local.spring();
     condensate.spring = local.spring_blocks();

@@ -218,9 +218,219 @@ def oblique():
                     name + ": reaction")
 
 
+class Corner:
+    """A block pressed against a floor and a wall, both turned by an angle, the
+    floor drawn towards the wall by a displacement that all of it slides by."""
+
+    def __init__(self, draw):
+        self.size = [draw.uniform(0.5, 2.), draw.uniform(0.5, 2.)]
+        self.cells = [draw.choice([1, 2, 3, 5]), draw.choice([1, 2, 4])]
+        self.top, self.side = draw.uniform(0.2, 2.), draw.uniform(0.2, 2.)
+        self.mu, self.mu_of_wall = draw.uniform(0.1, 0.5), draw.uniform(0.1, 0.5)
+        self.degrees = draw.choice([0., 30., draw.uniform(0., 90.)])
+
+    def turned(self, x, y):
+        angle = math.radians(self.degrees)
+        return [x * math.cos(angle) - y * math.sin(angle),
+                x * math.sin(angle) + y * math.cos(angle)]
+
+    def block(self, body, low, size, cells, more):
+        high = [a + b for a, b in zip(low, size)]
+        return (f"subsection Body {body}\n  subsection Mesh\n"
+                "    set Generator = subdivided_hyper_rectangle\n"
+                f"    set Arguments = {', '.join(map(str, cells))} : "
+                f"{words(low)} : {words(high)} : true\n"
+                f"    set Rotate = {self.degrees:.17g}\n  end\n"
+                "  set Young modulus = 1000\n  set Poisson ratio = 0\n"
+                f"{more}end\n")
+
+    def text(self, floor, mu_of_wall, wall_first=False):
+        """With the floor as an obstacle, or as a body that its lower side
+        draws."""
+        loads = f"  set Pressure = 1: {self.side}; 3: {self.top}\n"
+        drawn = [f"{v:.17g}*t" for v in self.turned(-0.1, 0.)]
+        wall = plane("Obstacle 1", self.turned(1., 0.))
+        if floor == "obstacle":
+            parts = [self.block(1, [0., 0.], self.size, self.cells, loads), wall,
+                     plane("Obstacle 2", self.turned(0., 1.),
+                           f"  set Motion = {'; '.join(drawn)}\n")]
+            sides, numbers = "1", (1, 2)
+        else:
+            parts = [self.block(1, [-1., -0.5], [self.size[0] + 2., 0.5],
+                                [8, 2],
+                                f"  set Support = 2: ({drawn[0]}), ({drawn[1]})\n"),
+                     self.block(2, [0., 0.], self.size, self.cells, loads), wall]
+            sides, numbers = "2", (2, 1)
+        pairs = [f"  set Secondary = {sides}: 2\n  set Friction = {self.mu}\n"
+                 + ("  set Obstacle = 2\n" if floor == "obstacle"
+                    else "  set Primary = 1: 3\n"),
+                 f"  set Secondary = {sides}: 0\n  set Obstacle = 1\n"
+                 f"  set Friction = {mu_of_wall}\n"]
+        if wall_first:
+            pairs.reverse()
+        parts += [f"subsection Pair {i + 1}\n{pair}end\n"
+                  for i, pair in enumerate(pairs)]
+        return ("set Scene = solid\nset Dimension = 2\nsubsection Solid\n"
+                f"  set Bodies = {numbers[0]}\n  set Obstacles = {numbers[1]}\n"
+                "  set Pairs = 2\nend\n" + "".join(parts)
+                + "subsection Refinement\n  set Level = 0\nend\n"
+                  "subsection Output\n  set Fields = false\n"
+                  "  set Pictures = false\nend\n")
+
+    def expect(self, summary, mu_of_wall, name, wall_first=False):
+        """N of the floor is the load less the friction of the wall, and N of
+        the wall is the load with the friction of the floor."""
+        top, side = self.top * self.size[0], self.side * self.size[1]
+        normal = (top - mu_of_wall * side) / (1. + self.mu * mu_of_wall)
+        wall = side + self.mu * normal
+        floor_key, wall_key = ("pair_2", "pair_1") if wall_first else (
+            "pair_1", "pair_2")
+        for key, wanted in ((floor_key + "_normal_force", normal),
+                            (floor_key + "_friction_force", self.mu * normal)):
+            p.close(summary.get(key), wanted, 1e-9, f"{name}: {key}")
+        p.close(math.hypot(*summary[wall_key + "_force"]),
+                wall * math.hypot(1., mu_of_wall), 1e-9, f"{name}: wall")
+
+
+def plane(section, normal, more=""):
+    return (f"subsection {section}\n  set Kind = plane\n"
+            f"  set Normal = {words(normal)}\n{more}end\n")
+
+
+def corners():
+    """The node in the corner slides along the floor, which the wall keeps it
+    from following. On a floor that gives way it slides along the wall, too."""
+    draw = random.Random(341)
+    for i in range(10):
+        corner = Corner(draw)
+        settings = METHODS[i % 7]
+        name = f"corner {i}, {settings}"
+        corner.expect(run(corner.text("obstacle", 0.), settings), 0., name)
+        if i % 2 == 0 and corner.top * corner.size[0] > corner.side * corner.size[1]:
+            # the wall is loaded by what presses the block down, too
+            wall_first = i % 4 == 0
+            corner.expect(
+                run(corner.text("body", corner.mu_of_wall, wall_first),
+                    settings), corner.mu_of_wall, name + ", body", wall_first)
+
+
+def groove(degrees, more="", support="(-0.1*t), free, free"):
+    """A block in a groove of two planes that its end draws along."""
+    angle = math.radians(degrees)
+    return f"""set Scene = solid
+set Dimension = 3
+subsection Solid
+  set Bodies = 1
+  set Obstacles = 2
+  set Pairs = 2
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 2, 2, 2 : 0, 0, 0 : 1, 1, 1 : true
+    set Rotate = {degrees}, 0, 0
+  end
+  set Young modulus = 1000
+  set Poisson ratio = 0
+  set Support = 0: {support}
+  set Pressure = 3: 1; 5: 2{more}
+end
+{plane("Obstacle 1", [0., -math.sin(angle), math.cos(angle)])}
+{plane("Obstacle 2", [0., math.cos(angle), math.sin(angle)])}
+subsection Pair 1
+  set Secondary = 1: 4
+  set Obstacle = 1
+  set Friction = 0.3
+end
+subsection Pair 2
+  set Secondary = 1: 2
+  set Obstacle = 2
+  set Friction = 0.2
+end
+subsection Refinement
+  set Level = 0
+end
+subsection Output
+  set Fields = false
+  set Pictures = false
+end
+"""
+
+
+def in_a_groove():
+    """Drawn along it, all slides, nodes of the edge along both planes. Pushed
+    by less, all sticks: the tractions along it are the push."""
+    for degrees in (0., 35.):
+        for settings in (METHODS[0], METHODS[6]):
+            summary = run(groove(degrees), settings)
+            name = f"groove of {degrees} degrees, {settings}"
+            for pair, mu in ((1, 0.3), (2, 0.2)):
+                p.close(summary[f"pair_{pair}_friction_force"],
+                        mu * summary[f"pair_{pair}_normal_force"], 1e-9, name)
+            p.close(-summary["reaction_1"][0], summary["pair_1_friction"][0]
+                    + summary["pair_2_friction"][0], 1e-9, name + ": reaction")
+            p.expect(0.98 * 0.8 < -summary["reaction_1"][0] < 0.8,
+                     name + f": reaction {summary['reaction_1']}")
+        pushed = groove(degrees, "; 0: 0.2").replace(
+            "  set Support = 0: (-0.1*t), free, free\n", "")
+        summary = run(pushed)
+        p.close(summary["pair_1_friction"][0] + summary["pair_2_friction"][0],
+                -0.2, 1e-9, f"pushed along a groove of {degrees} degrees")
+
+
+def prescribed_normals():
+    """The lower left node has its displacement along the normal prescribed."""
+    block = Block([1., 1.], [4, 4], 0.3, 1., "-0.1*t")
+    text = block.on_plane()
+    support = "(-0.1*t), free"
+    p.expect(support in text, "no such support")
+    for settings in METHODS:
+        name = f"prescribed normal, {settings}"
+        summary = run(text.replace(support, "(-0.1*t), 0"), settings)
+        p.close(summary["pair_1_friction_force"],
+                0.3 * summary["pair_1_normal_force"], 1e-9, name)
+        p.close(summary["pair_1_normal_force"] + summary["reaction_1"][1], 1.,
+                1e-9, name + ": balance")
+        # Nitsche's method has points of quadrature, at such nodes, too.
+        count = 0 if "nitsche" in settings.values() else 1
+        p.expect(summary["pair_1_prescribed_nodes"] == count,
+                 f"{name}: {summary['pair_1_prescribed_nodes']} nodes")
+    lifted = run(text.replace(support, "(-0.1*t), 0.01"))
+    p.expect(lifted["pair_1_friction_force"] == 0. == lifted["pair_1_active"],
+             "a lifted node has friction")
+    inside = p.call("run", p.write("held.prm", text.replace(
+        support, "(-0.1*t), -0.01")), "--output", "out")
+    p.expect(inside.returncode == 3 and "ABUT-F26" in inside.stderr,
+             f"a node held inside: exit code {inside.returncode}")
+
+
+def in_shear():
+    """A block drawn by both of its sides over a layer that shears and sticks:
+    T = G d w / h, at nodes that supports fix and whose primary can move."""
+    text = Block([1., 0.5], [1, 1], 0.3, 1., "1e-4*t").on_body(
+        [1., 0.5], [1, 1], [0., -0.5])
+    text = text.replace("  set Support = 2: 0, 0\n",
+                        "  set Support = 0, 1: free, 0; 2: 0, 0\n").replace(
+                            "Support = 0: (1e-4*t)", "Support = 0, 1: (1e-4*t)")
+    for settings in METHODS[:1] + METHODS[2:7]:
+        summary = run(text, settings)
+        p.close(summary["reaction_2"][0], 0.1,
+                1e-5 if "Method/Enforcement" in settings
+                and "lagrange" not in settings.values() else 1e-9,
+                f"shear, {settings}")
+    # with the sides exchanged all normals are prescribed
+    exchanged = text.replace("Secondary = 2: 2", "Secondary = 1: 3").replace(
+        "Primary = 1: 3", "Primary = 2: 2")
+    p.expect_error(p.call("run", p.write("held.prm", exchanged)), "ABUT-F26",
+                   "Exchange the two sides")
+
+
 def on_ranks():
     block = Block([1., 1.], [8, 8], 0.3, 1., "-0.1*t")
     expect_sliding(block, run(block.on_plane(), METHODS[4], 3), "3 ranks")
+    corner = Corner(random.Random(5))
+    corner.expect(run(corner.text("obstacle", 0.), METHODS[0], 3), 0.,
+                  "corner, 3 ranks")
 
 
 for cells in p.some((1, 4, 8), 2):
@@ -233,5 +443,9 @@ between_bodies()
 stopped()
 in_space()
 oblique()
+corners()
+in_a_groove()
+prescribed_normals()
+in_shear()
 on_ranks()
 p.finish()

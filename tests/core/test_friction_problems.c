@@ -449,13 +449,13 @@ laws_without_friction(void **unused)
   }
 }
 
-/* A node on a floor and at a wall on its left, both with friction, and its two
- * contacts. */
+/* A node on a floor and beside a wall on its left, both with friction, and its
+ * two contacts. */
 static abut_points *
-corner_points(abut_context *context)
+corner_points(abut_context *context, double clearance)
 {
   const double frame[2][4] = {{0, -1, 1, 0}, {-1, 0, 0, 1}};
-  const double gap[2] = {0, 0}, one = 1;
+  const double gap[2][2] = {{0, 0}, {clearance, 0}}, one = 1;
   const int32_t node = 0;
   abut_points *points = NULL;
   assert_ok(abut_points_create(context, 2, &points));
@@ -465,7 +465,7 @@ corner_points(abut_context *context)
     point.id = (int64_t)i * 2;
     point.n_components = 2;
     point.frame = frame[i];
-    point.gap = gap;
+    point.gap = gap[i];
     point.n_nodes = point.n_secondary = 1;
     point.node = &node;
     point.coefficient = &one;
@@ -474,8 +474,8 @@ corner_points(abut_context *context)
   return points;
 }
 
-/* Pushed into the corner it has no ways left for friction; drawn away from the
- * wall, the floor has its friction again. */
+/* Pushed into the corner it does not slip, and has no friction in a first step;
+ * drawn away from the wall, or up to it, it slips on the floor. */
 static void
 node_in_a_corner(void **unused)
 {
@@ -491,13 +491,14 @@ node_in_a_corner(void **unused)
                                            .n_rivals = 2,
                                            .rival_point = point,
                                            .rival_row = row};
-  const double forces[2][2] = {{-3, -4}, {2, -4}};
-  const double u[2][2] = {{0, 0}, {1, 0}};
-  const double p[2][4] = {{4, 0, 3, 0}, {4, -1, 0, 0}};
+  const double forces[3][2] = {{-3, -4}, {2, -4}, {-3, -4}};
+  const double clearance[3] = {0, 0, 0.1};
+  const double u[3][2] = {{0, 0}, {1, 0}, {-0.1, 0}};
+  const double p[3][4] = {{4, 0, 3, 0}, {4, -1, 0, 0}, {4, 1, 1.9, 0}};
   abut_context *context = fixture_context();
-  abut_points *points = corner_points(context);
-  for (int i = 0; i < 2; ++i)
+  for (int i = 0; i < 3; ++i)
   {
+    abut_points *points = corner_points(context, clearance[i]);
     const abut_dense_model model = {sizeof(model), 2,      stiffness,
                                     forces[i],     points, &friction};
     const abut_strategy_options options = exact_options();
@@ -514,8 +515,8 @@ node_in_a_corner(void **unused)
       assert_float_equal(x[k], u[i][k], 1e-12);
     for (int k = 0; k < 4; ++k)
       assert_float_equal(pressure[k], p[i][k], 1e-12);
+    assert_ok(abut_points_destroy(&points));
   }
-  assert_ok(abut_points_destroy(&points));
   assert_ok(abut_context_destroy(&context));
 }
 

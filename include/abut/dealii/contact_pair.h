@@ -192,6 +192,11 @@ namespace abut
     double initial_gap_work = 0.;
     /** With friction: rows in contact that slip, the rest sticks. */
     dealii::types::global_dof_index n_slipping = 0;
+    /** With friction: nodes of the secondary in or beside the contact zone
+     * whose displacement along the normal supports prescribe. Their share of
+     * the area is their neighbours', and forces on them are reactions, without
+     * friction. */
+    dealii::types::global_dof_index n_prescribed = 0;
     /** With friction: sum of the pressures, force. */
     double normal_force = 0.;
     /** Sum of the magnitudes of the tractions along the surface, force >= 0. */

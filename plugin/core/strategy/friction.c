@@ -35,10 +35,10 @@ place_arrays(abut_strategy *s)
   /* One more of each: without rows on this rank a request has blocks, too. */
   abut_status status = abut_array_reserve(
       s->context, &f->numbers, 0,
-      1 + 5 * n + 8 * m + 2 * (int64_t)f->blocks + 2 * f->block_numbers + rows);
+      1 + 5 * n + 9 * m + 2 * (int64_t)f->blocks + 2 * f->block_numbers + rows);
   if (status == ABUT_SUCCESS)
     status = abut_array_reserve(s->context, &f->bytes, 0,
-                                1 + f->n_blocks + 2 * n + 3 * rows);
+                                1 + f->n_blocks + 3 * n + 3 * rows);
   if (status != ABUT_SUCCESS)
     return status;
   double *next = f->numbers.data;
@@ -46,9 +46,9 @@ place_arrays(abut_strategy *s)
                          &f->frozen};
   for (size_t k = 0; k < sizeof(by_point) / sizeof(by_point[0]); ++k, next += n)
     *by_point[k] = next;
-  double **by_tangent[] = {&f->slip,       &f->traction, &f->reference,
-                           &f->compliance, &f->residual, &f->d_pressure,
-                           &f->direction,  &f->turned};
+  double **by_tangent[] = {&f->slip,       &f->traction,   &f->reference,
+                           &f->anchor,     &f->compliance, &f->residual,
+                           &f->d_pressure, &f->direction,  &f->turned};
   for (size_t k = 0; k < sizeof(by_tangent) / sizeof(by_tangent[0]);
        ++k, next += m)
     *by_tangent[k] = next;
@@ -60,7 +60,8 @@ place_arrays(abut_strategy *s)
   f->block_size = f->bytes.data;
   f->state = f->block_size + f->n_blocks;
   f->trial = f->state + n;
-  f->row_state = f->trial + n;
+  f->shares = f->trial + n;
+  f->row_state = f->shares + n;
   f->row_changes = f->row_state + rows;
   f->row_mark = f->row_changes + rows;
   return ABUT_SUCCESS;
@@ -117,8 +118,14 @@ abut_friction_start(abut_strategy *s)
   f->rung = ABUT_RUNG_NEWTON;
   f->quarter = ABUT_FRICTION_QUARTERS;
   f->steps = f->rounds = 0;
+  f->corrections = 0;
   for (int32_t k = 0; k < f->m; ++k)
+  {
     f->direction[k] = f->turned[k] = 0;
+    f->anchor[k] = f->committed[k];
+  }
+  if (f->n > 0)
+    memset(f->shares, 0, (size_t)f->n);
   if (s->n > 0)
   {
     memset(f->row_changes, 0, (size_t)s->n);
@@ -127,10 +134,10 @@ abut_friction_start(abut_strategy *s)
   return ABUT_SUCCESS;
 }
 
-/* Springs of stick along tangents that supports hold, as a multiple of the
- * stiffness, and the prescribed slip, as a part of the length scale, below
- * which there is none. */
-static const double stiff = 1e4, no_slip = 1e-14;
+/* Springs of stick along tangents that supports or other contacts hold, as a
+ * multiple of the stiffness, and the slip there, as a part of the length
+ * scale, below which there is none. */
+static const double stiff = 1e4, no_slip = 1e-12;
 
 /* Continuous, so that no digit decides. */
 static double
@@ -139,27 +146,29 @@ beyond_noise(double slip, double noise)
   return slip > noise ? slip - noise : slip < -noise ? slip + noise : 0;
 }
 
-/* Whether supports hold a tangent, and the law has no penalty of its own. */
+/* Whether supports or other contacts of its node hold tangent t of point i, and
+ * the law has no penalty of its own. */
 static bool
-is_held(const abut_strategy *s, int32_t t)
+is_held(const abut_strategy *s, int32_t i, int32_t t)
 {
+  const abut_friction_rows *f = &s->friction;
   const abut_law *law = s->options.law;
-  return s->friction.tangent[t] != ABUT_TANGENT_FREE
+  return (f->tangent[t] != ABUT_TANGENT_FREE || f->shares[i] != 0)
          && (abut_law_is_exact(law) || !abut_law_solves_once(law));
 }
 
 /* Slip, traction, and spring of a tangent. */
 static void
-gather_tangent(abut_strategy *s, int32_t row, int32_t t)
+gather_tangent(abut_strategy *s, int32_t i, int32_t row, int32_t t)
 {
   abut_friction_rows *f = &s->friction;
-  const bool held = is_held(s, t);
+  const bool held = is_held(s, i, t);
   f->slip[t] = s->gap[row];
-  if (f->tangent[t] == ABUT_TANGENT_PRESCRIBED)
+  if (held || f->tangent[t] == ABUT_TANGENT_PRESCRIBED)
     f->slip[t] = beyond_noise(f->slip[t], no_slip * s->options.length_scale);
   f->traction[t] = s->pressure[row];
   f->reference[t] =
-      s->reference != NULL && !held ? s->reference[row] : f->committed[t];
+      s->reference != NULL && !held ? s->reference[row] : f->anchor[t];
   f->compliance[t] = held                    ? 1 / (stiff * s->stiffness[row])
                      : s->compliance == NULL ? 0
                                              : s->compliance[row];
@@ -186,11 +195,30 @@ release_slip(abut_strategy *s, int32_t i, int32_t tangent)
   for (int32_t k = tangent; k < tangent + f->n_tangents[i]; ++k)
     any |= f->slip[k] != 0;
   for (int32_t k = tangent; k < tangent + f->n_tangents[i]; ++k)
-    if (f->state[i] == ABUT_STATE_SLIP && is_held(s, k))
+    if (f->state[i] == ABUT_STATE_SLIP && is_held(s, i, k))
     {
       f->compliance[k] = known ? f->compliance[k] : 0;
       f->reference[k] = known && any ? 0 : f->reference[k];
     }
+}
+
+/* Gaps of other contacts of a node that touch, as a part of the length scale.
+ */
+static const double touching = 1e-10;
+
+/* Mark points whose node another contact holds, too: one that is closed, or
+ * touches, so that stick does not take the place of its pressure. */
+static void
+find_shares(abut_strategy *s)
+{
+  abut_friction_rows *f = &s->friction;
+  const double limit = touching * s->options.length_scale;
+  if (f->n > 0)
+    memset(f->shares, 0, (size_t)f->n);
+  for (int32_t k = 0; k < f->n_rivals; ++k)
+    if (s->state[f->rival_row[k]] != ABUT_STATE_OPEN
+        || s->gap[f->rival_row[k]] <= limit)
+      f->shares[f->rival_point[k]] = 1;
 }
 
 /* Pressures, slips and tractions of the rows, by point. */
@@ -199,6 +227,7 @@ gather(abut_strategy *s)
 {
   abut_friction_rows *f = &s->friction;
   const bool returns = f->iteration == ABUT_FRICTION_RADIAL_RETURN;
+  find_shares(s);
   int32_t t = 0;
   for (int32_t i = 0; i < f->n; ++i)
   {
@@ -207,33 +236,12 @@ gather(abut_strategy *s)
     f->scale[i] = s->scale[row + 1];
     const int32_t first = t;
     for (int32_t k = 1; k <= f->n_tangents[i]; ++k, ++t)
-      gather_tangent(s, row + k, t);
+      gather_tangent(s, i, row + k, t);
     /* So that x is the trial traction of the spring. */
     if ((returns || is_prescribed(f, i, first)) && f->compliance[first] > 0)
       f->scale[i] = 1 / f->compliance[first];
     release_slip(s, i, first);
   }
-}
-
-/* Points of a node that another contact holds have no friction. */
-static void
-drop_bounds_of_rivals(abut_strategy *s)
-{
-  abut_friction_rows *f = &s->friction;
-  for (int32_t k = 0; k < f->n_rivals; ++k)
-    if (s->state[f->rival_row[k]] != ABUT_STATE_OPEN)
-      f->bound[f->rival_point[k]] = f->d_bound[f->rival_point[k]] = 0;
-}
-
-/* The same for states: what has no friction does not stick. */
-static void
-release_rivals(abut_strategy *s)
-{
-  abut_friction_rows *f = &s->friction;
-  for (int32_t k = 0; k < f->n_rivals; ++k)
-    if (s->state[f->rival_row[k]] != ABUT_STATE_OPEN
-        && f->state[f->rival_point[k]] == ABUT_STATE_CLOSED)
-      f->state[f->rival_point[k]] = ABUT_STATE_SLIP;
 }
 
 abut_status
@@ -278,7 +286,6 @@ abut_friction_find_bounds(abut_strategy *s)
              && f->pressure[i] <= 0)
       f->d_bound[i] = 0;
   }
-  drop_bounds_of_rivals(s);
   return status;
 }
 
@@ -350,7 +357,6 @@ abut_friction_first_state(abut_strategy *s, const uint8_t *state)
     else if (f->state[i] == ABUT_STATE_SLIP && !(f->pressure[i] > 0)
              && f->d_bound[i] > 0)
       f->state[i] = ABUT_STATE_CLOSED;
-  release_rivals(s);
   if (status == ABUT_SUCCESS)
     write_row_states(s);
   return status;
@@ -493,6 +499,33 @@ allow_noise(abut_friction_rows *f, double pressure_noise, double slip_noise)
   }
 }
 
+/* Whether springs hold all tangents of a point. */
+static bool
+has_springs(const abut_strategy *s, int32_t i, int32_t tangent)
+{
+  for (int32_t k = tangent; k < tangent + s->friction.n_tangents[i]; ++k)
+    if (!is_held(s, i, k))
+      return false;
+  return true;
+}
+
+/* Whether springs are strong enough to let a point stick: what supports and
+ * other contacts leave no slip has none, whatever its traction is. */
+static bool
+springs_suffice(const abut_strategy *s, int32_t i, int32_t tangent)
+{
+  const abut_friction_rows *f = &s->friction;
+  double square = 0;
+  for (int32_t k = 0; k < f->n_tangents[i]; ++k)
+  {
+    const double x =
+        f->anchor[tangent + k]
+        - stiff * s->stiffness[f->first[i] + 1 + k] * f->slip[tangent + k];
+    square += x * x;
+  }
+  return sqrt(square) <= f->bound[i];
+}
+
 abut_status
 abut_friction_find_states(abut_strategy *s, double pressure_noise,
                           double slip_noise)
@@ -507,8 +540,8 @@ abut_friction_find_states(abut_strategy *s, double pressure_noise,
   {
     f->trial[i] = s->trial_state[f->first[i]];
     for (int32_t k = tangent; k < tangent + f->n_tangents[i]; ++k)
-      if (is_held(s, k))
-        f->reference[k] = f->committed[k];
+      if (is_held(s, i, k))
+        f->reference[k] = f->anchor[k];
   }
   const abut_friction_points points = points_of(s);
   if (status == ABUT_SUCCESS)
@@ -517,6 +550,9 @@ abut_friction_find_states(abut_strategy *s, double pressure_noise,
   for (int32_t i = 0; i < f->n; tangent += f->n_tangents[i++])
   {
     const int32_t row = f->first[i];
+    if (f->trial[i] == ABUT_STATE_SLIP && f->bound[i] > 0
+        && has_springs(s, i, tangent) && springs_suffice(s, i, tangent))
+      f->trial[i] = ABUT_STATE_CLOSED;
     f->row_changes[row] = is_bad(f, i, tangent);
     f->row_excess[row] = f->row_changes[row] ? excess(f, i, tangent) : 0;
     f->row_mark[row] =
@@ -536,7 +572,6 @@ abut_friction_take_states(abut_strategy *s, bool all, double only)
   for (int32_t i = 0; i < f->n; ++i)
     if (all || (double)s->id[f->first[i]] == only)
       f->state[i] = f->trial[i];
-  release_rivals(s);
   write_row_states(s);
 }
 
@@ -573,6 +608,22 @@ abut_friction_mark(const abut_strategy *s, int32_t i)
   return abut_friction_is_on(&s->friction)
              ? (int64_t)s->friction.row_mark[i] << 54
              : 0;
+}
+
+void
+abut_friction_correct_springs(abut_strategy *s, double *change)
+{
+  abut_friction_rows *f = &s->friction;
+  int32_t tangent = 0;
+  *change = 0;
+  for (int32_t i = 0; i < f->n; tangent += f->n_tangents[i++])
+    for (int32_t k = tangent; k < tangent + f->n_tangents[i]; ++k)
+      if (f->state[i] == ABUT_STATE_CLOSED && is_held(s, i, k)
+          && f->tangent[k] != ABUT_TANGENT_PRESCRIBED)
+      {
+        *change = fmax(*change, fabs(f->traction[k] - f->anchor[k]));
+        f->anchor[k] = f->traction[k];
+      }
 }
 
 int32_t

@@ -56,13 +56,15 @@ typedef struct abut_friction_rows
   abut_array numbers, bytes;
   double *pressure, *scale, *bound, *d_bound, *frozen; /* [n] */
   double *slip, *traction, *reference, *compliance;    /* [m] */
-  double *residual, *d_pressure, *direction, *turned;  /* [m] */
-  double *d_traction, *d_slip;                         /* [blocks] */
+  double *anchor; /* [m] tractions that springs of stick begin from */
+  double *residual, *d_pressure, *direction, *turned; /* [m] */
+  double *d_traction, *d_slip;                        /* [blocks] */
   double *a, *b;       /* blocks of all points, those without friction, too */
   uint8_t *block_size; /* [n_blocks] */
   int32_t n_blocks;
   int64_t block_numbers;
   uint8_t *state, *trial; /* [n] */
+  uint8_t *shares;        /* [n] nonzero: another contact holds its node, too */
   uint8_t *row_state;     /* [rows] with SLIP, for the host */
   double *row_excess;     /* [rows] of bad points, a pressure */
   uint8_t *row_changes;   /* [rows] nonzero at normals whose state is bad */
@@ -74,6 +76,7 @@ typedef struct abut_friction_rows
   int32_t steps;   /* since the last rung */
   double change;   /* of the frozen bounds in the last round, relative */
   int32_t rounds;
+  int32_t corrections; /* of the springs of stick */
 } abut_friction_rows;
 
 /* Whether there is friction, on whatever rank. */
@@ -149,6 +152,10 @@ void abut_friction_describe_end(const abut_friction_rows *f, abut_text *text);
 
 /* The set has settled: whether another round of the rung follows. */
 abut_status abut_friction_settled(abut_strategy *s, bool *goes_on);
+
+/* Springs of stick along tangents that supports or other contacts hold begin
+ * from the traction that they have now; its largest change on this rank. */
+void abut_friction_correct_springs(abut_strategy *s, double *change);
 
 /* Points that slip, on this rank. */
 int32_t abut_friction_n_slipping(const abut_friction_rows *f);

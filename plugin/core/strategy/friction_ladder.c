@@ -8,8 +8,9 @@
 
 enum
 {
-  MAX_STEPS = 60,  /* without a settled set on one rung */
-  MAX_ROUNDS = 100 /* of frozen bounds */
+  MAX_STEPS = 60,     /* without a settled set on one rung */
+  MAX_ROUNDS = 100,   /* of frozen bounds */
+  MAX_CORRECTIONS = 4 /* of springs of stick */
 };
 
 /* Change of the frozen bounds, relative to the largest, that is none. */
@@ -124,6 +125,43 @@ abut_friction_describe_end(const abut_friction_rows *f, abut_text *text)
   }
 }
 
+/* Springs 1e4 times as stiff as the body leave a slip of 1e-4 of the body's
+ * displacement; each correction takes them to that part of it. Collective. */
+static abut_status
+correct_springs(abut_strategy *s, bool *goes_on)
+{
+  abut_friction_rows *f = &s->friction;
+  double max[2] = {0, 0};
+  if (f->corrections == MAX_CORRECTIONS)
+    return ABUT_SUCCESS;
+  abut_friction_correct_springs(s, &max[0]);
+  for (int32_t i = 0; i < f->n; ++i)
+    max[1] = fmax(max[1], fabs(f->pressure[i]));
+  const abut_status status =
+      abut_strategy_reduce(s, ABUT_REDUCTION_MAX, max, 2);
+  f->corrections += 1;
+  *goes_on = max[0] > settled_bound * max[1];
+  return status;
+}
+
+/* The next round of Tresca's problems, until their bounds stay. */
+static abut_status
+settle_bounds(abut_strategy *s, bool *goes_on)
+{
+  abut_friction_rows *f = &s->friction;
+  const abut_status status = freeze(s, &f->change);
+  f->rounds += 1;
+  *goes_on = f->change > settled_bound;
+  if (!*goes_on)
+    s->progress.seen = ABUT_FAILURE_NONE;
+  if (*goes_on && f->rounds >= MAX_ROUNDS)
+  {
+    f->rung = ABUT_RUNG_END;
+    s->progress.friction_rung = (int32_t)f->rung;
+  }
+  return status;
+}
+
 abut_status
 abut_friction_settled(abut_strategy *s, bool *goes_on)
 {
@@ -136,18 +174,10 @@ abut_friction_settled(abut_strategy *s, bool *goes_on)
   {
     f->quarter += 1;
     *goes_on = true;
-  }
-  if (f->rung != ABUT_RUNG_TRESCA)
     return ABUT_SUCCESS;
-  const abut_status status = freeze(s, &f->change);
-  f->rounds += 1;
-  *goes_on = f->change > settled_bound;
-  if (!*goes_on)
-    s->progress.seen = ABUT_FAILURE_NONE;
-  if (*goes_on && f->rounds >= MAX_ROUNDS)
-  {
-    f->rung = ABUT_RUNG_END;
-    s->progress.friction_rung = (int32_t)f->rung;
   }
-  return status;
+  const abut_status status =
+      f->rung == ABUT_RUNG_TRESCA ? settle_bounds(s, goes_on) : ABUT_SUCCESS;
+  return status != ABUT_SUCCESS || *goes_on ? status
+                                            : correct_springs(s, goes_on);
 }

@@ -253,6 +253,7 @@ namespace abut::app
       if (pairs.pairs().at(number - 1).friction != nullptr)
       {
         report.set(key + "_slipping", pair.n_slipping);
+        report.set(key + "_prescribed_nodes", pair.n_prescribed);
         report.set(key + "_normal_force", pair.normal_force);
         report.set(key + "_friction_force", pair.friction_force);
         report.set(key + "_friction", vector(pair.secondary_friction));
