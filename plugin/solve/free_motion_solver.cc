@@ -21,6 +21,10 @@ namespace abut::solve
      * facets that are nearly parallel to the other side close together. */
     constexpr double beyond_size = 1e-6, beyond_distance = 1e-3;
 
+    /** Distance beyond the point where a slip is reversed, as a part of the
+     * size: above round-off of slips, below slips that matter. */
+    constexpr double beyond_slip = 1e-11;
+
     constexpr double infinite = std::numeric_limits<double>::infinity();
 
     bool is_open(const PointOperator &rows, const abut_request &request,
@@ -314,6 +318,34 @@ namespace abut::solve
     return -MPI::max(way, rows_->communicator());
   }
 
+  double FreeMotionSolver::way_to_stick(const Combination &motion,
+                                        const abut_request &request) const
+  {
+    const std::vector<double> change = floating_.gap_change(motion);
+    const int n = rows_->n_rows();
+    double way = -infinite;
+    for (int i = 0; i < n; ++i)
+    {
+      if (rows_->is_tangent(i))
+        continue;
+      // Slip and change of it along the traction, against which it slips.
+      double slip = 0., rate = 0., traction = 0., length = 0.;
+      for (int k = i + 1; k < n && rows_->is_tangent(k); ++k)
+      {
+        const double t = request.pressure[k] + request.pressure_change[k];
+        slip += t * ((*iteration_.gap)[k] + request.gap_change[k]);
+        rate += t * change[k];
+        traction += t * t;
+        length += change[k] * change[k];
+      }
+      constexpr double across = 1e-6;
+      if (request.state[i] == ABUT_STATE_SLIP
+          && rate > across * std::sqrt(traction * length))
+        way = std::max(way, slip / rate);
+    }
+    return -MPI::max(way, rows_->communicator());
+  }
+
   void FreeMotionSolver::move(const Combination &motion, const double distance,
                               const abut_request &request,
                               la::Vector &increment) const
@@ -358,6 +390,16 @@ namespace abut::solve
     for (double &value : motion)
       value /= largest;
     const double way = way_to_touch(motion, request, free.slips);
+    const double to_stick =
+        free.slips ? way_to_stick(motion, request) : infinite;
+    if (to_stick < infinite && to_stick <= way)
+    {
+      move(motion,
+           std::max(0., to_stick) * (1. + beyond_distance)
+               + beyond_slip * floating_.smallest_radius(),
+           request, increment);
+      return;
+    }
     if (way < infinite)
     {
       if (way > 0.)

@@ -83,6 +83,10 @@ namespace abut::solve
      * Collective. */
     double way_to_touch(const Combination &motion, const abut_request &request,
                         bool others) const;
+    /** How far a motion may go until the slip of a point is reversed, infinite
+     * if it is never. Collective. */
+    double way_to_stick(const Combination &motion,
+                        const abut_request &request) const;
     void move(const Combination &motion, double distance,
               const abut_request &request, la::Vector &increment) const;
     /** The same until bodies touch: slips of groups without closed rows begin
