@@ -5,8 +5,6 @@
 
 #include <abut/dealii/coded.h>
 
-#include <deal.II/lac/full_matrix.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -180,17 +178,7 @@ namespace abut::solve
   FreeMotionSolver::divide_by_mass(const Free &free,
                                    const std::vector<double> &right)
   {
-    const std::size_t n = right.size();
-    dealii::FullMatrix<double> inverse(n, n);
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t k = 0; k < n; ++k)
-        inverse(j, k) = free.mass[j * n + k];
-    inverse.gauss_jordan();
-    std::vector<double> result(n, 0.);
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t k = 0; k < n; ++k)
-        result[j] += inverse(j, k) * right[k];
-    return result;
+    return FloatingBodies::divide(free.mass, right);
   }
 
   FreeMotionSolver::Combination
@@ -486,6 +474,12 @@ namespace abut::solve
     has_begun_ = true;
     moved_ = la::Vector();
     slipping_.clear();
+  }
+
+  std::vector<BodyMotion>
+  FreeMotionSolver::rigid_motions(const la::Vector &displacement) const
+  {
+    return floating_.rigid_part(displacement);
   }
 
   std::vector<FreeMotion>

@@ -38,6 +38,8 @@ namespace abut::solve
     void restore(const std::vector<PreconditionerState> &state) override;
     void begin_iteration(const ContactIteration &iteration) override;
     std::vector<FreeMotion> end_iteration(const abut_request &request) override;
+    std::vector<BodyMotion>
+    rigid_motions(const la::Vector &displacement) const override;
     LinearReport solve(const la::Vector &residual, const abut_request &request,
                        double smallest_residual,
                        la::Vector &increment) override;

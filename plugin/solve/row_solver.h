@@ -7,6 +7,7 @@
 #include "preconditioner_state.h"
 #include "stiffness.h"
 
+#include <abut/dealii/contact_examination.h>
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
 #include <abut/strategy.h>
@@ -97,6 +98,13 @@ namespace abut::solve
      * Returns the rigid motions that they do not determine; throws
      * SolverFailure if loads do work along such a motion. Collective. */
     virtual std::vector<FreeMotion> end_iteration(const abut_request &)
+    {
+      return {};
+    }
+
+    /** The rigid part of a displacement, of each body that the stiffness leaves
+     * free to move. Collective. */
+    virtual std::vector<BodyMotion> rigid_motions(const la::Vector &) const
     {
       return {};
     }

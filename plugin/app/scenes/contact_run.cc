@@ -92,7 +92,10 @@ namespace abut::app
       model.problem().constraints.distribute(state.u);
       begin_contact();
       name_parameter(model, [&] { state.contact.detect(state.u); });
-      const std::string why = free_motion();
+      model.assemble();
+      std::string why = free_motion();
+      while (!why.empty() && state.contact.search_farther(state.u))
+        why = free_motion();
       if (!why.empty())
         throw InputError(model.support_of(why), why);
     }
@@ -104,10 +107,13 @@ namespace abut::app
   {
     if (!model.has_contact() || model.has_inertia())
       return "";
+    const la::Vector nothing = model.problem().vector();
+    la::Vector residual(nothing);
+    model.residual(nothing, residual);
+    model.problem().constraints.set_zero(residual);
     try
     {
-      state.contact.check_supports(
-          model.problem().tangent(model.problem().vector()));
+      state.contact.check_supports(model.problem().tangent(nothing), &residual);
     }
     catch (const SolverFailure &failure)
     {
@@ -716,6 +722,8 @@ namespace abut::app
                   + " at the most, and squares of such numbers are 0: nothing "
                     "can be computed with them. Choose other units of loads "
                     "and stiffness.");
+    for (const BodyMotion &motion : examination.motions)
+      report.progress(motion.text);
     for (const ContactFinding &finding : examination.findings)
       report.warn(finding.text);
     for (const std::string &lost : model.written_numbers().lost())
