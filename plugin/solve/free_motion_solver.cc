@@ -251,19 +251,18 @@ namespace abut::solve
     return report;
   }
 
-  void
-  FreeMotionSolver::take_forces_of_springs(const std::vector<double> &force,
-                                           Free &free) const
+  void FreeMotionSolver::take_forces_of_springs(Free &free) const
   {
     free.works = false;
+    free.forces.assign(free.motions.size(), 0.);
     const double tolerance = std::max(
         work_tolerance(), 10. * iteration_.linear_tolerance * iteration_.load);
     for (std::size_t k = 0; k < free.motions.size(); ++k)
     {
       const std::vector<double> change = floating_.gap_change(free.motions[k]);
       double sum = 0.;
-      for (std::size_t i = 0; i < force.size(); ++i)
-        sum += force[i] * change[i];
+      for (std::size_t i = 0; i < free.springs.size(); ++i)
+        sum += free.springs[i] * change[i];
       free.forces[k] = MPI::sum(sum, rows_->communicator());
       free.works = free.works || std::abs(free.forces[k]) > tolerance;
     }
@@ -367,8 +366,7 @@ namespace abut::solve
     iteration_.approach(floating_.of_bodies(part), apart);
   }
 
-  void FreeMotionSolver::advance(const Free &free, const abut_request &request,
-                                 la::Vector &increment)
+  FreeMotionSolver::Combination FreeMotionSolver::driven(const Free &free) const
   {
     Combination motion =
         combine(free.motions, divide_by_mass(free, free.forces));
@@ -377,6 +375,24 @@ namespace abut::solve
       largest = std::max(largest, std::abs(value));
     for (double &value : motion)
       value /= largest;
+    return motion;
+  }
+
+  FreeMotionSolver::Free FreeMotionSolver::pivots(const Free &free) const
+  {
+    Free result;
+    result.resisting = free.resisting;
+    result.motions = floating_.free_motions(*rows_, free.resisting.sticks);
+    result.springs = free.springs;
+    take_forces_of_springs(result);
+    find_mass(result);
+    return result;
+  }
+
+  void FreeMotionSolver::advance(const Free &free, const abut_request &request,
+                                 la::Vector &increment)
+  {
+    const Combination motion = driven(free);
     const double way = way_to_touch(motion, request, free.slips);
     const double to_stick =
         free.slips ? way_to_stick(motion, request) : infinite;
@@ -391,21 +407,23 @@ namespace abut::solve
     if (way < infinite)
     {
       if (way > 0.)
-      {
         approach(motion, way, request, increment);
-        move(motion,
-             way * beyond_distance + beyond_size * floating_.smallest_radius(),
-             request, increment);
-      }
+      move(motion,
+           std::max(0., way) * beyond_distance
+               + beyond_size * floating_.smallest_radius(),
+           request, increment);
       return;
     }
-    if (!free.slips
-        || !floating_.free_motions(*rows_, free.resisting.sticks).empty())
+    const Free pivot = free.slips ? pivots(free) : Free();
+    if (pivot.works)
+      advance(pivot, request, increment);
+    else if (!free.slips || !pivot.motions.empty())
       floating_.fail_in_contact(free.works && free.motions.size() > 1
                                     ? Combinations{motion}
                                     : free.motions,
                                 n_resisting(*rows_, free.resisting.now));
-    slipping_ = motion;
+    else
+      slipping_ = motion;
   }
 
   void FreeMotionSolver::settle(const Free &free, const abut_request &request,
@@ -453,12 +471,11 @@ namespace abut::solve
       report = inner_->solve(residual, request, smallest_residual, increment);
     else
     {
-      std::vector<double> force;
       report = solve_with_springs(
           free, free.slips ? residual : balanced(free, residual), request,
-          smallest_residual, increment, force);
+          smallest_residual, increment, free.springs);
       if (free.slips)
-        take_forces_of_springs(force, free);
+        take_forces_of_springs(free);
       if (free.works)
         advance(free, request, increment);
       else

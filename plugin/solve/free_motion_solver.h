@@ -55,6 +55,7 @@ namespace abut::solve
       FloatingBodies::Resisting resisting;
       bool slips = false;         ///< friction acts along some of them
       std::vector<double> forces; ///< [motions] work of the loads
+      std::vector<double> springs; ///< [rows] forces of springs, with slips
       bool works = false;         ///< and it is no round-off
       std::vector<double> mass;   ///< [motions x motions]
     };
@@ -66,13 +67,17 @@ namespace abut::solve
     Free find_free(const la::Vector &residual,
                    const abut_request &request) const;
     void find_mass(Free &free) const;
+    /** The motion that the loads drive, 1 at most. */
+    Combination driven(const Free &free) const;
     la::Vector balanced(const Free &free, const la::Vector &residual) const;
     LinearReport
     solve_with_springs(const Free &free, const la::Vector &residual,
                        const abut_request &request, double smallest_residual,
                        la::Vector &increment, std::vector<double> &force);
-    void take_forces_of_springs(const std::vector<double> &force,
-                                Free &free) const;
+    void take_forces_of_springs(Free &free) const;
+    /** Motions that sticking points leave free, if springs in the place of
+     * what slips work along them. Collective. */
+    Free pivots(const Free &free) const;
     /** Solve mass c = right. */
     static std::vector<double> divide_by_mass(const Free &free,
                                               const std::vector<double> &right);

@@ -207,10 +207,13 @@ namespace abut::app
     events.phase = [this](const SolvePhase phase)
     {
       section.reset();
+      // What a search has found is of interest once there is an answer: bodies
+      // may be out of reach in the first.
+      if (phase == SolvePhase::check)
+        model.look_at_rows(state.is_last_mesh());
       if (phase == SolvePhase::solve)
       {
         ++state.n_searches;
-        model.look_at_rows(state.is_last_mesh());
         section.emplace(report.times, "solve");
       }
       else if (phase != SolvePhase::end)
