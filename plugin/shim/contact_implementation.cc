@@ -644,6 +644,7 @@ namespace abut
   {
     solve::ContactIteration result;
     result.gap = &gap;
+    result.start = &start_displacement;
     if (surfaces != nullptr)
     {
       result.group = surfaces->row_pairs();

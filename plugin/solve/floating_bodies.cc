@@ -408,7 +408,7 @@ namespace abut::solve
   std::vector<FloatingBodies::Combination>
   FloatingBodies::along_which_works(const std::vector<Combination> &motions,
                                     const la::Vector &residual,
-                                    const double load) const
+                                    const double tolerance) const
   {
     std::vector<Combination> result;
     if (motions.empty())
@@ -417,7 +417,7 @@ namespace abut::solve
     for (const Combination &motion : motions)
       if (std::abs(std::inner_product(motion.begin(), motion.end(),
                                       each.begin(), 0.))
-          > no_work * load)
+          > tolerance)
         result.push_back(motion);
     return result;
   }

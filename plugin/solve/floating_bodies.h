@@ -85,12 +85,11 @@ namespace abut::solve
     /** [motions] work of @p forces. Collective. */
     std::vector<double> work(const la::Vector &forces) const;
 
-    /** Those of these motions along which @p residual does work: more than
-     * round-off of a @p load, the sum of the magnitudes of its forces.
-     * Collective. */
+    /** Those of these motions along which @p residual does more work than a
+     * @p tolerance. Collective. */
     std::vector<Combination>
     along_which_works(const std::vector<Combination> &motions,
-                      const la::Vector &residual, double load) const;
+                      const la::Vector &residual, double tolerance) const;
 
     /** [motions x motions] products of motions and [motions] of motions with a
      * displacement, integrated over the bodies. Collective. */

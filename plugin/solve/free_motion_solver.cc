@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace abut::solve
 {
@@ -75,6 +76,8 @@ namespace abut::solve
     rows_ = &rows;
     row_stiffness_ = row_stiffness;
     floating_.reinit(stiffness, rows, space_);
+    diagonal_ =
+        floating_.empty() ? std::vector<double>() : stiffness.diagonal();
     unfelt_ = floating_.free_motions(
         rows, std::vector<std::uint8_t>(rows.n_rows(), 1));
     fixed_.clear();
@@ -115,7 +118,45 @@ namespace abut::solve
 
   double FreeMotionSolver::work_tolerance() const
   {
-    return FloatingBodies::no_work * iteration_.load;
+    constexpr double round_off = 1e-15;
+    double internal = 0.;
+    for (std::size_t i = 0; i < diagonal_.size(); ++i)
+      internal += std::abs(diagonal_[i])
+                  * (std::abs(la::data(moved_)[i])
+                     + (iteration_.start == nullptr
+                            ? 0.
+                            : std::abs(la::data(*iteration_.start)[i])));
+    return FloatingBodies::no_work * iteration_.load
+           + round_off * MPI::sum(internal, rows_->communicator());
+  }
+
+  FreeMotionSolver::Combinations
+  FreeMotionSolver::felt(const Combinations &motions) const
+  {
+    if (unfelt_.empty())
+      return motions;
+    // Gram and Schmidt: both are orthonormal, and one spans the other.
+    constexpr double none = 1e-6;
+    Combinations result, basis(unfelt_);
+    for (Combination motion : motions)
+    {
+      for (const Combination &other : basis)
+      {
+        const double along = std::inner_product(motion.begin(), motion.end(),
+                                                other.begin(), 0.);
+        for (std::size_t k = 0; k < motion.size(); ++k)
+          motion[k] -= along * other[k];
+      }
+      const double length = std::sqrt(std::inner_product(
+          motion.begin(), motion.end(), motion.begin(), 0.));
+      if (length < none)
+        continue;
+      for (double &value : motion)
+        value /= length;
+      basis.push_back(motion);
+      result.push_back(motion);
+    }
+    return result;
   }
 
   void FreeMotionSolver::check_unfelt(const la::Vector &residual) const
@@ -124,7 +165,7 @@ namespace abut::solve
       return;
     const Combinations refused =
         has_begun_ && fixed_.m() > 0
-            ? floating_.along_which_works(unfelt_, residual, iteration_.load)
+            ? floating_.along_which_works(unfelt_, residual, no_work_)
             : unfelt_;
     if (!refused.empty())
       floating_.fail(
@@ -153,7 +194,7 @@ namespace abut::solve
       double sum = 0.;
       for (std::size_t k = 0; k < work.size(); ++k)
         sum -= motion[k] * work[k];
-      free.works = free.works || std::abs(sum) > work_tolerance();
+      free.works = free.works || std::abs(sum) > no_work_;
       free.forces.push_back(sum);
     }
     find_mass(free);
@@ -209,10 +250,10 @@ namespace abut::solve
       const double smallest_residual, la::Vector &increment,
       std::vector<double> &force)
   {
-    const std::size_t n = free.motions.size();
     std::vector<std::vector<double>> gap_change;
-    for (const Combination &motion : free.motions)
+    for (const Combination &motion : felt(free.motions))
       gap_change.push_back(floating_.gap_change(motion));
+    const std::size_t n = gap_change.size();
     const RowBlocks blocks(request);
     std::vector<std::int64_t> own(rows_->n_rows());
     for (int i = 0; i < rows_->n_rows(); ++i)
@@ -256,7 +297,7 @@ namespace abut::solve
     free.works = false;
     free.forces.assign(free.motions.size(), 0.);
     const double tolerance = std::max(
-        work_tolerance(), 10. * iteration_.linear_tolerance * iteration_.load);
+        no_work_, 10. * iteration_.linear_tolerance * iteration_.load);
     for (std::size_t k = 0; k < free.motions.size(); ++k)
     {
       const std::vector<double> change = floating_.gap_change(free.motions[k]);
@@ -464,6 +505,7 @@ namespace abut::solve
     }
     if (moved_.size() != increment.size())
       moved_.reinit(increment);
+    no_work_ = work_tolerance();
     check_unfelt(residual);
     Free free = find_free(residual, request);
     LinearReport report;
@@ -511,7 +553,7 @@ namespace abut::solve
       weight += rows_->weight(i);
     weight = MPI::sum(weight, rows_->communicator());
     const double no_pressure =
-        weight > 0. ? FloatingBodies::no_work * iteration_.load / weight : 0.;
+        weight > 0. ? no_work_ / weight : 0.;
     // Rows that are closed by chance resist nothing.
     std::vector<std::uint8_t> resists(rows_->n_rows(), 0);
     bool is_pressed = false;

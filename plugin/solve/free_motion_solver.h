@@ -104,12 +104,17 @@ namespace abut::solve
                  la::Vector &increment);
     void settle(const Free &free, const abut_request &request,
                 la::Vector &increment) const;
+    /** Work below which there is none: a part of the load's, and round-off of
+     * internal forces, which do none along rigid motions. Collective. */
     double work_tolerance() const;
+    /** The parts of these motions that rows feel. */
+    Combinations felt(const Combinations &motions) const;
 
     std::unique_ptr<RowSolver> inner_;
     NearNullSpace space_;
     FloatingBodies floating_;
     Combinations unfelt_; ///< motions that no row feels
+    std::vector<double> diagonal_;
     const PointOperator *rows_ = nullptr;
     std::vector<double> row_stiffness_;
     la::Matrix fixed_; ///< the matrix with springs against unfelt motions
@@ -117,6 +122,7 @@ namespace abut::solve
     LocalElimination local_;
     ContactIteration iteration_;
     bool has_begun_ = false;
+    double no_work_ = 0.;  ///< work_tolerance() of the present solve
     la::Vector moved_;     ///< by this iteration
     Combination slipping_; ///< motion that friction does not stop; empty: none
   };

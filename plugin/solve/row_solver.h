@@ -26,6 +26,8 @@ namespace abut::solve
     /** [rows] pair of each row, below n_groups; empty: not known. */
     std::vector<int> group;
     std::size_t n_groups = 1;
+    /** Displacement at its start, which must live as long; null: 0. */
+    const la::Vector *start = nullptr;
     /** Sum of the magnitudes of the loads at nodes, force >= 0. */
     double load = 0.;
     /** Tolerance of the last linear systems. */
