@@ -555,10 +555,9 @@ namespace abut
     const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
     auto free = floating.free_motions(i.coefficients, all);
     if (residual != nullptr)
-      free =
-          floating.along_which_works(free, *residual,
-                                     solve::FloatingBodies::no_work
-                                         * residual->l1_norm());
+      free = floating.along_which_works(free, *residual,
+                                        solve::FloatingBodies::no_work
+                                            * residual->l1_norm());
     if (!free.empty())
       floating.fail(free, solve::n_resisting(i.coefficients, all),
                     "contact rows, open or not", "or tie it");

@@ -665,8 +665,7 @@ namespace abut
       undetermined = solver->end_iteration(request);
   }
 
-  template <int dim>
-  bool ContactAssembler<dim>::Implementation::widen_search()
+  template <int dim> bool ContactAssembler<dim>::Implementation::widen_search()
   {
     // Of the size of the smallest body.
     constexpr double first = 0.5, growth = 4., last = 8.;

@@ -470,8 +470,7 @@ namespace abut::solve
       return {};
     std::vector<double> products, right;
     project(displacement, products, right);
-    const std::vector<RigidMotion> motions =
-        of_bodies(divide(products, right));
+    const std::vector<RigidMotion> motions = of_bodies(divide(products, right));
     std::set<unsigned int> bodies;
     for (const Motion &motion : motions_)
       bodies.insert(motion.body);
@@ -486,11 +485,10 @@ namespace abut::solve
           motion.translation
           + cross_product_3d(motion.rotation,
                              dealii::Tensor<1, 3>(center_[body]));
-      moved.text =
-          name(body) + " has "
-          + rigid_displacement_in_words(space_.n_components, moved.translation,
-                                        moved.rotation, center_[body],
-                                        radius_[body]);
+      moved.text = name(body) + " has "
+                   + rigid_displacement_in_words(
+                       space_.n_components, moved.translation, moved.rotation,
+                       center_[body], radius_[body]);
       result.push_back(std::move(moved));
     }
     return result;

@@ -142,13 +142,13 @@ namespace abut::solve
     {
       for (const Combination &other : basis)
       {
-        const double along = std::inner_product(motion.begin(), motion.end(),
-                                                other.begin(), 0.);
+        const double along =
+            std::inner_product(motion.begin(), motion.end(), other.begin(), 0.);
         for (std::size_t k = 0; k < motion.size(); ++k)
           motion[k] -= along * other[k];
       }
-      const double length = std::sqrt(std::inner_product(
-          motion.begin(), motion.end(), motion.begin(), 0.));
+      const double length = std::sqrt(
+          std::inner_product(motion.begin(), motion.end(), motion.begin(), 0.));
       if (length < none)
         continue;
       for (double &value : motion)
@@ -296,8 +296,8 @@ namespace abut::solve
   {
     free.works = false;
     free.forces.assign(free.motions.size(), 0.);
-    const double tolerance = std::max(
-        no_work_, 10. * iteration_.linear_tolerance * iteration_.load);
+    const double tolerance =
+        std::max(no_work_, 10. * iteration_.linear_tolerance * iteration_.load);
     for (std::size_t k = 0; k < free.motions.size(); ++k)
     {
       const std::vector<double> change = floating_.gap_change(free.motions[k]);
@@ -552,8 +552,7 @@ namespace abut::solve
     for (int i = 0; i < rows_->n_rows(); ++i)
       weight += rows_->weight(i);
     weight = MPI::sum(weight, rows_->communicator());
-    const double no_pressure =
-        weight > 0. ? no_work_ / weight : 0.;
+    const double no_pressure = weight > 0. ? no_work_ / weight : 0.;
     // Rows that are closed by chance resist nothing.
     std::vector<std::uint8_t> resists(rows_->n_rows(), 0);
     bool is_pressed = false;

@@ -53,11 +53,11 @@ namespace abut::solve
     {
       Combinations motions;
       FloatingBodies::Resisting resisting;
-      bool slips = false;         ///< friction acts along some of them
-      std::vector<double> forces; ///< [motions] work of the loads
+      bool slips = false;          ///< friction acts along some of them
+      std::vector<double> forces;  ///< [motions] work of the loads
       std::vector<double> springs; ///< [rows] forces of springs, with slips
-      bool works = false;         ///< and it is no round-off
-      std::vector<double> mass;   ///< [motions x motions]
+      bool works = false;          ///< and it is no round-off
+      std::vector<double> mass;    ///< [motions x motions]
     };
 
     const Stiffness &take(const Stiffness &stiffness, const PointOperator &rows,

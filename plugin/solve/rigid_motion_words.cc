@@ -58,11 +58,10 @@ namespace abut::solve
                                                 : "");
   }
 
-  std::string rigid_displacement_in_words(const unsigned int dim,
-                                          const dealii::Tensor<1, 3> &translation,
-                                          const dealii::Tensor<1, 3> &rotation,
-                                          const dealii::Point<3> &center,
-                                          const double radius)
+  std::string rigid_displacement_in_words(
+      const unsigned int dim, const dealii::Tensor<1, 3> &translation,
+      const dealii::Tensor<1, 3> &rotation, const dealii::Point<3> &center,
+      const double radius)
   {
     constexpr double none = 1e-6;
     const double distance = translation.norm(), angle = rotation.norm();

@@ -37,8 +37,8 @@
  * Everything is in this header: programs that load Abut can use it, too.
  */
 
-#include <abut/dealii/contact_assembler.h>
 #include <abut/dealii/coded.h>
+#include <abut/dealii/contact_assembler.h>
 #include <abut/dealii/contact_loop.h>
 #include <abut/dealii/contact_solver_types.h>
 #include <abut/dealii/partner_words.h>
