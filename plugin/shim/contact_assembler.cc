@@ -210,12 +210,36 @@ namespace abut
     i.has_new_gaps = false;
     i.has_rows = false;
     i.check_approach(displacement);
-    i.find_rows(displacement);
+    i.find_rows_in_reach(displacement);
     i.has_rows = true;
     i.start_state.clear();
     i.is_restarted = false;
     i.iteration_tolerance = 0.;
     i.begin_at(displacement);
+  }
+
+  template <int dim>
+  bool ContactAssembler<dim>::search_farther(
+      const la::VectorView &given_displacement)
+  {
+    Implementation &i = *implementation;
+    i.check_rows("search_farther()");
+    const la::Vector &displacement =
+        i.take("search_farther()", "displacement", given_displacement);
+    const auto n_rows = [&]
+    {
+      return dealii::Utilities::MPI::sum(double(i.coefficients.n_rows()),
+                                         i.communicator);
+    };
+    const double before = n_rows();
+    while (i.widen_search())
+    {
+      i.return_to_history();
+      detect(displacement);
+      if (n_rows() > before)
+        return true;
+    }
+    return false;
   }
 
   template <int dim>

@@ -479,6 +479,8 @@ namespace abut
                          "it. The answer has the least such motion in the mean "
                          "square over the body. Support the body in that "
                          "direction if the motion matters.");
+    if (i.solver != nullptr && !i.surfaces->has_steps())
+      result.motions = i.solver->rigid_motions(displacement);
     const std::vector<shim::Unseen> unseen = i.find_unseen(displacement);
     i.surfaces->examine(displacement, i.row_pressures().data(), i.gap.data(),
                         i.row_states().data(), unseen);
@@ -551,7 +553,8 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::check_supports(const Tangent &tangent) const
+  void ContactAssembler<dim>::check_supports(
+      const Tangent &tangent, const la::VectorView &given_residual) const
   {
     const Implementation &i = *implementation;
     i.check_rows("check_supports()");
@@ -562,7 +565,14 @@ namespace abut
     solve::FloatingBodies floating;
     floating.reinit(stiffness, i.coefficients, i.near_null_space());
     const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
-    const auto free = floating.free_motions(i.coefficients, all);
+    auto free = floating.free_motions(i.coefficients, all);
+    if (given_residual)
+    {
+      const la::Vector &residual =
+          i.take("check_supports()", "residual", given_residual);
+      free = floating.along_which_works(
+          free, residual, solve::FloatingBodies::no_work * residual.l1_norm());
+    }
     if (!free.empty())
       floating.fail(free, solve::n_resisting(i.coefficients, all),
                     "contact rows, open or not", "or tie it");
@@ -575,7 +585,8 @@ namespace abut
       const la::Vector &) const;                                               \
   template void ContactAssembler<dim>::Implementation::examine_membrane(       \
       const la::Vector &, double, ContactExamination &);                       \
-  template void ContactAssembler<dim>::check_supports(const Tangent &) const;  \
+  template void ContactAssembler<dim>::check_supports(                         \
+      const Tangent &, const la::VectorView &) const;                          \
   template ContactExamination ContactAssembler<dim>::examine(                  \
       const la::VectorView &, const la::VectorView &, bool);                   \
   template double ContactAssembler<dim>::Implementation::soft_on_purpose()     \

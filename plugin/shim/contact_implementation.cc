@@ -6,6 +6,7 @@
 #include "deformation.h"
 #include "fnv_hash.h"
 #include "nodal_obstacle_rows.h"
+#include "solve/floating_bodies.h"
 #include "solve/make_row_solver.h"
 #include "solve/row_stiffness.h"
 #include "solver_space.h"
@@ -226,6 +227,7 @@ namespace abut
                                                         axisymmetric},
           context.get(), exchange, detection);
       surfaces = made.get();
+      surfaces->foresee_motion(foreseen_motion);
       if (committed.size() > 0)
         surfaces->note_commit(committed);
       if (exchange != surfaces->exchange())
@@ -355,6 +357,29 @@ namespace abut
     rows_mesh = points_mesh;
     find_slip_reference();
     find_start();
+  }
+
+  template <int dim>
+  void ContactAssembler<dim>::Implementation::find_rows_in_reach(
+      const la::Vector &displacement)
+  {
+    const std::string code = abut_failure_get(ABUT_FAILURE_NO_PARTNER)->code;
+    for (bool is_found = false; !is_found;)
+      try
+      {
+        find_rows(displacement);
+        is_found = true;
+      }
+      catch (const ContactError &error)
+      {
+        const bool is_far =
+            std::string(error.what()).find(code) != std::string::npos;
+        if (!is_far || surfaces == nullptr
+            || solve::FloatingBodies::are_supported(near_null_space(),
+                                                    communicator)
+            || !widen_search())
+          throw;
+      }
   }
 
   template <int dim>
@@ -619,6 +644,7 @@ namespace abut
   {
     solve::ContactIteration result;
     result.gap = &gap;
+    result.start = &start_displacement;
     if (surfaces != nullptr)
     {
       result.group = surfaces->row_pairs();
@@ -637,6 +663,22 @@ namespace abut
     undetermined.clear();
     if (request.action == ABUT_ACTION_STOP && solver != nullptr)
       undetermined = solver->end_iteration(request);
+  }
+
+  template <int dim> bool ContactAssembler<dim>::Implementation::widen_search()
+  {
+    // Of the size of the smallest body.
+    constexpr double first = 0.5, growth = 4., last = 8.;
+    if (surfaces == nullptr || surfaces->has_steps())
+      return false;
+    const double size = shim::smallest_body(near_null_space(), communicator);
+    const double next =
+        foreseen_motion > 0. ? growth * foreseen_motion : first * size;
+    if (next > 1.001 * last * size || size == 0.)
+      return false;
+    foreseen_motion = next;
+    surfaces->foresee_motion(next);
+    return true;
   }
 
   template <int dim>

@@ -52,6 +52,9 @@ namespace abut
     /** Forget the mesh. */
     void clear_source();
     void find_rows(const la::Vector &displacement);
+    /** The same, with a larger reach where bodies without supports have no row
+     * otherwise. */
+    void find_rows_in_reach(const la::Vector &displacement);
     /** Let the source find points. Collective. */
     shim::RowSource::Change find_points(const la::Vector &displacement);
     /** Make all that belongs to new points. Collective. */
@@ -175,6 +178,9 @@ namespace abut
     solve::ContactIteration iteration();
     /** Find what an iteration that stopped leaves undetermined. Collective. */
     void note_end();
+    /** Let the search reach farther, as far as bodies without supports may
+     * have to move. Returns whether it does. Collective. */
+    bool widen_search();
     void begin(const solve::Stiffness &matrix, const la::Vector &residual);
     /** The tangent with its unknowns. Throws where it is not of as many as in
      * reinit(). */
@@ -319,6 +325,8 @@ namespace abut
     double largest_load = 0.; ///< sum of magnitudes at nodes, of all solves
     /** Rigid motions that the last iteration has left undetermined. */
     std::vector<solve::FreeMotion> undetermined;
+    /** How far rigid motions are foreseen to go, for searches. */
+    double foreseen_motion = 0.;
     double iteration_tolerance = 0.; ///< of linear systems; 0: the method's
     bool has_new_matrix = false;     ///< since the last solve
 

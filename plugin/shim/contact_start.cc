@@ -251,6 +251,7 @@ namespace abut
       abut_strategy_options &);                                                \
   template void ContactAssembler<dim>::Implementation::start_from_present();   \
   template void ContactAssembler<dim>::Implementation::abandon_iteration();    \
+  template void ContactAssembler<dim>::Implementation::return_to_history();    \
   template void ContactAssembler<dim>::commit(const la::VectorView &);         \
   template void ContactAssembler<dim>::set_committed(const la::VectorView &);  \
   template void ContactAssembler<dim>::rollback();                             \

@@ -182,6 +182,14 @@ namespace abut::shim
       displacements_in_reach(displacement);
     }
 
+    /** Search as though bodies had moved by @p length, >= 0, where pairs have
+     * no reach of their own. Takes effect at find(). Not collective. */
+    void foresee_motion(const double length)
+    {
+      foreseen_ = length;
+      origins_.clear();
+    }
+
     /** The elements of the present points, but for those whose numbers do not
      * last. Not collective. */
     ContactElements::Table contact_elements() const;
@@ -671,6 +679,7 @@ namespace abut::shim
     abut_points_view view_ = {};
     std::vector<RigidPose<dim>> committed_poses_; ///< [pairs], or empty
     std::vector<la::Vector> approach_;            ///< see set_approach()
+    double foreseen_ = 0.;                        ///< see foresee_motion()
     std::vector<double> committed_times_;         ///< [pairs], or empty
     /** [pairs] that PairResult::slip is measured from. */
     std::vector<RigidPose<dim>> slip_poses_;

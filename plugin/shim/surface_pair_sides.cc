@@ -265,7 +265,9 @@ namespace abut::shim
     Direction size;
     for (unsigned int d = 0; d < dim; ++d)
       size[d] = range[d] + range[dim + d];
-    return size.norm();
+    const bool is_given = pair.data.tied || pair.data.reach > 0.
+                          || pair.data.secondary == pair.data.primary;
+    return std::max(size.norm(), is_given ? 0. : foreseen_);
   }
 
   template <int dim>

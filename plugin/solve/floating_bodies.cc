@@ -6,10 +6,13 @@
 #include <abut/dealii/coded.h>
 #include <abut/dealii/solver_parameters.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 namespace abut::solve
@@ -42,18 +45,22 @@ namespace abut::solve
     class Motions
     {
     public:
-      Motions(const Stiffness &stiffness, const NearNullSpace &space,
-              const std::vector<double> &diagonal)
+      Motions(const NearNullSpace &space, const MPI_Comm communicator)
           : space_(space),
             dim_(space.n_components),
-            has_points_(MPI::logical_or(!space.point.empty(),
-                                        stiffness.communicator())),
+            has_points_(MPI::logical_or(!space.point.empty(), communicator)),
             center_(space.n_bodies),
-            radius_(space.n_bodies, 1.),
-            is_coupled_(diagonal.size(), 0)
+            radius_(space.n_bodies, 1.)
       {
         if (has_points_)
-          find_centers(stiffness.communicator());
+          find_centers(communicator);
+      }
+
+      /** Find the unknowns that are neither prescribed nor follow others. */
+      void couple(const Stiffness &stiffness,
+                  const std::vector<double> &diagonal)
+      {
+        is_coupled_.assign(diagonal.size(), 0);
         if (stiffness.has_matrix())
           find_coupled(la::local_rows(stiffness.matrix()));
         else
@@ -283,8 +290,9 @@ namespace abut::solve
       return;
     space_ = space;
     const std::vector<double> diagonal = stiffness.diagonal();
-    const Motions motions(stiffness, space, diagonal);
     const MPI_Comm communicator = stiffness.communicator();
+    Motions motions(space, communicator);
+    motions.couple(stiffness, diagonal);
     const unsigned int n = n_modes_ = motions.n_modes();
     center_ = motions.centers();
     radius_ = motions.radii();
@@ -365,6 +373,13 @@ namespace abut::solve
     }
   }
 
+  bool FloatingBodies::are_supported(const NearNullSpace &space,
+                                     const MPI_Comm communicator)
+  {
+    return space.n_components == 1
+           || supports_hold(Motions(space, communicator), space, communicator);
+  }
+
   std::vector<double>
   FloatingBodies::gap_change(const Combination &combination) const
   {
@@ -393,7 +408,7 @@ namespace abut::solve
   std::vector<FloatingBodies::Combination>
   FloatingBodies::along_which_works(const std::vector<Combination> &motions,
                                     const la::Vector &residual,
-                                    const double load) const
+                                    const double tolerance) const
   {
     std::vector<Combination> result;
     if (motions.empty())
@@ -402,7 +417,7 @@ namespace abut::solve
     for (const Combination &motion : motions)
       if (std::abs(std::inner_product(motion.begin(), motion.end(),
                                       each.begin(), 0.))
-          > no_work * load)
+          > tolerance)
         result.push_back(motion);
     return result;
   }
@@ -429,6 +444,60 @@ namespace abut::solve
     MPI::sum(sums, displacement.get_mpi_communicator(), sums);
     products.assign(sums.begin(), sums.begin() + n * n);
     right.assign(sums.begin() + n * n, sums.end());
+  }
+
+  std::vector<double>
+  FloatingBodies::divide(const std::vector<double> &products,
+                         const std::vector<double> &right)
+  {
+    const std::size_t n = right.size();
+    dealii::FullMatrix<double> inverse(n, n);
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t k = 0; k < n; ++k)
+        inverse(j, k) = products[j * n + k];
+    inverse.gauss_jordan();
+    std::vector<double> result(n, 0.);
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t k = 0; k < n; ++k)
+        result[j] += inverse(j, k) * right[k];
+    return result;
+  }
+
+  std::vector<BodyMotion>
+  FloatingBodies::rigid_part(const la::Vector &displacement) const
+  {
+    if (empty())
+      return {};
+    std::vector<double> products, right;
+    project(displacement, products, right);
+    const std::vector<RigidMotion> motions = of_bodies(divide(products, right));
+    std::set<unsigned int> bodies;
+    for (const Motion &motion : motions_)
+      bodies.insert(motion.body);
+    std::vector<BodyMotion> result;
+    for (const unsigned int body : bodies)
+    {
+      const RigidMotion &motion = motions[body];
+      BodyMotion moved;
+      moved.body = body;
+      moved.rotation = motion.rotation;
+      moved.translation =
+          motion.translation
+          + cross_product_3d(motion.rotation,
+                             dealii::Tensor<1, 3>(center_[body]));
+      moved.text = name(body) + " has "
+                   + rigid_displacement_in_words(
+                       space_.n_components, moved.translation, moved.rotation,
+                       center_[body], radius_[body]);
+      result.push_back(std::move(moved));
+    }
+    return result;
+  }
+
+  std::string FloatingBodies::name(const unsigned int body) const
+  {
+    return space_.names.empty() ? "body " + std::to_string(body + 1)
+                                : "the body '" + space_.names[body] + "'";
   }
 
   double FloatingBodies::smallest_radius() const
@@ -483,10 +552,7 @@ namespace abut::solve
       if (motions_[k].body == which)
         for (unsigned int m = 0; m < n_modes_; ++m)
           mode[m] += combination[k] * motions_[k].coefficient[m];
-    const std::string name = space_.names.empty()
-                                 ? "body " + std::to_string(which + 1)
-                                 : "the body '" + space_.names[which] + "'";
-    return name + " can "
+    return name(which) + " can "
            + rigid_motion_in_words(space_.n_components, mode, center_[which],
                                    radius_[which]);
   }

@@ -7,6 +7,8 @@
 #include "point_operator.h"
 #include "stiffness.h"
 
+#include <abut/dealii/contact_examination.h>
+
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <string>
@@ -35,6 +37,11 @@ namespace abut::solve
      * supports obviously hold all bodies. Collective. */
     void reinit(const Stiffness &stiffness, const PointOperator &rows,
                 const NearNullSpace &space);
+
+    /** Whether prescribed values alone stop all motions of all bodies.
+     * Collective. */
+    static bool are_supported(const NearNullSpace &space,
+                              MPI_Comm communicator);
 
     /** Whether K leaves no motion free. */
     bool empty() const
@@ -78,17 +85,24 @@ namespace abut::solve
     /** [motions] work of @p forces. Collective. */
     std::vector<double> work(const la::Vector &forces) const;
 
-    /** Those of these motions along which @p residual does work: more than
-     * round-off of a @p load, the sum of the magnitudes of its forces.
-     * Collective. */
+    /** Those of these motions along which @p residual does more work than a
+     * @p tolerance. Collective. */
     std::vector<Combination>
     along_which_works(const std::vector<Combination> &motions,
-                      const la::Vector &residual, double load) const;
+                      const la::Vector &residual, double tolerance) const;
 
     /** [motions x motions] products of motions and [motions] of motions with a
      * displacement, integrated over the bodies. Collective. */
     void project(const la::Vector &displacement, std::vector<double> &products,
                  std::vector<double> &right) const;
+
+    /** Solve products c = right. */
+    static std::vector<double> divide(const std::vector<double> &products,
+                                      const std::vector<double> &right);
+
+    /** The rigid part of a displacement, of each body with a free motion.
+     * Collective. */
+    std::vector<BodyMotion> rigid_part(const la::Vector &displacement) const;
 
     /** Volume that belongs to an unknown, or 1. */
     double share(const int i) const
@@ -133,6 +147,8 @@ namespace abut::solve
                const std::vector<double> &row_stiffness) const;
 
   private:
+    std::string name(unsigned int body) const;
+
     /** A motion of one body: coefficients of its translations and rotations
      * about its centre. */
     struct Motion

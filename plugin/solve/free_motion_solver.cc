@@ -5,11 +5,10 @@
 
 #include <abut/dealii/coded.h>
 
-#include <deal.II/lac/full_matrix.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace abut::solve
 {
@@ -20,6 +19,10 @@ namespace abut::solve
     /** Distance beyond a touch, as a part of the size and of the distance:
      * facets that are nearly parallel to the other side close together. */
     constexpr double beyond_size = 1e-6, beyond_distance = 1e-3;
+
+    /** Distance beyond the point where a slip is reversed, as a part of the
+     * size: above round-off of slips, below slips that matter. */
+    constexpr double beyond_slip = 1e-11;
 
     constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -73,6 +76,8 @@ namespace abut::solve
     rows_ = &rows;
     row_stiffness_ = row_stiffness;
     floating_.reinit(stiffness, rows, space_);
+    diagonal_ =
+        floating_.empty() ? std::vector<double>() : stiffness.diagonal();
     unfelt_ = floating_.free_motions(
         rows, std::vector<std::uint8_t>(rows.n_rows(), 1));
     fixed_.clear();
@@ -113,7 +118,45 @@ namespace abut::solve
 
   double FreeMotionSolver::work_tolerance() const
   {
-    return FloatingBodies::no_work * iteration_.load;
+    constexpr double round_off = 1e-15;
+    double internal = 0.;
+    for (std::size_t i = 0; i < diagonal_.size(); ++i)
+      internal += std::abs(diagonal_[i])
+                  * (std::abs(la::data(moved_)[i])
+                     + (iteration_.start == nullptr
+                            ? 0.
+                            : std::abs(la::data(*iteration_.start)[i])));
+    return FloatingBodies::no_work * iteration_.load
+           + round_off * MPI::sum(internal, rows_->communicator());
+  }
+
+  FreeMotionSolver::Combinations
+  FreeMotionSolver::felt(const Combinations &motions) const
+  {
+    if (unfelt_.empty())
+      return motions;
+    // Gram and Schmidt: both are orthonormal, and one spans the other.
+    constexpr double none = 1e-6;
+    Combinations result, basis(unfelt_);
+    for (Combination motion : motions)
+    {
+      for (const Combination &other : basis)
+      {
+        const double along =
+            std::inner_product(motion.begin(), motion.end(), other.begin(), 0.);
+        for (std::size_t k = 0; k < motion.size(); ++k)
+          motion[k] -= along * other[k];
+      }
+      const double length = std::sqrt(
+          std::inner_product(motion.begin(), motion.end(), motion.begin(), 0.));
+      if (length < none)
+        continue;
+      for (double &value : motion)
+        value /= length;
+      basis.push_back(motion);
+      result.push_back(motion);
+    }
+    return result;
   }
 
   void FreeMotionSolver::check_unfelt(const la::Vector &residual) const
@@ -122,7 +165,7 @@ namespace abut::solve
       return;
     const Combinations refused =
         has_begun_ && fixed_.m() > 0
-            ? floating_.along_which_works(unfelt_, residual, iteration_.load)
+            ? floating_.along_which_works(unfelt_, residual, no_work_)
             : unfelt_;
     if (!refused.empty())
       floating_.fail(
@@ -151,7 +194,7 @@ namespace abut::solve
       double sum = 0.;
       for (std::size_t k = 0; k < work.size(); ++k)
         sum -= motion[k] * work[k];
-      free.works = free.works || std::abs(sum) > work_tolerance();
+      free.works = free.works || std::abs(sum) > no_work_;
       free.forces.push_back(sum);
     }
     find_mass(free);
@@ -176,17 +219,7 @@ namespace abut::solve
   FreeMotionSolver::divide_by_mass(const Free &free,
                                    const std::vector<double> &right)
   {
-    const std::size_t n = right.size();
-    dealii::FullMatrix<double> inverse(n, n);
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t k = 0; k < n; ++k)
-        inverse(j, k) = free.mass[j * n + k];
-    inverse.gauss_jordan();
-    std::vector<double> result(n, 0.);
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t k = 0; k < n; ++k)
-        result[j] += inverse(j, k) * right[k];
-    return result;
+    return FloatingBodies::divide(free.mass, right);
   }
 
   FreeMotionSolver::Combination
@@ -217,10 +250,10 @@ namespace abut::solve
       const double smallest_residual, la::Vector &increment,
       std::vector<double> &force)
   {
-    const std::size_t n = free.motions.size();
     std::vector<std::vector<double>> gap_change;
-    for (const Combination &motion : free.motions)
+    for (const Combination &motion : felt(free.motions))
       gap_change.push_back(floating_.gap_change(motion));
+    const std::size_t n = gap_change.size();
     const RowBlocks blocks(request);
     std::vector<std::int64_t> own(rows_->n_rows());
     for (int i = 0; i < rows_->n_rows(); ++i)
@@ -259,19 +292,18 @@ namespace abut::solve
     return report;
   }
 
-  void
-  FreeMotionSolver::take_forces_of_springs(const std::vector<double> &force,
-                                           Free &free) const
+  void FreeMotionSolver::take_forces_of_springs(Free &free) const
   {
     free.works = false;
-    const double tolerance = std::max(
-        work_tolerance(), 10. * iteration_.linear_tolerance * iteration_.load);
+    free.forces.assign(free.motions.size(), 0.);
+    const double tolerance =
+        std::max(no_work_, 10. * iteration_.linear_tolerance * iteration_.load);
     for (std::size_t k = 0; k < free.motions.size(); ++k)
     {
       const std::vector<double> change = floating_.gap_change(free.motions[k]);
       double sum = 0.;
-      for (std::size_t i = 0; i < force.size(); ++i)
-        sum += force[i] * change[i];
+      for (std::size_t i = 0; i < free.springs.size(); ++i)
+        sum += free.springs[i] * change[i];
       free.forces[k] = MPI::sum(sum, rows_->communicator());
       free.works = free.works || std::abs(free.forces[k]) > tolerance;
     }
@@ -314,6 +346,34 @@ namespace abut::solve
     return -MPI::max(way, rows_->communicator());
   }
 
+  double FreeMotionSolver::way_to_stick(const Combination &motion,
+                                        const abut_request &request) const
+  {
+    const std::vector<double> change = floating_.gap_change(motion);
+    const int n = rows_->n_rows();
+    double way = -infinite;
+    for (int i = 0; i < n; ++i)
+    {
+      if (rows_->is_tangent(i))
+        continue;
+      // Slip and change of it along the traction, against which it slips.
+      double slip = 0., rate = 0., traction = 0., length = 0.;
+      for (int k = i + 1; k < n && rows_->is_tangent(k); ++k)
+      {
+        const double t = request.pressure[k] + request.pressure_change[k];
+        slip += t * ((*iteration_.gap)[k] + request.gap_change[k]);
+        rate += t * change[k];
+        traction += t * t;
+        length += change[k] * change[k];
+      }
+      constexpr double across = 1e-6;
+      if (request.state[i] == ABUT_STATE_SLIP
+          && rate > across * std::sqrt(traction * length))
+        way = std::max(way, slip / rate);
+    }
+    return -MPI::max(way, rows_->communicator());
+  }
+
   void FreeMotionSolver::move(const Combination &motion, const double distance,
                               const abut_request &request,
                               la::Vector &increment) const
@@ -347,8 +407,7 @@ namespace abut::solve
     iteration_.approach(floating_.of_bodies(part), apart);
   }
 
-  void FreeMotionSolver::advance(const Free &free, const abut_request &request,
-                                 la::Vector &increment)
+  FreeMotionSolver::Combination FreeMotionSolver::driven(const Free &free) const
   {
     Combination motion =
         combine(free.motions, divide_by_mass(free, free.forces));
@@ -357,25 +416,55 @@ namespace abut::solve
       largest = std::max(largest, std::abs(value));
     for (double &value : motion)
       value /= largest;
+    return motion;
+  }
+
+  FreeMotionSolver::Free FreeMotionSolver::pivots(const Free &free) const
+  {
+    Free result;
+    result.resisting = free.resisting;
+    result.motions = floating_.free_motions(*rows_, free.resisting.sticks);
+    result.springs = free.springs;
+    take_forces_of_springs(result);
+    find_mass(result);
+    return result;
+  }
+
+  void FreeMotionSolver::advance(const Free &free, const abut_request &request,
+                                 la::Vector &increment)
+  {
+    const Combination motion = driven(free);
     const double way = way_to_touch(motion, request, free.slips);
+    const double to_stick =
+        free.slips ? way_to_stick(motion, request) : infinite;
+    if (to_stick < infinite && to_stick <= way)
+    {
+      move(motion,
+           std::max(0., to_stick) * (1. + beyond_distance)
+               + beyond_slip * floating_.smallest_radius(),
+           request, increment);
+      return;
+    }
     if (way < infinite)
     {
       if (way > 0.)
-      {
         approach(motion, way, request, increment);
-        move(motion,
-             way * beyond_distance + beyond_size * floating_.smallest_radius(),
-             request, increment);
-      }
+      move(motion,
+           std::max(0., way) * beyond_distance
+               + beyond_size * floating_.smallest_radius(),
+           request, increment);
       return;
     }
-    if (!free.slips
-        || !floating_.free_motions(*rows_, free.resisting.sticks).empty())
+    const Free pivot = free.slips ? pivots(free) : Free();
+    if (pivot.works)
+      advance(pivot, request, increment);
+    else if (!free.slips || !pivot.motions.empty())
       floating_.fail_in_contact(free.works && free.motions.size() > 1
                                     ? Combinations{motion}
                                     : free.motions,
                                 n_resisting(*rows_, free.resisting.now));
-    slipping_ = motion;
+    else
+      slipping_ = motion;
   }
 
   void FreeMotionSolver::settle(const Free &free, const abut_request &request,
@@ -416,6 +505,7 @@ namespace abut::solve
     }
     if (moved_.size() != increment.size())
       moved_.reinit(increment);
+    no_work_ = work_tolerance();
     check_unfelt(residual);
     Free free = find_free(residual, request);
     LinearReport report;
@@ -423,12 +513,11 @@ namespace abut::solve
       report = inner_->solve(residual, request, smallest_residual, increment);
     else
     {
-      std::vector<double> force;
       report = solve_with_springs(
           free, free.slips ? residual : balanced(free, residual), request,
-          smallest_residual, increment, force);
+          smallest_residual, increment, free.springs);
       if (free.slips)
-        take_forces_of_springs(force, free);
+        take_forces_of_springs(free);
       if (free.works)
         advance(free, request, increment);
       else
@@ -446,6 +535,12 @@ namespace abut::solve
     slipping_.clear();
   }
 
+  std::vector<BodyMotion>
+  FreeMotionSolver::rigid_motions(const la::Vector &displacement) const
+  {
+    return floating_.rigid_part(displacement);
+  }
+
   std::vector<FreeMotion>
   FreeMotionSolver::end_iteration(const abut_request &request)
   {
@@ -457,8 +552,7 @@ namespace abut::solve
     for (int i = 0; i < rows_->n_rows(); ++i)
       weight += rows_->weight(i);
     weight = MPI::sum(weight, rows_->communicator());
-    const double no_pressure =
-        weight > 0. ? FloatingBodies::no_work * iteration_.load / weight : 0.;
+    const double no_pressure = weight > 0. ? no_work_ / weight : 0.;
     // Rows that are closed by chance resist nothing.
     std::vector<std::uint8_t> resists(rows_->n_rows(), 0);
     bool is_pressed = false;

@@ -38,6 +38,8 @@ namespace abut::solve
     void restore(const std::vector<PreconditionerState> &state) override;
     void begin_iteration(const ContactIteration &iteration) override;
     std::vector<FreeMotion> end_iteration(const abut_request &request) override;
+    std::vector<BodyMotion>
+    rigid_motions(const la::Vector &displacement) const override;
     LinearReport solve(const la::Vector &residual, const abut_request &request,
                        double smallest_residual,
                        la::Vector &increment) override;
@@ -51,10 +53,11 @@ namespace abut::solve
     {
       Combinations motions;
       FloatingBodies::Resisting resisting;
-      bool slips = false;         ///< friction acts along some of them
-      std::vector<double> forces; ///< [motions] work of the loads
-      bool works = false;         ///< and it is no round-off
-      std::vector<double> mass;   ///< [motions x motions]
+      bool slips = false;          ///< friction acts along some of them
+      std::vector<double> forces;  ///< [motions] work of the loads
+      std::vector<double> springs; ///< [rows] forces of springs, with slips
+      bool works = false;          ///< and it is no round-off
+      std::vector<double> mass;    ///< [motions x motions]
     };
 
     const Stiffness &take(const Stiffness &stiffness, const PointOperator &rows,
@@ -64,13 +67,17 @@ namespace abut::solve
     Free find_free(const la::Vector &residual,
                    const abut_request &request) const;
     void find_mass(Free &free) const;
+    /** The motion that the loads drive, 1 at most. */
+    Combination driven(const Free &free) const;
     la::Vector balanced(const Free &free, const la::Vector &residual) const;
     LinearReport
     solve_with_springs(const Free &free, const la::Vector &residual,
                        const abut_request &request, double smallest_residual,
                        la::Vector &increment, std::vector<double> &force);
-    void take_forces_of_springs(const std::vector<double> &force,
-                                Free &free) const;
+    void take_forces_of_springs(Free &free) const;
+    /** Motions that sticking points leave free, if springs in the place of
+     * what slips work along them. Collective. */
+    Free pivots(const Free &free) const;
     /** Solve mass c = right. */
     static std::vector<double> divide_by_mass(const Free &free,
                                               const std::vector<double> &right);
@@ -83,6 +90,10 @@ namespace abut::solve
      * Collective. */
     double way_to_touch(const Combination &motion, const abut_request &request,
                         bool others) const;
+    /** How far a motion may go until the slip of a point is reversed, infinite
+     * if it is never. Collective. */
+    double way_to_stick(const Combination &motion,
+                        const abut_request &request) const;
     void move(const Combination &motion, double distance,
               const abut_request &request, la::Vector &increment) const;
     /** The same until bodies touch: slips of groups without closed rows begin
@@ -93,12 +104,17 @@ namespace abut::solve
                  la::Vector &increment);
     void settle(const Free &free, const abut_request &request,
                 la::Vector &increment) const;
+    /** Work below which there is none: a part of the load's, and round-off of
+     * internal forces, which do none along rigid motions. Collective. */
     double work_tolerance() const;
+    /** The parts of these motions that rows feel. */
+    Combinations felt(const Combinations &motions) const;
 
     std::unique_ptr<RowSolver> inner_;
     NearNullSpace space_;
     FloatingBodies floating_;
     Combinations unfelt_; ///< motions that no row feels
+    std::vector<double> diagonal_;
     const PointOperator *rows_ = nullptr;
     std::vector<double> row_stiffness_;
     la::Matrix fixed_; ///< the matrix with springs against unfelt motions
@@ -106,6 +122,7 @@ namespace abut::solve
     LocalElimination local_;
     ContactIteration iteration_;
     bool has_begun_ = false;
+    double no_work_ = 0.;  ///< work_tolerance() of the present solve
     la::Vector moved_;     ///< by this iteration
     Combination slipping_; ///< motion that friction does not stop; empty: none
   };

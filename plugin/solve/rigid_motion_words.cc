@@ -57,4 +57,29 @@ namespace abut::solve
            + (std::abs(pitch) > no_digit * spin ? " while it moves along it"
                                                 : "");
   }
+
+  std::string rigid_displacement_in_words(
+      const unsigned int dim, const dealii::Tensor<1, 3> &translation,
+      const dealii::Tensor<1, 3> &rotation, const dealii::Point<3> &center,
+      const double radius)
+  {
+    constexpr double none = 1e-6;
+    const double distance = translation.norm(), angle = rotation.norm();
+    const bool turns = radius * angle > none * distance;
+    std::ostringstream text;
+    text.precision(3);
+    if (distance > none * radius * angle)
+      text << "moved by " << distance << " along "
+           << triple_in_words(translation / distance, dim, 1.)
+           << (turns ? " and " : "");
+    else if (!turns)
+      text << "not moved";
+    if (turns)
+      text << "rotated by " << (dim == 2 ? rotation[2] : angle)
+           << " rad about its centre "
+           << triple_in_words(dealii::Tensor<1, 3>(center), dim, radius);
+    if (turns && dim == 3)
+      text << " along " << triple_in_words(rotation / angle, dim, 1.);
+    return text.str();
+  }
 } // namespace abut::solve

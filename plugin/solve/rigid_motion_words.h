@@ -19,6 +19,16 @@ namespace abut::solve
                                     const std::vector<double> &mode,
                                     const dealii::Point<3> &center,
                                     double radius);
+
+  /** A rigid displacement in words, as "moved by 0.01 along (1, 0)" or "moved
+   * by 0.01 along (1, 0) and rotated by 0.1 about (0, 1)", angles in radian:
+   * the translation of the centre, rotations whose displacements at a distance
+   * of @p radius are no round-off of it. */
+  std::string
+  rigid_displacement_in_words(unsigned int dim,
+                              const dealii::Tensor<1, 3> &translation,
+                              const dealii::Tensor<1, 3> &rotation,
+                              const dealii::Point<3> &center, double radius);
 } // namespace abut::solve
 
 #endif

@@ -7,6 +7,7 @@
 #include "preconditioner_state.h"
 #include "stiffness.h"
 
+#include <abut/dealii/contact_examination.h>
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
 #include <abut/strategy.h>
@@ -25,6 +26,8 @@ namespace abut::solve
     /** [rows] pair of each row, below n_groups; empty: not known. */
     std::vector<int> group;
     std::size_t n_groups = 1;
+    /** Displacement at its start, which must live as long; null: 0. */
+    const la::Vector *start = nullptr;
     /** Sum of the magnitudes of the loads at nodes, force >= 0. */
     double load = 0.;
     /** Tolerance of the last linear systems. */
@@ -97,6 +100,13 @@ namespace abut::solve
      * Returns the rigid motions that they do not determine; throws
      * SolverFailure if loads do work along such a motion. Collective. */
     virtual std::vector<FreeMotion> end_iteration(const abut_request &)
+    {
+      return {};
+    }
+
+    /** The rigid part of a displacement, of each body that the stiffness leaves
+     * free to move. Collective. */
+    virtual std::vector<BodyMotion> rigid_motions(const la::Vector &) const
     {
       return {};
     }

@@ -69,6 +69,55 @@ for number, shift in enumerate(SHIFTS):
              and "can rotate about" in result.stderr,
              f"ladder {number} with less friction: {result.stderr}")
 
+
+
+def groove(name, mu, part, shift, level):
+    """A disc in a groove of 90 degrees with a part of the largest couple that
+    friction holds, sqrt(2) mu W R / (1 + mu^2): a polygon of n corners."""
+    n = 4 * 2**level
+    area = n / 2 * math.sin(2 * math.pi / n)
+    inertia = area / 6 * (2 + math.cos(2 * math.pi / n))
+    couple = part * math.sqrt(2) * mu * area / (1 + mu**2)
+    c, h = couple / inertia, math.sqrt(0.5) * (1 + shift)
+    p.write(name, "\n".join([
+        "set Scene = solid", "set Dimension = 2",
+        section("Solid", "Pairs = 2", "Obstacles = 2"),
+        section("Body 1", section("Mesh", "Generator = hyper_ball",
+                                  "Arguments = 0, 0 : 1 : true"),
+                "Young modulus = 1e4", "Poisson ratio = 0.3",
+                f"Body force = -({c!r})*t*y, t*(({c!r})*x - 1)"),
+        *(text for k, sign in ((1, -1), (2, 1)) for text in (
+            section(f"Obstacle {k}", "Kind = plane",
+                    f"Point = {sign * h!r}, {-h!r}",
+                    f"Normal = {-sign}, 1"),
+            section(f"Pair {k}", "Secondary = 1: 0", f"Obstacle = {k}",
+                    f"Friction = {mu!r}"))),
+        section("Refinement", f"Level = {level}",
+                "Nested iteration = false")]) + "\n")
+    return area, couple
+
+
+for number, mu in enumerate((0.05, 0.2, 0.4)):
+    for part in (0.3, 0.99, -0.99, 1.01):
+        shift = random.choice(SHIFTS)
+        area, couple = groove("groove.prm", mu, part, shift, 2)
+        result = run("groove.prm")
+        what = f"groove {mu} {part} {shift}: {result.stderr}"
+        if part > 1:
+            p.expect(result.returncode == 3 and "ABUT-F42" in result.stderr,
+                     what)
+            continue
+        p.expect(result.returncode == 0 and "ABUT-" not in result.stderr, what)
+        summary = p.results()[0]
+        (x1, y1), (x2, y2) = (summary[f"pair_{k}_force"] for k in (1, 2))
+        r = math.sqrt(0.5)
+        n1, t1, n2, t2 = r * (x1 + y1), r * (y1 - x1), r * (y2 - x2), r * (
+            x2 + y2)
+        p.close(n1 + t2, area * r, 1e-8, what)
+        p.close(n2 + t1, area * r, 1e-8, what)
+        p.close(t1 - t2, couple, 1e-6, what)
+        p.expect(max(abs(t1) / n1, abs(t2) / n2) < mu * (1 + 1e-8), what)
+
 # No load is an answer, as is one that passes zero, and a body that is lifted
 # off its only plane is none.
 block = p.write("block.prm", "\n".join([

@@ -516,10 +516,21 @@ namespace abut
 
     /** Look for rigid motions that neither @p tangent nor any row resists, be
      * it open or closed: then there is no answer, however small the load steps.
-     * Throws SolverFailure, which names body and motion. Call after detect();
-     * one pass over a matrix, or one product of a host and one for each rigid
-     * motion. Does nothing for membranes. Collective. */
-    virtual void check_supports(const Tangent &tangent) const;
+     * With the @p residual at displacement 0, internal minus external forces,
+     * only those along which loads do work. Throws SolverFailure, which names
+     * body and motion. Call after detect(); one pass over a matrix, or one
+     * product of a host and one for each rigid motion. Does nothing for
+     * membranes. Collective. */
+    virtual void check_supports(const Tangent &tangent,
+                                const la::VectorView &residual = {}) const;
+
+    /** Search anew with a larger reach, for bodies without supports whose
+     * motion no row stops: ABUT-F12 and ABUT-F42 of an iteration. Pairs with a
+     * reach of their own keep it. Does what detect() does with the states and
+     * pressures of the last commit(), and returns true if there are more rows
+     * then; false after three times, or if points are made in each step.
+     * Collective. */
+    virtual bool search_farther(const la::VectorView &displacement);
 
     /** Discrete inf-sup constant of the pressures of all present rows against
      * the displacements of @p matrix, dimensionless:

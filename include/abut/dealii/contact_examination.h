@@ -8,6 +8,8 @@
 
 #include <abut/failure.h>
 
+#include <deal.II/base/tensor.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -34,6 +36,19 @@ namespace abut
     std::size_t pair = 0; /**< its number, from 0 */
   };
 
+  /** The rigid part of the displacement of a body without sufficient supports,
+   * in the mean square over the body. */
+  struct BodyMotion
+  {
+    unsigned int body = 0; ///< from 0
+    /** Of its centre; along motions that supports stop it is 0. */
+    dealii::Tensor<1, 3> translation;
+    /** Axis times angle, radian; the plane's axis is the third. */
+    dealii::Tensor<1, 3> rotation;
+    /** "body 1 has moved by 0.01 along (1, 0)". */
+    std::string text;
+  };
+
   /** What ContactAssembler::examine() has measured. The same on all ranks. */
   struct ContactExamination
   {
@@ -52,6 +67,8 @@ namespace abut
      * contact, length. */
     double missed_depth = 0.;
     std::vector<ContactFinding> findings; /**< errors and warnings */
+    /** Bodies that contact alone supports: how far they have moved. */
+    std::vector<BodyMotion> motions;
     /** By pair: whether it has forces, or its sides are in each other. */
     std::vector<bool> touches;
 

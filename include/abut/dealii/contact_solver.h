@@ -37,6 +37,7 @@
  * Everything is in this header: programs that load Abut can use it, too.
  */
 
+#include <abut/dealii/coded.h>
 #include <abut/dealii/contact_assembler.h>
 #include <abut/dealii/contact_loop.h>
 #include <abut/dealii/contact_solver_types.h>
@@ -88,25 +89,21 @@ namespace abut
       allocate(u);
       if (linear_)
         constraints_.distribute(u);
-      try
+      const la::Vector start(u);
+      bool is_searched = false;
+      do
       {
-        do
+        try
         {
-          enter(SolvePhase::detect);
-          contact_.detect(goal(u));
-          ++result_.n_searches;
-          relax(u);
-          enter(SolvePhase::solve);
-          const bool has_answer = iterate(u);
-          enter(SolvePhase::check);
-          if (!has_answer || is_refused(u))
-            break;
-        } while (misses_nodes(u));
-      }
-      catch (const SolverFailure &failure)
-      {
-        stop(NewtonReason::linear_solve, failure.what());
-      }
+          search_and_iterate(u, is_searched);
+          break;
+        }
+        catch (const SolverFailure &failure)
+        {
+          stop(NewtonReason::linear_solve, failure.what());
+          is_searched = moves_farther(failure.what(), start, u);
+        }
+      } while (is_searched);
       enter(SolvePhase::end);
       return result_;
     }
@@ -123,6 +120,41 @@ namespace abut
     }
 
   private:
+    void search_and_iterate(la::Vector &u, bool is_searched)
+    {
+      do
+      {
+        enter(SolvePhase::detect);
+        if (!std::exchange(is_searched, false))
+          contact_.detect(goal(u));
+        ++result_.n_searches;
+        relax(u);
+        enter(SolvePhase::solve);
+        const bool has_answer = iterate(u);
+        enter(SolvePhase::check);
+        if (!has_answer || is_refused(u))
+          break;
+      } while (misses_nodes(u));
+    }
+
+    /** Whether bodies without supports that nothing stops may meet others
+     * farther away: then there is a search already, and @p u the start. */
+    bool moves_farther(const std::string &why, const la::Vector &start,
+                       la::Vector &u)
+    {
+      const abut_failure failure = failure_of(why);
+      if (failure != ABUT_FAILURE_FLOATING_BODY
+          && failure != ABUT_FAILURE_FREE_SLIDING)
+        return false;
+      enter(SolvePhase::detect);
+      if (!contact_.search_farther(goal(start)))
+        return false;
+      u = start;
+      result_.reason = NewtonReason::converged;
+      result_.explanation.clear();
+      return true;
+    }
+
     /** A linear problem has u in it from the start, and needs no more than
      * its forces. */
     void allocate(const la::Vector &u)

@@ -92,7 +92,10 @@ namespace abut::app
       model.problem().constraints.distribute(state.u);
       begin_contact();
       name_parameter(model, [&] { state.contact.detect(state.u); });
-      const std::string why = free_motion();
+      model.assemble();
+      std::string why = free_motion();
+      while (!why.empty() && state.contact.search_farther(state.u))
+        why = free_motion();
       if (!why.empty())
         throw InputError(model.support_of(why), why);
     }
@@ -104,10 +107,13 @@ namespace abut::app
   {
     if (!model.has_contact() || model.has_inertia())
       return "";
+    const la::Vector nothing = model.problem().vector();
+    la::Vector residual(nothing);
+    model.residual(nothing, residual);
+    model.problem().constraints.set_zero(residual);
     try
     {
-      state.contact.check_supports(
-          model.problem().tangent(model.problem().vector()));
+      state.contact.check_supports(model.problem().tangent(nothing), residual);
     }
     catch (const SolverFailure &failure)
     {
@@ -201,10 +207,13 @@ namespace abut::app
     events.phase = [this](const SolvePhase phase)
     {
       section.reset();
+      // What a search has found is of interest once there is an answer: bodies
+      // may be out of reach in the first.
+      if (phase == SolvePhase::check)
+        model.look_at_rows(state.is_last_mesh());
       if (phase == SolvePhase::solve)
       {
         ++state.n_searches;
-        model.look_at_rows(state.is_last_mesh());
         section.emplace(report.times, "solve");
       }
       else if (phase != SolvePhase::end)
@@ -716,6 +725,8 @@ namespace abut::app
                   + " at the most, and squares of such numbers are 0: nothing "
                     "can be computed with them. Choose other units of loads "
                     "and stiffness.");
+    for (const BodyMotion &motion : examination.motions)
+      report.progress(motion.text);
     for (const ContactFinding &finding : examination.findings)
       report.warn(finding.text);
     for (const std::string &lost : model.written_numbers().lost())

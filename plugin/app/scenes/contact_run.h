@@ -130,6 +130,8 @@ namespace abut::app
     double counted_seconds() const;
     /** Add to the estimate what obstacles do between nodes. */
     void add_missed_contact();
+    /** Rigid motions of bodies into the summary. */
+    void report_motions();
     /** Look at the answer of the last mesh; whether it may be used. */
     bool examine();
     /** The same for works and energy, in linear statics without friction. */

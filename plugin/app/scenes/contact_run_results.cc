@@ -106,6 +106,23 @@ namespace abut::app
     return *largest_cell;
   }
 
+  template <int dim> void ContactRun<dim>::report_motions()
+  {
+    for (BodyMotion &motion : examination.motions)
+    {
+      motion.text = model.with_names(motion.text);
+      const std::string body = "body_" + std::to_string(motion.body + 1);
+      const double *const along = motion.translation.begin_raw();
+      report.set(body + "_moved", std::vector<double>(along, along + dim));
+      if (dim == 2)
+        report.set(body + "_rotated", motion.rotation[2]);
+      else
+        report.set(body + "_rotated",
+                   std::vector<double>(motion.rotation.begin_raw(),
+                                       motion.rotation.end_raw()));
+    }
+  }
+
   template <int dim> bool ContactRun<dim>::examine()
   {
     SectionTimes::Scope scope(report.times, "results");
@@ -136,6 +153,7 @@ namespace abut::app
       findings.push_back(found);
     light_touches.sort(examination, state.load_steps.is_finished(),
                        !model.has_inertia());
+    report_motions();
     report.set("largest_strain", examination.strain);
     report.set("deformation", examination.deformation);
     report.set("missed_depth", examination.missed_depth);
@@ -194,6 +212,7 @@ namespace abut::app
   template void ContactRun<2>::add_missed_contact();
   template std::optional<ContactFinding> ContactRun<2>::examine_works();
   template double ContactRun<2>::size_of_cells();
+  template void ContactRun<2>::report_motions();
   template bool ContactRun<2>::examine();
   template void ContactRun<2>::finish_result();
   template double ContactRun<3>::counted_seconds() const;
@@ -201,6 +220,7 @@ namespace abut::app
   template void ContactRun<3>::add_missed_contact();
   template std::optional<ContactFinding> ContactRun<3>::examine_works();
   template double ContactRun<3>::size_of_cells();
+  template void ContactRun<3>::report_motions();
   template bool ContactRun<3>::examine();
   template void ContactRun<3>::finish_result();
 } // namespace abut::app

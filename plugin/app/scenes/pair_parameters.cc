@@ -57,7 +57,8 @@ namespace abut::app
                       "large coefficient this is Tresca's law. Empty: none.");
     prm.declare_entry("Reach", "0", NumberPattern::between(0., largest_reach),
                       "Distance within which the surfaces look for each other; "
-                      "0: half a facet, or more when they move more.");
+                      "0: half a facet, or more when they move more, or when "
+                      "nothing nearer stops bodies without supports.");
     prm.leave_subsection();
   }
 
