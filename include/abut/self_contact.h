@@ -34,13 +34,20 @@ extern "C"
      * the least depth, above a tenth of the facets' size, at which a facet
      * lies behind another one. */
     double thickness;
+    /** [n_facets] sides so far, or NULL (default): they stay unless two facets
+     * that face each other within @ref near are on one side. Then the surface
+     * is split anew, if the nearest of them are then twice as far apart, and
+     * farther than relative_reach. The nearest facets that were on different
+     * sides keep theirs, so that rows in contact stay on their nodes. */
+    const uint8_t *previous;
+    double near; /**< length >= 0; 0: facets that touch or overlap only */
   } abut_split_options;
 
   /** Default options. */
   static inline abut_split_options abut_split_defaults(void)
   {
-    const abut_split_options options = {sizeof(abut_split_options), 0., 0.5,
-                                        -0.17, 0.};
+    const abut_split_options options = {
+        sizeof(abut_split_options), 0., 0.5, -0.17, 0., NULL, 0.};
     return options;
   }
 
@@ -53,6 +60,7 @@ extern "C"
     int64_t n_conflicts; /**< of n_pairs, on one side all the same: three flanks
                               that face each other cannot be on two sides */
     double thickness;    /**< as given, or as found; 0: no thin part in reach */
+    int64_t n_met;       /**< of n_pairs, within near and on one side so far */
   } abut_split_report;
 
   /** Put each facet of a surface on a side, at the present positions.
@@ -62,7 +70,8 @@ extern "C"
    * their normals counted twice; then facets with a common node in the order of
    * their numbers; each takes effect unless those before have settled the
    * matter. Of the parts that this leaves apart, the facet with the smallest
-   * number is secondary. The result depends on numbers and positions only.
+   * number is secondary. The result depends on numbers, positions and the sides
+   * so far only.
    *
    * @param surface with numbers of nodes, or distinct nodes
    * @param side [n_facets] out: 0 secondary, 1 primary

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "contact_elements.h"
 
-#include "agree.h"
-#include "fnv_hash.h"
+#include "saved_words.h"
 
-#include <abut/dealii/contact_assembler.h>
-
-#include <istream>
 #include <map>
-#include <ostream>
 #include <utility>
 #include <vector>
 
@@ -55,57 +50,23 @@ namespace abut::shim
     std::map<std::int64_t, std::uint64_t> together;
     for (const auto &some : all)
       together.insert(some.begin(), some.end());
-    FnvHash sum;
-    const auto write = [&](const std::uint64_t word)
-    {
-      sum.mix(word);
-      stream.write(reinterpret_cast<const char *>(&word), sizeof(word));
-    };
-    write(is_known_ ? together.size() + 1 : 0);
+    std::vector<std::uint64_t> words;
+    if (is_known_)
+      words.push_back(together.size());
     for (const auto &[number, nodes] : together)
     {
-      write(static_cast<std::uint64_t>(number));
-      write(nodes);
+      words.push_back(static_cast<std::uint64_t>(number));
+      words.push_back(nodes);
     }
-    write(sum.value);
+    save_words(stream, communicator, words);
   }
 
   void ContactElements::load(std::istream &stream, const MPI_Comm communicator)
   {
-    std::vector<std::uint64_t> words;
-    run_everywhere<HistoryError>(
-        communicator,
-        [&]
-        {
-          if (MPI::this_mpi_process(communicator) != 0)
-            return;
-          FnvHash sum;
-          const auto read = [&]
-          {
-            std::uint64_t word = 0;
-            stream.read(reinterpret_cast<char *>(&word), sizeof(word));
-            if (!stream.good())
-              throw HistoryError("The elements of contact are cut off.");
-            return word;
-          };
-          const auto keep = [&](const std::uint64_t word)
-          {
-            sum.mix(word);
-            words.push_back(word);
-            return word;
-          };
-          const std::uint64_t n = keep(read());
-          for (std::uint64_t left = n; left > 1; --left)
-          {
-            keep(read());
-            keep(read());
-          }
-          if (read() != sum.value)
-            throw HistoryError("The elements of contact are damaged.");
-        });
-    words = MPI::broadcast(communicator, words);
+    const std::vector<std::uint64_t> words =
+        load_words(stream, communicator, "The elements of contact");
     forget();
-    is_known_ = words.at(0) > 0;
+    is_known_ = !words.empty();
     for (std::size_t i = 1; i + 1 < words.size(); i += 2)
       before_.emplace(static_cast<std::int64_t>(words[i]), words[i + 1]);
     n_before_ = before_.size();

@@ -217,6 +217,8 @@ namespace abut
     Implementation &i = *implementation;
     i.history.save(stream);
     i.elements.save(stream, i.communicator);
+    if (i.surfaces != nullptr)
+      i.surfaces->save_sides(stream);
     // Who loads has no preconditioner, nor points that were made earlier: then
     // neither should this run.
     i.solver.reset();
@@ -233,7 +235,12 @@ namespace abut
     const std::uint64_t mesh = i.source->mesh_signature();
     shim::ContactElements elements;
     i.history.load(stream, mesh,
-                   [&] { elements.load(stream, i.communicator); });
+                   [&]
+                   {
+                     elements.load(stream, i.communicator);
+                     if (i.surfaces != nullptr)
+                       i.surfaces->load_sides(stream);
+                   });
     i.elements = std::move(elements);
     // Displacements are the host's to keep: that of the commit() must come from
     // there, or slips would be measured from an undeformed body.

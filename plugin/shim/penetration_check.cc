@@ -442,7 +442,13 @@ namespace abut::shim
       pair.held_inside = MPI::max(pair.held_inside, communicator_);
       pair.held_in_the_mean = MPI::max(pair.held_in_the_mean, communicator_);
     }
-    return everywhere(missed, communicator_);
+    missed = everywhere(missed, communicator_);
+    // Who meets on one side is told apart by the next find().
+    if (std::any_of(missed.begin(), missed.end(),
+                    [](const Penetration<dim> &node)
+                    { return node.same_side; }))
+      look_at_sides(displacement);
+    return missed;
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

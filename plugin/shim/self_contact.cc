@@ -3,10 +3,11 @@
 
 #include "agree.h"
 #include "outward_order.h"
+#include "point_to_point.h"
+#include "saved_words.h"
 #include "surface_side.h"
 
 #include <abut/dealii/versions.h>
-#include <abut/self_contact.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
@@ -83,13 +84,15 @@ namespace abut::shim
 
     std::vector<Facet> all; ///< in the order of their cells
 
+    /** Corners displaced by @p displacement (owned; null: 0). */
     Facets(const dealii::Mapping<dim> &mapping,
            const dealii::DoFHandler<dim> &dof_handler,
-           const std::set<BoundaryId> &ids)
+           const std::set<BoundaryId> &ids, const la::Vector *displacement)
     {
       std::vector<std::uint32_t> words;
       std::vector<std::int64_t> nodes;
       std::vector<double> points;
+      std::vector<global_dof_index> unknowns; // of points
       for (const auto &cell : dof_handler.active_cell_iterators())
         if (cell->is_locally_owned() && cell->at_boundary())
           for (const unsigned int face : cell->face_indices())
@@ -110,10 +113,21 @@ namespace abut::shim
                 const auto point = mapping.transform_unit_to_real_cell(
                     cell, dealii::GeometryInfo<dim>::unit_cell_vertex(vertex));
                 for (unsigned int d = 0; d < dim; ++d)
+                {
                   points.push_back(point[d]);
+                  unknowns.push_back(cell->vertex_dof_index(vertex, d));
+                }
               }
             }
       const MPI_Comm communicator = versions::communicator(dof_handler);
+      if (displacement != nullptr)
+      {
+        PointToPoint post(communicator);
+        SharedValues values(dof_handler.locally_owned_dofs(), unknowns, post);
+        values.fetch(la::data(*displacement), post);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          points[i] += values(unknowns[i]);
+      }
       const auto all_words = MPI::all_gather(communicator, words);
       const auto all_nodes = MPI::all_gather(communicator, nodes);
       const auto all_points = MPI::all_gather(communicator, points);
@@ -145,104 +159,256 @@ namespace abut::shim
     }
   };
 
+  /** The facets of a pair as a surface of the core. */
+  template <int dim> struct SelfContact<dim>::Part
+  {
+    std::vector<const typename Facets::Facet *> facet;
+    std::vector<std::int64_t> node_id;
+    std::vector<double> position;
+    std::vector<std::int32_t> connectivity;
+    Handle<abut_surface> surface;
+    abut_surface_sizes sizes;
+
+    Part(const ContactPair<dim> &pair, const Facets &facets,
+         const SearchParameters &search, abut_context *context)
+    {
+      std::map<std::int64_t, std::int32_t> place;
+      for (const auto &each : facets.all)
+      {
+        if (pair.secondary.count(each.id) == 0)
+          continue;
+        facet.push_back(&each);
+        for (unsigned int a = 0; a < Facets::n_corners; ++a)
+        {
+          const auto [it, is_new] =
+              place.emplace(each.node[a], static_cast<int>(place.size()));
+          connectivity.push_back(it->second);
+          if (!is_new)
+            continue;
+          node_id.push_back(each.node[a]);
+          for (unsigned int d = 0; d < dim; ++d)
+            position.push_back(each.point[a * dim + d]);
+        }
+      }
+      if (facet.size() < 2)
+        throw ContactError("fewer than two facets of the mesh have a boundary "
+                           "id of the surface.");
+      abut_surface_data data = abut_surface_data_defaults();
+      data.dimension = dim;
+      data.kind = dim == 2 ? ABUT_FACET_LINE2 : ABUT_FACET_QUAD4;
+      data.n_nodes = static_cast<std::int32_t>(node_id.size());
+      data.n_facets = static_cast<std::int32_t>(facet.size());
+      data.connectivity = connectivity.data();
+      data.position = position.data();
+      data.node_id = node_id.data();
+      data.check_orientation = search.check_orientation;
+      data.feature_angle = search.feature_angle;
+      surface = create_surface(context, data);
+      check(context, abut_surface_measure(surface.get(), &sizes));
+    }
+
+    /** A distance for facets to be found across openings of any width, but
+     * that a facet has some thousand others within, at most. */
+    double wide_reach() const
+    {
+      constexpr double facets = dim == 2 ? 500. : 16.;
+      double square = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        square += (sizes.upper[d] - sizes.lower[d])
+                  * (sizes.upper[d] - sizes.lower[d]);
+      return std::min(std::sqrt(square), facets * sizes.median);
+    }
+  };
+
+  template <int dim>
+  template <typename Function>
+  void SelfContact<dim>::for_each(const Function &function) const
+  {
+    std::string message;
+    for (const auto &pair : pairs_)
+      try
+      {
+        function(pair);
+      }
+      catch (const dealii::ExceptionBase &error)
+      {
+        const char *text = error.what();
+        message = "Pair '" + pair.name + "': " + text;
+        break;
+      }
+    throw_everywhere<ContactError>(versions::communicator(*dof_handler_),
+                                   message);
+  }
+
   template <int dim>
   SelfContact<dim>::SelfContact(const dealii::Mapping<dim> &mapping,
                                 const dealii::DoFHandler<dim> &dof_handler,
                                 const std::vector<ContactPair<dim>> &pairs,
                                 const SearchParameters &search,
                                 abut_context *context)
+      : mapping_(&mapping), dof_handler_(&dof_handler), search_(search)
   {
-    std::set<BoundaryId> ids;
-    for (const auto &pair : pairs)
-      if (touches_itself(pair))
-        ids.insert(pair.secondary.begin(), pair.secondary.end());
-    if (ids.empty())
+    std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(pairs_),
+                 touches_itself<dim>);
+    if (pairs_.empty())
       return;
-    const Facets facets(mapping, dof_handler, ids);
-    std::string message;
-    try
-    {
-      for (const auto &pair : pairs)
-        if (touches_itself(pair))
-          split(pair, facets, search, context);
-    }
-    catch (const std::exception &error)
-    {
-      message = error.what();
-    }
-    throw_everywhere<ContactError>(versions::communicator(dof_handler),
-                                   message);
+    const Facets facets(mapping, dof_handler, all_ids(), nullptr);
+    for_each([&](const ContactPair<dim> &pair)
+             { split(pair, facets, context); });
   }
 
   template <int dim>
-  void
-  SelfContact<dim>::split(const ContactPair<dim> &pair, const Facets &facets,
-                          const SearchParameters &search, abut_context *context)
+  std::set<dealii::types::boundary_id> SelfContact<dim>::all_ids() const
   {
-    std::vector<const typename Facets::Facet *> own;
-    std::vector<std::int64_t> node_id;
-    std::vector<double> position;
-    std::vector<std::int32_t> connectivity;
-    std::map<std::int64_t, std::int32_t> place;
-    for (const auto &facet : facets.all)
-      if (pair.secondary.count(facet.id) > 0)
-      {
-        own.push_back(&facet);
-        for (unsigned int a = 0; a < Facets::n_corners; ++a)
-        {
-          const auto [it, is_new] =
-              place.emplace(facet.node[a], static_cast<int>(place.size()));
-          connectivity.push_back(it->second);
-          if (!is_new)
-            continue;
-          node_id.push_back(facet.node[a]);
-          for (unsigned int d = 0; d < dim; ++d)
-            position.push_back(facet.point[a * dim + d]);
-        }
-      }
-    const std::string name = "Pair '" + pair.name + "': ";
-    if (own.empty())
-      throw ContactError(name
-                         + "no facet of the mesh has a boundary id of the "
-                           "surface.");
-    abut_surface_data data = abut_surface_data_defaults();
-    data.dimension = dim;
-    data.kind = dim == 2 ? ABUT_FACET_LINE2 : ABUT_FACET_QUAD4;
-    data.n_nodes = static_cast<std::int32_t>(node_id.size());
-    data.n_facets = static_cast<std::int32_t>(own.size());
-    data.connectivity = connectivity.data();
-    data.position = position.data();
-    data.node_id = node_id.data();
-    data.check_orientation = search.check_orientation;
-    data.feature_angle = search.feature_angle;
-    abut_split_options options = abut_split_defaults();
-    options.reach = std::max(search.detection.search.reach, pair.reach);
-    options.relative_reach = search.detection.search.relative_reach;
-    options.normal_cosine = search.detection.normal_cosine;
-    options.thickness = given_thickness(search, pair.secondary);
-    std::vector<std::uint8_t> side(own.size());
+    std::set<BoundaryId> ids;
+    for (const auto &pair : pairs_)
+      ids.insert(pair.secondary.begin(), pair.secondary.end());
+    return ids;
+  }
+
+  template <int dim>
+  abut_split_options
+  SelfContact<dim>::options(const ContactPair<dim> &pair) const
+  {
+    abut_split_options result = abut_split_defaults();
+    result.reach = std::max(search_.detection.search.reach, pair.reach);
+    result.relative_reach = search_.detection.search.relative_reach;
+    result.normal_cosine = search_.detection.normal_cosine;
+    result.thickness = given_thickness(search_, pair.secondary);
+    return result;
+  }
+
+  template <int dim>
+  void SelfContact<dim>::split(const ContactPair<dim> &pair,
+                               const Facets &facets, abut_context *context)
+  {
+    const Part part(pair, facets, search_, context);
+    std::vector<std::uint8_t> side(part.facet.size());
+    abut_split_options how = options(pair);
     abut_split_report report;
-    try
+    const auto run = [&]
     {
-      const auto surface = create_surface(context, data);
-      check(context, abut_surface_split(context, surface.get(), &options,
+      check(context, abut_surface_split(context, part.surface.get(), &how,
                                         side.data(), &report));
-    }
-    catch (const dealii::ExceptionBase &error)
-    {
-      const char *text = error.what();
-      throw ContactError(name + text);
-    }
-    if (report.n_pairs == 0)
-      throw ContactError(name
-                         + "no two facets of the surface face each other "
-                           "within reach. Give the pair a reach that is larger "
-                           "than the distance of the parts that may touch.");
-    for (std::size_t f = 0; f < own.size(); ++f)
-      if (side[f] != 0)
-        primary_.emplace(own[f]->cell, own[f]->face);
+    };
+    run();
     for (const BoundaryId id : pair.secondary)
       thickness_[id] = report.thickness;
+    // What faces each other from afar may come near; what faces nothing may
+    // bend until it does.
+    how.reach = std::max(how.reach, part.wide_reach());
+    if (report.n_pairs == 0)
+      run();
+    if (report.n_pairs == 0)
+      std::fill(side.begin() + side.size() / 2, side.end(), 1);
+    take(part, side);
+  }
+
+  template <int dim>
+  void SelfContact<dim>::split_again(const ContactPair<dim> &pair,
+                                     const Facets &facets, const double near,
+                                     abut_context *context)
+  {
+    const Part part(pair, facets, search_, context);
+    std::vector<std::uint8_t> before, side(part.facet.size());
+    for (const auto *facet : part.facet)
+      before.push_back(primary_.count({facet->cell, facet->face}));
+    abut_split_options how = options(pair);
+    how.reach = std::max(how.reach, part.wide_reach());
+    how.thickness = thinnest_.at(*pair.secondary.begin());
+    how.previous = before.data();
+    how.near = std::max(near, how.relative_reach * part.sizes.largest);
+    check(context, abut_surface_split(context, part.surface.get(), &how,
+                                      side.data(), nullptr));
+    has_changed_ = take(part, side) || has_changed_;
+  }
+
+  template <int dim>
+  bool SelfContact<dim>::renew(const la::Vector &displacement,
+                               const double near, abut_context *context)
+  {
+    has_changed_ = false;
+    if (pairs_.empty())
+      return false;
+    const std::set<BoundaryId> ids = all_ids();
+    if (thinnest_.empty())
+    {
+      const Facets facets(*mapping_, *dof_handler_, ids, nullptr);
+      for_each([&](const ContactPair<dim> &pair)
+               { find_thinnest(pair, facets, context); });
+    }
+    const Facets facets(*mapping_, *dof_handler_, ids, &displacement);
+    for_each([&](const ContactPair<dim> &pair)
+             { split_again(pair, facets, near, context); });
+    return has_changed_;
+  }
+
+  template <int dim>
+  void SelfContact<dim>::find_thinnest(const ContactPair<dim> &pair,
+                                       const Facets &facets,
+                                       abut_context *context)
+  {
+    const Part part(pair, facets, search_, context);
+    std::vector<std::uint8_t> side(part.facet.size());
+    abut_split_options how = options(pair);
+    how.reach = std::max(how.reach, part.wide_reach());
+    abut_split_report report;
+    check(context, abut_surface_split(context, part.surface.get(), &how,
+                                      side.data(), &report));
+    // Without any, what overlaps by more than all facets is no overlap.
+    thinnest_[*pair.secondary.begin()] =
+        report.thickness > 0. ? report.thickness : 2. * how.reach;
+  }
+
+  template <int dim>
+  bool SelfContact<dim>::take(const Part &part,
+                              const std::vector<std::uint8_t> &side)
+  {
+    bool differs = false;
+    for (std::size_t f = 0; f < side.size(); ++f)
+    {
+      const std::pair<Cell, unsigned int> key(part.facet[f]->cell,
+                                              part.facet[f]->face);
+      differs = differs || (side[f] != 0) != (primary_.count(key) > 0);
+      if (side[f] != 0)
+        primary_.insert(key);
+      else
+        primary_.erase(key);
+    }
+    return differs;
+  }
+
+  template <int dim> void SelfContact<dim>::save(std::ostream &stream) const
+  {
+    if (pairs_.empty())
+      return;
+    std::vector<std::uint64_t> words;
+    for (const auto &[cell, face] : primary_)
+    {
+      words.insert(words.end(), cell.begin(), cell.end());
+      words.push_back(face);
+    }
+    save_words(stream, versions::communicator(*dof_handler_), words);
+  }
+
+  template <int dim> bool SelfContact<dim>::load(std::istream &stream)
+  {
+    if (pairs_.empty())
+      return false;
+    const auto words =
+        load_words(stream, versions::communicator(*dof_handler_),
+                   "The sides of surfaces that touch themselves");
+    constexpr std::size_t n = std::tuple_size_v<Cell>;
+    std::set<std::pair<Cell, unsigned int>> primary;
+    for (std::size_t i = 0; i + n < words.size(); i += n + 1)
+    {
+      Cell cell;
+      for (std::size_t k = 0; k < n; ++k)
+        cell[k] = static_cast<std::uint32_t>(words[i + k]);
+      primary.emplace(cell, static_cast<unsigned int>(words[i + n]));
+    }
+    std::swap(primary, primary_);
+    return primary != primary_;
   }
 
   template <int dim>
@@ -251,6 +417,12 @@ namespace abut::shim
                        const BoundaryId of_mesh) const
   {
     return primary_.count({cell, face}) > 0 ? of_mesh | primary_side : of_mesh;
+  }
+
+  template <int dim>
+  dealii::types::boundary_id SelfContact<dim>::of_mesh(const BoundaryId id)
+  {
+    return id & ~primary_side;
   }
 
   template <int dim>

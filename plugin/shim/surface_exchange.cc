@@ -71,6 +71,40 @@ namespace abut::shim
     nodes_.clear();
   }
 
+  template <int dim>
+  bool SurfaceExchange<dim>::renew_sides(const la::Vector &displacement,
+                                         const double near,
+                                         abut_context *context)
+  {
+    if (!self_contact_.renew(displacement, near, context))
+      return false;
+    take_sides();
+    return true;
+  }
+
+  template <int dim> bool SurfaceExchange<dim>::load_sides(std::istream &stream)
+  {
+    if (!self_contact_.load(stream))
+      return false;
+    take_sides();
+    return true;
+  }
+
+  template <int dim> void SurfaceExchange<dim>::take_sides()
+  {
+    const auto take = [&](Facet &facet)
+    {
+      facet.boundary_id = self_contact_.id(
+          facet.cell, facet.face, self_contact_.of_mesh(facet.boundary_id));
+    };
+    for (FacetRecord &record : own_)
+      take(record.facet);
+    for (auto *list : {&announced_, &facets_})
+      for (auto &[number, record] : *list)
+        take(record.facet);
+    links_.clear();
+  }
+
   template <int dim> void SurfaceExchange<dim>::tabulate()
   {
     const auto &fe = dof_handler_.get_fe();

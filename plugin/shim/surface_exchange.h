@@ -77,6 +77,16 @@ namespace abut::shim
       return self_contact_;
     }
 
+    /** Split surfaces that touch themselves again, see SelfContact::renew().
+     * If sides change, facets have other ids, and the next gather() looks for
+     * what is near anew. Returns whether they do. Collective. */
+    bool renew_sides(const la::Vector &displacement, double near,
+                     abut_context *context);
+
+    /** Take sides from a checkpoint, see SelfContact::load(); otherwise as
+     * renew_sides(). */
+    bool load_sides(std::istream &stream);
+
     /** Hanging nodes alone. */
     const dealii::AffineConstraints<double> &hanging() const
     {
@@ -180,6 +190,8 @@ namespace abut::shim
       std::int64_t number = -1;
     };
 
+    /** Let facets have the ids of their sides. */
+    void take_sides();
     void tabulate();
     void collect();
     void number_own();
@@ -230,7 +242,7 @@ namespace abut::shim
     const dealii::DoFHandler<dim> &dof_handler_;
     const dealii::AffineConstraints<double> &constraints_;
     const std::set<dealii::types::boundary_id> boundary_ids_;
-    const SelfContact<dim> self_contact_;
+    SelfContact<dim> self_contact_;
     const dealii::AffineConstraints<double> hanging_;
     PointToPoint post_;
     const Owners owners_;

@@ -621,6 +621,7 @@ namespace abut::shim
   RowSource::Change SurfacePairRows<dim>::find(const la::Vector &displacement,
                                                abut_points *points)
   {
+    renew_sides();
     const bool has_new_constants = exchange_->update_constants(surface_);
     const std::vector<Direction> u = displacements_in_reach(displacement);
     ++n_finds_;

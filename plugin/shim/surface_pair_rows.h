@@ -77,7 +77,16 @@ namespace abut::shim
     void note_commit(const la::Vector &displacement)
     {
       searched_from_ = moves() ? displacement : la::Vector();
+      look_at_sides(displacement);
     }
+
+    /** Sides of surfaces that touch themselves as a part of a checkpoint.
+     * Collective. */
+    void save_sides(std::ostream &stream) const
+    {
+      exchange_->self_contact().save(stream);
+    }
+    void load_sides(std::istream &stream);
 
     /** Give all components of a node of the surfaces their mean. */
     void make_isotropic(la::Vector &value) const;
@@ -545,6 +554,14 @@ namespace abut::shim
     /** Whether supports prescribe the displacement along the normal of all
      * nodes of the secondary. Collective. */
     bool is_prescribed(const Pair &pair) const;
+    /** Let the next find() look at the sides of surfaces that touch themselves
+     * where bodies are displaced by this (owned). */
+    void look_at_sides(const la::Vector &displacement);
+    /** Split such surfaces again if their sides are not right any more.
+     * Collective. */
+    void renew_sides();
+    /** Make sides of facets that have other ids now. Collective. */
+    void take_sides(const la::Vector *place);
     bool is_owned(Node node) const;
     double motion(const Pair &pair, const std::vector<Direction> &u) const;
     /** [pairs] how far they have come since the last search. */
@@ -687,6 +704,10 @@ namespace abut::shim
      * empty: none have been. */
     std::unordered_map<std::int64_t, Partners> partners_;
     std::optional<std::vector<Direction>> partners_place_;
+    /** Where the next find() looks whether surfaces that touch themselves still
+     * have the right sides (owned), and where it did before. */
+    std::optional<la::Vector> sides_place_;
+    la::Vector sides_seen_;
     la::Vector searched_from_;  ///< where points move: of the last commit()
     std::vector<Place> places_; ///< [points]
     const la::Vector *committed_ = nullptr;

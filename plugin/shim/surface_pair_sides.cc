@@ -72,6 +72,48 @@ namespace abut::shim
       create_sides(pair);
   }
 
+  template <int dim>
+  void SurfacePairRows<dim>::look_at_sides(const la::Vector &displacement)
+  {
+    if (exchange_->self_contact().any())
+      sides_place_ = displacement;
+  }
+
+  template <int dim> void SurfacePairRows<dim>::renew_sides()
+  {
+    if (!sides_place_.has_value())
+      return;
+    const la::Vector place = std::move(*sides_place_);
+    sides_place_.reset();
+    la::Vector way(place);
+    if (sides_seen_.size() > 0)
+      way -= sides_seen_;
+    sides_seen_ = place;
+    // Two sides that come as near in this step as in the last one, and again.
+    if (exchange_->renew_sides(place, 4. * way.linfty_norm(), context_))
+      take_sides(&place);
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::take_sides(const la::Vector *const place)
+  {
+    for (Pair &pair : pairs_)
+      if (SelfContact<dim>::is_split(pair.data))
+        pair.secondary.everywhere = pair.primary.everywhere = SideMeasures();
+    const bool is_displaced = std::any_of(
+        pairs_.begin(), pairs_.end(),
+        [](const Pair &pair) { return pair.has_displaced_sides(); });
+    renew(is_displaced ? place : nullptr);
+    ++detection_.gatherings;
+  }
+
+  template <int dim> void SurfacePairRows<dim>::load_sides(std::istream &stream)
+  {
+    sides_place_.reset();
+    if (exchange_->load_sides(stream))
+      take_sides(nullptr);
+  }
+
   template <int dim> std::uint64_t SurfacePairRows<dim>::mesh_signature() const
   {
     // Hashes of facets are added: sums do not depend on the order.
@@ -86,7 +128,7 @@ namespace abut::shim
       for (const std::uint32_t word : facet.cell)
         hash.mix(word);
       hash.mix(facet.face);
-      hash.mix(facet.boundary_id);
+      hash.mix(SelfContact<dim>::of_mesh(facet.boundary_id));
       sum += hash.value;
     }
     FnvHash hash;
@@ -414,6 +456,9 @@ namespace abut::shim
   template std::set<global_dof_index> SurfacePairRows<dim>::used_nodes()       \
       const;                                                                   \
   template void SurfacePairRows<dim>::gather(const la::Vector *);              \
+  template void SurfacePairRows<dim>::look_at_sides(const la::Vector &);       \
+  template void SurfacePairRows<dim>::renew_sides();                           \
+  template void SurfacePairRows<dim>::load_sides(std::istream &);              \
   template void SurfacePairRows<dim>::find_thickness(Pair &);                  \
   template double SurfacePairRows<dim>::find_thickness(                        \
       const Pair &, const std::set<dealii::types::boundary_id> &,              \

@@ -364,6 +364,26 @@ for solver in ("direct", "iterative"):
 expect(run(p.source / "prm/bar-impact.prm", "Time/Step=0.25", "Time/End=1"), 0,
        without=("ABUT-F30",))
 
+# A stiff block that a small force moves across a clearance: what is out of balance
+# is round-off of the matrix times the motion, which no solver can lower. The wall
+# has the force to what that leaves, some 1e-16 of E times the clearance, .01.
+p.write("walls.prm", solid(2, block(
+    1, "2, 2 : 0, 0 : 1, 1 : true", "2: free, 0",
+    more=("Young modulus = 1e12", "Poisson ratio = 0",
+          "Body force = 1, 0")),
+    *[section(f"Obstacle {n}", "Kind = plane", f"Point = {x}, 0",
+              f"Normal = {side}, 0")
+      for n, x, side in ((1, -0.01, 1), (2, 1.01, -1))],
+    *[section(f"Pair {n}", f"Secondary = 1: {n - 1}", f"Obstacle = {n}")
+      for n in (1, 2)],
+    section("Refinement", "Level = 0"), bodies=1, obstacles=2
+    ).replace("Pairs = 1", "Pairs = 2"))
+for solver in ("direct", "iterative"):
+    walls = expect(run(p.folder / "walls.prm",
+                       f"Solver/Linear solver={solver}"), 0,
+                   without=("ABUT-F30",))
+    p.close(walls["contact_force"], 1., 1e-5, f"force on a wall, {solver}")
+
 # Blocks that touch at a corner alone, and one whose corners are all the same
 # numbers, or nearly.
 corner = "2, 2 : {} : {} : true"

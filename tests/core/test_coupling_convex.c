@@ -24,28 +24,35 @@ trough(const double *p, double u, double v, double *x)
   x[2] = x[0] * x[0];
 }
 
-/* Facets of length 1 below x^2: at the node at 0 the weighted gap of dual
- * functions is -1/6, that of the surfaces 0. */
+/* Rows of facets of length 1 below a surface of height x^2 have its gap at
+ * their nodes. Frees both. */
 static void
-test_parabola(void **state)
+check_parabola(scene_mesh s, scene_mesh m, int32_t n_rows)
 {
-  (void)state;
-  const double p[2] = {-1., 1.};
-  scene_mesh s = scene_patch(ABUT_FACET_LINE2, 2, 1, scene_line, below, false),
-             m = scene_patch(ABUT_FACET_LINE2, 64, 1, parabola, p, false);
   abut_coupling_options o = abut_coupling_defaults();
   o.search.reach = 2.;
   couple c = couple_meshes(&s, &m, &o, NULL);
   check_rows(&c);
-  assert_int_equal(c.view.n_rows, 3);
-  for (int32_t j = 0; j < 3; ++j)
+  assert_int_equal(c.view.n_rows, n_rows);
+  for (int32_t j = 0; j < n_rows; ++j)
   {
-    const double x = c.view.position[2 * j];
+    const double x = c.view.position[s.dimension * j];
     near(c.view.gap[j], x * x, 1e-14, "gap");
   }
   couple_destroy(&c);
   scene_free(&s);
   scene_free(&m);
+}
+
+/* At the node at 0 the weighted gap of dual functions is -1/6, that of the
+ * surfaces 0. */
+static void
+test_parabola(void **state)
+{
+  (void)state;
+  const double p[2] = {-1., 1.};
+  check_parabola(scene_patch(ABUT_FACET_LINE2, 2, 1, scene_line, below, false),
+                 scene_patch(ABUT_FACET_LINE2, 64, 1, parabola, p, false), 3);
 }
 
 /* The same in space. */
@@ -54,21 +61,8 @@ test_trough(void **state)
 {
   (void)state;
   const double p[2] = {-1., 1.}, flat[5] = {-1., -1., 2., 2., 0.};
-  scene_mesh s = scene_patch(ABUT_FACET_QUAD4, 2, 2, scene_plane, flat, false),
-             m = scene_patch(ABUT_FACET_QUAD4, 16, 3, trough, p, true);
-  abut_coupling_options o = abut_coupling_defaults();
-  o.search.reach = 2.;
-  couple c = couple_meshes(&s, &m, &o, NULL);
-  check_rows(&c);
-  assert_int_equal(c.view.n_rows, 9);
-  for (int32_t j = 0; j < 9; ++j)
-  {
-    const double x = c.view.position[3 * j];
-    near(c.view.gap[j], x * x, 1e-14, "gap");
-  }
-  couple_destroy(&c);
-  scene_free(&s);
-  scene_free(&m);
+  check_parabola(scene_patch(ABUT_FACET_QUAD4, 2, 2, scene_plane, flat, false),
+                 scene_patch(ABUT_FACET_QUAD4, 16, 3, trough, p, true), 9);
 }
 
 /* Wherever the border of the primary is, and the secondary's facets meet: no

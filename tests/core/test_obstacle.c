@@ -2,27 +2,7 @@
 /* Obstacles of closed formulas and of functions: distances against formulas
  * and against the nearest of many points of the surface, derivatives against
  * differences, poses, and bad input. */
-#include "fixture.h"
-
-#include <string.h>
-
-static const double pi = 3.14159265358979323846;
-
-static abut_context *context;
-
-static int
-set_up(void **state)
-{
-  (void)state;
-  return abut_context_create(NULL, &context) != ABUT_SUCCESS;
-}
-
-static int
-tear_down(void **state)
-{
-  (void)state;
-  return abut_context_destroy(&context) != ABUT_SUCCESS;
-}
+#include "obstacle_fixture.h"
 
 static abut_obstacle *
 make(const abut_obstacle_shape *shape)

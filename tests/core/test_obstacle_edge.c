@@ -3,28 +3,9 @@
  * limited to the flanks' cone, the gap is the way along it, both are continuous
  * in the position; far from edges, near concave ones and at smooth obstacles
  * nothing changes. Expected values are those of planes. */
-#include "fixture.h"
+#include "obstacle_fixture.h"
 
 #include <abut/obstacle_edge.h>
-#include <string.h>
-
-static const double pi = 3.14159265358979323846;
-
-static abut_context *context;
-
-static int
-set_up(void **state)
-{
-  (void)state;
-  return abut_context_create(NULL, &context) != ABUT_SUCCESS;
-}
-
-static int
-tear_down(void **state)
-{
-  (void)state;
-  return abut_context_destroy(&context) != ABUT_SUCCESS;
-}
 
 /* Gap and gradient of one point of a facet of size 1. */
 static double

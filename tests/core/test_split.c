@@ -325,6 +325,66 @@ test_ring(void **state)
   }
 }
 
+/* A ring that is pressed flat: sides to the left and right become those below
+ * and above as these come near, and stay where they do not, or where three
+ * flanks meet. */
+static void
+test_renewed(void **state)
+{
+  (void)state;
+  enum
+  {
+    N = 40
+  };
+  for (int closed = 0; closed < 2; ++closed)
+  {
+    double corner[N][2];
+    int32_t cells[N];
+    uint8_t side[N], before[N];
+    const double height = closed ? 0.04 : 0.6;
+    for (int32_t i = 0; i < N; ++i)
+    {
+      const double angle = -2. * acos(-1.) * (i + 0.5) / N;
+      corner[i][0] = cos(angle);
+      corner[i][1] = height * sin(angle);
+      cells[i] = 1;
+      before[i] = cos(angle - acos(-1.) / N) < 0.;
+    }
+    abut_split_options o = abut_split_defaults();
+    o.reach = 3.;
+    o.previous = before;
+    o.near = 0.1;
+    scene_mesh m = polyline(N, corner, cells, true);
+    abut_split_report report = split_mesh(&m, &o, side);
+    assert_int_equal(report.n_met > 0, closed);
+    int n_same = 0, n_across = 0;
+    for (int32_t i = 0; i < N; ++i)
+    {
+      n_same += side[i] == before[i];
+      n_across += side[i] != side[N - 1 - (i + 1) % N];
+    }
+    if (closed)
+      assert_true(n_across >= N - 4);
+    else
+      assert_int_equal(n_same, N);
+    /* What touches keeps its sides. */
+    memcpy(before, side, N);
+    report = split_mesh(&m, &o, side);
+    assert_memory_equal(before, side, N);
+    scene_free(&m);
+  }
+  const double h = sqrt(3.) / 2., corner[3][2] = {{0., 0.}, {0.5, h}, {1., 0.}};
+  const int32_t cells[3] = {3, 3, 3};
+  uint8_t side[9], before[9] = {0, 0, 0, 1, 1, 1, 1, 1, 1};
+  abut_split_options o = abut_split_defaults();
+  o.reach = o.near = 1.;
+  o.previous = before;
+  scene_mesh m = polyline(3, corner, cells, true);
+  assert_true(split_mesh(&m, &o, side).n_met > 0);
+  assert_memory_equal(before, side, 9);
+  scene_free(&m);
+}
+
 /* Wrong arguments change nothing. */
 static void
 test_arguments(void **state)

@@ -66,6 +66,11 @@ namespace abut::app
     }
   } // namespace
 
+  std::string quoted_in(const std::string &part, const std::string &whole)
+  {
+    return "'" + part + "'" + (part == whole ? "" : " in '" + whole + "'");
+  }
+
   void check_numbers(const std::string &text, const std::string &parameter)
   {
     for (std::size_t i = 0; i < text.size(); ++i)
@@ -81,11 +86,8 @@ namespace abut::app
       {
         const std::string wrong = wrong_number(text.substr(i), length);
         if (!wrong.empty())
-          throw InputError(
-              parameter,
-              "'" + text.substr(i, length) + "'"
-                  + (length == text.size() ? "" : " in '" + text + "'") + " "
-                  + wrong);
+          throw InputError(parameter, quoted_in(text.substr(i, length), text)
+                                          + " " + wrong);
         i += length - 1;
       }
     }
@@ -122,10 +124,9 @@ namespace abut::app
   {
     if (split_list(text, ',').size() > 1)
       throw InputError(parameter,
-                       "'" + value + "' has "
-                           + (text == value ? "" : "in '" + text + "' ")
-                           + "a comma outside of brackets, where one number or "
-                             "formula is required."
+                       quoted_in(text, value)
+                           + " has a comma outside of brackets, where one "
+                             "number or formula is required."
                            + decimal_comma_hint(text));
   }
 } // namespace abut::app

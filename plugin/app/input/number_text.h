@@ -21,6 +21,9 @@ namespace abut::app
    * number or a unit, after a blank; else empty. */
   std::string misread_hint(const std::string &text);
 
+  /** "'part' in 'whole'", or "'part'" where it is the whole. */
+  std::string quoted_in(const std::string &part, const std::string &whole);
+
   /** Asks for a decimal comma where more numbers are given than needed. */
   inline std::string count_hint(const std::size_t given,
                                 const std::size_t needed)

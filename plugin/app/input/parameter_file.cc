@@ -333,8 +333,7 @@ namespace abut::app
       const double value = std::strtod(word.c_str(), &end);
       if (*end != '\0' || !std::isfinite(value))
         throw InputError(parameter,
-                         "'" + word + "'"
-                             + (word == text ? "" : " in '" + text + "'")
+                         quoted_in(word, text)
                              + " is not a finite number; formulas are not "
                                "possible here."
                              + misread_hint(word));

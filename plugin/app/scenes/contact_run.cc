@@ -32,6 +32,10 @@ namespace abut::app
      * been at a node. */
     constexpr double round_off_of_loads = 1e-8;
 
+    /** Part of the forces of all entries of the matrix that no solver lowers
+     * residuals beyond. */
+    constexpr double round_off_of_forces = 1e-14;
+
     /** Forces whose squares still are numbers, which norms are made of. */
     constexpr double least_load = 1e-150;
   } // namespace
@@ -285,9 +289,12 @@ namespace abut::app
       return true;
     la::Vector residual = model.problem().vector();
     model.residual(state.u, residual);
-    const SolvedBy by = {!model.problem().is_linear(),
-                         state.present.linear.method.compare(0, 6, "direct")
-                             == 0};
+    const SolvedBy by = {
+        !model.problem().is_linear(),
+        state.present.linear.method.compare(0, 6, "direct") == 0,
+        state.contact.imbalance(residual,
+                                model.problem().size_of_forces(state.u))
+            <= round_off_of_forces};
     return diagnose_balance(report, imbalance(residual),
                             state.contact.progress().penalty, by, why);
   }

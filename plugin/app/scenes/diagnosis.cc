@@ -103,7 +103,8 @@ namespace abut::app
                         std::string &failure)
   {
     report.set("imbalance", imbalance);
-    if (imbalance <= visible_imbalance)
+    if (imbalance <= (by.to_round_off && penalty == 0. ? useless_imbalance
+                                                       : visible_imbalance))
       return true;
     const std::string seen = "Forces are out of balance by "
                              + short_number(imbalance, 2)

@@ -40,6 +40,8 @@ namespace abut::app
   {
     bool newton = false;  ///< the problem is not its own linearisation
     bool factors = false; ///< linear systems were factorised
+    /** Forces out of balance are round-off of those that the matrix makes. */
+    bool to_round_off = false;
   };
 
   /** Forces out of balance, as a part of those of contact, that are worth a

@@ -48,7 +48,9 @@ typedef struct work
   abut_array keyed;  /* abut_keyed */
   abut_array parent; /* int32_t */
   abut_array parity; /* uint8_t: on the other side than the parent */
+  abut_array side;   /* uint8_t: of the roots */
   int64_t n_pairs;
+  double least_size; /* of the facets */
   abut_split_report report;
 } work;
 
@@ -67,7 +69,8 @@ reserve(work *w)
                     {&w->pairs, sizeof(facet_pair), n},
                     {&w->keyed, sizeof(abut_keyed), 2 * n},
                     {&w->parent, sizeof(int32_t), n},
-                    {&w->parity, sizeof(uint8_t), n}};
+                    {&w->parity, sizeof(uint8_t), n},
+                    {&w->side, sizeof(uint8_t), n}};
   abut_status status = ABUT_SUCCESS;
   for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
   {
@@ -81,8 +84,8 @@ reserve(work *w)
 static void
 release(work *w)
 {
-  abut_array *const list[] = {&w->places, &w->rank,   &w->order, &w->pairs,
-                              &w->keyed,  &w->parent, &w->parity};
+  abut_array *const list[] = {&w->places, &w->rank,   &w->order,  &w->pairs,
+                              &w->keyed,  &w->parent, &w->parity, &w->side};
   for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
     abut_array_release(w->context, list[i]);
 }
@@ -106,6 +109,7 @@ place_facets(work *w)
     memcpy(place[f].normal, m.normal, sizeof(m.normal));
     place[f].radius = m.radius;
     place[f].size = abut_surface_longest_side(kind, x);
+    w->least_size = f == 0 ? place[f].size : fmin(w->least_size, place[f].size);
     items[f].key = (uint64_t)(v->facet_id != NULL ? v->facet_id[f] : f)
                    ^ UINT64_C(0x8000000000000000);
     items[f].index = f;
@@ -303,9 +307,53 @@ relate_neighbours(work *w)
     }
 }
 
+/* The least gap of two facets that face each other on one side; and how many
+ * are near each other. */
+static double
+least_met(const work *w, const uint8_t *side, int64_t *n_near)
+{
+  const facet_pair *p = w->pairs.data;
+  double least = INFINITY;
+  *n_near = 0;
+  for (int64_t i = 0; i < w->n_pairs; ++i)
+    if (side[p[i].a] == side[p[i].b])
+    {
+      *n_near += p[i].gap <= w->options.near;
+      least = p[i].gap < least ? p[i].gap : least;
+    }
+  return least;
+}
+
+/* Sides of the roots: 0, or as they were at the nearest pair of each part that
+ * was on two sides, or else at the root. Pairs are in order. */
+static void
+orient(work *w)
+{
+  const uint8_t *previous = w->options.previous;
+  uint8_t *of_root = w->side.data, side = 0;
+  const int32_t n_facets = w->surface->view.n_facets;
+  for (int32_t f = 0; f < n_facets; ++f)
+    of_root[f] = previous != NULL ? previous[f] : 0;
+  if (previous == NULL)
+    return;
+  const facet_pair *p = w->pairs.data;
+  const abut_keyed *items = w->keyed.data;
+  for (int64_t i = w->n_pairs - 1; i >= 0; --i)
+  {
+    const facet_pair *pair = p + items[i].index;
+    const int32_t root = find_root(w, pair->a, &side);
+    if (previous[pair->a] != previous[pair->b])
+      of_root[root] = previous[pair->a] ^ side;
+  }
+}
+
 static abut_status
 split(work *w, abut_surface *surface, uint8_t *side)
 {
+  const int32_t n_facets = surface->view.n_facets;
+  const uint8_t *previous = w->options.previous;
+  double before = INFINITY;
+  int64_t n_near;
   abut_status status = reserve(w);
   if (status == ABUT_SUCCESS)
     status = place_facets(w);
@@ -314,7 +362,14 @@ split(work *w, abut_surface *surface, uint8_t *side)
   if (status != ABUT_SUCCESS)
     return status;
   remove_skins(w);
-  for (int32_t f = 0; f < surface->view.n_facets; ++f)
+  if (previous != NULL)
+  {
+    memcpy(side, previous, (size_t)n_facets);
+    before = least_met(w, previous, &w->report.n_met);
+    if (w->report.n_met == 0)
+      return ABUT_SUCCESS;
+  }
+  for (int32_t f = 0; f < n_facets; ++f)
   {
     ((int32_t *)w->parent.data)[f] = f;
     ((uint8_t *)w->parity.data)[f] = 0;
@@ -323,8 +378,17 @@ split(work *w, abut_surface *surface, uint8_t *side)
   if (status != ABUT_SUCCESS)
     return status;
   relate_neighbours(w);
-  for (int32_t f = 0; f < surface->view.n_facets; ++f)
-    (void)find_root(w, f, &side[f]);
+  orient(w);
+  for (int32_t f = 0; f < n_facets; ++f)
+  {
+    const int32_t root = find_root(w, f, &side[f]);
+    side[f] ^= ((const uint8_t *)w->side.data)[root];
+  }
+  /* Three flanks that meet are on two sides, however they are split. */
+  if (previous != NULL
+      && least_met(w, side, &n_near)
+             <= fmax(2. * before, w->options.relative_reach * w->least_size))
+    memcpy(side, previous, (size_t)n_facets);
   return ABUT_SUCCESS;
 }
 
@@ -338,6 +402,8 @@ fault_of(const abut_split_options *o)
     return "normal_cosine is not in [-1, 1]";
   if (!(o->thickness >= 0. && o->thickness <= ABUT_FACET_LIMIT))
     return "thickness is negative or not finite";
+  if (!(o->near >= 0. && o->near <= ABUT_FACET_LIMIT))
+    return "near is negative or not finite";
   return NULL;
 }
 

@@ -203,7 +203,8 @@ namespace abut::app
     SectionTimes::Scope scope(run.report.times, "assembly");
     elasticity.assemble_stiffness();
     if (motion)
-      motion->setup(functions->density(data.materials), pairs->touching());
+      motion->setup(functions->density(data.materials),
+                    pairs->touching(bodies));
   }
 
   template <int dim> void SolidModel<dim>::assemble()

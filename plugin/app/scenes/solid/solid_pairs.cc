@@ -174,12 +174,23 @@ namespace abut::app
       pair.may_be_apart = !pair.tied;
   }
 
-  template <int dim> std::set<boundary_id> SolidPairs<dim>::touching() const
+  template <int dim>
+  std::set<boundary_id>
+  SolidPairs<dim>::touching(const Bodies<dim> &bodies) const
   {
     std::set<boundary_id> result;
     for (const ContactPair<dim> &pair : all)
-      if (!pair.tied)
-        result.insert(pair.secondary.begin(), pair.secondary.end());
+    {
+      if (pair.tied)
+        continue;
+      result.insert(pair.secondary.begin(), pair.secondary.end());
+      // Either side may be the secondary one of a surface that touches itself:
+      // two parts of one body with boundary ids of their own are alike.
+      if (!pair.primary.empty()
+          && bodies.body_of(*pair.primary.begin())
+                 == bodies.body_of(*pair.secondary.begin()))
+        result.insert(pair.primary.begin(), pair.primary.end());
+    }
     return result;
   }
 

@@ -55,8 +55,10 @@ namespace abut::app
     /** Say that bodies fly: no pair needs to be in reach. */
     void let_fly();
 
-    /** Secondary surfaces that touch and leave: those of ties do not. */
-    std::set<dealii::types::boundary_id> touching() const;
+    /** Secondary surfaces that touch and leave, and primary ones of their own
+     * body: those of ties do not. */
+    std::set<dealii::types::boundary_id>
+    touching(const Bodies<dim> &bodies) const;
 
     /** What forces have moved the obstacles by, by obstacle, from the next
      * set_time() on. Without, they are where their motions say. */
