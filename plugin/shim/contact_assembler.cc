@@ -486,7 +486,8 @@ namespace abut
         i.take("length_scale()", "displacement", given_displacement);
     const double length = i.length_scale(displacement);
     // Obstacles may come to bodies that rest.
-    return length == 0. && i.surfaces != nullptr && i.surfaces->has_steps()
+    return length == 0. && i.surfaces != nullptr
+                   && (i.surfaces->has_steps() || i.moves())
                ? i.surfaces->facet_size()
                : length;
   }

@@ -293,8 +293,9 @@ namespace abut
     {
       check_committed("Points of Sliding::step are made where bodies were at");
       surfaces->set_place(committed);
-      surfaces->set_committed_poses(committed_poses, committed_times);
     }
+    if (surfaces != nullptr)
+      surfaces->set_committed_poses(committed_poses, committed_times);
     try
     {
       return source->find(displacement, points.get());

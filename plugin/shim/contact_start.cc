@@ -181,9 +181,9 @@ namespace abut
                                           { return pair.friction != nullptr; });
     i.committed = is_wanted ? displacement : la::Vector();
     i.committed_is_lost = !is_wanted;
+    i.note_poses();
     if (!is_wanted)
       return;
-    i.note_poses();
     if (i.has_rows)
       i.find_slip_reference();
   }

@@ -241,13 +241,14 @@ namespace abut::shim
   template <int dim>
   void SurfacePairRows<dim>::check_passage_of_obstacle(
       const std::size_t p, const std::uint8_t *held,
+      const std::vector<dealii::Point<dim>> &begin,
       const std::vector<dealii::Point<dim>> &present, const double tolerance,
       std::vector<Penetration<dim>> &missed) const
   {
     const Pair &pair = pairs_[p];
     const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
     const RigidPose<dim> now = obstacle.pose();
-    const RigidPose<dim> then = poses_before(poses(), false)[p];
+    const RigidPose<dim> then = poses_before(poses(), true)[p];
     std::vector<dealii::Point<dim>> from, to;
     std::vector<bool> is_free;
     const auto add = [&](const dealii::Point<dim> &start,
@@ -262,7 +263,7 @@ namespace abut::shim
     };
     for (const Node node : pair.secondary.node)
       if (is_owned(node))
-        add(present_[node], present[node], held[node] == 0);
+        add(begin[node], present[node], held[node] == 0);
     // What is smaller than facets goes by between nodes.
     const auto me = MPI::this_mpi_process(communicator_);
     for (const std::int32_t f : pair.secondary.facet)
@@ -275,7 +276,7 @@ namespace abut::shim
           for (std::size_t a = 0; a < weight.size(); ++a)
           {
             const Node node = surface_.facets[f].node[a];
-            start += weight[a] * present_[node];
+            start += weight[a] * begin[node];
             end += weight[a] * present[node];
           }
           add(start, end, false);
@@ -289,7 +290,7 @@ namespace abut::shim
       const double depth = met[i].depth - pair.data.gap;
       if (met[i].through)
         way = std::max(way, (to[i] - from[i]).norm());
-      else if (is_free[i] && depth > tolerance)
+      else if (pair.steps && is_free[i] && depth > tolerance)
         missed.push_back({pair.data.name, to[i], depth, false, false});
     }
     // What is apart again no search finds, and rows are of the far side.
@@ -337,15 +338,20 @@ namespace abut::shim
   template <int dim>
   void SurfacePairRows<dim>::check_passage(
       const std::size_t p, const std::uint8_t *held,
+      const std::vector<dealii::Point<dim>> &committed,
       const std::vector<dealii::Point<dim>> &present, const double motion,
       const double tolerance, std::vector<Penetration<dim>> &missed) const
   {
     const Pair &pair = pairs_[p];
+    // Where points move, those on straight ways round a corner are no failure:
+    // only what comes out on the far side is.
+    if (pair.moves && pair.data.may_be_apart && pair.data.obstacle)
+      check_passage_of_obstacle(p, held, committed, present, tolerance, missed);
     if (!pair.steps || present_.empty())
       return;
     if (pair.data.obstacle)
     {
-      check_passage_of_obstacle(p, held, present, tolerance, missed);
+      check_passage_of_obstacle(p, held, present_, present, tolerance, missed);
       check_passage_of_formula(p, held, present, tolerance, missed);
       return;
     }
@@ -398,6 +404,14 @@ namespace abut::shim
       reference[n] = surface_.nodes[n].point;
       present[n] = reference[n] + u[n];
     }
+    std::vector<dealii::Point<dim>> committed(reference);
+    if (moves() && searched_from_.size() > 0)
+    {
+      const std::vector<Direction> then =
+          exchange_->displacements_as_given(surface_, searched_from_);
+      for (std::size_t n = 0; n < present.size(); ++n)
+        committed[n] += then[n];
+    }
     const std::vector<std::uint8_t> held = held_nodes();
     const std::vector<double> moved = motions(has_steps() ? way_since(u) : u);
 
@@ -416,7 +430,8 @@ namespace abut::shim
         {
           check_obstacle(pair, marks, present, tolerance, missed);
           if (missed.size() == before)
-            check_passage(p, marks, present, moved[p], tolerance, missed);
+            check_passage(p, marks, committed, present, moved[p], tolerance,
+                          missed);
           continue;
         }
         const DisplacedSides<dim> sides(context_, pair.secondary, pair.primary,
@@ -429,7 +444,8 @@ namespace abut::shim
         if (SelfContact<dim>::is_split(pair.data))
           check_same_sides(pair, present, reach, tolerance, missed);
         if (missed.size() == before)
-          check_passage(p, marks, present, moved[p], tolerance, missed);
+          check_passage(p, marks, committed, present, moved[p], tolerance,
+                        missed);
       }
       catch (const std::exception &error)
       {
@@ -464,6 +480,7 @@ namespace abut::shim
       std::vector<Penetration<dim>> &);                                        \
   template void SurfacePairRows<dim>::check_passage_of_obstacle(               \
       std::size_t, const std::uint8_t *,                                       \
+      const std::vector<dealii::Point<dim>> &,                                 \
       const std::vector<dealii::Point<dim>> &, double,                         \
       std::vector<Penetration<dim>> &) const;                                  \
   template void SurfacePairRows<dim>::check_passage_of_formula(                \
@@ -472,6 +489,7 @@ namespace abut::shim
       std::vector<Penetration<dim>> &) const;                                  \
   template void SurfacePairRows<dim>::check_passage(                           \
       std::size_t, const std::uint8_t *,                                       \
+      const std::vector<dealii::Point<dim>> &,                                 \
       const std::vector<dealii::Point<dim>> &, double, double,                 \
       std::vector<Penetration<dim>> &) const;                                  \
   template std::vector<Penetration<dim>> SurfacePairRows<dim>::penetrations(   \

@@ -464,6 +464,7 @@ namespace abut::shim
      * were made, and is not inside of it any more: of bodies (where the sides
      * are at @p present) or of the obstacle. */
     void check_passage(std::size_t p, const std::uint8_t *held,
+                       const std::vector<dealii::Point<dim>> &committed,
                        const std::vector<dealii::Point<dim>> &present,
                        double motion, double tolerance,
                        std::vector<Penetration<dim>> &missed) const;
@@ -476,6 +477,7 @@ namespace abut::shim
                              std::vector<Penetration<dim>> &missed) const;
     void
     check_passage_of_obstacle(std::size_t p, const std::uint8_t *held,
+                              const std::vector<dealii::Point<dim>> &begin,
                               const std::vector<dealii::Point<dim>> &present,
                               double tolerance,
                               std::vector<Penetration<dim>> &missed) const;
