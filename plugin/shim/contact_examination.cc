@@ -8,6 +8,7 @@
 
 #include <abut/dealii/coded.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -125,10 +126,15 @@ namespace abut
       double least = 0.; ///< that is no round-off of places
 
       /** Far from its place, a body's gaps have the round-off of its way. */
-      bool is_more(const double depth, const double part) const
+      double limit(const double part) const
       {
         constexpr double round_off = 1e-9;
-        return depth > part * way && depth > round_off * far && depth > least;
+        return std::max({part * way, round_off * far, least});
+      }
+
+      bool is_more(const double depth, const double part) const
+      {
+        return depth > limit(part);
       }
 
       std::string compared(const double depth) const
@@ -320,6 +326,23 @@ namespace abut
                      place);
     }
 
+    void judge_apart(const std::string &pair, const shim::Apart &apart,
+                     const bool follows, const Scale &scale, Findings &findings)
+    {
+      if (apart.force > 0.)
+        findings.add(
+            ABUT_FAILURE_SLIDING, false,
+            pair + ": constraints press where the surfaces are apart, by up to "
+                + scale.compared(apart.gap) + ", with "
+                + percent(apart.force / apart.all) + " of the force. "
+                + (follows ? "Dual functions see convex surfaces too near: "
+                             "refine the surfaces, or use "
+                             "Method/Discretisation = mortar."
+                           : "Gaps are those of where points were made: let "
+                             "points move (Method/Sliding = large), or keep "
+                             "motions smaller."));
+    }
+
     void judge_width(const std::string &pair, const double width,
                      const double facet, Findings &findings)
     {
@@ -487,13 +510,22 @@ namespace abut
     result.deformation = i.deformation(displacement);
     const std::vector<PairCheck> checks = pair_checks();
     const std::vector<PairResult<dim>> pairs = pair_results();
+    std::vector<Scale> scales;
+    std::vector<double> visible;
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+    {
+      scales.push_back({result.deformation,
+                        shim::largest_displacement(
+                            i.near_null_space(), displacement, i.communicator),
+                        round_off_of_places * checks[p].facet_size});
+      visible.push_back(scales[p].limit(useless));
+    }
+    const std::vector<shim::Apart> apart = i.surfaces->apart(
+        visible, i.row_pressures().data(), i.gap.data(), i.row_states().data());
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
       const bool is_obstacle = i.pairs[p].obstacle != nullptr;
-      const Scale scale{result.deformation,
-                        shim::largest_displacement(
-                            i.near_null_space(), displacement, i.communicator),
-                        round_off_of_places * checks[p].facet_size};
+      const Scale &scale = scales[p];
       const bool follows = i.method.sliding == Sliding::large
                            && !i.pairs[p].tied && !is_obstacle;
       if (!follows)
@@ -509,6 +541,7 @@ namespace abut
           std::min(checks[p].facet_size, narrow.width), scale, findings);
       result.touches.push_back(pairs[p].secondary_force.norm() > 0.
                                || pairs[p].between_rows > 0.);
+      judge_apart(pairs[p].name, apart[p], follows, scale, findings);
       judge_width(pairs[p].name, narrow.width, narrow.facet, findings);
       if (!is_obstacle)
         judge_corners(pairs[p], checks[p], i.surfaces->held_in_the_mean(p),

@@ -18,6 +18,13 @@
 
 namespace abut::shim
 {
+  /** Rows of a pair that press where its surfaces are apart. */
+  struct Apart
+  {
+    double gap = 0.;             ///< largest distance, length
+    double force = 0., all = 0.; ///< sums of these rows and of all that press
+  };
+
   /** Points between surfaces of bodies, and of surfaces against rigid
    * obstacles, from the core's coupling. Values of rows, here and elsewhere,
    * are those of the points' components.
@@ -137,6 +144,13 @@ namespace abut::shim
     void examine(const la::Vector &displacement, const double *row_pressure,
                  const double *row_gap, const std::uint8_t *row_state,
                  const std::vector<Unseen> &unseen);
+
+    /** Rows of pairs between bodies that press where these are apart, by the
+     * last examine(). @p visible: [pairs] least distance, length. Collective.
+     */
+    std::vector<Apart> apart(const std::vector<double> &visible,
+                             const double *row_pressure, const double *row_gap,
+                             const std::uint8_t *row_state);
 
     using Narrow = ObstacleWidth;
 
@@ -502,6 +516,15 @@ namespace abut::shim
      * Collective. */
     void find_turns(const std::vector<Direction> &u, const double *row_pressure,
                     const std::uint8_t *row_state);
+    /** [nodes] Distance of the pair's other side from facets around a node of
+     * the secondary, or from a node of the primary, as far as it is known. */
+    std::vector<double>
+    distances_of_nodes(Pair &pair,
+                       const std::vector<dealii::Point<dim>> &reference,
+                       const std::vector<dealii::Point<dim>> &present) const;
+    void note_apart(const Component &row, const std::vector<double> &distance,
+                    double pressure, double gap, double visible,
+                    Apart &found) const;
     std::string wrong_side(Pair &pair) const;
     void refuse_inside(Pair &pair, const la::Vector &displacement) const;
     /** Measure how deep bodies that may come near are in each other before

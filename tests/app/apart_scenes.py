@@ -109,23 +109,34 @@ def shell(n, turned):
     return nodes, items
 
 
-def body(number, file):
+def body(number, file, come=()):
+    """A body whose inside is fixed, or comes from where it is in the mesh."""
+    dimension = 3 if file.endswith("3.inp") else 2
     return section(f"Body {number}", section("Mesh", f"File = {file}"),
-                   "Poisson ratio = 0.3",
-                   "Support = 2: " + ("0, 0, 0" if file.endswith("3.inp")
-                                      else "0, 0"))
+                   "Poisson ratio = 0.3", "Support = 2: " + ", ".join(
+                       f"{c:.17g}*t" for c in come or dimension * [0]))
 
 
-def scene(p, name, dimension, parts, pair_lines, obstacles=0):
+def scene(p, name, dimension, parts, pair_lines, obstacles=0, steps=1):
     return p.write(name, solid(
         dimension, *parts, section("Pair 1", *pair_lines),
         section("Method", "Discretisation = dual mortar"),
+        section("Load steps", f"Steps = {steps}"),
         section("Refinement", "Level = 0"),
         section("Output", "Fields = false", "Pictures = false"),
         bodies=2 - obstacles, obstacles=obstacles))
 
 
-def two_polygons(p, rng, name, mesh):
+def coming(rng, along, across, facet):
+    """How a body comes to its place without touching on the way: from farther
+    off, by more than what facets are inclined by, and from the side; and in how
+    many load steps."""
+    off, aside = facet * rng.uniform(0.5, 2.), facet * rng.uniform(-3., 3.)
+    return ([aside * b - off * a for a, b in zip(along, across)],
+            rng.choice((1, 2, 5)))
+
+
+def two_polygons(p, rng, name, mesh, comes=False):
     """Two polygons, each of facets of its own length."""
     counts = [int(rng.uniform(.7, 1.4) * (20, 30, 45)[mesh]) for _ in range(2)]
     radii = [rng.uniform(0.5, 2.) for _ in range(2)]
@@ -141,11 +152,16 @@ def two_polygons(p, rng, name, mesh):
     clearance = facet * 10.**rng.uniform(-6., -1.)
     way = move_apart(lambda way: between(first, second(way)), clearance,
                      1.5 * sum(radii))
+    come, steps = (coming(rng, along, (-along[1], along[0]), facet) if comes
+                   else ((0., 0.), 1))
+    at = [way * a - c for a, c in zip(along, come)]
     p.write(f"{name}-a2.inp", ring(first, (0., 0.)))
-    p.write(f"{name}-b2.inp", ring(second(way), [way * a for a in along]))
+    p.write(f"{name}-b2.inp", ring(
+        [(x - come[0], y - come[1]) for x, y in second(way)], at))
     return scene(p, f"{name}.prm", 2,
-                 [body(1, f"{name}-a2.inp"), body(2, f"{name}-b2.inp")],
-                 ["Secondary = 1: 3", "Primary = 2: 3"]), clearance / facet
+                 [body(1, f"{name}-a2.inp"), body(2, f"{name}-b2.inp", come)],
+                 ["Secondary = 1: 3", "Primary = 2: 3"],
+                 steps=steps), clearance / facet
 
 
 def polygon_and_disc(p, rng, name, mesh):
@@ -168,7 +184,7 @@ def polygon_and_disc(p, rng, name, mesh):
                  ["Secondary = 1: 3", "Obstacle = 1"], 1), clearance / facet
 
 
-def ball_and_block(p, rng, name, mesh):
+def ball_and_block(p, rng, name, mesh, comes=False):
     """A turned ball of flat-sided facets above a block: no point of it is lower
     than its lowest corner."""
     n, cells = (3, 4, 6)[mesh], (5, 9, 13)[mesh]
@@ -177,12 +193,16 @@ def ball_and_block(p, rng, name, mesh):
     nodes, items = shell(n, rotation(rng))
     shift = (rng.uniform(-.5, .5), rng.uniform(-.5, .5),
              clearance - min(x[2] for x in nodes))
-    p.write(f"{name}-b3.inp", ucd([[c + s for c, s in zip(x, shift)]
-                                   for x in nodes], items))
+    come, steps = (coming(rng, (0., 0., 1.), (0.6, 0.8, 0.), facet) if comes
+                   else ((0., 0., 0.), 1))
+    p.write(f"{name}-b3.inp", ucd(
+        [[x + s - c for x, s, c in zip(node, shift, come)]
+         for node in nodes], items))
     return scene(p, f"{name}.prm", 3, [
         block(1, f"{cells}, {cells}, 2 : -1.5, -1.5, -0.5 : 1.5, 1.5, 0 : true",
-              "4: 0, 0, 0"), body(2, f"{name}-b3.inp")],
-        ["Secondary = 1: 5", "Primary = 2: 3"]), clearance / facet
+              "4: 0, 0, 0"), body(2, f"{name}-b3.inp", come)],
+        ["Secondary = 1: 5", "Primary = 2: 3"],
+        steps=steps), clearance / facet
 
 
 def sphere_and_block(p, rng, name, mesh):
@@ -212,3 +232,17 @@ def make(p, seed):
     mesh = seed // len(KINDS) % 3
     file, clearance = kind(p, random.Random(seed), f"apart-{seed}", mesh)
     return file, kind.__name__, clearance
+
+
+def make_coming(p, seed):
+    """The same of two bodies one of which comes there, by a translation that
+    moves all of it."""
+    kind = KINDS[seed % 2]
+    mesh = seed // 2 % 3
+    file, clearance = kind(p, random.Random(seed), f"coming-{seed}", mesh, True)
+    return file, kind.__name__, clearance
+
+
+LARGE = {"small strain": ["Method/Sliding=large"],
+         "large strain": ["Body 1/Material=neo-hooke",
+                          "Body 2/Material=neo-hooke"]}

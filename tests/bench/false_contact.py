@@ -3,7 +3,8 @@
 """Forces between bodies that do not touch: none should have one.
 
 Prints, for each kind of scene, in how many of them there is a force, or no
-answer, and the largest clearance of these, divided by the length of a facet.
+answer, and the largest clearance of these, divided by the length of a facet;
+and the same of bodies of which one comes there, with points that follow.
 
     tests/bench/false_contact.py build/release/abut_served [600 [NAME=VALUE ...]]
 """
@@ -36,21 +37,29 @@ def is_right(abut, folder, file, words):
             "contact_force"] == 0.
 
 
+def count(abut, make, n, words, title=""):
+    number, wrong, largest = {}, {}, {}
+    for seed in range(n):
+        with tempfile.TemporaryDirectory(prefix="abut-bench-") as folder:
+            file, kind, clearance = make(Folder(folder), seed)
+            number[kind] = number.get(kind, 0) + 1
+            if not is_right(abut, folder, file, words):
+                wrong[kind] = wrong.get(kind, 0) + 1
+                largest[kind] = max(largest.get(kind, 0.), clearance)
+    for kind in number:
+        print(f"{kind}{title}: {number[kind]} scenes, {wrong.get(kind, 0)} "
+              f"wrong, clearances up to {largest.get(kind, 0.):.2g}",
+              flush=True)
+
+
 def main():
     abut = Served(sys.argv[1])
     n = int(sys.argv[2]) if len(sys.argv) > 2 else 600
     words = set_words(sys.argv[3:])
-    count, wrong, largest = {}, {}, {}
-    for seed in range(n):
-        with tempfile.TemporaryDirectory(prefix="abut-bench-") as folder:
-            file, kind, clearance = apart_scenes.make(Folder(folder), seed)
-            count[kind] = count.get(kind, 0) + 1
-            if not is_right(abut, folder, file, words):
-                wrong[kind] = wrong.get(kind, 0) + 1
-                largest[kind] = max(largest.get(kind, 0.), clearance)
-    for kind, number in count.items():
-        print(f"{kind}: {number} scenes, {wrong.get(kind, 0)} wrong, "
-              f"clearances up to {largest.get(kind, 0.):.2g}", flush=True)
+    count(abut, apart_scenes.make, n, words)
+    for strain, settings in apart_scenes.LARGE.items():
+        count(abut, apart_scenes.make_coming, n // 4,
+              set_words(settings) + words, f" that comes, {strain}")
 
 
 if __name__ == "__main__":

@@ -108,6 +108,7 @@ class SolidJudge:
         self.volume = None
         for pair in self.pairs:
             self.penetration(pair)
+            self.touch(pair)
             self.tension(pair)
             self.sides(pair)
         self.pair_forces()
@@ -616,6 +617,64 @@ class SolidJudge:
         if abs(along) < 0.7 * distance:
             return 0., None
         return -along, partner
+
+    def touch(self, pair):
+        """Where there is a force, the surfaces touch somewhere."""
+        name = f"clearance of pair {pair.number}"
+        why = ("it is tied or adhesive"
+               if pair.tied or self.method in ADHESIVE else
+               "its gaps are no distances" if not pair.mesh_gap else
+               "steps in time have impulses" if in_motion(self.scene) else
+               "the run says that gaps are off"
+               if says(self.summary, "ABUT-F36") else
+               "the bodies do not touch" if self.has_left() else None)
+        if why:
+            self.findings.leave(name, why)
+            return
+        force = norm(self.summary[f"pair_{pair.number}_force"])
+        if force <= 1e-8 * max(map(norm, self.reaction)) + self.round_off():
+            return
+        limit = THRESHOLDS["clearance"]
+        clearance, size, chord = min(self.clearances(pair), default=(0., 1., 0.))
+        # what rows leave that are linear where surfaces slide on each other
+        slip = self.summary.get(f"pair_{pair.number}_slip") or 0.
+        told = self.summary.get(f"pair_{pair.number}_gap_error") or 0.
+        follows = self.scene.get("Method/Sliding", "auto") == "large" or (
+            self.large and self.scene.get("Method/Sliding", "auto") == "auto")
+        self.findings.check(
+            name, clearance, limit.value * size
+            + of_gaps(self.scene, self.summary, min(self.largest, size)) + told
+            + (0. if follows else slip * (slip + 8 * chord) / size)
+            + 1e-9 * self.nodes.extent, limit.reason)
+
+    def clearances(self, pair):
+        """How far nodes of both sides, and samples of the secondary, are from
+        the other one, with the sizes of facets and chord heights."""
+        secondary = Pair.facets(pair.secondary, self.facets)
+        if pair.obstacle:
+            obstacle = self.obstacle(pair)
+            for facet in secondary:
+                for x in facet.deformed + [facet.at(place)
+                                           for place in facet.samples()]:
+                    yield (obstacle.clearance(x, pair.gap), facet.size,
+                           facet.chord)
+            return
+        primary = Pair.facets(pair.primary, self.facets)
+        for mine, other in ((secondary, primary), (primary, secondary)):
+            tree = Tree([p for f in other for p in f.pieces(True)])
+            for facet in mine:
+                for place in facet.node_places() + (
+                        facet.samples() if mine is secondary else []):
+                    x = facet.at(place)
+                    distance, y, normal, partner = tree.nearest(
+                        x, facet.normal_at(place))
+                    if partner is None:
+                        continue
+                    # a far side of a body faces it, too
+                    behind = (dot(sub(x, y), normal) < 0.
+                              and distance < partner.size)
+                    yield ((-distance if behind else distance) + pair.gap,
+                           facet.size, max(facet.chord, partner.chord))
 
     def tension(self, pair):
         if pair.tied or self.method in ADHESIVE:

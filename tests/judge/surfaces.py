@@ -71,6 +71,14 @@ class Facet:
         return [((i + 0.5) / 4, (k + 0.5) / 4)
                 for i in range(4) for k in range(4)]
 
+    def node_places(self):
+        """Places of its nodes."""
+        n = self.degree + 1
+        line = [i / self.degree for i in range(n)]
+        if self.dim == 1:
+            return [(x,) for x in line]
+        return [(x, y) for y in line for x in line]
+
     def pieces(self, deformed):
         """Flat parts of it with their normals outwards."""
         n = 2**self.degree if self.dim == 2 else 1 + 7 * (self.degree - 1)

@@ -41,6 +41,9 @@ THRESHOLDS = {
     "complementarity": Threshold(
         1e-3, "of a facet, mean gap under pressure beside what the law allows: "
         "there is no force across a gap"),
+    "clearance": Threshold(
+        1e-3, "of a facet, beside what the law leaves and sliding: where there is "
+        "a force, the surfaces touch somewhere"),
     "energy": Threshold(
         1e-6, "of the sum of magnitudes of the works: twice the stored energy "
         "is the work of loads and supports, minus that on the initial gaps; "
