@@ -142,8 +142,8 @@ namespace abut::shim
             low[i] = std::min(low[i], vertex[d]);
             high[i] = std::min(high[i], -vertex[d]);
           }
-    MPI::min(low, dof_handler.get_communicator(), low);
-    MPI::min(high, dof_handler.get_communicator(), high);
+    MPI::min(low, versions::communicator(dof_handler), low);
+    MPI::min(high, versions::communicator(dof_handler), high);
     double least = INFINITY;
     for (std::size_t i = 0; i < low.size(); ++i)
       if (is_meant[i / dim] != 0)

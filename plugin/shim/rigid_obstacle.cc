@@ -33,6 +33,11 @@ namespace abut
     template <int dim> class HostFunction
     {
     public:
+      explicit HostFunction(const bool has_derivative = false)
+          : has_derivative(has_derivative)
+      {
+      }
+
       virtual ~HostFunction() = default;
 
       virtual void set_time(double time) = 0;
@@ -73,11 +78,7 @@ namespace abut
         }
       }
 
-      virtual bool has_derivative() const
-      {
-        return false;
-      }
-
+      const bool has_derivative;
       /** What the last evaluation threw, or null. */
       std::exception_ptr thrown;
 
@@ -127,18 +128,13 @@ namespace abut
     {
     public:
       explicit HeightFunction(const HeightObstacle<dim> &parameters)
-          : parameters(parameters)
+          : HostFunction<dim>(parameters.along_axis), parameters(parameters)
       {
       }
 
       void set_time(const double time) override
       {
         parameters.height->set_time(time);
-      }
-
-      bool has_derivative() const override
-      {
-        return parameters.along_axis;
       }
 
     protected:
@@ -247,7 +243,7 @@ namespace abut
       data.user = function.get();
       data.evaluate = &HostFunction<dim>::evaluate;
       data.hollow = hollow;
-      if (function->has_derivative())
+      if (function->has_derivative)
         data.derivative = &HostFunction<dim>::derive;
       abut_obstacle *made = nullptr;
       shim::check(context.get(),

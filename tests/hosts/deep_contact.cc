@@ -167,9 +167,8 @@ namespace
     Tensor<1, dim> at(const double x, const double y) const
     {
       Tensor<1, dim> found;
-      std::map<types::global_dof_index, Point<dim>> points;
-      DoFTools::map_dofs_to_support_points(mapping, dofs, points);
-      for (const auto &[dof, point] : points)
+      for (const auto &[dof, point] :
+           abut::versions::support_points(mapping, dofs))
         if (dofs.locally_owned_dofs().is_element(dof)
             && std::abs(point[0] - x) + std::abs(point[1] - y) < 1e-12
             && (dim == 2 || std::abs(point[dim - 1]) < 1e-12))

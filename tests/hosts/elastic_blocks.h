@@ -189,8 +189,7 @@ namespace abut::hosts
         const Tensor<1, dim> &displacement = displacements_[side];
         dealii::VectorTools::interpolate_boundary_values(
             mapping, dof_handler, side,
-            dealii::Functions::ConstantFunction<dim>(displacement.begin_raw(),
-                                                     dim),
+            dealii::Functions::ConstantFunction<dim>(&displacement[0], dim),
             constraints);
       }
       constraints.close();

@@ -126,12 +126,11 @@ namespace abut::hosts
     la::Vector uniform(const double lower, const double upper) const
     {
       la::Vector result(u);
-      std::map<dealii::types::global_dof_index, dealii::Point<2>> points;
-      dealii::DoFTools::map_dofs_to_support_points(mapping_, dof_handler_,
-                                                   points);
+      const auto points =
+          abut::versions::support_points(mapping_, dof_handler_);
       for (const auto dof : owned_)
       {
-        const double y = points[dof][1];
+        const double y = points.at(dof)[1];
         if (sideways_.is_element(dof))
           result(dof) = 0.;
         else

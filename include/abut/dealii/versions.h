@@ -10,8 +10,11 @@
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/index_set.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include <map>
 #include <vector>
 
 #if DEAL_II_VERSION_GTE(9, 7, 0)
@@ -50,11 +53,26 @@ namespace abut::versions
   inline std::vector<dealii::types::global_dof_index>
   indices(const dealii::IndexSet &set)
   {
-#if DEAL_II_VERSION_GTE(9, 6, 0)
+#if DEAL_II_VERSION_GTE(9, 5, 0)
     return set.get_index_vector();
 #else
     std::vector<dealii::types::global_dof_index> result;
     set.fill_index_vector(result);
+    return result;
+#endif
+  }
+
+  /** Support points of the unknowns that this rank knows. */
+  template <int dim>
+  std::map<dealii::types::global_dof_index, dealii::Point<dim>>
+  support_points(const dealii::Mapping<dim> &mapping,
+                 const dealii::DoFHandler<dim> &dof_handler)
+  {
+#if DEAL_II_VERSION_GTE(9, 5, 0)
+    return dealii::DoFTools::map_dofs_to_support_points(mapping, dof_handler);
+#else
+    std::map<dealii::types::global_dof_index, dealii::Point<dim>> result;
+    dealii::DoFTools::map_dofs_to_support_points(mapping, dof_handler, result);
     return result;
 #endif
   }

@@ -38,7 +38,7 @@ namespace abut::app
                      && size > least_digits * distance;
       const double shortest = cell->minimum_vertex_distance();
       const bool is_outlier = shortest < least_digits * size;
-      for (const double form : forms)
+      for (const auto &form : forms)
         is_good = is_good && form > -round_off * measure;
       if (is_good && !is_outlier)
         continue;

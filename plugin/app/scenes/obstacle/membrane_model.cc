@@ -11,6 +11,8 @@
 #include "app/scenes/automatic_law.h"
 #include "membrane_report.h"
 
+#include <abut/dealii/versions.h>
+
 #include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
@@ -268,9 +270,8 @@ namespace abut::app
   {
     la::Vector gap = run.contact.gap();
     const la::Vector status = run.contact.status();
-    std::map<dealii::types::global_dof_index, dealii::Point<dim>> points;
-    dealii::DoFTools::map_dofs_to_support_points(membrane.mapping,
-                                                 membrane.dof_handler, points);
+    const auto points =
+        versions::support_points(membrane.mapping, membrane.dof_handler);
     for (const auto dof : membrane.dof_handler.locally_owned_dofs())
     {
       if (status(dof) > -0.5)
@@ -447,9 +448,8 @@ namespace abut::app
   typename MembraneModel<dim>::Heights MembraneModel<dim>::heights() const
   {
     const dealii::IndexSet &owned = membrane.dof_handler.locally_owned_dofs();
-    std::map<dealii::types::global_dof_index, dealii::Point<dim>> places;
-    dealii::DoFTools::map_dofs_to_support_points(membrane.mapping,
-                                                 membrane.dof_handler, places);
+    const auto places =
+        versions::support_points(membrane.mapping, membrane.dof_handler);
     dealii::IndexSet touching = owned;
     if (!contact_ids.empty())
       touching = dealii::DoFTools::extract_boundary_dofs(

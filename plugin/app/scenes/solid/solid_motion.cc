@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What bodies have of their own when they move: pairs of surfaces.
 #include "app/input/short_number.h"
+#include "app/physics/components.h"
 #include "solid_model.h"
 
 #include <abut/dealii/coded.h>
@@ -14,12 +15,6 @@ namespace abut::app
     /** How far surfaces in contact may go in a step, whose points are those of
      * its beginning: parts of a facet, and radian. */
     constexpr double largest_slip = 0.5, largest_turn = 5. * M_PI / 180.;
-
-    template <int dim>
-    std::vector<double> components(const dealii::Tensor<1, dim> &vector)
-    {
-      return {vector.begin_raw(), vector.end_raw()};
-    }
   } // namespace
 
   template <int dim> MotionWords SolidModel<dim>::motion_words() const

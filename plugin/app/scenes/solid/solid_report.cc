@@ -4,6 +4,7 @@
 #include "app/input/short_number.h"
 #include "app/mesh/boundary_parts.h"
 #include "app/mesh/nearest_node.h"
+#include "app/physics/components.h"
 #include "app/physics/volumetric_locking.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
@@ -82,10 +83,8 @@ namespace abut::app
           nearest_node(elasticity.mapping, elasticity.dof_handler, displacement,
                        point.body, point.place);
       const std::string key = "point_" + std::to_string(++number);
-      report.set(key, std::vector<double>(node.value.begin_raw(),
-                                          node.value.end_raw()));
-      report.set(key + "_node", std::vector<double>(node.position.begin_raw(),
-                                                    node.position.end_raw()));
+      report.set(key, components(node.value));
+      report.set(key + "_node", components(node.position));
     }
   }
 
@@ -217,8 +216,6 @@ namespace abut::app
   template <int dim>
   std::pair<double, double> SolidReport<dim>::report_pairs() const
   {
-    const auto vector = [](const auto &tensor)
-    { return std::vector<double>(tensor.begin_raw(), tensor.end_raw()); };
     unsigned int number = 0;
     double force_imbalance = 0., moment_imbalance = 0.;
     const bool is_large = model.has_large_strain();
@@ -230,10 +227,10 @@ namespace abut::app
       report.set(key + "_active", pair.n_active);
       report.set(key + "_covered_area", pair.covered_area);
       report.set(key + "_contact_area", pair.contact_area);
-      report.set(key + "_force", vector(pair.secondary_force));
-      report.set(key + "_moment", vector(is_large ? pair.present_moment
-                                                  : pair.secondary_moment));
-      report.set(key + "_primary_force", vector(pair.primary_force));
+      report.set(key + "_force", components(pair.secondary_force));
+      report.set(key + "_moment", components(is_large ? pair.present_moment
+                                                      : pair.secondary_moment));
+      report.set(key + "_primary_force", components(pair.primary_force));
       report.set(key + "_initial_gap_work", pair.initial_gap_work);
       report.set(key + "_pressure", pair.pressure);
       report.set(key + "_least_pressure", pair.least_pressure);
@@ -248,15 +245,15 @@ namespace abut::app
       report.set(key + "_gap_error", pair.gap_error);
       report.set(key + "_turn", pair.turn);
       report.set(key + "_turned_force",
-                 vector(dealii::Tensor<1, dim>(pair.secondary_force
-                                               + pair.turned_force)));
+                 components(dealii::Tensor<1, dim>(pair.secondary_force
+                                                   + pair.turned_force)));
       if (pairs.pairs().at(number - 1).friction != nullptr)
       {
         report.set(key + "_slipping", pair.n_slipping);
         report.set(key + "_prescribed_nodes", pair.n_prescribed);
         report.set(key + "_normal_force", pair.normal_force);
         report.set(key + "_friction_force", pair.friction_force);
-        report.set(key + "_friction", vector(pair.secondary_friction));
+        report.set(key + "_friction", components(pair.secondary_friction));
         report.set(key + "_friction_ratio",
                    pair.normal_force > 0.
                        ? pair.secondary_friction.norm() / pair.normal_force
@@ -325,10 +322,8 @@ namespace abut::app
   template <int dim> void SolidReport<dim>::report_driven() const
   {
     const DrivenObstacles<dim> &driven = model.driven;
-    const auto set = [&](const std::string &key, const auto &vector) {
-      report.set(key,
-                 std::vector<double>(vector.begin_raw(), vector.end_raw()));
-    };
+    const auto set = [&](const std::string &key, const auto &vector)
+    { report.set(key, components(vector)); };
     for (std::size_t o = 0; o < parameters.obstacles.size(); ++o)
     {
       if (!driven.is_driven(o))
