@@ -580,6 +580,14 @@ namespace abut
     virtual la::Vector copy_of(const la::VectorView &vector) const;
 
     /** examine() with the address of the residual, which may be null. */
+    ContactExamination examine(const la::VectorView &displacement,
+                               const la::Vector *residual,
+                               const bool allow_large_strain = false)
+    {
+      return examine<la::Vector>(displacement, residual, allow_large_strain);
+    }
+
+    /** The same for a residual of another type. */
     template <typename V>
     ContactExamination examine(const la::VectorView &displacement,
                                const V *residual,
