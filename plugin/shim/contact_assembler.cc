@@ -486,10 +486,12 @@ namespace abut
         i.take("length_scale()", "displacement", given_displacement);
     const double length = i.length_scale(displacement);
     // Obstacles may come to bodies that rest.
-    return length == 0. && i.surfaces != nullptr
-                   && (i.surfaces->has_steps() || i.moves())
-               ? i.surfaces->facet_size()
-               : length;
+    const bool may_come = i.surfaces != nullptr
+                          && (i.surfaces->has_steps()
+                              || std::any_of(i.pairs.begin(), i.pairs.end(),
+                                             [](const ContactPair<dim> &pair)
+                                             { return pair.may_be_apart; }));
+    return length == 0. && may_come ? i.surfaces->facet_size() : length;
   }
 
   template <int dim>

@@ -343,9 +343,9 @@ namespace abut::shim
       const double tolerance, std::vector<Penetration<dim>> &missed) const
   {
     const Pair &pair = pairs_[p];
-    // Where points move, those on straight ways round a corner are no failure:
-    // only what comes out on the far side is.
-    if (pair.moves && pair.data.may_be_apart && pair.data.obstacle)
+    // Where points do not step, those on straight ways round a corner are no
+    // failure: only what comes out on the far side is.
+    if (!pair.steps && pair.data.may_be_apart && pair.data.obstacle)
       check_passage_of_obstacle(p, held, committed, present, tolerance, missed);
     if (!pair.steps || present_.empty())
       return;
