@@ -18,7 +18,6 @@ import csv
 import fnmatch
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
@@ -67,10 +66,8 @@ def figures(abut, case, ranks):
     with tempfile.TemporaryDirectory(prefix="abut-same-") as name:
         folder = pathlib.Path(name)
         output = folder / "output"
-        words = run_scene.command_line(abut, case, ranks, folder, output)
-        done = subprocess.run(words, capture_output=True, text=True,
-                              env=run_scene.environment(), cwd=folder,
-                              timeout=run_scene.RUN_SECONDS)
+        words = run_scene.command_line(case, folder, output)
+        done = run_scene.Program(abut).run(words, ranks, folder)
         result = {"exit": done.returncode}
         if (output / "summary.json").is_file():
             summary = json.loads((output / "summary.json").read_text())
