@@ -22,6 +22,7 @@ namespace abut::la
   class HostMatrix
   {
   public:
+    /** Number of a row or column. */
     using Index = dealii::types::global_dof_index;
 
     virtual ~HostMatrix() = default;
@@ -105,6 +106,7 @@ namespace abut::la
     static_assert(std::is_same<typename M::value_type, double>::value,
                   "Abut takes matrices of double values, real ones.");
 
+    /** Of a matrix that must stay where it is. O(rows of blocks). */
     explicit HostMatrixOf(const M &matrix) : matrix_(matrix)
     {
       rows_.set_size(m());

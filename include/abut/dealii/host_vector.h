@@ -124,11 +124,12 @@ namespace abut::la
     /** Values of this rank that are next to each other. */
     struct Piece
     {
-      const double *begin;
-      std::size_t n;
+      const double *begin;        ///< first of them
+      std::size_t n;              ///< their number
       std::vector<double> values; ///< where the host's cannot be pointed at
     };
 
+    /** Note the pieces of a vector, block by block. */
     template <typename V> void append(const V &vector)
     {
       if constexpr (internal::has_blocks<V>)
@@ -154,6 +155,7 @@ namespace abut::la
       }
     }
 
+    /** Copy the entries @p owned of a vector that cannot be pointed at. */
     template <typename V>
     static void read(const V &vector, const dealii::IndexSet &owned,
                      std::vector<double> &values)
@@ -162,12 +164,12 @@ namespace abut::la
         values[k] = vector(owned.nth_index_in_set(k));
     }
 
-    const Vector *native_ = nullptr;
-    dealii::types::global_dof_index size_ = 0;
-    dealii::IndexSet owned_;
-    bool has_ghosts_ = false;
-    std::vector<Piece> pieces_; ///< in the order of unknowns
-    mutable std::unique_ptr<Vector> copy_;
+    const Vector *native_ = nullptr;           ///< null: of another type
+    dealii::types::global_dof_index size_ = 0; ///< of another type
+    dealii::IndexSet owned_;                   ///< of another type
+    bool has_ghosts_ = false;                  ///< of another type
+    std::vector<Piece> pieces_;                ///< in the order of unknowns
+    mutable std::unique_ptr<Vector> copy_;     ///< made by copy()
   };
 
   /** A host's vector that is written, too: as it is left when the view goes. */
