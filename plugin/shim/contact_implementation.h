@@ -244,7 +244,7 @@ namespace abut
     std::optional<solve::Stiffness> reference; ///< none: the present one
     /** Of hosts' matrices of other types: the present one, and reference. */
     mutable shim::HostMatrixCopy copied, copied_reference;
-    double given_length = 0.;                  ///< 0: none
+    double given_length = 0.; ///< 0: none
 
     /** Before all that is made with it, and so destroyed after it. */
     shim::Handle<abut_context> context = shim::create_context();
