@@ -246,14 +246,7 @@ namespace abut::shim
       checks_.push_back(result);
       return;
     }
-    if (result.n_rows == 0 && is_prescribed(pair))
-      result.warnings.push_back(
-          coded(ABUT_FAILURE_HELD_NODES,
-                "supports prescribe the displacement along the normal of all "
-                "nodes of the secondary surface, so that contact cannot move "
-                "them. Exchange the two sides, or leave some of the nodes free "
-                "along the normal."));
-    else if (result.n_rows == 0 && pair.data.obstacle)
+    if (result.n_rows == 0 && pair.data.obstacle)
     {
       const std::string side = wrong_side(pairs_[number]);
       result.warnings.push_back(coded(
@@ -266,6 +259,16 @@ namespace abut::shim
     }
     else if (result.n_rows == 0)
       result.warnings.push_back(explain_no_rows(number));
+    // Nodes that supports prescribe have no rows, whatever is near them.
+    if (result.n_rows == 0
+        && failure_of(result.warnings.back()) == ABUT_FAILURE_NO_PARTNER
+        && is_prescribed(pair))
+      result.warnings.back() =
+          coded(ABUT_FAILURE_HELD_NODES,
+                "supports prescribe the displacement along the normal of all "
+                "nodes of the secondary surface, so that contact cannot move "
+                "them. Exchange the two sides, or leave some of the nodes free "
+                "along the normal.");
     checks_.push_back(result);
     // Rigid obstacles may come nearer in later steps; the reference
     // configuration of bodies stays as it is.

@@ -318,12 +318,7 @@ namespace abut::app
     // What has mass floats in a step only if its inertia is lost in round-off.
     if (model.has_inertia()
         && abut::failure_of(result.explanation) == ABUT_FAILURE_FLOATING_BODY)
-      return coded(ABUT_FAILURE_FLOATING_BODY,
-                   "Inertia vanishes beside the stiffness, so that nothing "
-                   "holds what supports and contact leave free: mass over the "
-                   "square of the time step has no digits left there. Look at "
-                   "the units of Density, use a larger one or a shorter "
-                   "Time/Step, or support the bodies.");
+      return coded(ABUT_FAILURE_FLOATING_BODY, inertia_vanishes);
     switch (result.reason)
     {
     case NewtonReason::contact:

@@ -141,7 +141,14 @@ namespace abut::app
                    });
     std::vector<ContactFinding> &findings = examination.findings;
     for (ContactFinding &finding : findings)
+    {
       finding.text = model.with_names(finding.text);
+      if (model.has_inertia() && finding.failure == ABUT_FAILURE_FLOATING_BODY)
+      {
+        finding.text = inertia_vanishes;
+        finding.is_error = true;
+      }
+    }
     if (model.has_large_strain())
       findings.erase(std::remove_if(findings.begin(), findings.end(),
                                     [](const ContactFinding &finding) {
