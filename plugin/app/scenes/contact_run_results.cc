@@ -145,7 +145,7 @@ namespace abut::app
       finding.text = model.with_names(finding.text);
       if (model.has_inertia() && finding.failure == ABUT_FAILURE_FLOATING_BODY)
       {
-        finding.text = inertia_vanishes;
+        finding.text = coded(ABUT_FAILURE_FLOATING_BODY, inertia_vanishes);
         finding.is_error = true;
       }
     }
