@@ -459,7 +459,8 @@ namespace abut::shim
       pair.held_in_the_mean = MPI::max(pair.held_in_the_mean, communicator_);
     }
     missed = everywhere(missed, communicator_);
-    // Who meets on one side is told apart by the next find().
+    // The next find() splits a surface again where one of its sides has met
+    // itself.
     if (std::any_of(missed.begin(), missed.end(),
                     [](const Penetration<dim> &node)
                     { return node.same_side; }))

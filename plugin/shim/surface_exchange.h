@@ -78,8 +78,8 @@ namespace abut::shim
     }
 
     /** Split surfaces that touch themselves again, see SelfContact::renew().
-     * If sides change, facets have other ids, and the next gather() looks for
-     * what is near anew. Returns whether they do. Collective. */
+     * If sides change, facets have other ids, and the next gather() searches
+     * again for what is near. Returns whether they do. Collective. */
     bool renew_sides(const la::Vector &displacement, double near,
                      abut_context *context);
 

@@ -12,6 +12,17 @@ import tempfile
 
 from served import Served
 
+class Folder:
+    """A folder that scenes are written to."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+        return name
+
+
 def set_words(settings):
     """Words of the command line that set parameters: a dict by path, or a
     list of SECTION/NAME=VALUE."""

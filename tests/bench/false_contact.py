@@ -15,17 +15,8 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
 import apart_scenes  # noqa: E402
-from program import set_words  # noqa: E402
+from program import Folder, set_words  # noqa: E402
 from served import Served  # noqa: E402
-
-
-class Folder:
-    def __init__(self, folder):
-        self.folder = pathlib.Path(folder)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-        return name
 
 
 def is_right(abut, folder, file, words):

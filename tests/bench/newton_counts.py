@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
+from program import Folder  # noqa: E402
 from sliding_scenes import newton, press_and_slide  # noqa: E402
 
 WAYS = {"dual mortar": [], "mortar": ["Method/Discretisation=mortar"],
@@ -23,15 +24,6 @@ WAYS = {"dual mortar": [], "mortar": ["Method/Discretisation=mortar"],
 # Where each lasts: steps of .93 and 3.7 facets.
 SCENES = {"standard": (22, 5, {}), "hard, stiff die": (8, 2, {"hard": True}),
           "hard, soft die": (8, 2, {"hard": True, "die_young": 1})}
-
-
-class Folder:
-    def __init__(self, folder):
-        self.folder = pathlib.Path(folder)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-        return name
 
 
 def counts(abut, folder, n, scene, words):

@@ -14,6 +14,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
+from program import Folder  # noqa: E402
 from sliding_scenes import slide  # noqa: E402
 
 MU, LAMBDA = 1 / 2.6, 0.3 / (1.3 * 0.4)
@@ -41,17 +42,6 @@ def pressed(stretch):
     energy = (MU / 2 * (side**2 + stretch**2 + 1 - 3 - 2 * log_j)
               + LAMBDA / 2 * log_j**2)
     return force, 2 * energy
-
-
-class Folder:
-    """What sliding_scenes writes to."""
-
-    def __init__(self, folder):
-        self.folder = pathlib.Path(folder)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-        return name
 
 
 def main():

@@ -126,34 +126,47 @@ namespace
     unsigned int systems = 0;
   };
 
-  /** The lines of a host, the same for all types. */
   template <typename M, typename V>
-  Answer solve(const Problem &problem, const M &K, const V &rhs)
+  void find_residual(const Problem &problem, const M &K, const V &rhs,
+                     const V &u, V &R)
   {
-    ContactAssembler<dim> contact(MPI_COMM_WORLD);
-    problem.start(contact, false);
-    V u(rhs), R(rhs), du(rhs);
+    K.vmult(R, u);
+    R -= rhs;
+    problem.blocks.constraints.set_zero(R);
+  }
+
+  /** The lines of a host, the same for all types: from no displacement to
+   * @p u, with the products of @p K; @p tangent is what contact is given. */
+  template <typename M, typename Given, typename V>
+  void iterate(const Problem &problem, ContactAssembler<dim> &contact,
+               const M &K, Given &tangent, const V &rhs, V &u)
+  {
+    V R(rhs), du(rhs);
     la::copy(problem.blocks.start(), u);
     contact.detect(u);
     do
     {
-      K.vmult(R, u);
-      R -= rhs;
-      problem.blocks.constraints.set_zero(R);
-      contact.solve(K, R, du);
+      find_residual(problem, K, rhs, u, R);
+      contact.solve(tangent, R, du);
       u += du;
       problem.blocks.constraints.distribute(u);
     } while (contact.update(u));
     AssertThrow(contact.reason() == ABUT_REASON_CONVERGED,
                 dealii::ExcMessage(contact.explanation()));
-    V forces(rhs), pressure(rhs);
+  }
+
+  template <typename M, typename V>
+  Answer solve(const Problem &problem, const M &K, const V &rhs)
+  {
+    ContactAssembler<dim> contact(MPI_COMM_WORLD);
+    problem.start(contact, false);
+    V u(rhs), R(rhs), forces(rhs), pressure(rhs);
+    iterate(problem, contact, K, K, rhs, u);
+    find_residual(problem, K, rhs, u, R);
     forces = 0.;
     contact.add_contact_forces(forces);
     forces -= R;
-    // R is that before the last step.
-    K.vmult(R, u);
-    R -= rhs;
-    problem.blocks.constraints.set_zero(R);
+    note("contact forces", forces.l2_norm() / R.l2_norm(), 1e-10);
     note("balance", contact.imbalance(R), 1e-10);
     note("examination", contact.examine(u, &R).imbalance, 1e-10);
     la::copy(contact.pressure(), pressure);
@@ -171,13 +184,7 @@ namespace
     problem.start(contact, false);
     const V like(rhs);
     const HostProblem host = host_problem(
-        like,
-        [&](const V &u, V &R)
-        {
-          K.vmult(R, u);
-          R -= rhs;
-          problem.blocks.constraints.set_zero(R);
-        },
+        like, [&](const V &u, V &R) { find_residual(problem, K, rhs, u, R); },
         [&](const V &) -> const M & { return K; });
     ContactSolver<dim> solver(contact, problem.blocks.constraints, host);
     V u(rhs);
@@ -440,18 +447,8 @@ namespace
         });
     ContactAssembler<dim> contact(MPI_COMM_WORLD);
     problem.start(contact, false, SolverParameters::Linear::iterative);
-    Distributed u(rhs), R(rhs), du(rhs);
-    la::copy(problem.blocks.start(), u);
-    contact.detect(u);
-    do
-    {
-      problem.matrix.vmult(R, u);
-      R -= rhs;
-      problem.blocks.constraints.set_zero(R);
-      contact.solve(K, R, du);
-      u += du;
-      problem.blocks.constraints.distribute(u);
-    } while (contact.update(u));
+    Distributed u(rhs);
+    iterate(problem, contact, problem.matrix, K, rhs, u);
     note("products with distributed vectors",
          distance({contact.copy_of(la::VectorView(u)),
                    contact.pair_results()[0].secondary_force, 0},

@@ -524,7 +524,7 @@ namespace abut
     virtual void check_supports(const Tangent &tangent,
                                 const la::VectorView &residual = {}) const;
 
-    /** Search anew with a larger reach, for bodies without supports whose
+    /** Repeat the search with a larger reach, for bodies without supports whose
      * motion no row stops: ABUT-F12 and ABUT-F42 of an iteration. Pairs with a
      * reach of their own keep it. Does what detect() does with the states and
      * pressures of the last commit(), and returns true if there are more rows

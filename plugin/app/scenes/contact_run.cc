@@ -315,7 +315,6 @@ namespace abut::app
   template <int dim>
   std::string ContactRun<dim>::failure_of(const NewtonResult &result) const
   {
-    // What has mass floats in a step only if its inertia is lost in round-off.
     if (model.has_inertia()
         && abut::failure_of(result.explanation) == ABUT_FAILURE_FLOATING_BODY)
       return coded(ABUT_FAILURE_FLOATING_BODY, inertia_vanishes);

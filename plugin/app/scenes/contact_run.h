@@ -37,6 +37,14 @@ namespace abut::app
     template <class Archive> void serialize(Archive &archive, unsigned int);
 
   private:
+    /** What has mass floats in a step only if its inertia is lost in round-off.
+     */
+    static constexpr const char *inertia_vanishes =
+        "Inertia vanishes beside the stiffness, so that nothing holds what "
+        "supports and contact leave free: mass over the square of the time "
+        "step has no digits left there. Look at the units of Density, use a "
+        "larger one or a shorter Time/Step, or support the bodies.";
+
     void prepare();
     void setup_mesh();
 
@@ -133,12 +141,6 @@ namespace abut::app
     /** Rigid motions of bodies into the summary. */
     void report_motions();
     /** Look at the answer of the last mesh; whether it may be used. */
-    /** What has mass floats in a step only if its inertia is lost. */
-    static constexpr const char *inertia_vanishes =
-        "Inertia vanishes beside the stiffness, so that nothing holds what "
-        "supports and contact leave free: mass over the square of the time "
-        "step has no digits left there. Look at the units of Density, use a "
-        "larger one or a shorter Time/Step, or support the bodies.";
     bool examine();
     /** The same for works and energy, in linear statics without friction. */
     std::optional<ContactFinding> examine_works();

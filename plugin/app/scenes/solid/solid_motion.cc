@@ -67,8 +67,9 @@ namespace abut::app
             ABUT_FAILURE_NO_PARTNER,
             parameters.pairs[p].section
                 + ": in this time step its obstacle goes past the middle of "
-                  "what is in its way, or the other way round, and contact "
-                  "would be with its far side. It must not move by more than "
+                  "the body, or the body past the middle of the obstacle, and "
+                  "contact would be with the far side. It must not move by "
+                  "more than "
                   "half of what the thinner of the two is thick: make "
                   "Time/Step shorter, or let it move more slowly (its Motion, "
                   "its velocity, the forces on it).");
