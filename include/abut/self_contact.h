@@ -37,8 +37,9 @@ extern "C"
     /** [n_facets] sides so far, or NULL (default): they stay unless two facets
      * that face each other within @ref near are on one side. Then the surface
      * is split again, but only if the nearest of them are then twice as far
-     * apart, and farther than relative_reach. The nearest facets that were on different
-     * sides keep theirs, so that rows in contact stay on their nodes. */
+     * apart, and farther than relative_reach. The nearest facets that were on
+     * different sides keep theirs, so that rows in contact stay on their nodes.
+     */
     const uint8_t *previous;
     double near; /**< length >= 0; 0: facets that touch or overlap only */
   } abut_split_options;
