@@ -80,12 +80,13 @@ namespace abut
     if (!tangent.has_matrix())
       return {tangent, owned, communicator};
     const la::HostMatrix *const other = tangent.other();
+    const std::string name = "matrix given to " + call;
     if (other == nullptr)
     {
       check_size(call, "matrix", tangent.matrix().m());
+      shim::check_values(tangent.matrix(), name, communicator);
       return tangent.matrix();
     }
-    const std::string name = "matrix given to " + call;
     const bool is_block =
         other->m() != n_unknowns && other->m() == displacement_block();
     if (!is_block)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "host_matrix_copy.h"
 
+#include "agree.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -21,6 +23,20 @@ namespace abut::shim
                                      + std::to_string(first) + "."));
     }
 
+    void refuse_lacking(const Index row, const std::string &name,
+                        const MPI_Comm communicator)
+    {
+      refuse_row(row, name,
+                 "no entry on the diagonal, which eliminated rows need, too,",
+                 communicator);
+    }
+
+    void refuse_value(const Index row, const std::string &name,
+                      const MPI_Comm communicator)
+    {
+      refuse_row(row, name, "a value that is not finite", communicator);
+    }
+
     /** Of a row of @p matrix: global columns, and where their values are. */
     std::vector<std::pair<Index, int>> places_of_row(const la::Matrix &matrix,
                                                      const la::LocalRows &rows,
@@ -33,6 +49,32 @@ namespace abut::shim
       return result;
     }
   } // namespace
+
+  void check_values(const la::Matrix &matrix, const std::string &name,
+                    const MPI_Comm communicator)
+  {
+    la::LocalRows rows;
+    run_everywhere<dealii::ExcMessage>(communicator,
+                                       [&] { rows = la::local_rows(matrix); });
+    Index bad = dealii::numbers::invalid_dof_index;
+    Index lacking = dealii::numbers::invalid_dof_index;
+    for (int r = rows.n_rows - 1; r >= 0; --r)
+    {
+      double zero = 0.;
+      bool has_diagonal = false;
+      for (int k = rows.start[r]; k < rows.start[r + 1]; ++k)
+      {
+        zero += 0. * rows.value[k];
+        has_diagonal = has_diagonal || rows.column[k] == r;
+      }
+      if (zero != 0.)
+        bad = la::global_column(matrix, r);
+      if (!has_diagonal)
+        lacking = la::global_column(matrix, r);
+    }
+    refuse_lacking(lacking, name, communicator);
+    refuse_value(bad, name, communicator);
+  }
 
   void HostMatrixCopy::clear()
   {
@@ -64,9 +106,7 @@ namespace abut::shim
           && std::find(begin, end, row) == end)
         lacking = row;
     }
-    refuse_row(lacking, name,
-               "no entry on the diagonal, which eliminated rows need, too,",
-               communicator);
+    refuse_lacking(lacking, name, communicator);
     matrix_.clear();
     matrix_.reinit(owned, owned, pattern, communicator);
     const la::LocalRows rows = la::local_rows(matrix_);
@@ -116,7 +156,7 @@ namespace abut::shim
       build(host, name, owned, communicator);
       pass.fits = true;
     }
-    refuse_row(pass.row, name, "a value that is not finite", communicator);
+    refuse_value(pass.row, name, communicator);
     return matrix_;
   }
 } // namespace abut::shim

@@ -9,6 +9,13 @@
 
 namespace abut::shim
 {
+  /** Throw, on all ranks, if a value of @p matrix is not finite, naming the
+   * first row with one, and if a diagonal entry is missing. One pass over the
+   * entries. Collective.
+   * @param name of the matrix in messages */
+  void check_values(const la::Matrix &matrix, const std::string &name,
+                    MPI_Comm communicator);
+
   /** A matrix of Abut's type with the values of a host's, whose pattern is kept
    * while the host's is the same. */
   class HostMatrixCopy

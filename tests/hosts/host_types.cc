@@ -339,6 +339,36 @@ namespace
     compare_addition("BlockSparseMatrix", problem, K, rhs);
   }
 
+  /** A value of the native type that is not finite, on the last rank. */
+  void check_native()
+  {
+    const Problem problem(false, false);
+    ContactAssembler<dim> contact(MPI_COMM_WORLD);
+    problem.start(contact, false);
+    la::Vector u(problem.blocks.start()), du(problem.rhs);
+    contact.detect(u);
+    la::Matrix K;
+    K.reinit(problem.matrix);
+    K.copy_from(problem.matrix);
+    const global_dof_index last = K.m() - 1;
+    for (const double value : {std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::quiet_NaN()})
+    {
+      if (K.in_local_range(last))
+        K.set(last, last, value);
+      K.compress(dealii::VectorOperation::insert);
+      refuses("matrix given to solve() has a value that is not finite in row "
+                  + std::to_string(last),
+              [&] { contact.solve(K, problem.rhs, du); });
+    }
+    dealii::DynamicSparsityPattern pattern(K.m());
+    for (global_dof_index i = 0; i < K.m(); ++i)
+      pattern.add(i, i == last ? 0 : i);
+    la::Matrix lacking;
+    lacking.reinit(K.locally_owned_range_indices(), pattern, MPI_COMM_WORLD);
+    refuses("diagonal", [&] { contact.solve(lacking, problem.rhs, du); });
+  }
+
   /** An element with another field behind the displacement, of which the host
    * gives the displacement's block alone. */
   void check_displacement_block()
@@ -545,6 +575,7 @@ main(int argc, char **argv)
     check_blocks();
     check_displacement_block();
   }
+  check_native();
   check_distributed();
   check_operator();
 #ifdef DEAL_II_WITH_PETSC
