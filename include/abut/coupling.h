@@ -144,6 +144,11 @@ extern "C"
      * weight of a point is multiplied by 2 pi x (2D only; x >= 0 at all
      * nodes). Default false. */
     bool axisymmetric;
+    /** Dual mortar, where points stay: gaps are those at nodes, interpolated,
+     * which a convex primary does not make smaller (default true). False:
+     * weighted ones, whose derivatives the forces are, so that points made anew
+     * on surfaces that slide do no work. */
+    bool interpolated_gaps;
     /** Largest cosine of the angle between the two outward normals, in
      * [-1, 1]; default -0.17: within 80 degrees of opposite. */
     double normal_cosine;
@@ -167,6 +172,7 @@ extern "C"
                                            0,
                                            true,
                                            false,
+                                           true,
                                            -0.17,
                                            0.,
                                            abut_search_defaults()};

@@ -85,6 +85,8 @@ namespace abut
     {
       check_size(call, "matrix", tangent.matrix().m());
       shim::check_values(tangent.matrix(), name, communicator);
+      shim::check_eliminated(tangent.matrix(), *constraints, name,
+                             communicator);
       return tangent.matrix();
     }
     const bool is_block =
@@ -99,8 +101,10 @@ namespace abut
                              "over the ranks as the unknowns are. Types "
                              "without ranks need one rank, or a mesh and a "
                              "ContactAssembler of MPI_COMM_SELF."));
-    return (copy == nullptr ? copied : *copy)
-        .take(*other, name, owned, communicator);
+    const la::Matrix &taken = (copy == nullptr ? copied : *copy)
+                                  .take(*other, name, owned, communicator);
+    shim::check_eliminated(taken, *constraints, name, communicator);
+    return taken;
   }
 
   template <int dim>

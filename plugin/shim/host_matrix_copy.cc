@@ -76,6 +76,32 @@ namespace abut::shim
     refuse_value(bad, name, communicator);
   }
 
+  void check_eliminated(const la::Matrix &matrix,
+                        const dealii::AffineConstraints<double> &constraints,
+                        const std::string &name, const MPI_Comm communicator)
+  {
+    const double visible = 1e-10; // beside the diagonal
+    const la::LocalRows rows = la::local_rows(matrix);
+    Index bad = dealii::numbers::invalid_dof_index;
+    for (int r = rows.n_rows - 1; r >= 0; --r)
+    {
+      const Index row = la::global_column(matrix, r);
+      if (!constraints.is_constrained(row))
+        continue;
+      double diagonal = 0., other = 0.;
+      for (int k = rows.start[r]; k < rows.start[r + 1]; ++k)
+        (rows.column[k] == r ? diagonal : other) += std::abs(rows.value[k]);
+      if (other > visible * diagonal)
+        bad = row;
+    }
+    refuse_row(bad, name,
+               "entries beside the diagonal, although the constraints given to "
+               "reinit() eliminate it (assemble with "
+               "AffineConstraints::distribute_local_to_global(), or apply "
+               "boundary values to the matrix),",
+               communicator);
+  }
+
   void HostMatrixCopy::clear()
   {
     matrix_.clear();

@@ -4,6 +4,8 @@
 
 #include <abut/dealii/host_matrix.h>
 
+#include <deal.II/lac/affine_constraints.h>
+
 #include <string>
 #include <vector>
 
@@ -15,6 +17,14 @@ namespace abut::shim
    * @param name of the matrix in messages */
   void check_values(const la::Matrix &matrix, const std::string &name,
                     MPI_Comm communicator);
+
+  /** Throw, on all ranks, if a row that @p constraints eliminate has more than
+   * its diagonal entry, naming the first one: the matrix was assembled without
+   * them. O(eliminated rows). Collective.
+   * @param name of the matrix in messages */
+  void check_eliminated(const la::Matrix &matrix,
+                        const dealii::AffineConstraints<double> &constraints,
+                        const std::string &name, MPI_Comm communicator);
 
   /** A matrix of Abut's type with the values of a host's, whose pattern is kept
    * while the host's is the same. */

@@ -227,7 +227,9 @@ namespace abut
         : context(shim::create_context())
     {
       AssertThrow(shape.dimension == dim,
-                  dealii::ExcMessage("the shape is of another dimension"));
+                  dealii::ExcMessage(
+                      "shape.dimension is " + std::to_string(shape.dimension)
+                      + " in a RigidObstacle<" + std::to_string(dim) + ">"));
       abut_obstacle *made = nullptr;
       shim::check(context.get(),
                   abut_obstacle_create_shape(context.get(), &shape, &made));

@@ -198,11 +198,19 @@ namespace abut::shim
     if (data.obstacle && data.tied)
       refuse("a body cannot be tied to an obstacle; prescribe its displacement "
              "there instead.");
+    const auto refuse_side = [&](const std::string &side, const auto &ids)
+    {
+      std::string list;
+      for (const auto id : ids)
+        list += (list.empty() ? "" : ", ") + std::to_string(id);
+      refuse("no facet of the mesh has a boundary id of the " + side
+             + " surface ("
+             + (list.empty() ? "which has none; give it ids" : list) + ").");
+    };
     if (pair.secondary.everywhere.n_facets == 0)
-      refuse("no facet of the mesh has a boundary id of the secondary "
-             "surface.");
+      refuse_side("secondary", data.secondary);
     if (!data.obstacle && pair.primary.everywhere.n_facets == 0)
-      refuse("no facet of the mesh has a boundary id of the primary surface.");
+      refuse_side("primary", data.primary);
     for (const auto id : data.secondary)
       if (data.primary.count(id) != 0)
         refuse(
@@ -225,6 +233,7 @@ namespace abut::shim
         static_cast<std::int32_t>(settings_.method.quadrature_degree);
     options.segments = settings_.method.segments;
     options.axisymmetric = settings_.axisymmetric;
+    options.interpolated_gaps = !pair.steps || pair.data.obstacle != nullptr;
     options.normal_cosine = settings_.search.detection.normal_cosine;
     options.search = settings_.search.detection.search;
     options.search.reach = std::max(options.search.reach, pair.data.reach);

@@ -31,6 +31,18 @@ void loop(const Mapping<dim> &mapping, const DoFHandler<dim> &dof_handler,
 @0@
 }
 
+void linear(const la::Matrix &K, const la::Vector &f,
+            const AffineConstraints<double> &constraints, const la::Vector &u,
+            la::Vector &R)
+{
+@1@
+}
+
+template <int dim> void wall_beside(abut::ContactPair<dim> &pair)
+{
+@2@
+}
+
 template <int dim>
 void newton(const Mapping<dim> &mapping, const DoFHandler<dim> &dof_handler,
             const AffineConstraints<double> &constraints, la::Vector &u,
@@ -38,7 +50,7 @@ void newton(const Mapping<dim> &mapping, const DoFHandler<dim> &dof_handler,
 {
   const auto assemble_residual = [](const la::Vector &, la::Vector &) {};
   const auto assemble_tangent = [](const la::Vector &) {};
-@1@
+@3@
 }
 
 template <int dim>
@@ -51,28 +63,28 @@ void pieces(abut::ContactAssembler<dim> &contact, la::Vector &u, la::Matrix &K,
   const auto assemble_residual = [](const la::Vector &, la::Vector &) {};
   const auto norm = [](const la::Vector &a, const la::Vector &b)
   { return a.l2_norm() - b.l2_norm(); };
-@2@
+@4@
 }
 
-@3@
+@5@
 
 template <int dim>
 void without_matrix(abut::ContactAssembler<dim> &contact, YourOperator &K,
                     la::Vector &R, la::Vector &du, abut::HostProblem &problem)
 {
-@4@
+@6@
 }
 
 template <int dim>
 void loaded(ParameterHandler &prm, abut::ContactPair<dim> &pair,
-            const abut_obstacle_shape &shape)
+            const abut_obstacle_shape &wall)
 {
-@5@
+@7@
 }
 
 template <int dim> void membrane(abut::ContactAssembler<dim> &contact)
 {
-@6@
+@8@
 }
 """
 TAIL = """
@@ -80,6 +92,7 @@ template void loop(const Mapping<2> &, const DoFHandler<2> &,
                    const AffineConstraints<double> &, la::Vector &,
                    la::Matrix &, la::Vector &, la::Vector &,
                    const std::function<void(const la::Vector &)> &);
+template void wall_beside(abut::ContactPair<2> &);
 template void newton(const Mapping<3> &, const DoFHandler<3> &,
                      const AffineConstraints<double> &, la::Vector &,
                      la::Matrix &, abut::ContactAssembler<3> &);
@@ -102,8 +115,7 @@ def main():
     text = HEAD.replace("@INCLUDES@", "".join(
         line for block in blocks for line in include.findall(block)))
     for number, block in enumerate(blocks):
-        block = include.sub("", block).replace("make_obstacle(...)",
-                                               "make_obstacle(shape)")
+        block = include.sub("", block)
         text = text.replace(f"@{number}@", block)
     output.write_text(text + TAIL)
 

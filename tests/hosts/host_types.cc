@@ -307,7 +307,32 @@ namespace
     K.set(3, 3, std::numeric_limits<double>::quiet_NaN());
     refuses("matrix given to solve()", [&] { contact.solve(K, rhs, du); });
     K.set(3, 3, value);
-    const Serial longer(rhs.size() + 1);
+    const Serial longer(rhs.size() + 1), none;
+    Serial nothing;
+    refuses("increment given to solve() is of 0 unknowns",
+            [&] { contact.solve(K, rhs, nothing); });
+    refuses("residual given to solve() is of 0 unknowns",
+            [&] { contact.solve(K, none, du); });
+    refuses("displacement given to detect()", [&] { contact.detect(none); });
+    const Sparse empty;
+    refuses("matrix given to solve() is of 0 unknowns",
+            [&] { contact.solve(empty, rhs, du); });
+    // Boundary values that are not in the matrix.
+    const auto eliminated =
+        problem.blocks.constraints.get_lines().begin()->index;
+    dealii::DynamicSparsityPattern wide(rhs.size());
+    for (const auto &entry : problem.pattern)
+      wide.add(entry.row(), entry.column());
+    wide.add(eliminated, (eliminated + 1) % rhs.size());
+    dealii::SparsityPattern compressed;
+    compressed.copy_from(wide);
+    Sparse coupled(compressed);
+    problem.copy_values(coupled);
+    coupled.set(eliminated, (eliminated + 1) % rhs.size(), 1.);
+    refuses("has entries beside the diagonal",
+            [&] { contact.solve(coupled, rhs, du); });
+    refuses("in row " + std::to_string(eliminated) + ".",
+            [&] { contact.solve(coupled, rhs, du); });
     refuses("residual given to solve()", [&] { contact.solve(K, longer, du); });
     refuses("displacement given to detect()", [&] { contact.detect(longer); });
     dealii::SparsityPattern other(rhs.size() + 1, rhs.size() + 1, 1);

@@ -160,6 +160,10 @@ namespace abut
                         const dealii::DoFHandler<dim> &dof_handler,
                         const dealii::AffineConstraints<double> &constraints);
 
+    /** A mapping that does not live on. */
+    void reinit(const dealii::Mapping<dim> &&, const dealii::DoFHandler<dim> &,
+                const dealii::AffineConstraints<double> &) = delete;
+
     /** Find the constraint rows and begin a new solve at @p displacement
      * (owned entries). Throws ObstacleError if a prescribed value violates
      * an obstacle, if obstacles cross or have a value that is not a number,

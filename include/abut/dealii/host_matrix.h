@@ -77,6 +77,8 @@ namespace abut::la
     template <typename M>
     using Compressible =
         decltype(std::declval<M &>().compress(dealii::VectorOperation::add));
+    template <typename M>
+    using Empty = decltype(std::declval<const M &>().empty());
     template <typename M> using Sized = decltype(std::declval<const M &>().m());
 
     template <typename M>
@@ -110,6 +112,8 @@ namespace abut::la
     explicit HostMatrixOf(const M &matrix) : matrix_(matrix)
     {
       rows_.set_size(m());
+      if (m() == 0)
+        return;
       if constexpr (has_blocks)
         for (unsigned int b = 0, first = 0; b < matrix.n_block_rows(); ++b)
         {
@@ -127,12 +131,12 @@ namespace abut::la
 
     Index m() const override
     {
-      return matrix_.m();
+      return is_empty() ? 0 : matrix_.m();
     }
 
     Index n() const override
     {
-      return matrix_.n();
+      return is_empty() ? 0 : matrix_.n();
     }
 
     const dealii::IndexSet &rows() const override
@@ -203,6 +207,15 @@ namespace abut::la
   private:
     static constexpr bool has_blocks =
         internal::Has<internal::BlockRows, M>::value;
+
+    /** Whether the matrix has no pattern yet. */
+    bool is_empty() const
+    {
+      if constexpr (internal::Has<internal::Empty, M>::value && !has_blocks)
+        return matrix_.empty();
+      else
+        return false;
+    }
 
     /** Entries of a row of one matrix without blocks. */
     template <typename Part, typename Visit>

@@ -67,7 +67,9 @@ namespace abut::la
     template <typename V,
               typename = std::enable_if_t<internal::is_host_vector<V>>>
     VectorView(const V &vector)
-        : size_(vector.size()), owned_(vector.locally_owned_elements())
+        : is_given_(true),
+          size_(vector.size()),
+          owned_(vector.locally_owned_elements())
     {
       static_assert(std::is_same<typename V::value_type, double>::value,
                     "Abut takes vectors of double values, real ones.");
@@ -80,7 +82,7 @@ namespace abut::la
     /** Whether there is a vector. */
     explicit operator bool() const
     {
-      return native_ != nullptr || owned_.size() > 0;
+      return native_ != nullptr || is_given_;
     }
 
     /** The vector itself where it is of Abut's type, else null. */
@@ -165,6 +167,7 @@ namespace abut::la
     }
 
     const Vector *native_ = nullptr;           ///< null: of another type
+    bool is_given_ = false;                    ///< one of another type
     dealii::types::global_dof_index size_ = 0; ///< of another type
     dealii::IndexSet owned_;                   ///< of another type
     bool has_ghosts_ = false;                  ///< of another type

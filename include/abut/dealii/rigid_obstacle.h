@@ -34,6 +34,22 @@ namespace abut
                             const dealii::Tensor<1, dim> &translation);
   };
 
+  /** The shape of a half space: its surface goes through @p point, and
+   * @p normal, of any length but zero, points out of its material. */
+  template <int dim>
+  abut_obstacle_shape plane(const dealii::Point<dim> &point,
+                            const dealii::Tensor<1, dim> &normal)
+  {
+    abut_obstacle_shape shape = abut_obstacle_shape_defaults();
+    shape.dimension = dim;
+    for (int d = 0; d < 3; ++d)
+    {
+      shape.point[d] = d < dim ? point[d] : 0.;
+      shape.axis[d] = d < dim ? normal[d] : 0.;
+    }
+    return shape;
+  }
+
   /** A surface given as height over the plane orthogonal to a coordinate axis.
    */
   template <int dim> struct HeightObstacle

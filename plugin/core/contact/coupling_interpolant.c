@@ -25,7 +25,8 @@
 bool
 abut_coupling_interpolates(const abut_coupling *c)
 {
-  return c->method->dual && !abut_coupling_follows(c);
+  return c->method->dual && c->options.interpolated_gaps
+         && !abut_coupling_follows(c);
 }
 
 abut_status
