@@ -635,7 +635,12 @@ class SolidJudge:
         if force <= 1e-8 * max(map(norm, self.reaction)) + self.round_off():
             return
         limit = THRESHOLDS["clearance"]
-        clearance, size, chord = min(self.clearances(pair), default=(0., 1., 0.))
+        try:
+            clearance, size, chord = min(self.clearances(pair),
+                                         default=(0., 1., 0.))
+        except ValueError as error:
+            self.findings.leave(name, str(error))
+            return
         # what rows leave that are linear where surfaces slide on each other
         slip = self.summary.get(f"pair_{pair.number}_slip") or 0.
         told = self.summary.get(f"pair_{pair.number}_gap_error") or 0.
