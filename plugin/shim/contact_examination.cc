@@ -504,7 +504,7 @@ namespace abut
                          "it. The answer has the least such motion in the mean "
                          "square over the body. Support the body in that "
                          "direction if the motion matters.");
-    if (i.solver != nullptr && !i.surfaces->has_steps())
+    if (i.solver != nullptr)
       result.motions = i.solver->rigid_motions(displacement);
     const std::vector<shim::Unseen> unseen = i.find_unseen(displacement);
     i.surfaces->examine(displacement, i.row_pressures().data(), i.gap.data(),

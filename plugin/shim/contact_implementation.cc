@@ -654,6 +654,11 @@ namespace abut
     result.approach = [this](const std::vector<solve::RigidMotion> &motions,
                              const std::vector<std::uint8_t> &is_apart)
     { add_approach(motions, is_apart); };
+    const bool is_pressed =
+        std::any_of(start_pressure.begin(), start_pressure.end(),
+                    [](const double p) { return p > 0.; });
+    result.turns = moves() && method.turning_terms
+                   && !MPI::logical_or(is_pressed, communicator);
     result.load = largest_load;
     result.linear_tolerance = method.options.final_linear_tolerance;
     return result;
@@ -670,7 +675,7 @@ namespace abut
   {
     // Of the size of the smallest body.
     constexpr double first = 0.5, growth = 4., last = 8.;
-    if (surfaces == nullptr || surfaces->has_steps())
+    if (surfaces == nullptr)
       return false;
     const double size = shim::smallest_body(near_null_space(), communicator);
     const double next =

@@ -260,6 +260,34 @@ namespace abut
   }
 
   template <int dim>
+  ForceSize ContactAssembler<dim>::size_of_forces(
+      const Tangent &tangent, const la::VectorView &given_displacement) const
+  {
+    const Implementation &i = *implementation;
+    i.check_mesh("size_of_forces()");
+    const solve::Stiffness stiffness =
+        i.stiffness_of("size_of_forces()", tangent);
+    if (!stiffness.has_matrix())
+      return {};
+    la::Vector free(
+        i.take("size_of_forces()", "displacement", given_displacement));
+    i.constraints->set_zero(free);
+    const la::LocalRows rows = la::local_rows(stiffness.matrix());
+    const std::vector<double> u = la::gather(stiffness.matrix(), free);
+    double sums[2] = {0., 0.};
+    for (int row = 0; row < rows.n_rows; ++row)
+    {
+      double force = 0.;
+      for (int k = rows.start[row]; k < rows.start[row + 1]; ++k)
+        force += std::abs(rows.value[k] * u[rows.column[k]]);
+      sums[0] += force * force;
+      sums[1] += force * std::abs(u[row]);
+    }
+    dealii::Utilities::MPI::sum(sums, i.communicator, sums);
+    return {std::sqrt(sums[0]), std::sqrt(sums[1])};
+  }
+
+  template <int dim>
   std::vector<PairCheck> ContactAssembler<dim>::pair_checks() const
   {
     const auto *surfaces = implementation->surfaces;
@@ -320,6 +348,8 @@ namespace abut
   template double ContactAssembler<dim>::contact_force() const;                \
   template double ContactAssembler<dim>::imbalance(const la::VectorView &)     \
       const;                                                                   \
+  template ForceSize ContactAssembler<dim>::size_of_forces(                    \
+      const Tangent &, const la::VectorView &) const;                          \
   template double ContactAssembler<dim>::complementarity() const;              \
   template double ContactAssembler<dim>::complementarity_error() const;        \
   template double ContactAssembler<dim>::allowed_penetration() const;          \

@@ -414,10 +414,10 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::vector<unsigned int> SurfacePairRows<dim>::prescribed_nodes(
-      const std::uint8_t *const row_state) const
+  void SurfacePairRows<dim>::find_prescribed_nodes(
+      const std::uint8_t *const row_state,
+      std::vector<PairResult<dim>> &results) const
   {
-    std::vector<unsigned int> result(pairs_.size(), 0);
     const std::size_t n_nodes = surface_.nodes.size();
     std::vector<std::uint8_t> prescribed(n_nodes * pairs_.size(), 0),
         closed(prescribed), found(prescribed);
@@ -431,7 +431,7 @@ namespace abut::shim
           any = true;
         }
     if (!MPI::logical_or(any, communicator_))
-      return result;
+      return;
     for_each_component(
         [&](const Component &row)
         {
@@ -452,10 +452,53 @@ namespace abut::shim
           if (prescribed[first + node[a]] != 0 && is_owned(node[a]))
             found[first + node[a]] = 1;
       }
-    for (std::size_t i = 0; i < found.size(); ++i)
-      result[i / n_nodes] += found[i];
-    MPI::sum(result, communicator_, result);
-    return result;
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+    {
+      const std::size_t first = p * n_nodes;
+      const auto n_found =
+          static_cast<dealii::types::global_dof_index>(std::count(
+              found.begin() + first, found.begin() + first + n_nodes, 1));
+      results[p].n_prescribed = MPI::sum(n_found, communicator_);
+      if (n_found == 0)
+        continue;
+      const auto &side = pairs_[p].secondary;
+      const double *normal = nullptr;
+      check(context_, abut_surface_normals(side.surface.get(), &normal));
+      for (std::size_t n = 0; n < side.node.size(); ++n)
+        if (found[first + side.node[n]] != 0)
+          for (unsigned int d = 0; d < dim; ++d)
+            results[p].prescribed_normal.emplace_back(
+                surface_.nodes[side.node[n]].dof[d], normal[n * dim + d]);
+    }
+  }
+
+  template <int dim>
+  void SurfacePairRows<dim>::find_shared_sticks(
+      const double *row_pressure, const std::uint8_t *row_state,
+      std::vector<PairResult<dim>> &results) const
+  {
+    std::vector<int> n_closed(surface_.nodes.size(), 0);
+    const auto for_each_closed = [&](const auto &visit)
+    {
+      for (std::size_t i = 0; i < places_.size() && row_state != nullptr; ++i)
+        if (places_[i].node >= 0 && view_.kind[i] == ABUT_POINT_CONTACT
+            && row_state[view_.component_start[i]] != ABUT_STATE_OPEN)
+          visit(i, view_.component_start[i]);
+    };
+    for_each_closed([&](const std::size_t i, std::int32_t)
+                    { ++n_closed[places_[i].node]; });
+    for_each_closed(
+        [&](const std::size_t i, const std::int32_t row)
+        {
+          if (n_closed[places_[i].node] > 1
+              && view_.component_start[i + 1] > row + 1
+              && row_state[row] == ABUT_STATE_CLOSED)
+            results[places_[i].pair].shared_stick_force +=
+                view_.weight[i] * row_pressure[row];
+        });
+    for (PairResult<dim> &result : results)
+      result.shared_stick_force =
+          MPI::sum(result.shared_stick_force, communicator_);
   }
 
   template <int dim>
@@ -491,9 +534,8 @@ namespace abut::shim
       result.traction = std::max(result.traction, std::sqrt(square));
       result.dissipation += w * std::max(0., work);
     }
-    const std::vector<unsigned int> prescribed = prescribed_nodes(row_state);
-    for (std::size_t p = 0; p < pairs_.size(); ++p)
-      results[p].n_prescribed = prescribed[p];
+    find_prescribed_nodes(row_state, results);
+    find_shared_sticks(row_pressure, row_state, results);
     for (PairResult<dim> &result : results)
     {
       double sums[3] = {result.normal_force, result.friction_force,
@@ -529,8 +571,11 @@ namespace abut::shim
       const std::vector<RigidPose<dim>> &) const;                              \
   template void SurfacePairRows<dim>::copy_to_tangents(std::vector<double> &)  \
       const;                                                                   \
-  template std::vector<unsigned int> SurfacePairRows<dim>::prescribed_nodes(   \
-      const std::uint8_t *) const;                                             \
+  template void SurfacePairRows<dim>::find_prescribed_nodes(                   \
+      const std::uint8_t *, std::vector<PairResult<dim>> &) const;             \
+  template void SurfacePairRows<dim>::find_shared_sticks(                      \
+      const double *, const std::uint8_t *, std::vector<PairResult<dim>> &)    \
+      const;                                                                   \
   template void SurfacePairRows<dim>::add_friction(                            \
       const double *, const double *, const std::uint8_t *,                    \
       std::vector<PairResult<dim>> &) const;

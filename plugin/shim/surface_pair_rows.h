@@ -291,9 +291,14 @@ namespace abut::shim
                       const std::uint8_t *row_state,
                       std::vector<PairResult<dim>> &results) const;
 
-    /** [pairs] PairResult::n_prescribed. Collective. */
-    std::vector<unsigned int>
-    prescribed_nodes(const std::uint8_t *row_state) const;
+    /** PairResult::n_prescribed and prescribed_normal. Collective. */
+    void find_prescribed_nodes(const std::uint8_t *row_state,
+                               std::vector<PairResult<dim>> &results) const;
+
+    /** PairResult::shared_stick_force. Collective. */
+    void find_shared_sticks(const double *row_pressure,
+                            const std::uint8_t *row_state,
+                            std::vector<PairResult<dim>> &results) const;
 
     /** Give the tangents of a point the value [rows] of its normal. */
     void copy_to_tangents(std::vector<double> &value) const;

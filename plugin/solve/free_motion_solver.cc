@@ -159,19 +159,22 @@ namespace abut::solve
     return result;
   }
 
-  void FreeMotionSolver::check_unfelt(const la::Vector &residual) const
+  bool FreeMotionSolver::check_unfelt(const la::Vector &residual)
   {
     if (unfelt_.empty())
-      return;
+      return false;
     const Combinations refused =
         has_begun_ && fixed_.m() > 0
             ? floating_.along_which_works(unfelt_, residual, no_work_)
             : unfelt_;
-    if (!refused.empty())
+    if (!refused.empty() && has_begun_ && iteration_.turns)
+      deferred_ = refused;
+    else if (!refused.empty())
       floating_.fail(
           refused,
           n_resisting(*rows_, std::vector<std::uint8_t>(rows_->n_rows(), 1)),
           "contact rows, open or not", "or tie it");
+    return !refused.empty();
   }
 
   FreeMotionSolver::Free
@@ -184,21 +187,33 @@ namespace abut::solve
     free.motions = floating_.free_motions(*rows_, free.resisting.now);
     if (free.motions.empty())
       return free;
+    const Free found = along(free.motions, residual);
+    free.forces = found.forces;
+    free.works = found.works;
+    free.mass = found.mass;
     bool slips = false;
     for (int i = 0; i < rows_->n_rows() && free.resisting.has_friction; ++i)
       slips = slips || (free.resisting.sticks[i] && !free.resisting.now[i]);
     free.slips = MPI::logical_or(slips, rows_->communicator());
-    const std::vector<double> work = floating_.work(residual);
-    for (const Combination &motion : free.motions)
-    {
-      double sum = 0.;
-      for (std::size_t k = 0; k < work.size(); ++k)
-        sum -= motion[k] * work[k];
-      free.works = free.works || std::abs(sum) > no_work_;
-      free.forces.push_back(sum);
-    }
-    find_mass(free);
     return free;
+  }
+
+  FreeMotionSolver::Free
+  FreeMotionSolver::along(const Combinations &motions,
+                          const la::Vector &residual) const
+  {
+    Free result;
+    result.motions = motions;
+    const std::vector<double> work = floating_.work(residual);
+    for (const Combination &motion : motions)
+    {
+      const double sum =
+          -std::inner_product(motion.begin(), motion.end(), work.begin(), 0.);
+      result.works = result.works || std::abs(sum) > no_work_;
+      result.forces.push_back(sum);
+    }
+    find_mass(result);
+    return result;
   }
 
   void FreeMotionSolver::find_mass(Free &free) const
@@ -458,6 +473,8 @@ namespace abut::solve
     const Free pivot = free.slips ? pivots(free) : Free();
     if (pivot.works)
       advance(pivot, request, increment);
+    else if (iteration_.turns && !free.slips)
+      deferred_ = {motion};
     else if (!free.slips || !pivot.motions.empty())
       floating_.fail_in_contact(free.works && free.motions.size() > 1
                                     ? Combinations{motion}
@@ -487,26 +504,32 @@ namespace abut::solve
     move(motion, std::max(0., std::min(1., way)), request, increment);
   }
 
-  LinearReport FreeMotionSolver::solve(const la::Vector &residual,
+  LinearReport FreeMotionSolver::solve(const la::Vector &given_residual,
                                        const abut_request &request,
                                        const double smallest_residual,
                                        la::Vector &increment)
   {
     slipping_.clear();
+    deferred_.clear();
     if (floating_.empty())
-      return inner_->solve(residual, request, smallest_residual, increment);
+      return inner_->solve(given_residual, request, smallest_residual,
+                           increment);
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
     if (!has_begun_)
     {
-      check_unfelt(residual);
+      check_unfelt(given_residual);
       floating_.check(*rows_, local_, request, row_stiffness_);
-      return inner_->solve(residual, request, smallest_residual, increment);
+      return inner_->solve(given_residual, request, smallest_residual,
+                           increment);
     }
     if (moved_.size() != increment.size())
       moved_.reinit(increment);
     no_work_ = work_tolerance();
-    check_unfelt(residual);
+    la::Vector forces(given_residual);
+    if (check_unfelt(forces))
+      forces = balanced(along(unfelt_, forces), forces);
+    const la::Vector &residual = forces;
     Free free = find_free(residual, request);
     LinearReport report;
     if (free.motions.empty())
@@ -565,6 +588,9 @@ namespace abut::solve
                          && std::abs(request.pressure[i]) > no_pressure);
       resists[i] = is_pressed;
     }
+    const double pressed = std::count(resists.begin(), resists.end(), 1);
+    if (!deferred_.empty() && MPI::sum(pressed, rows_->communicator()) == 0.)
+      floating_.fail_in_contact(deferred_, 0.);
     std::vector<FreeMotion> result;
     for (const Combination &motion : floating_.free_motions(*rows_, resists))
       result.push_back({floating_.body(motion), floating_.describe(motion)});

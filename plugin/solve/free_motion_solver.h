@@ -63,9 +63,13 @@ namespace abut::solve
     const Stiffness &take(const Stiffness &stiffness, const PointOperator &rows,
                           const std::vector<double> &row_stiffness);
     void fix_unfelt(const Stiffness &stiffness);
-    void check_unfelt(const la::Vector &residual) const;
+    /** Returns whether loads do work along motions that no row feels, which
+     * are an error unless the next iteration may resist them. */
+    bool check_unfelt(const la::Vector &residual);
     Free find_free(const la::Vector &residual,
                    const abut_request &request) const;
+    /** These motions, and what the loads do along them. Collective. */
+    Free along(const Combinations &motions, const la::Vector &residual) const;
     void find_mass(Free &free) const;
     /** The motion that the loads drive, 1 at most. */
     Combination driven(const Free &free) const;
@@ -122,9 +126,10 @@ namespace abut::solve
     LocalElimination local_;
     ContactIteration iteration_;
     bool has_begun_ = false;
-    double no_work_ = 0.;  ///< work_tolerance() of the present solve
-    la::Vector moved_;     ///< by this iteration
-    Combination slipping_; ///< motion that friction does not stop; empty: none
+    double no_work_ = 0.;   ///< work_tolerance() of the present solve
+    la::Vector moved_;      ///< by this iteration
+    Combination slipping_;  ///< motion that friction does not stop; empty: none
+    Combinations deferred_; ///< to the next iteration, if contact carries loads
   };
 } // namespace abut::solve
 

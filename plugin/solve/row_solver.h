@@ -32,6 +32,10 @@ namespace abut::solve
     double load = 0.;
     /** Tolerance of the last linear systems. */
     double linear_tolerance = 0.;
+    /** Whether directions of contact forces change with motions and forces by
+     * which they do so are not known yet: a motion that nothing resists in this
+     * iteration may be resisted in the next one. */
+    bool turns = false;
     /** Called where bodies move as rigid bodies until they touch: the [bodies]
      * motions, and the [n_groups] groups without a closed row before, whose
      * slips are measured from there. The same on all ranks. */

@@ -61,7 +61,11 @@ def run(scene, *settings):
         ["Output/Fields=false", "Output/Pictures=false", *settings]))
 
 
-CLEARANCES = [0., 1e-12, 1e-9, 1e-6, 1e-4, 0.003, 0.01, 0.05, 0.1, 0.2]
+CLEARANCES = [0., 1e-12, 1e-9, 1e-6, 1e-4, 0.003, 0.01, 0.05, 0.1, 0.2, 0.5]
+SLIDING = ["small", "step", "large"]
+METHODS = [["Method/Enforcement=lagrange"], ["Method/Enforcement=penalty"],
+           ["Method/Enforcement=augmented lagrangian"],
+           ["Method/Discretisation=node to segment"]]
 for number, clearance in enumerate(CLEARANCES):
     dim, n = (3 if number % 5 == 4 else 2), 1 + number % 3
     widths = [random.uniform(0.8, 1.5) for _ in range(n)]
@@ -73,8 +77,11 @@ for number, clearance in enumerate(CLEARANCES):
     for sign, wall in ((1, 2), (-1, 1)):
         signed = [f"Body {k + 1}/Body force={sign * force!r}*t"
                   + ", 0" * (dim - 1) for k, force in enumerate(forces)]
-        result = run(scene, *signed)
-        what = f"row {number}, {n} blocks, clearance {clearance}, {sign}"
+        settings = [*METHODS[number % 4],
+                    f"Method/Sliding={SLIDING[(number + sign) % 3]}"]
+        result = run(scene, *signed, *settings)
+        what = (f"row {number}, {n} blocks, clearance {clearance}, {sign}, "
+                f"{settings}")
         p.expect(result.returncode == 0, f"{what}: {result.stderr}")
         area = height ** (dim - 1)
         loads = [f * w * area for f, w in zip(forces, widths)]
@@ -198,7 +205,7 @@ for number, clearance in enumerate((0., 1e-12, 1e-6, 1e-3, 0.1, 0.3)):
     angle = random.uniform(0, 2 * math.pi)
     unit = (math.cos(angle), math.sin(angle))
     scene = pin("pin.prm", 2, clearance, [size * u for u in unit], 2)
-    result = run(scene)
+    result = run(scene, f"Method/Sliding={SLIDING[number % 2]}")
     what = f"pin {number}, clearance {clearance}, load {size}"
     p.expect(result.returncode == 0 and "ABUT-F24" not in result.stderr,
              f"{what}: {result.stderr}")

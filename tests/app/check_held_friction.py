@@ -378,6 +378,75 @@ def in_a_groove():
                 -0.2, 1e-9, f"pushed along a groove of {degrees} degrees")
 
 
+def slanted(corners, refinements, support, planes, gap=0., round_x=False):
+    """A quadrilateral on planes: boundary id, point, normal and coefficient."""
+    corners = " ; ".join(words(corner) for corner in corners)
+    text = f"""set Scene = solid
+set Dimension = 2
+subsection Solid
+  set Obstacles = {len(planes)}
+  set Pairs = {len(planes)}
+  set Plane = {"axisymmetric" if round_x else "strain"}
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = general_cell
+    set Arguments = {corners} : true
+  end
+  set Refinements = {refinements}
+  set Young modulus = 1000
+  set Support = {support}
+end
+subsection Refinement
+  set Level = 0
+end
+"""
+    for k, (side, point, normal, mu) in enumerate(planes, 1):
+        text += plane(f"Obstacle {k}", normal, f"  set Point = {words(point)}\n")
+        text += (f"subsection Pair {k}\n  set Secondary = 1: {side}\n"
+                 f"  set Obstacle = {k}\n  set Friction = {mu!r}\n"
+                 f"  set Initial gap = {gap!r}\nend\n")
+    return text
+
+
+def shapes():
+    """A wedge between two planes, a round taper in its seat and a ring on a
+    shaft, pushed at an end face: the reaction is N sin + T cos of the flanks."""
+    draw = random.Random(342)
+    for i in range(10):
+        angle = draw.uniform(0.1, 0.5)
+        foot, height = draw.uniform(0.3, 1.), draw.uniform(0.5, 1.5)
+        mu, refinements = draw.uniform(0.1, 0.5), draw.choice([0, 1, 2])
+        s, c, w = math.sin(angle), math.cos(angle), height * math.tan(angle)
+        push = "free, (-0.01*t)"
+        if i % 3 == 0:
+            text = slanted([(-foot, 0), (foot, 0), (-foot - w, height),
+                            (foot + w, height)], refinements, f"3: {push}",
+                           [(0, (-foot, 0), (c, s), mu),
+                            (1, (foot, 0), (-c, s), mu)])
+        elif i % 3 == 1:
+            text = slanted([(0, 0), (foot, 0), (0, height),
+                            (foot + w, height)], refinements + 1,
+                           f"0: 0, free; 3: {push}",
+                           [(1, (foot, 0), (-c, s), mu)], round_x=True)
+        else:
+            s, c = 0., 1.
+            text = slanted([(foot, 0), (foot + 1., 0), (foot, height),
+                            (foot + 1., height)], refinements, f"3: {push}",
+                           [(0, (foot, 0), (1, 0), mu)],
+                           gap=-draw.uniform(1e-4, 1e-3), round_x=True)
+        settings = METHODS[i % len(METHODS)]
+        summary = run(text, settings)
+        name = f"shape {i}, {settings}"
+        flanks = [k for k in (1, 2) if f"pair_{k}_force" in summary]
+        normal = sum(summary[f"pair_{k}_normal_force"] for k in flanks)
+        friction = sum(summary[f"pair_{k}_friction_force"] for k in flanks)
+        p.close(friction, mu * normal, 1e-9, name)
+        p.close(-summary["reaction_1"][1], normal * s + friction * c, 1e-9,
+                name + ": reaction")
+        p.expect(normal > 0., name + ": nothing presses")
+
+
 def prescribed_normals():
     """The lower left node has its displacement along the normal prescribed."""
     block = Block([1., 1.], [4, 4], 0.3, 1., "-0.1*t")
@@ -393,6 +462,12 @@ def prescribed_normals():
                 1e-9, name + ": balance")
         # Nitsche's method has points of quadrature, at such nodes, too.
         count = 0 if "nitsche" in settings.values() else 1
+        without = count * max(0., sum(
+            node["reaction_y"] for node in p.table("nodal.csv")
+            if node["x"] == node["y"] == 0.))
+        p.close(summary["pair_1_prescribed_share"],
+                without / (without + summary["pair_1_normal_force"]), 1e-9,
+                name + ": share")
         p.expect(summary["pair_1_prescribed_nodes"] == count,
                  f"{name}: {summary['pair_1_prescribed_nodes']} nodes")
     lifted = run(text.replace(support, "(-0.1*t), 0.01"))
@@ -445,6 +520,7 @@ in_space()
 oblique()
 corners()
 in_a_groove()
+shapes()
 prescribed_normals()
 in_shear()
 on_ranks()

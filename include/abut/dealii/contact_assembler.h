@@ -462,6 +462,12 @@ namespace abut
      * the residual has the wrong sign. */
     virtual double imbalance(const la::VectorView &residual) const;
 
+    /** What the entries of @p tangent make of @p displacement one by one,
+     * before they cancel: no solver lowers residuals beyond the round-off of
+     * it. 0 without a matrix. Collective. */
+    virtual ForceSize size_of_forces(const Tangent &tangent,
+                                     const la::VectorView &displacement) const;
+
     /** What detect() met on each pair; empty without pairs. Not collective. */
     virtual std::vector<PairCheck> pair_checks() const;
 

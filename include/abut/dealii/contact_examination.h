@@ -17,6 +17,13 @@
 
 namespace abut
 {
+  /** Forces |K| |u| of the entries of a tangent K, without their signs. */
+  struct ForceSize
+  {
+    double norm = 0.;   ///< of the forces
+    double energy = 0.; ///< root of |u| . |K| |u|
+  };
+
   /** Something that was found about an answer. */
   struct ContactFinding
   {

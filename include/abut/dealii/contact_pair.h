@@ -19,6 +19,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace abut
@@ -197,6 +198,16 @@ namespace abut
      * the area is their neighbours', and forces on them are reactions, without
      * friction. */
     dealii::types::global_dof_index n_prescribed = 0;
+    /** Their unknowns on this rank, with the components of the unit normals out
+     * of the secondary: the sum of the products with the reactions, and a
+     * minus, is the force along the normals without friction. */
+    std::vector<std::pair<dealii::types::global_dof_index, double>>
+        prescribed_normal;
+    /** With friction: sum of the pressures of points that stick at nodes with
+     * another closed contact, as in a corner, force >= 0. What both of them do
+     * along a common direction is determined in their sum alone, and without
+     * slip friction is that of the last accepted step. */
+    double shared_stick_force = 0.;
     /** With friction: sum of the pressures, force. */
     double normal_force = 0.;
     /** Sum of the magnitudes of the tractions along the surface, force >= 0. */

@@ -446,6 +446,9 @@ namespace abut
       double force = 0.;
       bool is_positive = true; ///< whether energies say anything
       double defect = 0.;      ///< of the law, before the step
+      /** Forces, and root of their energy, that no solver lowers: round-off of
+       * what the entries of the tangent make of the displacement. */
+      double round_off = 0., round_off_of_energy = 0.;
       /** Forces out of balance, and what prescribed values change of them:
        * their squares and product, before the step. */
       double squares[3] = {0., 0., 0.};
@@ -470,7 +473,25 @@ namespace abut
       scales.force =
           std::max({scales.before, forces_.l2_norm(), end.force, start.force});
       scales.is_positive = step.is_positive;
+      find_round_off(tangent, scales);
       return scales;
+    }
+
+    /** Bodies that small forces move far, as across a clearance, have hardly
+     * any energy beside that of round-off. */
+    void find_round_off(const Tangent &tangent, Scales &scales)
+    {
+      constexpr double round_off = 1e-14;
+      const ForceSize size = contact_.size_of_forces(tangent, trial_);
+      scales.round_off = round_off * size.norm;
+      scales.round_off_of_energy = round_off * size.energy;
+    }
+
+    /** Whether forces and the law are satisfied but for round-off. */
+    bool is_round_off(const Scales &scales) const
+    {
+      return result_.residual <= scales.round_off
+             && defect_ <= scales.round_off_of_energy;
     }
 
     /** Forces out of balance that this part of a step has to lower: those with
@@ -487,6 +508,8 @@ namespace abut
     /** Whether the step is so short that its residual is but round-off. */
     bool is_at_end(const Scales &scales) const
     {
+      if (is_round_off(scales))
+        return true;
       return scales.is_positive
                  ? scales.length <= parameters_.tolerance * scales.energy
                  : result_.residual <= parameters_.tolerance * scales.force;
@@ -577,6 +600,8 @@ namespace abut
       }
       if (scales.energy > 0.)
         result_.error = std::max(result_.error, defect_ / scales.energy);
+      if (part == 1. && is_round_off(scales))
+        result_.error = std::min(result_.error, parameters_.tolerance);
       if (has_change_ && part < 1.) // prescribed values are not there yet
         result_.error = std::max(result_.error, 1. - part);
       // No more than the end of the iteration needs.

@@ -194,24 +194,6 @@ namespace abut::app
   }
 
   template <int dim>
-  double DiscreteProblem<dim>::size_of_forces(const la::Vector &u) const
-  {
-    la::Vector free(u);
-    constraints.set_zero(free);
-    const la::LocalRows rows = la::local_rows(stiffness);
-    const std::vector<double> values = la::gather(stiffness, free);
-    double sum = 0.;
-    for (int i = 0; i < rows.n_rows; ++i)
-    {
-      double force = 0.;
-      for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
-        force += std::abs(rows.value[k] * values[rows.column[k]]);
-      sum += force * force;
-    }
-    return std::sqrt(dealii::Utilities::MPI::sum(sum, communicator));
-  }
-
-  template <int dim>
   la::Vector DiscreteProblem<dim>::ghosted(
       const la::Vector &owned,
       const dealii::AffineConstraints<double> &rules) const

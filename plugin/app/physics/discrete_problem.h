@@ -99,11 +99,6 @@ namespace abut::app
     std::unique_ptr<dealii::FiniteElement<dim>> element;
 
   public:
-    /** Norm of the forces that the entries of the matrix make of the free part
-     * of @p u one by one, before they cancel: round-off is a part of it.
-     * Collective. */
-    double size_of_forces(const la::Vector &u) const;
-
     const dealii::FiniteElement<dim> &fe;
     dealii::MappingQ<dim> mapping;
     dealii::DoFHandler<dim> dof_handler;

@@ -241,12 +241,22 @@ namespace abut::app
   }
 
   template <int dim>
+  void ContactRun<dim>::count_layers(const std::int64_t n_active)
+  {
+    const std::int64_t change = last_active < 0 ? 0 : n_active - last_active;
+    last_active = n_active;
+    n_layers = change * direction > 0 ? n_layers + 1 : change != 0;
+    direction = change;
+  }
+
+  template <int dim>
   void ContactRun<dim>::note_step(const LinearReport &cost,
                                   const la::Vector &increment)
   {
     if (is_starting)
       return;
     ContactResult &present = state.present;
+    count_layers(state.contact.progress().n_active);
     present.linear += cost;
     present.steps += cost.n_systems;
     steps.add(report, present.level, present.steps, state.contact.progress(),
@@ -292,8 +302,10 @@ namespace abut::app
     const SolvedBy by = {
         !model.problem().is_linear(),
         state.present.linear.method.compare(0, 6, "direct") == 0,
-        state.contact.imbalance(residual,
-                                model.problem().size_of_forces(state.u))
+        state.contact.imbalance(
+            residual,
+            state.contact.size_of_forces(model.problem().stiffness, state.u)
+                .norm)
             <= round_off_of_forces};
     return diagnose_balance(report, imbalance(residual),
                             state.contact.progress().penalty, by, why);
@@ -308,7 +320,7 @@ namespace abut::app
     const bool is_cold = !state.settings.refinement.nested && search == 1
                          && state.load_steps.n_accepted() == 0
                          && abut_law_solves_once(state.method.options.law);
-    diagnose_iteration(report, state.contact.progress(), is_cold);
+    diagnose_iteration(report, state.contact.progress(), is_cold, n_layers);
     return is_balanced(why) ? "" : why;
   }
 
@@ -414,6 +426,9 @@ namespace abut::app
   template <int dim> bool ContactRun<dim>::solve_contact_problem()
   {
     begin_contact();
+    last_active = -1;
+    direction = 0;
+    n_layers = 0;
     ContactSolver<dim> solver(state.contact, model.problem().constraints,
                               host_problem(), newton_parameters(),
                               solver_events());

@@ -58,6 +58,7 @@ namespace abut::app
     HostProblem host_problem();
     SolverEvents solver_events();
     void note_step(const LinearReport &cost, const la::Vector &increment);
+    void count_layers(std::int64_t n_active);
     std::string refuse(unsigned int search);
     bool wants_balance() const;
     /** Forces out of balance as a part of those of contact. Collective. */
@@ -161,6 +162,10 @@ namespace abut::app
     std::optional<double> largest_cell;
     /** Owned; start of the next solve, or null. */
     std::shared_ptr<const la::Vector> pressure;
+    /** Of the present solve: rows in contact at the last linear system, and
+     * systems in a row that have changed their number in the same direction. */
+    std::int64_t last_active = -1, direction = 0;
+    int n_layers = 0;
     std::string failure;            ///< why the last solve has no answer
     std::string told;               ///< of these, the last one
     std::string missed_target;      ///< why, or empty

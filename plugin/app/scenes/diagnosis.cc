@@ -10,7 +10,9 @@ namespace abut::app
 {
   namespace
   {
-    /** Steps from a cold start that a start from a coarser mesh would save. */
+    /** Layers that a set gains or loses from a cold start, which a start from
+     * a coarser mesh would save. Bodies that move, and points that begin to
+     * slip, change sets in other ways. */
     constexpr int many_steps = 12;
 
     /** Forces out of balance that make an answer useless. */
@@ -73,7 +75,7 @@ namespace abut::app
   }
 
   void diagnose_iteration(Report &report, const abut_progress &progress,
-                          const bool is_cold)
+                          const bool is_cold, const int n_layers)
   {
     report.set("cycle_length", progress.cycle_length);
     report.add("fallback_steps", progress.fallback_steps);
@@ -88,7 +90,7 @@ namespace abut::app
               + ", so that " + std::to_string(progress.fallback_steps)
               + " steps changed one row each. The answer is not worse for it; "
                 "the method interior point has no sets."));
-    if (is_cold && progress.step > many_steps)
+    if (is_cold && n_layers > many_steps)
       report.warn(coded(
           ABUT_FAILURE_COLD_START,
           std::to_string(progress.step)

@@ -31,9 +31,11 @@ namespace abut::app
 
   /** Of a converged contact iteration: whether sets of active rows came back,
    * and how many steps it needed on one mesh.
-   * @param is_cold it started from nothing, and need not have */
+   * @param is_cold it started from nothing, and need not have
+   * @param n_layers steps in a row that have changed the number of active rows
+   * in the same direction */
   void diagnose_iteration(Report &report, const abut_progress &progress,
-                          bool is_cold);
+                          bool is_cold = false, int n_layers = 0);
 
   /** How an answer was found. */
   struct SolvedBy

@@ -450,7 +450,7 @@ namespace abut::app
           steps.accept();
           load_steps.accept();
           add_step(report, steps, time);
-          diagnose_iteration(report, steps.progress(), false);
+          diagnose_iteration(report, steps.progress());
           continue;
         }
         steps.reject();

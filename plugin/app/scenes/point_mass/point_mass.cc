@@ -375,7 +375,7 @@ namespace abut::app
       fill_table(report, solution);
       fill_summary(report, solution);
       if (solution.reason == ABUT_REASON_CONVERGED)
-        diagnose_iteration(report, solution.progress, false);
+        diagnose_iteration(report, solution.progress);
       else
         report.warn(
             coded(abut_reason_failure(solution.reason, method.options.law,

@@ -326,8 +326,9 @@ namespace abut::app
     // A step that cannot be shortened is told of at the end.
     if (motion && parameters.load_steps.cut_back)
       return leaves_points();
-    // Elimination of rows has found out what supports the bodies.
-    if (abut_law_is_exact(run.method.options.law))
+    // Others have found out in each linear system what supports the bodies.
+    const abut_law &law = *run.method.options.law;
+    if (!abut_law_is_interior(&law) && !abut_law_needs_stress(&law))
       return "";
     for (unsigned int k = 0; k < parts.size() && !motion; ++k)
       if (freedom[k].n_modes > 0

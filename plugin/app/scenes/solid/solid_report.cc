@@ -88,7 +88,7 @@ namespace abut::app
     }
   }
 
-  template <int dim> void SolidReport<dim>::report_reactions() const
+  template <int dim> la::Vector SolidReport<dim>::reactions() const
   {
     la::Vector forces = model.unbalanced_forces();
     if (!pairs.empty())
@@ -97,6 +97,12 @@ namespace abut::app
       contact.add_forces_on_supports(contact_there);
       forces -= contact_there;
     }
+    return forces;
+  }
+
+  template <int dim> void SolidReport<dim>::report_reactions() const
+  {
+    const la::Vector forces = reactions();
     const dealii::IndexSet &owned = elasticity.dof_handler.locally_owned_dofs();
     std::vector<bool> seen(owned.n_elements(), false);
     std::vector<double> sums(dim * bodies.size(), 0.);
@@ -250,7 +256,7 @@ namespace abut::app
       if (pairs.pairs().at(number - 1).friction != nullptr)
       {
         report.set(key + "_slipping", pair.n_slipping);
-        report.set(key + "_prescribed_nodes", pair.n_prescribed);
+        report_exceptions(key, pair);
         report.set(key + "_normal_force", pair.normal_force);
         report.set(key + "_friction_force", pair.friction_force);
         report.set(key + "_friction", components(pair.secondary_friction));
@@ -267,6 +273,28 @@ namespace abut::app
                                               : pair.moment_imbalance);
     }
     return {force_imbalance, moment_imbalance};
+  }
+
+  /* Parts of the normal force, with that on prescribed nodes, which have no
+   * friction or share it with another contact of their node. */
+  template <int dim>
+  void SolidReport<dim>::report_exceptions(const std::string &key,
+                                           const PairResult<dim> &pair) const
+  {
+    double on_nodes = 0.;
+    if (pair.n_prescribed > 0)
+    {
+      const la::Vector forces = reactions();
+      for (const auto &[unknown, component] : pair.prescribed_normal)
+        on_nodes -= component * forces(unknown);
+      on_nodes = std::max(0., MPI::sum(on_nodes, communicator));
+    }
+    const double whole = pair.normal_force + on_nodes;
+    const auto part = [whole](const double force)
+    { return whole > 0. ? force / whole : 0.; };
+    report.set(key + "_prescribed_nodes", pair.n_prescribed);
+    report.set(key + "_prescribed_share", part(on_nodes));
+    report.set(key + "_shared_stick_share", part(pair.shared_stick_force));
   }
 
   template <int dim> void SolidReport<dim>::report_friction() const

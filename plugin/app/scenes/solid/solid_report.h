@@ -28,7 +28,10 @@ namespace abut::app
   private:
     void report_checks() const;
     void report_points() const;
+    la::Vector reactions() const;
     void report_reactions() const;
+    void report_exceptions(const std::string &key,
+                           const PairResult<dim> &pair) const;
     void report_transfer() const;
     void report_numerics() const;
     /** Returns the largest imbalance of forces and of moments of a pair. */
