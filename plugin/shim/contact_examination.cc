@@ -343,15 +343,11 @@ namespace abut
                              "motions smaller."));
     }
 
-    void judge_width(const std::string &pair, const double width,
-                     const double facet, Findings &findings)
+    void judge_width(const std::string &pair, const shim::ObstacleWidth &narrow,
+                     Findings &findings)
     {
-      if (width < 2. * facet)
-        findings.add(ABUT_FAILURE_UNSEEN, false,
-                     pair + ": the obstacle is only " + number(width)
-                         + " wide where facets of size " + number(facet)
-                         + " are near it: single nodes know of it, and its "
-                           "force is theirs. Refine the surface there.");
+      if (narrow.width < 2. * narrow.facet)
+        findings.add(ABUT_FAILURE_UNSEEN, false, pair + ": " + narrow.text());
     }
 
     /** Bodies in the obstacle elsewhere than at the surface of the pair: the
@@ -360,8 +356,9 @@ namespace abut
     template <int dim>
     void judge_inside(const std::string &pair,
                       const shim::ObstacleInBodies<dim> &found,
-                      const double facet, const double strain,
-                      const Scale &scale, Findings &findings)
+                      const shim::ObstacleWidth &passed, const double facet,
+                      const double strain, const Scale &scale,
+                      Findings &findings)
     {
       // Cells that are compressed by all of their length are inside out: what
       // is behind a surface that touches is no place of the body.
@@ -371,9 +368,13 @@ namespace abut
         return;
       const bool is_error =
           !found.is_met(facet) || scale.is_more(found.elsewhere, useless);
-      if (is_error || scale.is_more(found.elsewhere, visible_inside))
+      const std::string depth = scale.compared(found.elsewhere);
+      if (is_error && passed.is_below_facets())
+        findings.add(ABUT_FAILURE_UNSEEN, true,
+                     pair + ": " + found.between_nodes(depth) + passed.text());
+      else if (is_error || scale.is_more(found.elsewhere, visible_inside))
         findings.add(ABUT_FAILURE_WRONG_SIDE, is_error,
-                     pair + ": " + found.text(scale.compared(found.elsewhere)));
+                     pair + ": " + found.text(depth));
     }
 
     /** The deepest of all ranks. */
@@ -542,7 +543,7 @@ namespace abut
       result.touches.push_back(pairs[p].secondary_force.norm() > 0.
                                || pairs[p].between_rows > 0.);
       judge_apart(pairs[p].name, apart[p], follows, scale, findings);
-      judge_width(pairs[p].name, narrow.width, narrow.facet, findings);
+      judge_width(pairs[p].name, narrow, findings);
       if (!is_obstacle)
         judge_corners(pairs[p], checks[p], i.surfaces->held_in_the_mean(p),
                       scale, findings);
@@ -552,10 +553,15 @@ namespace abut
                          + " would be refused; what was found is there to be "
                            "measured, and no answer.");
       if (is_obstacle && i.pairs[p].geometric_gap)
-        judge_inside(pairs[p].name,
-                     shim::find_obstacle_in_bodies(*i.mapping, *i.dof_handler,
-                                                   displacement, i.pairs[p]),
+      {
+        const auto inside = shim::find_obstacle_in_bodies(
+            *i.mapping, *i.dof_handler, displacement, i.pairs[p]);
+        judge_inside(pairs[p].name, inside,
+                     inside.is_inside(checks[p].facet_size)
+                         ? i.surfaces->passed_between(p, inside.place)
+                         : shim::ObstacleWidth(),
                      checks[p].facet_size, result.strain, scale, findings);
+      }
       result.missed_depth =
           std::max(result.missed_depth, pairs[p].missed_depth);
     }

@@ -249,6 +249,18 @@ namespace abut::shim
   }
 
   template <int dim>
+  std::string
+  ObstacleInBodies<dim>::between_nodes(const std::string &depth) const
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "the obstacle has passed between the nodes of the surface and is "
+            "in the body by "
+         << depth << ", at (" << place << "): ";
+    return text.str();
+  }
+
+  template <int dim>
   ObstacleInBodies<dim>
   find_obstacle_in_bodies(const dealii::Mapping<dim> &mapping,
                           const dealii::DoFHandler<dim> &dof_handler,

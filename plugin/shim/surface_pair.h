@@ -24,6 +24,15 @@ namespace abut::shim
     /** See RigidObstacle::width(); infinite where there is none. */
     double width = INFINITY;
     double facet = 1.; ///< size, length
+
+    /** Whether a facet is wider, so that nodes on both sides may miss it. */
+    bool is_below_facets() const
+    {
+      return width < facet;
+    }
+
+    /** Its width, the facet's size and the remedy. */
+    std::string text() const;
   };
 
   /** What the directions of the forces of a pair have turned by. */

@@ -161,6 +161,12 @@ namespace abut::shim
       return pairs_[pair].narrow;
     }
 
+    /** Width of the obstacle and size of the nearest facet, if the place of
+     * the obstacle that is now at @p place came through that facet within the
+     * present step, or was at it; infinite otherwise. Collective. */
+    ObstacleWidth passed_between(std::size_t pair,
+                                 const dealii::Point<dim> &place) const;
+
     /** Whether gaps of a pair are weighted means around its nodes. */
     bool has_mean_gaps(std::size_t pair) const
     {
@@ -504,6 +510,10 @@ namespace abut::shim
                        const std::vector<std::uint8_t> &touching,
                        const std::vector<std::uint8_t> &touching_facets,
                        std::vector<Unseen> &found) const;
+    /** Where the place of the obstacle that is now at @p place was before the
+     * present step. */
+    dealii::Point<dim> place_before(std::size_t pair,
+                                    const dealii::Point<dim> &place) const;
     void find_narrow(Pair &pair, const std::vector<Direction> &u) const;
     std::vector<Pressed> pressed_points(std::size_t pair,
                                         const double *row_pressure,
@@ -751,6 +761,15 @@ namespace abut::shim
     Direction made_at(const Node node) const
     {
       return present_[node] - reference_[node];
+    }
+
+    /** The same of all nodes, moving or not. */
+    std::vector<Direction> made() const
+    {
+      std::vector<Direction> u(surface_.nodes.size());
+      for (std::size_t n = 0; n < present_.size(); ++n)
+        u[n] = made_at(static_cast<Node>(n));
+      return u;
     }
 
     /** [pairs] of the present points; empty: they have to be made anew. */
