@@ -21,6 +21,10 @@ namespace abut
     /** Part of a whole by which an answer may contradict itself. */
     constexpr double useless = 0.1;
 
+    /** Distance of facets from their curve, by what bodies are deformed by,
+     * that leaves no digit of a pressure. */
+    constexpr double useless_chord = 0.5;
+
     /** Strains that small-strain theory is off by visibly, and that it is of
      * no use for. A body that is a third of its size shorter has such a mean.
      */
@@ -150,9 +154,9 @@ namespace abut
 
     template <int dim>
     void judge_sliding(const PairResult<dim> &pair, const PairCheck &check,
-                       const bool is_obstacle, const bool touches_itself,
-                       const bool is_mortar, const Scale &scale,
-                       Findings &findings)
+                       const dealii::Point<dim> &worst, const bool is_obstacle,
+                       const bool touches_itself, const bool is_mortar,
+                       const Scale &scale, Findings &findings)
     {
       const double facet =
           check.size_ratio > 0.
@@ -177,10 +181,11 @@ namespace abut
             pair.name + ": nodes in contact slide by up to " + number(pair.slip)
                 + ", and their distance from the obstacle, which is "
                   "curved or has a corner, is off by "
-                + scale.compared(pair.gap_error)
-                + ": gaps are those of the undeformed places, to one side of a "
-                  "corner. Give each side of a corner an obstacle and a pair "
-                  "of its own"
+                + scale.compared(pair.gap_error) + ", at "
+                + numbers(dealii::Tensor<1, dim>(worst))
+                + ": gaps are those of the undeformed places, and in a concave "
+                  "corner a node has the condition of one side alone. Give "
+                  "each side of a corner an obstacle and a pair of its own"
                 + (is_mortar ? ", and on a curved one let points move: mortar "
                                "does not follow obstacles, node to segment and "
                                "quadrature point do (Method/Discretisation)."
@@ -278,6 +283,23 @@ namespace abut
                          + scale.compared(depth)
                          + ": refine the surfaces; if they are meant to fit, "
                            "do not take their gap from the mesh (Mesh gap).");
+    }
+
+    /** Straight facets whose distance from their curve is as large as all that
+     * is pressed in: no digit of the pressure is left. */
+    void judge_chords(const std::string &pair, const double error,
+                      const Scale &scale, Findings &findings)
+    {
+      if (error > 0.)
+        findings.add(ABUT_FAILURE_COARSE_CURVE, true,
+                     pair
+                         + ": straight facets in contact are away from their "
+                           "curve by up to "
+                         + scale.compared(error)
+                         + ", where nodes of the other side press: gaps are "
+                           "those of polygons. Refine the surfaces, or, if "
+                           "they are meant to fit, do not take their gap from "
+                           "the mesh (Mesh gap).");
     }
 
     template <int dim>
@@ -530,8 +552,8 @@ namespace abut
       const bool follows = i.method.sliding == Sliding::large
                            && !i.pairs[p].tied && !is_obstacle;
       if (!follows)
-        judge_sliding(pairs[p], checks[p], is_obstacle,
-                      i.pairs[p].secondary == i.pairs[p].primary,
+        judge_sliding(pairs[p], checks[p], i.surfaces->gap_error_place(p),
+                      is_obstacle, i.pairs[p].secondary == i.pairs[p].primary,
                       i.surfaces->has_mean_gaps(p), scale, findings);
       judge_turn(pairs[p], allow_large_strain, findings);
       judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
@@ -544,6 +566,10 @@ namespace abut
                                || pairs[p].between_rows > 0.);
       judge_apart(pairs[p].name, apart[p], follows, scale, findings);
       judge_width(pairs[p].name, narrow, findings);
+      judge_chords(pairs[p].name,
+                   i.surfaces->chord_error(p, i.row_states().data(),
+                                           scale.limit(useless_chord)),
+                   scale, findings);
       if (!is_obstacle)
         judge_corners(pairs[p], checks[p], i.surfaces->held_in_the_mean(p),
                       scale, findings);

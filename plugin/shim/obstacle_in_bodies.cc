@@ -90,7 +90,9 @@ namespace abut::shim
           return;
         grid_->reinit(cell);
         DeepestPoint<dim> deepest = take(cell, *grid_, found);
-        if (is_on_surface(cell, deepest.unit))
+        // What is thinner than the grid may be just behind the surface.
+        if (is_on_surface(cell, deepest.unit)
+            && pair_.obstacle->depth() > extent() / n_)
           return;
         for (double width = 1. / n_; width > least_width; width /= 2.)
         {

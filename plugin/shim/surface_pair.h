@@ -110,6 +110,7 @@ namespace abut::shim
     /** Known failures that it was made with all the same. */
     std::vector<ContactFinding> refused;
     double slip = 0., gap_error = 0., missed_depth = 0.;
+    dealii::Point<dim> gap_error_place;
     DirectionTurn<dim> turn;
     ObstacleWidth narrow;
   };

@@ -390,9 +390,14 @@ namespace abut::shim
             if (!distances[p].from.empty())
               pairs_[p].data.obstacle->distance(distances[p].from, from);
             for (std::size_t i = 0; i < to.size(); ++i)
-              pairs_[p].gap_error = std::max(
-                  pairs_[p].gap_error,
-                  std::abs(to[i] - from[i] - distances[p].expected[i]));
+            {
+              const double error =
+                  std::abs(to[i] - from[i] - distances[p].expected[i]);
+              if (error <= pairs_[p].gap_error)
+                continue;
+              pairs_[p].gap_error = error;
+              pairs_[p].gap_error_place = distances[p].to[i];
+            }
           }
         });
     for (const Unseen &found : unseen)
@@ -402,6 +407,15 @@ namespace abut::shim
       if (found.is_missed)
         pair.missed_depth = std::max(pair.missed_depth, found.depth);
     }
+    for (Pair &pair : pairs_)
+      for (const auto &[error, place] :
+           MPI::all_gather(communicator_, std::make_pair(pair.gap_error,
+                                                         pair.gap_error_place)))
+        if (error > pair.gap_error)
+        {
+          pair.gap_error = error;
+          pair.gap_error_place = place;
+        }
     for (Pair &pair : pairs_)
       for (double *value : {&pair.slip, &pair.gap_error, &pair.missed_depth,
                             &pair.between_rows})
@@ -528,8 +542,8 @@ namespace abut::shim
     text << "the obstacle is only " << width << " wide where facets of size "
          << facet
          << " are near it: single nodes know of it, or none, and its force is "
-            "theirs. Refine the surface there, until facets are smaller than "
-            "the obstacle.";
+            "theirs. Refine the surface there, until several facets are "
+            "under it.";
     return text.str();
   }
 

@@ -246,7 +246,9 @@ namespace abut::shim
       checks_.push_back(result);
       return;
     }
-    if (result.n_rows == 0 && pair.data.obstacle)
+    // Of others no width is known.
+    if (result.n_rows == 0 && pair.data.obstacle
+        && std::isfinite(pair.data.obstacle->depth()))
       find_narrow(pair, made());
     if (result.n_rows == 0 && pair.data.obstacle
         && pair.narrow.is_below_facets())

@@ -167,6 +167,19 @@ namespace abut::shim
     ObstacleWidth passed_between(std::size_t pair,
                                  const dealii::Point<dim> &place) const;
 
+    /** Where PairResult::gap_error is, by the last examine(). */
+    const dealii::Point<dim> &gap_error_place(const std::size_t pair) const
+    {
+      return pairs_[pair].gap_error_place;
+    }
+
+    /** Largest distance between a straight facet of a pair of bodies and its
+     * curved manifold at a node of the other side in contact, as far as it is
+     * more than @p least, length; else 0. Where meshes match it is 0 at all
+     * nodes. Collective. */
+    double chord_error(std::size_t pair, const std::uint8_t *row_state,
+                       double least) const;
+
     /** Whether gaps of a pair are weighted means around its nodes. */
     bool has_mean_gaps(std::size_t pair) const
     {
