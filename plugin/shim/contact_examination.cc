@@ -294,12 +294,11 @@ namespace abut
         findings.add(ABUT_FAILURE_COARSE_CURVE, true,
                      pair
                          + ": straight facets in contact are away from their "
-                           "curve by up to "
+                           "curve, at nodes of the other side, by up to "
                          + scale.compared(error)
-                         + ", where nodes of the other side press: gaps are "
-                           "those of polygons. Refine the surfaces, or, if "
-                           "they are meant to fit, do not take their gap from "
-                           "the mesh (Mesh gap).");
+                         + ": gaps are those of polygons. Refine the surfaces, "
+                           "or, if they are meant to fit, do not take their "
+                           "gap from the mesh (Mesh gap).");
     }
 
     template <int dim>

@@ -495,7 +495,7 @@ namespace abut::shim
     check(context_,
           abut_surface_normals(pair.secondary.surface.get(), &normals));
     // Distance of the nearest facet's middle; its size; whether that place was
-    // before it or less than half of its size behind; width of the obstacle.
+    // before it or no farther behind than the obstacle is wide; that width.
     std::array<double, 4> nearest = {{INFINITY, 1., 0., INFINITY}};
     for (const std::int32_t f : pair.secondary.facet)
     {
@@ -524,9 +524,9 @@ namespace abut::shim
       const double height = normal * (then - middle);
       const bool is_over =
           (then - middle - height * normal).norm() <= 0.5 * size;
+      const double width = pair.data.obstacle->width(normal_of(nodes.data()));
       nearest = {{then.distance(middle), size,
-                  is_over && height > -0.5 * size ? 1. : 0.,
-                  pair.data.obstacle->width(normal_of(nodes.data()))}};
+                  is_over && height > -width ? 1. : 0., width}};
     }
     for (const auto &other : MPI::all_gather(communicator_, nearest))
       if (other[0] < nearest[0])
