@@ -21,6 +21,10 @@ namespace abut
     /** Part of a whole by which an answer may contradict itself. */
     constexpr double useless = 0.1;
 
+    /** Distance of facets from their curve, by what bodies are deformed by,
+     * that leaves no digit of a pressure. */
+    constexpr double useless_chord = 0.5;
+
     /** Strains that small-strain theory is off by visibly, and that it is of
      * no use for. A body that is a third of its size shorter has such a mean.
      */
@@ -152,9 +156,9 @@ namespace abut
 
     template <int dim>
     void judge_sliding(const PairResult<dim> &pair, const PairCheck &check,
-                       const bool is_obstacle, const bool touches_itself,
-                       const bool is_mortar, const Scale &scale,
-                       Findings &findings)
+                       const dealii::Point<dim> &worst, const bool is_obstacle,
+                       const bool touches_itself, const bool is_mortar,
+                       const Scale &scale, Findings &findings)
     {
       const double facet =
           check.size_ratio > 0.
@@ -179,10 +183,11 @@ namespace abut
             pair.name + ": nodes in contact slide by up to " + number(pair.slip)
                 + ", and their distance from the obstacle, which is "
                   "curved or has a corner, is off by "
-                + scale.compared(pair.gap_error)
-                + ": gaps are those of the undeformed places, to one side of a "
-                  "corner. Give each side of a corner an obstacle and a pair "
-                  "of its own"
+                + scale.compared(pair.gap_error) + ", at "
+                + numbers(dealii::Tensor<1, dim>(worst))
+                + ": gaps are those of the undeformed places, and in a concave "
+                  "corner a node has the condition of one side alone. Give "
+                  "each side of a corner an obstacle and a pair of its own"
                 + (is_mortar ? ", and on a curved one let points move: mortar "
                                "does not follow obstacles, node to segment and "
                                "quadrature point do (Method/Discretisation)."
@@ -282,6 +287,22 @@ namespace abut
                            "do not take their gap from the mesh (Mesh gap).");
     }
 
+    /** Straight facets whose distance from their curve is as large as all that
+     * is pressed in: no digit of the pressure is left. */
+    void judge_chords(const std::string &pair, const double error,
+                      const Scale &scale, Findings &findings)
+    {
+      if (error > 0.)
+        findings.add(ABUT_FAILURE_COARSE_CURVE, true,
+                     pair
+                         + ": straight facets in contact are away from their "
+                           "curve, at nodes of the other side, by up to "
+                         + scale.compared(error)
+                         + ": gaps are those of polygons. Refine the surfaces, "
+                           "or, if they are meant to fit, do not take their "
+                           "gap from the mesh (Mesh gap).");
+    }
+
     template <int dim>
     void judge_between(const PairResult<dim> &pair, const std::size_t place,
                        const bool is_obstacle, const double peak,
@@ -345,15 +366,11 @@ namespace abut
                              "motions smaller."));
     }
 
-    void judge_width(const std::string &pair, const double width,
-                     const double facet, Findings &findings)
+    void judge_width(const std::string &pair, const shim::ObstacleWidth &narrow,
+                     Findings &findings)
     {
-      if (width < 2. * facet)
-        findings.add(ABUT_FAILURE_UNSEEN, false,
-                     pair + ": the obstacle is only " + number(width)
-                         + " wide where facets of size " + number(facet)
-                         + " are near it: single nodes know of it, and its "
-                           "force is theirs. Refine the surface there.");
+      if (narrow.width < 2. * narrow.facet)
+        findings.add(ABUT_FAILURE_UNSEEN, false, pair + ": " + narrow.text());
     }
 
     /** Bodies in the obstacle elsewhere than at the surface of the pair: the
@@ -362,8 +379,9 @@ namespace abut
     template <int dim>
     void judge_inside(const std::string &pair,
                       const shim::ObstacleInBodies<dim> &found,
-                      const double facet, const double strain,
-                      const Scale &scale, Findings &findings)
+                      const shim::ObstacleWidth &passed, const double facet,
+                      const double strain, const Scale &scale,
+                      Findings &findings)
     {
       // Cells that are compressed by all of their length are inside out: what
       // is behind a surface that touches is no place of the body.
@@ -373,9 +391,13 @@ namespace abut
         return;
       const bool is_error =
           !found.is_met(facet) || scale.is_more(found.elsewhere, useless);
-      if (is_error || scale.is_more(found.elsewhere, visible_inside))
+      const std::string depth = scale.compared(found.elsewhere);
+      if (is_error && passed.is_below_facets())
+        findings.add(ABUT_FAILURE_UNSEEN, true,
+                     pair + ": " + found.between_nodes(depth) + passed.text());
+      else if (is_error || scale.is_more(found.elsewhere, visible_inside))
         findings.add(ABUT_FAILURE_WRONG_SIDE, is_error,
-                     pair + ": " + found.text(scale.compared(found.elsewhere)));
+                     pair + ": " + found.text(depth));
     }
 
     /** The deepest of all ranks. */
@@ -531,8 +553,8 @@ namespace abut
       const bool follows = i.method.sliding == Sliding::large
                            && !i.pairs[p].tied && !is_obstacle;
       if (!follows)
-        judge_sliding(pairs[p], checks[p], is_obstacle,
-                      i.pairs[p].secondary == i.pairs[p].primary,
+        judge_sliding(pairs[p], checks[p], i.surfaces->gap_error_place(p),
+                      is_obstacle, i.pairs[p].secondary == i.pairs[p].primary,
                       i.surfaces->has_mean_gaps(p), scale, findings);
       judge_turn(pairs[p], allow_large_strain, findings);
       judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
@@ -544,7 +566,11 @@ namespace abut
       result.touches.push_back(pairs[p].secondary_force.norm() > 0.
                                || pairs[p].between_rows > 0.);
       judge_apart(pairs[p].name, apart[p], follows, scale, findings);
-      judge_width(pairs[p].name, narrow.width, narrow.facet, findings);
+      judge_width(pairs[p].name, narrow, findings);
+      judge_chords(pairs[p].name,
+                   i.surfaces->chord_error(p, i.row_states().data(),
+                                           scale.limit(useless_chord)),
+                   scale, findings);
       if (!is_obstacle)
         judge_corners(pairs[p], checks[p], i.surfaces->held_in_the_mean(p),
                       scale, findings);
@@ -554,10 +580,15 @@ namespace abut
                          + " would be refused; what was found is there to be "
                            "measured, and no answer.");
       if (is_obstacle && i.pairs[p].geometric_gap)
-        judge_inside(pairs[p].name,
-                     shim::find_obstacle_in_bodies(*i.mapping, *i.dof_handler,
-                                                   displacement, i.pairs[p]),
+      {
+        const auto inside = shim::find_obstacle_in_bodies(
+            *i.mapping, *i.dof_handler, displacement, i.pairs[p]);
+        judge_inside(pairs[p].name, inside,
+                     inside.is_inside(checks[p].facet_size)
+                         ? i.surfaces->passed_between(p, inside.place)
+                         : shim::ObstacleWidth(),
                      checks[p].facet_size, result.strain, scale, findings);
+      }
       result.missed_depth =
           std::max(result.missed_depth, pairs[p].missed_depth);
     }

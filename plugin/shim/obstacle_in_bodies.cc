@@ -90,7 +90,9 @@ namespace abut::shim
           return;
         grid_->reinit(cell);
         DeepestPoint<dim> deepest = take(cell, *grid_, found);
-        if (is_on_surface(cell, deepest.unit))
+        // What is thinner than the grid may be just behind the surface.
+        if (is_on_surface(cell, deepest.unit)
+            && pair_.obstacle->depth() > extent() / n_)
           return;
         for (double width = 1. / n_; width > least_width; width /= 2.)
         {
@@ -245,6 +247,18 @@ namespace abut::shim
          << "), where the surface of the pair is not: nothing keeps it out "
             "there. Move the obstacle, or let the surface have all sides that "
             "it may meet.";
+    return text.str();
+  }
+
+  template <int dim>
+  std::string
+  ObstacleInBodies<dim>::between_nodes(const std::string &depth) const
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "the obstacle has passed between the nodes of the surface and is "
+            "in the body by "
+         << depth << ", at (" << place << "): ";
     return text.str();
   }
 

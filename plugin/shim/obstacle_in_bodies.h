@@ -31,6 +31,10 @@ namespace abut::shim
 
     /** What is wrong and what to do, with the depth in words. */
     std::string text(const std::string &depth) const;
+
+    /** The same of an obstacle that nodes have missed; the remedy is left to
+     * the caller. */
+    std::string between_nodes(const std::string &depth) const;
   };
 
   /** Look for the obstacle of @p pair in the bodies that its secondary surface

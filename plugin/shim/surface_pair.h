@@ -24,6 +24,15 @@ namespace abut::shim
     /** See RigidObstacle::width(); infinite where there is none. */
     double width = INFINITY;
     double facet = 1.; ///< size, length
+
+    /** Whether a facet is wider, so that nodes on both sides may miss it. */
+    bool is_below_facets() const
+    {
+      return width < facet;
+    }
+
+    /** Its width, the facet's size and the remedy. */
+    std::string text() const;
   };
 
   /** What the directions of the forces of a pair have turned by. */
@@ -101,6 +110,7 @@ namespace abut::shim
     /** Known failures that it was made with all the same. */
     std::vector<ContactFinding> refused;
     double slip = 0., gap_error = 0., missed_depth = 0.;
+    dealii::Point<dim> gap_error_place;
     DirectionTurn<dim> turn;
     ObstacleWidth narrow;
   };

@@ -390,9 +390,14 @@ namespace abut::shim
             if (!distances[p].from.empty())
               pairs_[p].data.obstacle->distance(distances[p].from, from);
             for (std::size_t i = 0; i < to.size(); ++i)
-              pairs_[p].gap_error = std::max(
-                  pairs_[p].gap_error,
-                  std::abs(to[i] - from[i] - distances[p].expected[i]));
+            {
+              const double error =
+                  std::abs(to[i] - from[i] - distances[p].expected[i]);
+              if (error <= pairs_[p].gap_error)
+                continue;
+              pairs_[p].gap_error = error;
+              pairs_[p].gap_error_place = distances[p].to[i];
+            }
           }
         });
     for (const Unseen &found : unseen)
@@ -402,6 +407,15 @@ namespace abut::shim
       if (found.is_missed)
         pair.missed_depth = std::max(pair.missed_depth, found.depth);
     }
+    for (Pair &pair : pairs_)
+      for (const auto &[error, place] :
+           MPI::all_gather(communicator_, std::make_pair(pair.gap_error,
+                                                         pair.gap_error_place)))
+        if (error > pair.gap_error)
+        {
+          pair.gap_error = error;
+          pair.gap_error_place = place;
+        }
     for (Pair &pair : pairs_)
       for (double *value : {&pair.slip, &pair.gap_error, &pair.missed_depth,
                             &pair.between_rows})
@@ -469,6 +483,82 @@ namespace abut::shim
   }
 
   template <int dim>
+  ObstacleWidth
+  SurfacePairRows<dim>::passed_between(const std::size_t number,
+                                       const dealii::Point<dim> &place) const
+  {
+    const Pair &pair = pairs_[number];
+    const dealii::Point<dim> then = place_before(number, place);
+    const auto me = MPI::this_mpi_process(communicator_);
+    const std::vector<Direction> u = made();
+    const double *normals = nullptr;
+    check(context_,
+          abut_surface_normals(pair.secondary.surface.get(), &normals));
+    // Distance of the nearest facet's middle; its size; whether that place was
+    // before it or no farther behind than the obstacle is wide; that width.
+    std::array<double, 4> nearest = {{INFINITY, 1., 0., INFINITY}};
+    for (const std::int32_t f : pair.secondary.facet)
+    {
+      const auto &facet = surface_.facets[f];
+      if (facet.owner != me)
+        continue;
+      dealii::Point<dim> middle;
+      Direction normal;
+      std::vector<dealii::Point<dim>> nodes;
+      double size = 0.;
+      for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)
+      {
+        const Node node = facet.node[a];
+        nodes.push_back(surface_.nodes[node].point + u[node]);
+        size = std::max(size, nodes[a].distance(nodes[0]));
+        const int n = pair.secondary.local_node(node);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          middle[d] += nodes[a][d] / surface_.nodes_per_facet();
+          normal[d] += normals[n * dim + d];
+        }
+      }
+      if (then.distance(middle) >= nearest[0])
+        continue;
+      normal /= normal.norm();
+      const double height = normal * (then - middle);
+      const bool is_over =
+          (then - middle - height * normal).norm() <= 0.5 * size;
+      const double width = pair.data.obstacle->width(normal_of(nodes.data()));
+      nearest = {{then.distance(middle), size,
+                  is_over && height > -width ? 1. : 0., width}};
+    }
+    for (const auto &other : MPI::all_gather(communicator_, nearest))
+      if (other[0] < nearest[0])
+        nearest = other;
+    return nearest[2] > 0. ? ObstacleWidth{nearest[3], nearest[1]}
+                           : ObstacleWidth();
+  }
+
+  std::string ObstacleWidth::text() const
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "the obstacle is only " << width << " wide where facets of size "
+         << facet
+         << " are near it: single nodes know of it, or none, and its force is "
+            "theirs. Refine the surface there, until several facets are "
+            "under it.";
+    return text.str();
+  }
+
+  template <int dim>
+  dealii::Point<dim>
+  SurfacePairRows<dim>::place_before(const std::size_t number,
+                                     const dealii::Point<dim> &place) const
+  {
+    const RigidPose<dim> now = pairs_[number].data.obstacle->pose(),
+                         then = poses_before(poses(), true)[number];
+    const Direction own = transpose(now.rotation) * (place - now.translation);
+    return dealii::Point<dim>(then.rotation * own + then.translation);
+  }
+
+  template <int dim>
   void SurfacePairRows<dim>::refuse_inside(Pair &pair,
                                            const la::Vector &displacement) const
   {
@@ -483,20 +573,18 @@ namespace abut::shim
     depth.precision(3);
     depth << found.elsewhere;
     // How far that place of the obstacle has come in this step.
-    const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
-    const RigidPose<dim> now = obstacle.pose(),
-                         then =
-                             poses_before(poses(), true)[&pair - pairs_.data()];
-    const Direction own =
-        transpose(now.rotation) * (found.place - now.translation);
-    const double way =
-        (found.place - then.rotation * own - then.translation).norm();
-    if (pair.data.may_be_apart && way > 2. * obstacle.depth())
+    const auto number = static_cast<std::size_t>(&pair - pairs_.data());
+    const double way = found.place.distance(place_before(number, found.place));
+    const ObstacleWidth width = passed_between(number, found.place);
+    if (pair.data.may_be_apart && way > 2. * pair.data.obstacle->depth())
       refuse(pair,
              too_long_a_step(pair.data, way,
                              "ends inside of it, past the surface of the pair, "
                              "by "
                                  + depth.str() + "."));
+    else if (width.is_below_facets())
+      refuse(pair, coded(ABUT_FAILURE_UNSEEN,
+                         found.between_nodes(depth.str()) + width.text()));
     else
       refuse(pair, coded(ABUT_FAILURE_WRONG_SIDE, found.text(depth.str())));
   }
@@ -553,6 +641,10 @@ namespace abut::shim
       const la::Vector &, const double *, const double *,                      \
       const std::uint8_t *, const std::vector<Unseen> &);                      \
   template std::string SurfacePairRows<dim>::wrong_side(Pair &) const;         \
+  template ObstacleWidth SurfacePairRows<dim>::passed_between(                 \
+      std::size_t, const dealii::Point<dim> &) const;                          \
+  template dealii::Point<dim> SurfacePairRows<dim>::place_before(              \
+      std::size_t, const dealii::Point<dim> &) const;                          \
   template void SurfacePairRows<dim>::look_inside(const la::Vector &);         \
   template void SurfacePairRows<dim>::refuse_overlap(std::size_t);             \
   template void SurfacePairRows<dim>::refuse_inside(Pair &,                    \

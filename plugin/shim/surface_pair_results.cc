@@ -246,7 +246,17 @@ namespace abut::shim
       checks_.push_back(result);
       return;
     }
-    if (result.n_rows == 0 && pair.data.obstacle)
+    // Of others no width is known.
+    if (result.n_rows == 0 && pair.data.obstacle
+        && std::isfinite(pair.data.obstacle->depth()))
+      find_narrow(pair, made());
+    if (result.n_rows == 0 && pair.data.obstacle
+        && pair.narrow.is_below_facets())
+      result.warnings.push_back(coded(
+          ABUT_FAILURE_UNSEEN, "no node of the surface is within reach of the "
+                               "obstacle: "
+                                   + pair.narrow.text()));
+    else if (result.n_rows == 0 && pair.data.obstacle)
     {
       const std::string side = wrong_side(pairs_[number]);
       result.warnings.push_back(coded(

@@ -161,6 +161,25 @@ namespace abut::shim
       return pairs_[pair].narrow;
     }
 
+    /** Width of the obstacle and size of the nearest facet, if the place of
+     * the obstacle that is now at @p place came through that facet within the
+     * present step, or was at it; infinite otherwise. Collective. */
+    ObstacleWidth passed_between(std::size_t pair,
+                                 const dealii::Point<dim> &place) const;
+
+    /** Where PairResult::gap_error is, by the last examine(). */
+    const dealii::Point<dim> &gap_error_place(const std::size_t pair) const
+    {
+      return pairs_[pair].gap_error_place;
+    }
+
+    /** Largest distance between a straight facet of a pair of bodies and its
+     * curved manifold at a node of the other side in contact, as far as it is
+     * more than @p least, length; else 0. Where meshes match it is 0 at all
+     * nodes. Collective. */
+    double chord_error(std::size_t pair, const std::uint8_t *row_state,
+                       double least) const;
+
     /** Whether gaps of a pair are weighted means around its nodes. */
     bool has_mean_gaps(std::size_t pair) const
     {
@@ -509,6 +528,10 @@ namespace abut::shim
                        const std::vector<std::uint8_t> &touching,
                        const std::vector<std::uint8_t> &touching_facets,
                        std::vector<Unseen> &found) const;
+    /** Where the place of the obstacle that is now at @p place was before the
+     * present step. */
+    dealii::Point<dim> place_before(std::size_t pair,
+                                    const dealii::Point<dim> &place) const;
     void find_narrow(Pair &pair, const std::vector<Direction> &u) const;
     std::vector<Pressed> pressed_points(std::size_t pair,
                                         const double *row_pressure,
@@ -756,6 +779,15 @@ namespace abut::shim
     Direction made_at(const Node node) const
     {
       return present_[node] - reference_[node];
+    }
+
+    /** The same of all nodes, moving or not. */
+    std::vector<Direction> made() const
+    {
+      std::vector<Direction> u(surface_.nodes.size());
+      for (std::size_t n = 0; n < present_.size(); ++n)
+        u[n] = made_at(static_cast<Node>(n));
+      return u;
     }
 
     /** [pairs] of the present points; empty: they have to be made anew. */

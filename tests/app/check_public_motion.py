@@ -114,7 +114,7 @@ for scene in ("dynamics-bar-on-a-wall.prm", "dynamics-falling-bar.prm"):
             "density", "Time/Step")
     for setting in ("Length=1e300", "Density=1e300"):
         name, value = setting.split("=")
-        run(scene, {"Bar/" + name: value}, 3, "ABUT-F44", "infinite")
+        run(scene, {"Bar/" + name: value}, 3, "ABUT-F39", "range of")
 run(STRUCK, {"Body 1/Density": "1e-20"}, 3, "ABUT-F12", "Inertia vanishes",
     "Density", "Time/Step", "!Support the body in that direction")
 run(STRUCK, {"Body 1/Density": "1e-30"}, 3, "ABUT-F30", "badly conditioned")

@@ -213,8 +213,8 @@ namespace abut::app
         ABUT_FAILURE_SINGULAR,
         seen
             + " Corners of bodies, edges of punches, ends of supports and "
-              "loads, and data that jumps slow it down; Refinement/Adaptive "
-              "cycles refines there alone."));
+              "loads, and data that jumps or changes within a cell slow it "
+              "down; Refinement/Adaptive cycles refines there alone."));
   }
 
   void diagnose_condition(Report &report, const double condition,

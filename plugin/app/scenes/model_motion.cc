@@ -275,15 +275,47 @@ namespace abut::app
     return coded(failure, judgement + cure_of_gain());
   }
 
+  template <int dim> double ModelMotion<dim>::way_of_step() const
+  {
+    la::Vector change(run.u);
+    change -= motion.displacement();
+    double way = change.linfty_norm();
+    const auto &place = present.place, &before = records.back().place;
+    for (std::size_t s = 0; s < std::min(place.size(), before.size()); ++s)
+      for (std::size_t c = 0; c < std::min(place[s].size(), before[s].size());
+           ++c)
+        way = std::max(way, std::abs(place[s][c] - before[s][c]));
+    return way;
+  }
+
+  template <int dim>
+  void ModelMotion<dim>::look_for_loss(const abut_time_balance &before,
+                                       const double way)
+  {
+    const BodyMotionRecord &first = records.end()[-2].bodies,
+                           &last = records.back().bodies;
+    const double force =
+        std::max(std::abs(first.contact_force), std::abs(last.contact_force));
+    if (lost || time.scheme.impulses != 0
+        || !loses_motion(before, balance, force, way))
+      return;
+    lost = true;
+    run.report.warn(text_of_lost_motion(
+        (before.last - balance.last) / balance.scale, first.time, last.time));
+  }
+
   template <int dim> std::string ModelMotion<dim>::commit()
   {
+    const double way = way_of_step();
     motion.commit();
     records.push_back(present);
     dissipated += friction_of_step;
     work += work_of_step;
     abut_time_verdict verdict;
+    const abut_time_balance before = balance;
     judge(present.bodies, verdict);
     loses = verdict == ABUT_TIME_LOSES;
+    look_for_loss(before, way);
     if (verdict != ABUT_TIME_GAINS && verdict != ABUT_TIME_BLOWS_UP)
       return "";
     const std::string what = "The energy balance at time "
@@ -303,7 +335,7 @@ namespace abut::app
   template <int dim> void ModelMotion<dim>::warn_of_loss() const
   {
     const auto end = static_cast<std::size_t>(balance.fall_at);
-    if (loses && end > 0)
+    if (loses && !lost && end > 0)
       run.report.warn(text_of_loss(time.scheme, balance,
                                    records.at(end - 1).bodies.time,
                                    records.at(end).bodies.time, words.stops));
@@ -311,7 +343,7 @@ namespace abut::app
 
   template <int dim> bool ModelMotion<dim>::keeps_energy() const
   {
-    return balance.gain <= useless_gain;
+    return !lost && balance.gain <= useless_gain;
   }
 
   template <int dim> double ModelMotion<dim>::energy() const

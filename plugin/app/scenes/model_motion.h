@@ -136,7 +136,7 @@ namespace abut::app
       archive &motion &records &dissipated &work;
       archive &balance.n &balance.first &balance.last &balance.highest;
       archive &balance.scale &balance.gain &has_warned;
-      archive &balance.loss &balance.fall &balance.fall_at &loses;
+      archive &balance.loss &balance.fall &balance.fall_at &loses &lost;
     }
 
     /** The state at a time. */
@@ -171,6 +171,11 @@ namespace abut::app
     Record no_contact() const;
     void measure_contact(const std::vector<ContactAction> &actions);
     double friction_work(const ContactAction &action, double before) const;
+    /** Largest displacement of a node or an obstacle within the present step,
+     * length. Collective. */
+    double way_of_step() const;
+    /** Warn if the step since @p before has taken the motion. */
+    void look_for_loss(const abut_time_balance &before, double way);
     double work_of_obstacles() const;
     /** Tell the limit of an explicit scheme, and warn above it. Collective. */
     void look_at_step();
@@ -198,7 +203,7 @@ namespace abut::app
     la::Vector on_supports; ///< contact of that step at prescribed unknowns
     double friction_of_step = 0., work_of_step = 0.;
     abut_time_balance balance = {};
-    bool has_warned = false, loses = false;
+    bool has_warned = false, loses = false, lost = false;
   };
 } // namespace abut::app
 

@@ -38,6 +38,7 @@ list_arrays(abut_coupling *c, array_size *list)
                             {&c->hat, sizeof(double)},
                             {&c->covered_hat, sizeof(double)},
                             {&c->row_reach, sizeof(double)},
+                            {&c->lone, sizeof(uint8_t)},
                             {&c->node_flag, sizeof(uint8_t)},
                             {&c->corner, sizeof(uint8_t)},
                             {&c->bend, sizeof(double)},

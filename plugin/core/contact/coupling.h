@@ -189,6 +189,7 @@ struct abut_coupling
   abut_array hat;         /* double, [n_nodes] integral of hats, whole facets */
   abut_array covered_hat; /* double, [n_nodes] the same, covered part */
   abut_array row_reach;   /* double, [n_nodes] obstacles */
+  abut_array lone;        /* uint8_t, [n_nodes] they alone face the obstacle */
   abut_array corner;      /* uint8_t, [n_nodes] 1: at a feature; 2: and kept */
   abut_array bend;        /* double, [3 n_nodes] integral of hat n, covered */
   bool drops;             /* nodes are looked for to be dropped */

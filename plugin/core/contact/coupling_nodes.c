@@ -179,13 +179,19 @@ abut_coupling_read_nodes(abut_coupling *c)
   {
     abut_array *array;
     int64_t n;
-  } const list[] = {
-      {&c->hanging, n},     {&c->given, n},
-      {&c->dropped, n},     {&c->full, n},
-      {&c->covered, n},     {&c->hat, n},
-      {&c->covered_hat, n}, {&c->row_reach, n},
-      {&c->node_flag, n},   {&c->corner, n},
-      {&c->bend, 3 * n},    {&c->purpose, c->secondary->view.n_facets}};
+  } const list[] = {{&c->hanging, n},
+                    {&c->given, n},
+                    {&c->dropped, n},
+                    {&c->full, n},
+                    {&c->covered, n},
+                    {&c->hat, n},
+                    {&c->covered_hat, n},
+                    {&c->row_reach, n},
+                    {&c->lone, n},
+                    {&c->node_flag, n},
+                    {&c->corner, n},
+                    {&c->bend, 3 * n},
+                    {&c->purpose, c->secondary->view.n_facets}};
   abut_status status = check_ranges(c);
   for (size_t i = 0;
        i < sizeof(list) / sizeof(list[0]) && status == ABUT_SUCCESS; ++i)

@@ -69,6 +69,93 @@ set_sizes_of_nodes(abut_coupling *c)
   }
 }
 
+/* Answer number i: signed distance and normal. */
+static void
+answer(const abut_coupling *c, int64_t i, double *distance, double *normal)
+{
+  const int dim = c->view.dimension;
+  const double *gradient = (const double *)c->gradient.data + i * dim;
+  *distance = ((const double *)c->distance.data)[i];
+  for (int d = 0; d < 3; ++d)
+    normal[d] = d < dim ? -gradient[d] : 0.;
+}
+
+/* Whether the middle of a facet, answer number i, faces the obstacle. */
+static bool
+middle_faces(const abut_coupling *c, const abut_coupling_facet *facet,
+             int64_t i)
+{
+  double distance, normal[3];
+  answer(c, i, &distance, normal);
+  unit3(normal, 0.);
+  return -dot3(normal, facet->normal) <= c->options.normal_cosine;
+}
+
+/* Whether a node faces the obstacle and is not farther than a size. */
+static bool
+node_faces(const abut_coupling *c, int32_t node, double size)
+{
+  static const double beyond_doubt = 0.5;
+  const int dim = c->view.dimension;
+  const double *outward = (const double *)c->asked_normal.data + node * dim;
+  double distance, normal[3], cosine = 0.;
+  answer(c, node, &distance, normal);
+  unit3(normal, 0.);
+  for (int d = 0; d < dim; ++d)
+    cosine += normal[d] * outward[d];
+  return distance <= size && cosine >= beyond_doubt;
+}
+
+/* An obstacle smaller than the facets may face a node, but the middle of no
+ * facet around it: such nodes are lone, and their facets are taken. */
+static abut_status
+find_lone_nodes(abut_coupling *c)
+{
+  const abut_surface_view *v = &c->secondary->view;
+  const int32_t *order = c->facet_order.data, *hanging = c->hanging.data;
+  const uint8_t *purpose = c->purpose.data, *wanted = c->nodes->wanted;
+  uint8_t *lone = c->lone.data;
+  abut_status status = ABUT_SUCCESS;
+  for (int pass = 0; pass < 2 && c->method->detects_nodes; ++pass)
+  {
+    int64_t next = v->n_nodes;
+    for (int32_t i = 0; i < v->n_facets && status == ABUT_SUCCESS; ++i)
+    {
+      abut_coupling_facet facet;
+      const int32_t f = order[i];
+      if (!(purpose[f] & ABUT_COUPLING_FOR_ROWS))
+        continue;
+      abut_coupling_load(c, f, &facet);
+      status = abut_coupling_whole(c, &facet);
+      next += c->n_points + 1;
+      const bool faces =
+          status == ABUT_SUCCESS && middle_faces(c, &facet, next - 1);
+      for (int32_t e = v->facet_start[f]; e < v->facet_start[f + 1]; ++e)
+      {
+        const int32_t n = v->connectivity[e];
+        if (pass == 0 && hanging[n] < 0 && (wanted == NULL || wanted[n])
+            && node_faces(c, n, facet.size))
+          lone[n] = 1;
+        else if (pass == 1 && faces)
+          lone[n] = 0;
+      }
+    }
+  }
+  return status;
+}
+
+static bool
+has_lone_node(const abut_coupling *c, const abut_coupling_facet *facet)
+{
+  const abut_surface_view *v = &c->secondary->view;
+  const uint8_t *lone = c->lone.data;
+  for (int32_t e = v->facet_start[facet->index];
+       e < v->facet_start[facet->index + 1]; ++e)
+    if (lone[v->connectivity[e]])
+      return true;
+  return false;
+}
+
 /* Points behind the middle of a thin obstacle, and near its edges. */
 static abut_status
 correct(abut_coupling *c)
@@ -118,18 +205,9 @@ abut_coupling_measure_obstacle(abut_coupling *c)
                : abut_obstacle_distance(c->obstacle, (int32_t)c->n_asked,
                                         c->asked.data, c->distance.data,
                                         c->gradient.data, NULL);
-  return status == ABUT_SUCCESS ? correct(c) : status;
-}
-
-/* Answer number i: signed distance and normal. */
-static void
-answer(const abut_coupling *c, int64_t i, double *distance, double *normal)
-{
-  const int dim = c->view.dimension;
-  const double *gradient = (const double *)c->gradient.data + i * dim;
-  *distance = ((const double *)c->distance.data)[i];
-  for (int d = 0; d < 3; ++d)
-    normal[d] = d < dim ? -gradient[d] : 0.;
+  if (status == ABUT_SUCCESS)
+    status = correct(c);
+  return status == ABUT_SUCCESS ? find_lone_nodes(c) : status;
 }
 
 /* Keep the rows of the facet's nodes as far as the largest reach. */
@@ -171,7 +249,6 @@ abut_status
 abut_coupling_face_obstacle(abut_coupling *c, const abut_coupling_facet *facet,
                             bool final)
 {
-  double normal[3], distance;
   int32_t n = 0;
   const abut_status status = abut_coupling_whole(c, facet);
   if (status != ABUT_SUCCESS)
@@ -180,9 +257,7 @@ abut_coupling_face_obstacle(abut_coupling *c, const abut_coupling_facet *facet,
   abut_coupling_point *p = c->points.data;
   c->n_answered += n_points + 1;
   c->n_points = 0;
-  answer(c, first + n_points, &distance, normal);
-  unit3(normal, 0.);
-  if (!(-dot3(normal, facet->normal) <= c->options.normal_cosine))
+  if (!middle_faces(c, facet, first + n_points) && !has_lone_node(c, facet))
     return ABUT_SUCCESS;
   for (int64_t q = 0; q < n_points; ++q)
   {

@@ -11,6 +11,11 @@ static const char call[] = "abut_strategy_next";
 /* c of the tangents, as a multiple of that of the normals. */
 static const double tangent_scale = 0.3;
 
+/* Coefficient of friction above which what has just closed does not slip before
+ * it presses: equilibrium along the surface would have mu times that across it,
+ * and no digits of its own. */
+static const double sticking = 100;
+
 /* Blocks of all points: rows that belong to no point with friction are blocks
  * of one number. */
 static void
@@ -351,7 +356,10 @@ abut_friction_first_state(abut_strategy *s, const uint8_t *state)
     if (is_prescribed(f, i, tangent))
       continue;
     else if (state != NULL)
-      f->state[i] = state[f->first[i]];
+      f->state[i] =
+          state[f->first[i]] == ABUT_STATE_SLIP && f->d_bound[i] > sticking
+              ? ABUT_STATE_CLOSED
+              : state[f->first[i]];
     /* Before anything presses nothing is known: stick holds bodies that
      * friction alone holds. */
     else if (f->state[i] == ABUT_STATE_SLIP && !(f->pressure[i] > 0)
@@ -550,8 +558,10 @@ abut_friction_find_states(abut_strategy *s, double pressure_noise,
   for (int32_t i = 0; i < f->n; tangent += f->n_tangents[i++])
   {
     const int32_t row = f->first[i];
-    if (f->trial[i] == ABUT_STATE_SLIP && f->bound[i] > 0
-        && has_springs(s, i, tangent) && springs_suffice(s, i, tangent))
+    const bool has_closed = !(f->bound[i] > 0) && f->d_bound[i] > sticking;
+    const bool is_spring = f->bound[i] > 0 && has_springs(s, i, tangent)
+                           && springs_suffice(s, i, tangent);
+    if (f->trial[i] == ABUT_STATE_SLIP && (has_closed || is_spring))
       f->trial[i] = ABUT_STATE_CLOSED;
     f->row_changes[row] = is_bad(f, i, tangent);
     f->row_excess[row] = f->row_changes[row] ? excess(f, i, tangent) : 0;

@@ -238,7 +238,7 @@ namespace abut::app
       throw std::range_error(abut_context_message(context.get()));
   }
 
-  std::string Motion::why_unsolved() const
+  std::string Motion::why_unsolved(const bool not_finite) const
   {
     const auto largest = [](const std::vector<double> &matrix)
     {
@@ -247,11 +247,16 @@ namespace abut::app
         result = std::max(result, std::abs(value));
       return result;
     };
-    const std::string sizes =
-        "masses of " + short_number(largest(system.mass), 3)
-        + " and springs of " + short_number(largest(system.stiffness), 3);
+    const double mass = largest(system.mass),
+                 stiffness = largest(system.stiffness);
+    const std::string sizes = "masses of " + short_number(mass, 3)
+                              + " and springs of " + short_number(stiffness, 3);
+    // Squares of these leave the range of numbers, and none is an answer.
+    constexpr double most = 1e100;
     const std::string what = abut_context_message(context.get());
-    if (what.find("singular") == std::string::npos)
+    if (not_finite && std::max(mass, stiffness) < most)
+      return coded(ABUT_FAILURE_BLOW_UP, "a number of the motion is infinite");
+    if (not_finite || what.find("singular") == std::string::npos)
       return coded(ABUT_FAILURE_NOT_FINITE,
                    sizes + " lead out of the range of numbers (" + what
                        + "). Choose other units of lengths, masses and times.");
@@ -272,10 +277,8 @@ namespace abut::app
     const abut_status status = abut_dense_model_solve(
         context.get(), &model, &options, y.data(), forces.data(), nullptr,
         nullptr, nullptr, &progress, &reason);
-    if (status == ABUT_NOT_FINITE)
-      return coded(ABUT_FAILURE_BLOW_UP, "a number of the motion is infinite");
     if (status != ABUT_SUCCESS)
-      return why_unsolved();
+      return why_unsolved(status == ABUT_NOT_FINITE);
     return reason == ABUT_REASON_CONVERGED
                ? ""
                : coded(abut_reason_failure(reason, options.law, &progress),

@@ -94,7 +94,7 @@ namespace abut::app
     void require(abut_status status) const;
     /** Why masses and springs have no answer, after a call of the core failed.
      */
-    std::string why_unsolved() const;
+    std::string why_unsolved(bool not_finite = false) const;
     std::string solve_model(const abut_dense_model &model,
                             const abut_strategy_options &options,
                             std::vector<double> &y,

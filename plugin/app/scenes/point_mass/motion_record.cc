@@ -57,8 +57,24 @@ namespace abut::app
     const abut_time_energy energy = {sizeof(energy), now.kinetic,    now.strain,
                                      now.contact,    now.dissipated, now.work};
     abut_time_verdict verdict = ABUT_TIME_STEADY;
+    const abut_time_balance before = balance;
     abut_time_judge(&scheme, &energy, &balance, &verdict);
     loses = verdict == ABUT_TIME_LOSES;
+    double way = 0.;
+    for (std::size_t k = 0; k < displacement.size(); ++k)
+      way = std::max(way, std::abs(motion.u[k] - displacement[k]));
+    displacement = motion.u;
+    if (!lost && scheme.impulses == 0 && entries.size() > 1
+        && loses_motion(
+            before, balance,
+            std::max(std::abs(now.force), std::abs(entries.end()[-2].force)),
+            way))
+    {
+      lost = true;
+      report.warn(
+          text_of_lost_motion((before.last - balance.last) / balance.scale,
+                              entries.end()[-2].time, time));
+    }
     std::map<std::string, double> row = {
         {"step", static_cast<double>(entries.size()) - 1.},
         {"time", time},
@@ -91,8 +107,16 @@ namespace abut::app
     report.warn(coded(ABUT_FAILURE_BLOW_UP,
                       "the motion blows up: at time " + short_number(time, 6)
                           + " it has more than a hundred times the energy "
-                            "that there was; make Time/Step smaller, or take "
-                            "an implicit Time/Scheme"));
+                            "that there was; "
+                          + (scheme.beta > 0.
+                                 ? "the step is long beside the oscillations, "
+                                   "so that inertia has no digits left beside "
+                                   "the stiffness, or the start contradicts "
+                                   "the fixed end: look at the units of "
+                                   "lengths, masses and times, and make "
+                                   "Time/Step smaller"
+                                 : "make Time/Step smaller, or take an "
+                                   "implicit Time/Scheme")));
     return false;
   }
 
@@ -112,10 +136,10 @@ namespace abut::app
                        "made for")
               + ", or a smaller Time/Step"));
     const auto fall = static_cast<std::size_t>(balance.fall_at);
-    if (loses && fall > 0)
+    if (loses && !lost && fall > 0)
       report.warn(text_of_loss(scheme, balance, entries.at(fall - 1).time,
                                entries.at(fall).time));
-    return !gains || balance.gain <= useless_gain;
+    return !lost && (!gains || balance.gain <= useless_gain);
   }
 
   void MotionRecord::fill_summary(Report &report) const

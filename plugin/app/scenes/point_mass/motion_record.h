@@ -46,7 +46,8 @@ namespace abut::app
     std::vector<Entry> entries;
     std::vector<double> momentum, impulse;
     double contact_begin = 0, contact_end = 0, largest_force = 0;
-    bool gains = false, loses = false;
+    bool gains = false, loses = false, lost = false;
+    std::vector<double> displacement; ///< at the last entry
     double gain_time = 0;
   };
 } // namespace abut::app
