@@ -162,8 +162,7 @@ namespace abut::app
     if (!is_linear())
     {
       assemble_tangent(this->vector());
-      undeformed.reinit(this->stiffness);
-      undeformed.copy_from(this->stiffness);
+      la::copy(this->stiffness, undeformed);
       return;
     }
     CellSum<dim> sum(*this, this->stiffness);
