@@ -79,7 +79,7 @@ namespace abut::solve
           : rows_(la::local_rows(matrix))
       {
         const MPI_Comm communicator = matrix.get_mpi_communicator();
-        // ML restricts anew on kept aggregates on one rank only.
+        // ML restricts again on kept aggregates on one rank only.
         if (space.n_bodies == 1 || MPI::n_mpi_processes(communicator) > 1)
           return;
         la::Vector body(matrix.locally_owned_range_indices(), communicator);
