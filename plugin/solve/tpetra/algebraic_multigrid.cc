@@ -30,8 +30,10 @@ namespace abut::solve
       list.set("multigrid algorithm", "sa");
       list.set("aggregation: drop tol", options.threshold);
       list.set("smoother: type", "CHEBYSHEV");
+      // With MueLu's ratio of 20 saddle points need a quarter more iterations.
       list.sublist("smoother: params")
-          .set("chebyshev: degree", static_cast<int>(options.smoother_sweeps));
+          .set("chebyshev: degree", static_cast<int>(options.smoother_sweeps))
+          .set("chebyshev: ratio eigenvalue", 10.);
       list.set("coarse: max size", 2000);
       list.set("coarse: type", "KLU2");
       if (options.keeps_aggregates)

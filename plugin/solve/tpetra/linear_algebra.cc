@@ -69,7 +69,9 @@ namespace abut::la
 
   void copy(const Matrix &from, Matrix &to)
   {
-    // After deal.II's copy_from() compress() takes columns for the domain.
+    // After deal.II's copy_from() compress() takes columns for the domain, and
+    // its reinit() does not compress what was compressed before.
+    to = Matrix();
     to.reinit(from);
     const LocalRows rows = local_rows(from);
     std::copy_n(rows.value, rows.start[rows.n_rows], local_rows(to).value);
