@@ -8,6 +8,7 @@
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/types.h>
+#include <deal.II/grid/cell_id.h>
 
 #include <array>
 #include <cstdint>
@@ -49,7 +50,7 @@ namespace abut::shim
     /** A boundary face of an active cell. */
     struct Facet
     {
-      std::array<std::uint32_t, 4> cell; ///< binary CellId
+      dealii::CellId::binary_type cell; ///< as binary CellId
       std::uint32_t face;
       dealii::types::boundary_id boundary_id;
       std::uint32_t owner; ///< rank of the cell

@@ -71,6 +71,7 @@ namespace abut::shim
   /** Facets of all ranks by their corners. */
   template <int dim> struct SelfContact<dim>::Facets
   {
+    using Word = typename Cell::value_type;
     static constexpr unsigned int n_corners = 1u << (dim - 1);
 
     struct Facet
@@ -89,7 +90,7 @@ namespace abut::shim
            const dealii::DoFHandler<dim> &dof_handler,
            const std::set<BoundaryId> &ids, const la::Vector *displacement)
     {
-      std::vector<std::uint32_t> words;
+      std::vector<Word> words;
       std::vector<std::int64_t> nodes;
       std::vector<double> points;
       std::vector<global_dof_index> unknowns; // of points
@@ -139,7 +140,7 @@ namespace abut::shim
                 });
     }
 
-    void read(const std::vector<std::uint32_t> &words,
+    void read(const std::vector<Word> &words,
               const std::vector<std::int64_t> &nodes,
               const std::vector<double> &points)
     {
@@ -147,10 +148,10 @@ namespace abut::shim
       for (std::size_t f = 0; f < words.size() / stride; ++f)
       {
         Facet facet;
-        const std::uint32_t *word = &words[f * stride];
+        const Word *word = &words[f * stride];
         std::copy_n(word, stride - 2, facet.cell.begin());
-        facet.face = word[stride - 2];
-        facet.id = word[stride - 1];
+        facet.face = static_cast<unsigned int>(word[stride - 2]);
+        facet.id = static_cast<BoundaryId>(word[stride - 1]);
         std::copy_n(&nodes[f * n_corners], n_corners, facet.node.begin());
         std::copy_n(&points[f * n_corners * dim], n_corners * dim,
                     facet.point.begin());
@@ -404,7 +405,7 @@ namespace abut::shim
     {
       Cell cell;
       for (std::size_t k = 0; k < n; ++k)
-        cell[k] = static_cast<std::uint32_t>(words[i + k]);
+        cell[k] = static_cast<typename Cell::value_type>(words[i + k]);
       primary.emplace(cell, static_cast<unsigned int>(words[i + n]));
     }
     std::swap(primary, primary_);

@@ -371,8 +371,8 @@ namespace abut::shim
   {
     const Facet &facet = record.facet;
     parcel.write(facet.number);
-    for (const unsigned int k : {0, 2})
-      parcel.write(std::int64_t(facet.cell[k]) << 32 | facet.cell[k + 1]);
+    for (const auto word : facet.cell)
+      parcel.write(static_cast<std::int64_t>(word));
     parcel.write(std::int64_t(facet.owner) << 32 | facet.boundary_id);
     parcel.write(std::int64_t(record.parents.size()) << 8 | facet.face);
     for (const auto *list : {&record.nodes, &record.parents})
@@ -387,12 +387,8 @@ namespace abut::shim
     FacetRecord record;
     Facet &facet = record.facet;
     facet.number = parcel.read();
-    for (const unsigned int k : {0, 2})
-    {
-      const std::uint64_t both = parcel.read();
-      facet.cell[k] = static_cast<std::uint32_t>(both >> 32);
-      facet.cell[k + 1] = static_cast<std::uint32_t>(both);
-    }
+    for (auto &word : facet.cell)
+      word = static_cast<std::decay_t<decltype(word)>>(parcel.read());
     const std::uint64_t place = parcel.read(), face = parcel.read();
     facet.owner = static_cast<std::uint32_t>(place >> 32);
     facet.boundary_id = static_cast<dealii::types::boundary_id>(

@@ -125,7 +125,7 @@ namespace abut::shim
         continue;
       FnvHash hash;
       hash.mix(facet.number);
-      for (const std::uint32_t word : facet.cell)
+      for (const auto word : facet.cell)
         hash.mix(word);
       hash.mix(facet.face);
       hash.mix(SelfContact<dim>::of_mesh(facet.boundary_id));

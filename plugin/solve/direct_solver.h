@@ -2,21 +2,19 @@
 #ifndef ABUT_SOLVE_DIRECT_SOLVER_H
 #define ABUT_SOLVE_DIRECT_SOLVER_H
 
+#include "factors.h"
+
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
 
 #include <memory>
 #include <string>
 
-class Amesos_BaseSolver;
-class Epetra_CrsMatrix;
-class Epetra_LinearProblem;
-
 namespace abut::solve
 {
-  /** A sparse factorisation by Amesos: MUMPS where it is built in, else KLU.
-   * deal.II's wrapper of the same cannot give MUMPS the room that indefinite
-   * matrices need beyond its estimate. */
+  /** A sparse factorisation by Amesos or Amesos2: MUMPS where it is built in,
+   * else KLU. deal.II's wrappers of the same cannot give MUMPS the room that
+   * indefinite matrices need beyond its estimate. */
   class DirectSolver
   {
   public:
@@ -26,16 +24,12 @@ namespace abut::solve
     /** Factorise @p matrix, which must exist and keep its values as long as
      * solve() is called. Throws SolverFailure if it is singular. Collective. */
     explicit DirectSolver(const la::Matrix &matrix);
-    ~DirectSolver();
 
     /** Solve matrix x = b. Collective. */
     void solve(la::Vector &x, const la::Vector &b) const;
 
   private:
-    /** Empty; stands for the matrix when that may be gone. */
-    std::unique_ptr<Epetra_CrsMatrix> stand_in_;
-    std::unique_ptr<Epetra_LinearProblem> problem_;
-    std::unique_ptr<Amesos_BaseSolver> solver_;
+    std::unique_ptr<Factors> factors_;
   };
 } // namespace abut::solve
 

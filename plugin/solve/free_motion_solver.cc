@@ -107,7 +107,7 @@ namespace abut::solve
           return values;
         },
         stiffness.communicator());
-    fixed_.copy_from(stiffness.matrix());
+    la::copy(stiffness.matrix(), fixed_);
     const la::LocalRows matrix = la::local_rows(fixed_);
     for (const std::size_t i : pinned)
       for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k)

@@ -228,7 +228,8 @@ namespace abut::solve
     const bool was_asked =
         parameters_.linear == SolverParameters::Linear::geometric;
     return was_asked || is_given_up_
-               ? "ML (no geometric multigrid: " + missing_ + ")"
-               : "ML";
+               ? "algebraic multigrid (no geometric multigrid: " + missing_
+                     + ")"
+               : "algebraic multigrid";
   }
 } // namespace abut::solve

@@ -98,7 +98,7 @@ namespace abut::solve
      * up, as where cells are long or materials jump within coarse cells. */
     unsigned int patience(double digits) const;
 
-    /** ML from now on, as that was not enough. */
+    /** Algebraic multigrid from now on, as that was not enough. */
     void give_up(unsigned int n_iterations);
 
     /** What is used, in words. */

@@ -153,7 +153,7 @@ namespace abut::solve
     is_plain_ = is_plain(mask);
     if (!is_plain_)
     {
-      truncated_.copy_from(*matrix_);
+      la::copy(*matrix_, truncated_);
       cut_off(mask.held, mask, true);
     }
     const la::Matrix &system = is_plain_ ? *matrix_ : truncated_;

@@ -1,31 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "multigrid.h"
 
-#include <deal.II/lac/trilinos_precondition.h>
+#include "algebraic_multigrid.h"
 
-#include <Epetra_MultiVector.h>
-#include <Teuchos_ParameterList.hpp>
-
+#include <algorithm>
 #include <utility>
 
 namespace abut::solve
 {
-  using dealii::TrilinosWrappers::PreconditionAMG;
   namespace MPI = dealii::Utilities::MPI;
 
   namespace
   {
-    class AlgebraicMultigrid : public Multigrid
-    {
-    public:
-      void vmult(la::Vector &dst, const la::Vector &src) const override
-      {
-        amg.vmult(dst, src);
-      }
-
-      PreconditionAMG amg;
-    };
-
     /** Positions about their centre, as parts of the largest distance. */
     std::vector<dealii::Tensor<1, 3>>
     relative_positions(const NearNullSpace &space, const MPI_Comm communicator)
@@ -57,32 +43,31 @@ namespace abut::solve
      * rotations in all planes of two axes. One centre does for all bodies:
      * aggregates are parts of bodies, on which rotations about different
      * centres differ by translations. */
-    Epetra_MultiVector rigid_motions(const la::Matrix &matrix,
-                                     const NearNullSpace &space)
+    void set_rigid_motions(const la::Matrix &matrix, const NearNullSpace &space,
+                           AggregationOptions &options)
     {
       const unsigned int dim = space.n_components;
       const bool rotates =
           MPI::max(space.point.empty() ? 0u : 1u, matrix.get_mpi_communicator())
           > 0;
-      const unsigned int n_rotations = rotates ? dim * (dim - 1) / 2 : 0;
-      Epetra_MultiVector modes(matrix.trilinos_matrix().DomainMap(),
-                               static_cast<int>(dim + n_rotations));
-      for (std::size_t i = 0; i < space.component.size(); ++i)
+      options.n_modes = dim + (rotates ? dim * (dim - 1) / 2 : 0);
+      const std::size_t n = space.component.size();
+      options.modes.assign(options.n_modes * n, 0.);
+      for (std::size_t i = 0; i < n; ++i)
         if (space.component[i] < dim)
-          modes[space.component[i]][i] = 1.;
+          options.modes[space.component[i] * n + i] = 1.;
       if (!rotates)
-        return modes;
+        return;
       const auto x = relative_positions(space, matrix.get_mpi_communicator());
-      for (std::size_t i = 0; i < space.component.size(); ++i)
+      for (std::size_t i = 0; i < n; ++i)
         for (unsigned int a = 0, mode = dim; a < dim; ++a)
           for (unsigned int b = a + 1; b < dim; ++b, ++mode)
           {
             if (space.component[i] == a)
-              modes[mode][i] = -x[i][b];
+              options.modes[mode * n + i] = -x[i][b];
             if (space.component[i] == b)
-              modes[mode][i] = x[i][a];
+              options.modes[mode * n + i] = x[i][a];
           }
-      return modes;
     }
 
     /** Takes the couplings between different bodies out of a matrix and, when
@@ -94,7 +79,7 @@ namespace abut::solve
           : rows_(la::local_rows(matrix))
       {
         const MPI_Comm communicator = matrix.get_mpi_communicator();
-        // ML restricts anew on kept aggregates on one rank only.
+        // ML restricts again on kept aggregates on one rank only.
         if (space.n_bodies == 1 || MPI::n_mpi_processes(communicator) > 1)
           return;
         la::Vector body(matrix.locally_owned_range_indices(), communicator);
@@ -134,26 +119,21 @@ namespace abut::solve
     /** Aggregates of each body for itself, on which then the whole matrix is
      * restricted: coarse functions that move both sides of a contact at once
      * could not let them slide on each other. */
-    void initialize_by_bodies(const la::Matrix &matrix,
-                              Teuchos::ParameterList &list,
-                              const NearNullSpace &space,
-                              PreconditionAMG &multigrid)
+    void build_by_bodies(const la::Matrix &matrix, AggregationOptions &options,
+                         const NearNullSpace &space,
+                         AlgebraicMultigrid &multigrid)
     {
       // Below this part of the diagonal entries count as none.
       constexpr double nothing = 1e-12;
-      bool coupled = false;
       {
         const Apart apart(matrix, space);
-        coupled = apart.any();
-        if (coupled)
-        {
-          list.set("aggregation: threshold", nothing);
-          list.set("reuse: enable", true);
-        }
-        multigrid.initialize(matrix, list);
+        options.keeps_aggregates = apart.any();
+        if (options.keeps_aggregates)
+          options.threshold = nothing;
+        multigrid.build(matrix, options);
       }
-      if (coupled)
-        multigrid.reinit();
+      if (options.keeps_aggregates)
+        multigrid.restrict();
     }
   } // namespace
 
@@ -162,32 +142,20 @@ namespace abut::solve
                                             const NearNullSpace &space,
                                             const bool slides)
   {
-    PreconditionAMG::AdditionalData data;
-    data.elliptic = true;
-    data.aggregation_threshold = parameters.aggregation_threshold;
-    data.smoother_sweeps = parameters.smoother_sweeps;
-    auto multigrid = std::make_unique<AlgebraicMultigrid>();
-    if (space.n_components == 1)
-    {
-      multigrid->amg.initialize(matrix, data);
-      return multigrid;
-    }
-
+    AggregationOptions options;
+    options.smoother_sweeps = parameters.smoother_sweeps;
     // All components of neighbouring nodes are coupled about as strongly, and
     // aggregates of single unknowns need a third fewer iterations than those
     // of whole nodes.
-    data.aggregation_threshold = 0.;
-    Teuchos::ParameterList list;
-    std::unique_ptr<Epetra_MultiVector> unused;
-    data.set_parameters(list, unused, matrix);
-    Epetra_MultiVector modes = rigid_motions(matrix, space);
-    list.set("null space: type", "pre-computed");
-    list.set("null space: dimension", modes.NumVectors());
-    list.set("null space: vectors", modes.Values());
-    if (slides)
-      initialize_by_bodies(matrix, list, space, multigrid->amg);
+    if (space.n_components > 1)
+      set_rigid_motions(matrix, space, options);
     else
-      multigrid->amg.initialize(matrix, list);
+      options.threshold = parameters.aggregation_threshold;
+    auto multigrid = make_algebraic_multigrid();
+    if (space.n_components > 1 && slides)
+      build_by_bodies(matrix, options, space, *multigrid);
+    else
+      multigrid->build(matrix, options);
     return multigrid;
   }
 } // namespace abut::solve

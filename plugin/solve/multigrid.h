@@ -22,7 +22,7 @@ namespace abut::solve
     virtual void vmult(la::Vector &dst, const la::Vector &src) const = 0;
   };
 
-  /** ML's smoothed aggregation for @p matrix, with the rigid motions of the
+  /** Smoothed aggregation for @p matrix, with the rigid motions of the
    * near-null space as coarse functions: of displacements the translations
    * and, where positions are known, the rotations, which halve the number of
    * iterations. With @p slides, on one rank, aggregates do not reach from

@@ -227,7 +227,8 @@ namespace abut::solve
     increment = 0.;
     report.n_setups = 1;
     report.setup_seconds = timer.wall_time();
-    report.method = is_direct() ? DirectSolver::name() : "FGMRES, ML";
+    report.method =
+        is_direct() ? DirectSolver::name() : "FGMRES, algebraic multigrid";
     if (norm > tolerance && is_direct())
     {
       DirectSolver(matrix).solve(increment, rhs);

@@ -18,9 +18,9 @@ namespace abut::solve
    * a block for each, and the forces of constraints are C'^T dp, which have
    * the friction of what slips, while C has not; the matrix is unsymmetric.
    * Iteratively: FGMRES with the block-triangular preconditioner of the
-   * augmented system, one ML cycle for K + D + gamma s W B^T B and the
+   * augmented system, one multigrid cycle for K + D + gamma s W B^T B and the
    * diagonal 3 w / ((1 + gamma) s) for the Schur complement, s being the local
-   * stiffness. Directly: a factorisation of the whole by Amesos. */
+   * stiffness. Directly: a factorisation of the whole by a direct solver. */
   class SaddlePoint : public RowSolver
   {
   public:

@@ -23,9 +23,11 @@ namespace abut
     prm.enter_subsection("Solver");
     prm.declare_entry(
         "Linear solver", "auto", Selection("auto|iterative|direct|geometric"),
-        "iterative: conjugate gradients with ML's smoothed aggregation "
-        "(FGMRES for saddle points); direct: a factorisation by Amesos (MUMPS "
-        "where it is built in, else KLU); geometric: conjugate gradients with "
+        "iterative: conjugate gradients with smoothed aggregation (FGMRES for "
+        "saddle points) by Trilinos' ML, or MueLu where there is no ML; "
+        "direct: a factorisation by Trilinos' Amesos or Amesos2 (MUMPS where "
+        "it "
+        "is built in, else KLU); geometric: conjugate gradients with "
         "multigrid over the meshes that the mesh was refined from, for "
         "elements of degree 1 and 2 (elsewhere as iterative, and the report "
         "says why); auto: direct up to `Direct limit` unknowns, else geometric "
@@ -42,11 +44,11 @@ namespace abut
     prm.declare_entry("Aggregation threshold",
                       std::to_string(standard.aggregation_threshold),
                       NumberPattern::between(0., 1.),
-                      "ML: connections weaker than this fraction are dropped "
-                      "when aggregates are formed. Displacements keep all.");
-    prm.declare_entry("Smoother sweeps",
-                      std::to_string(standard.smoother_sweeps), Integer(1),
-                      "ML: degree of the Chebyshev smoother.");
+                      "Smoothed aggregation: connections weaker than this "
+                      "fraction are dropped. Displacements keep all.");
+    prm.declare_entry(
+        "Smoother sweeps", std::to_string(standard.smoother_sweeps), Integer(1),
+        "Smoothed aggregation: degree of the Chebyshev smoother.");
     prm.declare_entry("Saddle point augmentation",
                       std::to_string(standard.augmentation),
                       NumberPattern::from(0.),

@@ -26,10 +26,10 @@
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_solver.h>
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/vector_tools.h>
 
@@ -142,7 +142,7 @@ namespace abut::app
     matrix.compress(dealii::VectorOperation::add);
     rhs.compress(dealii::VectorOperation::add);
     dealii::SolverControl control(2000, 1e-11 * rhs.l2_norm());
-    dealii::TrilinosWrappers::SolverCG solver(control);
+    dealii::SolverCG<la::Vector> solver(control);
     dealii::TrilinosWrappers::PreconditionAMG multigrid;
     multigrid.initialize(matrix);
     solver.solve(matrix, u, rhs, multigrid);

@@ -72,9 +72,7 @@ namespace
         contact().add(matrix, right);
         right *= -1.;
         dealii::SolverControl control;
-        dealii::TrilinosWrappers::SolverDirect direct(
-            control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(
-                         false, "Amesos_Klu"));
+        dealii::TrilinosWrappers::SolverDirect direct(control);
         direct.solve(matrix, increment, right);
         u_ += increment;
         blocks_.constraints().distribute(u_);

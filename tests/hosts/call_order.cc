@@ -72,7 +72,7 @@ namespace
     Blocks blocks;
     la::Vector u(blocks.u), r(blocks.u);
     la::Matrix matrix;
-    matrix.copy_from(blocks.problem().tangent(u).matrix());
+    la::copy(blocks.problem().tangent(u).matrix(), matrix);
     refuses("detect", "reinit()", [&] { nothing.detect(u); });
     refuses("commit", "reinit()", [&] { nothing.commit(u); });
     for (const Call &call : calls(nothing, matrix, u, r))
@@ -90,12 +90,12 @@ namespace
     Blocks blocks;
     la::Vector u(blocks.u), r(blocks.u);
     la::Matrix matrix;
-    matrix.copy_from(blocks.problem().tangent(u).matrix());
+    la::copy(blocks.problem().tangent(u).matrix(), matrix);
     blocks.contact.detect(u);
     blocks.refine();
     la::Vector new_u(blocks.u), new_r(blocks.u);
     la::Matrix new_matrix;
-    new_matrix.copy_from(blocks.problem().tangent(new_u).matrix());
+    la::copy(blocks.problem().tangent(new_u).matrix(), new_matrix);
     ContactAssembler<2> &contact = blocks.contact;
     refuses("detect", "reinit()", [&] { contact.detect(new_u); });
     refuses("detect", "reinit()", [&] { contact.detect(u); });

@@ -71,9 +71,7 @@ namespace
       la::Matrix wider;
       wider.reinit(owned, owned, pattern, MPI_COMM_WORLD);
       copy_values(wider);
-      matrix.clear();
-      matrix.reinit(wider);
-      matrix.copy_from(wider);
+      la::copy(wider, matrix);
     }
 
     /** Pressed and pushed aside, with friction. */
@@ -209,8 +207,7 @@ namespace
                         const V &rhs)
   {
     la::Matrix reference;
-    reference.reinit(problem.matrix);
-    reference.copy_from(problem.matrix);
+    la::copy(problem.matrix, reference);
     la::Vector expected(problem.rhs);
     V found(rhs);
     for (const bool own : {true, false})

@@ -188,7 +188,7 @@ namespace
     blocks.contact.set_parameters(hosts::method("penalty", std::nullopt),
                                   direct);
     la::Matrix reference;
-    reference.copy_from(blocks.problem().tangent(blocks.u).matrix());
+    la::copy(blocks.problem().tangent(blocks.u).matrix(), reference);
     reference *= factor;
     if (factor > 0.)
       blocks.contact.set_reference_stiffness(reference);

@@ -303,7 +303,7 @@ namespace abut::la
              const std::vector<double> &values) const
     {
       if (native_ != nullptr)
-        native_->add(row, columns, values, false);
+        la::add(*native_, row, columns, values);
       else
         host_->add(row, columns, values);
     }

@@ -25,23 +25,10 @@ namespace abut::la
   /** @cond */
   namespace internal
   {
-    /** Whether a type has what an expression with it needs. */
-    template <template <typename> class Expression, typename T, typename = void>
-    struct Has : std::false_type
-    {
-    };
-    template <template <typename> class Expression, typename T>
-    struct Has<Expression, T, std::void_t<Expression<T>>> : std::true_type
-    {
-    };
-
     template <typename V>
     using Owned = decltype(std::declval<const V &>().locally_owned_elements());
     template <typename V>
     using Block = decltype(std::declval<const V &>().block(0));
-    template <typename V>
-    using Pointer = std::enable_if_t<
-        std::is_pointer<decltype(std::declval<const V &>().begin())>::value>;
 
     template <typename V>
     constexpr bool is_host_vector =

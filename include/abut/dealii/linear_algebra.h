@@ -4,8 +4,9 @@
 
 /** @file
  * The one place that names linear-algebra types. Everything else says
- * la::Matrix and la::Vector, so that another Trilinos stack can take the
- * place of Epetra without touching the rest.
+ * la::Matrix and la::Vector, which are of the Trilinos stack that deal.II's
+ * TrilinosWrappers are made of: Epetra, or Tpetra where Trilinos has no Epetra.
+ * What differs between them is in plugin/solve/epetra and plugin/solve/tpetra.
  */
 
 #include <deal.II/base/index_set.h>
@@ -15,6 +16,9 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <memory>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 /** Linear-algebra types and the little that depends on their inside. */
@@ -37,6 +41,8 @@ namespace abut::la
     const int *start = nullptr;  /**< [n_rows + 1] */
     const int *column = nullptr; /**< [start[n_rows]] */
     double *value = nullptr;     /**< [start[n_rows]] */
+    /** The array of start, where the matrix has numbers of another width. */
+    std::shared_ptr<const std::vector<int>> copied_start;
   };
 
   /** View of the rows on this rank; the matrix must have been compressed.
@@ -53,6 +59,18 @@ namespace abut::la
 
   /** Diagonal of the rows on this rank, [n_rows]. */
   std::vector<double> diagonal(const LocalRows &rows);
+
+  /** Copy of a matrix: the pattern, too. Collective. */
+  void copy(const Matrix &from, Matrix &to);
+
+  /** Add values to one row, which may be that of another rank: then the matrix
+   * must be compressed. */
+  inline void add(Matrix &matrix, const dealii::types::global_dof_index row,
+                  const std::vector<dealii::types::global_dof_index> &columns,
+                  const std::vector<double> &values)
+  {
+    matrix.add(row, columns.size(), columns.data(), values.data(), false);
+  }
 
   /** Sum of two matrices with the same rows on each rank, the first of which
    * has all diagonal entries. Where the second is empty this is no more than
@@ -88,21 +106,50 @@ namespace abut::la
     matrix.reinit(owned, owned, pattern, communicator);
     for_each_line([&](const Index row, const Indices &columns,
                       const std::vector<double> &values)
-                  { matrix.add(row, columns, values, false); });
+                  { add(matrix, row, columns, values); });
     matrix.compress(dealii::VectorOperation::add);
     return matrix;
   }
 
+  /** @cond */
+  namespace internal
+  {
+    /** Whether a type has what an expression with it needs. */
+    template <template <typename> class Expression, typename T, typename = void>
+    struct Has : std::false_type
+    {
+    };
+    template <template <typename> class Expression, typename T>
+    struct Has<Expression, T, std::void_t<Expression<T>>> : std::true_type
+    {
+    };
+
+    template <typename V>
+    using Pointer = std::enable_if_t<
+        std::is_pointer<decltype(std::declval<const V &>().begin())>::value>;
+
+    template <typename V> auto *first_entry(V &vector)
+    {
+      if constexpr (Has<Pointer, V>::value)
+        return vector.begin();
+      else if constexpr (std::is_const<V>::value)
+        return vector.trilinos_vector().getData().getRawPtr();
+      else
+        return vector.trilinos_vector().getDataNonConst().getRawPtr();
+    }
+  } // namespace internal
+  /** @endcond */
+
   /** The owned entries of a vector without ghosts. */
   inline double *data(Vector &vector)
   {
-    return vector.begin();
+    return internal::first_entry(vector);
   }
 
   /** The owned entries of a vector without ghosts. */
   inline const double *data(const Vector &vector)
   {
-    return vector.begin();
+    return internal::first_entry(vector);
   }
 
   /** Number of owned entries. */

@@ -217,8 +217,7 @@ namespace abut::app
   void BodyMotion<dim>::scale_mass(const double factor,
                                    la::Matrix &matrix) const
   {
-    matrix.reinit(*free_mass_);
-    matrix.copy_from(*free_mass_);
+    la::copy(*free_mass_, matrix);
     matrix *= factor;
     hold_constrained(problem_, matrix);
   }

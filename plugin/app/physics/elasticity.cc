@@ -162,8 +162,7 @@ namespace abut::app
     if (!is_linear())
     {
       assemble_tangent(this->vector());
-      undeformed.reinit(this->stiffness);
-      undeformed.copy_from(this->stiffness);
+      la::copy(this->stiffness, undeformed);
       return;
     }
     CellSum<dim> sum(*this, this->stiffness);
@@ -314,18 +313,18 @@ namespace abut::app
   template <int dim>
   void Elasticity<dim>::add_support_forces(la::Vector &load) const
   {
-    const dealii::Vector<double> nothing(this->fe.n_dofs_per_cell());
     std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
+    dealii::Vector<double> moved(dofs.size()), force(dofs.size());
     for (const auto &cell : this->support_cells())
     {
       cell->get_dof_indices(dofs);
-      const bool any = std::any_of(
-          dofs.begin(), dofs.end(),
-          [this](const auto dof)
-          { return this->constraints.is_inhomogeneously_constrained(dof); });
-      if (any)
-        this->constraints.distribute_local_to_global(nothing, dofs, load,
-                                                     cache->matrix(cell));
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+        moved(i) = this->constraints.get_inhomogeneity(dofs[i]);
+      if (moved.all_zero())
+        continue;
+      cache->matrix(cell).vmult(force, moved);
+      force *= -1.;
+      this->constraints.distribute_local_to_global(force, dofs, load);
     }
   }
 

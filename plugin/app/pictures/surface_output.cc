@@ -23,10 +23,10 @@ namespace abut::app
       FacetPatch<dim> patch;
       patch.patch_index = static_cast<unsigned int>(facet);
       patch.n_subdivisions = 1;
-      patch.reference_cell =
-          surface.kind == ABUT_FACET_TRI3
-              ? dealii::ReferenceCells::Triangle
-              : dealii::ReferenceCells::get_hypercube<dim - 1>();
+      patch.reference_cell = dealii::ReferenceCells::get_hypercube<dim - 1>();
+      if constexpr (dim == 3)
+        if (surface.kind == ABUT_FACET_TRI3)
+          patch.reference_cell = dealii::ReferenceCells::Triangle;
       patch.data.reinit(fields.nodal.size() + fields.facets.size(), n);
       for (std::size_t a = 0; a < n; ++a)
       {

@@ -112,14 +112,13 @@ namespace abut::app
     {
       motion.text = model.with_names(motion.text);
       const std::string body = "body_" + std::to_string(motion.body + 1);
-      const double *const along = motion.translation.begin_raw();
+      const double *const along = &motion.translation[0];
       report.set(body + "_moved", std::vector<double>(along, along + dim));
+      const double *const turned = &motion.rotation[0];
       if (dim == 2)
-        report.set(body + "_rotated", motion.rotation[2]);
+        report.set(body + "_rotated", turned[2]);
       else
-        report.set(body + "_rotated",
-                   std::vector<double>(motion.rotation.begin_raw(),
-                                       motion.rotation.end_raw()));
+        report.set(body + "_rotated", std::vector<double>(turned, turned + 3));
     }
   }
 

@@ -187,9 +187,10 @@ namespace abut::app
 
   template <int dim> void MembraneReport<dim>::report_shares() const
   {
+    const la::LocalRows rows = la::local_rows(membrane.stiffness);
     const double here[2] = {
         double(model.triangulation.n_locally_owned_active_cells()),
-        double(membrane.stiffness.trilinos_matrix().NumMyNonzeros())};
+        double(rows.start[rows.n_rows])};
     const auto cells = MPI::min_max_avg(here[0], communicator);
     const auto entries = MPI::min_max_avg(here[1], communicator);
     report.set("largest_share_of_cells", cells.max / cells.sum);
