@@ -14,7 +14,7 @@ static const double tangent_scale = 0.3;
 /* Coefficient of friction above which what has just closed does not slip before
  * it presses: equilibrium along the surface would have mu times that across it,
  * and no digits of its own. */
-static const double sticking = 100;
+static const double sticking = 1e5;
 
 /* Blocks of all points: rows that belong to no point with friction are blocks
  * of one number. */

@@ -82,6 +82,16 @@ namespace abut::app
     return sum;
   }
 
+  double Motion::energy_of_forces(const double dt) const
+  {
+    double mass = 0., largest = 0.;
+    for (const double value : system.mass)
+      mass = std::max(mass, value);
+    for (const double value : force)
+      largest = std::max(largest, std::abs(value));
+    return mass > 0. ? 0.5 * (largest * dt) * (largest * dt) / mass : 0.;
+  }
+
   double Motion::stable_step() const
   {
     if (scheme.beta > 0)

@@ -48,6 +48,10 @@ namespace abut::app
     /** Sum of contact and friction on the masses in the last step. */
     double force_in(unsigned int direction) const;
 
+    /** Kinetic energy that the largest mass would have from the forces of the
+     * last step, of length @p dt, if nothing balanced them. */
+    double energy_of_forces(double dt) const;
+
     /** Step from which an explicit scheme may blow up, 2 / omega of the
      * stiffness with closed contact; infinite for implicit ones. */
     double stable_step() const;

@@ -97,7 +97,14 @@ namespace abut::app
     report.add_row(row);
     impulse = motion.impulse;
     largest_force = std::max(largest_force, now.force);
-    if (verdict == ABUT_TIME_GAINS && !gains)
+    // What sticks at rest has energies that are round-off of forces.
+    constexpr double round_off = 1e-12;
+    if (entries.size() > 1)
+      at_rest = std::max(
+          at_rest,
+          round_off * motion.energy_of_forces(time - entries.end()[-2].time));
+    const bool is_round_off = balance.highest - balance.first <= at_rest;
+    if (verdict == ABUT_TIME_GAINS && !gains && !is_round_off)
     {
       gains = true;
       gain_time = time;

@@ -49,6 +49,7 @@ namespace abut::app
     bool gains = false, loses = false, lost = false;
     std::vector<double> displacement; ///< at the last entry
     double gain_time = 0;
+    double at_rest = 0; ///< energy that is round-off
   };
 } // namespace abut::app
 
