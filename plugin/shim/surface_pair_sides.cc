@@ -349,10 +349,9 @@ namespace abut::shim
 
   template <int dim> const la::Vector &SurfacePairRows<dim>::last_commit() const
   {
-    static const la::Vector nothing;
-    return moves()                                ? searched_from_
-           : has_steps() && committed_ != nullptr ? *committed_
-                                                  : nothing;
+    // Empty unless points move.
+    return !moves() && has_steps() && committed_ != nullptr ? *committed_
+                                                            : searched_from_;
   }
 
   template <int dim>
