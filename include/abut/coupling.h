@@ -414,6 +414,10 @@ extern "C"
     const int32_t *line;         /**< [line_start[n_points]] */
     const int64_t *column_start; /**< [n_points + 1] */
     const int32_t *column;       /**< [column_start[n_points]] */
+    /** [n_points] mortar that moves: the least gap, length, at points of
+     * integration on facets with a share in the row, along the facets' mean
+     * normals, without the gap of the target; else NULL. */
+    const double *least;
   } abut_coupling_view;
 
   /** View of the last build. O(1). */

@@ -209,6 +209,8 @@ namespace abut
       i.surfaces->set_gaps(i.pairs);
     i.has_new_gaps = false;
     i.has_rows = false;
+    i.raised.clear();
+    i.n_raises = 0;
     i.check_approach(displacement);
     i.find_rows_in_reach(displacement);
     i.has_rows = true;

@@ -542,7 +542,9 @@ namespace abut
                         shim::largest_displacement(
                             i.near_null_space(), displacement, i.communicator),
                         round_off_of_places * checks[p].facet_size});
-      visible.push_back(scales[p].limit(useless));
+      // Where raising gaps has not come to its end, anything that is left.
+      visible.push_back(i.raises_end_early() ? i.least_clearance(displacement)
+                                             : scales[p].limit(useless));
     }
     const std::vector<shim::Apart> apart = i.surfaces->apart(
         visible, i.row_pressures().data(), i.gap.data(), i.row_states().data());

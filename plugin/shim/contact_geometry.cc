@@ -261,6 +261,7 @@ namespace abut
     std::vector<double> gap_there(n), force(n, 0.);
     rows.gap(displacement, gap_there.data());
     there.slip_reference.subtract_from(gap_there);
+    add_raises(rows, gap_there);
     double sum = 0.;
     for (int row = 0; row < n; ++row)
     {

@@ -540,6 +540,7 @@ namespace abut
     gap.resize(coefficients.n_rows());
     coefficients.gap(displacement, gap.data());
     slip_reference.subtract_from(gap);
+    add_raises(coefficients, gap);
     if (is_nitsche())
       nitsche.stress.gap(displacement, nitsche.present.data());
   }

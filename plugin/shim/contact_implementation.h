@@ -3,6 +3,7 @@
 #define ABUT_SHIM_CONTACT_IMPLEMENTATION_H
 
 #include "contact_history.h"
+#include "gap_raise.h"
 #include "handles.h"
 #include "host_matrix_copy.h"
 #include "row_source.h"
@@ -174,6 +175,17 @@ namespace abut
     /** See ContactAssembler::evaluate(), with rows of that displacement.
      * Collective. */
     double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
+    /** See ContactAssembler::raise_gaps(). Collective. */
+    bool raise_gaps(const la::Vector &displacement);
+    /** Whether that has stopped before all such rows were open. */
+    bool raises_end_early() const;
+    /** From how far on surfaces are apart for that, length. Collective. */
+    double least_clearance(const la::Vector &displacement) const;
+    /** Whether a row of a normal has a pressure. */
+    bool presses(int row) const;
+    /** Add to the gaps [rows] of some operator what they are raised by. */
+    void add_raises(const solve::PointOperator &rows,
+                    std::vector<double> &gaps) const;
     /** What the solver must know of the iteration that begins. */
     solve::ContactIteration iteration();
     /** Find what an iteration that stopped leaves undetermined. Collective. */
@@ -309,6 +321,10 @@ namespace abut
     std::vector<double> committed_times;         ///< of obstacles, likewise
     bool committed_is_lost = false;              ///< of another mesh or run
     shim::RowSource::SlipReference slip_reference;
+    /** What gaps are raised by where surfaces are apart, length > 0, by the
+     * number of the row, and how often they have been since detect(). */
+    std::map<std::int64_t, shim::GapRaise> raised;
+    unsigned int n_raises = 0;
     /** [pairs][bodies] what bodies have moved since then before the pair
      * touched; empty: nothing. */
     std::vector<std::vector<solve::RigidMotion>> approach;

@@ -142,6 +142,8 @@ namespace abut::shim
     std::vector<std::int32_t> opposite;
     std::vector<std::int32_t> lines, columns;
     std::vector<double> hessian;
+    /** Of mortar that moves: abut_coupling_view::least. */
+    double least = INFINITY;
 
     /** Let the matrices follow the components of the point that stay. */
     void keep_components(const std::vector<std::uint8_t> &keep)

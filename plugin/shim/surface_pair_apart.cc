@@ -34,28 +34,26 @@ namespace abut::shim
   } // namespace
 
   template <int dim>
-  std::vector<Apart>
-  SurfacePairRows<dim>::apart(const std::vector<double> &visible,
-                              const double *row_pressure, const double *row_gap,
-                              const std::uint8_t *row_state)
+  std::vector<double>
+  SurfacePairRows<dim>::clearances(const std::vector<Direction> &u,
+                                   const bool only_moving)
   {
-    std::vector<Apart> result(pairs_.size());
+    std::vector<double> result(view_.n_components, INFINITY);
     std::vector<dealii::Point<dim>> reference, present;
     for (std::size_t n = 0; n < surface_.nodes.size(); ++n)
     {
       reference.push_back(surface_.nodes[n].point);
-      present.push_back(reference[n] + examined_[n]);
+      present.push_back(reference[n] + u[n]);
     }
     run_everywhere<ContactError>(
         communicator_,
         [&]
         {
-          for (std::size_t p = 0; p < pairs_.size() && row_state != nullptr;
-               ++p)
+          for (std::size_t p = 0; p < pairs_.size(); ++p)
           {
             Pair &pair = pairs_[p];
             if (pair.data.obstacle || pair.data.tied || !has_mean_gaps(p)
-                || !pair.data.geometric_gap)
+                || !pair.data.geometric_gap || (only_moving && !pair.moves))
               continue;
             run_named(pair.data.name,
                       [&]
@@ -65,14 +63,62 @@ namespace abut::shim
                         for_each_component(
                             [&](const Component &row)
                             {
-                              if (row.place.pair == p
-                                  && row_state[row.row] != ABUT_STATE_OPEN)
-                                note_apart(row, distance, row_pressure[row.row],
-                                           row_gap[row.row], visible[p],
-                                           result[p]);
+                              if (row.place.pair == p)
+                                result[row.row] = clearance(row, distance);
                             });
                       });
           }
+        });
+    return result;
+  }
+
+  template <int dim>
+  double
+  SurfacePairRows<dim>::clearance(const Component &row,
+                                  const std::vector<double> &distance) const
+  {
+    double least = INFINITY;
+    const auto take = [&](const Node node, double)
+    { least = std::min(least, distance[node]); };
+    for_each_secondary(row.point, take);
+    for_each_primary(row.point, take);
+    // Edges may cross between nodes.
+    return std::min(least, row.place.least) + pairs_[row.place.pair].data.gap;
+  }
+
+  template <int dim>
+  std::vector<double>
+  SurfacePairRows<dim>::clearances(const la::Vector &displacement)
+  {
+    return clearances(displacements_in_reach(displacement), true);
+  }
+
+  template <int dim>
+  std::vector<Apart>
+  SurfacePairRows<dim>::apart(const std::vector<double> &visible,
+                              const double *row_pressure, const double *row_gap,
+                              const std::uint8_t *row_state)
+  {
+    std::vector<Apart> result(pairs_.size());
+    const std::vector<double> clearance = clearances(examined_, false);
+    for_each_component(
+        [&](const Component &row)
+        {
+          const double force =
+              row_state == nullptr || row_state[row.row] == ABUT_STATE_OPEN
+                  ? 0.
+                  : view_.weight[row.point] * row_pressure[row.row];
+          if (!(force > 0.))
+            return;
+          Apart &found = result[row.place.pair];
+          found.all += force;
+          // What the law leaves open is no fault of the row.
+          const double gap =
+              clearance[row.row] - std::max(0., row_gap[row.row]);
+          if (!std::isfinite(gap) || gap <= visible[row.place.pair])
+            return;
+          found.force += force;
+          found.gap = std::max(found.gap, gap);
         });
     for (Apart &found : result)
     {
@@ -111,30 +157,6 @@ namespace abut::shim
     return around;
   }
 
-  template <int dim>
-  void SurfacePairRows<dim>::note_apart(const Component &row,
-                                        const std::vector<double> &distance,
-                                        const double pressure, const double gap,
-                                        const double visible,
-                                        Apart &found) const
-  {
-    const double force = view_.weight[row.point] * pressure;
-    if (!(force > 0.))
-      return;
-    found.all += force;
-    double least = INFINITY;
-    const auto take = [&](const Node node, double)
-    { least = std::min(least, distance[node]); };
-    for_each_secondary(row.point, take);
-    for_each_primary(row.point, take);
-    // What the law leaves open is no fault of the row.
-    least += pairs_[row.place.pair].data.gap - std::max(0., gap);
-    if (!std::isfinite(least) || least <= visible)
-      return;
-    found.force += force;
-    found.gap = std::max(found.gap, least);
-  }
-
 #define ABUT_INSTANTIATE(dim)                                                  \
   template std::vector<Apart> SurfacePairRows<dim>::apart(                     \
       const std::vector<double> &, const double *, const double *,             \
@@ -142,9 +164,12 @@ namespace abut::shim
   template std::vector<double> SurfacePairRows<dim>::distances_of_nodes(       \
       Pair &, const std::vector<dealii::Point<dim>> &,                         \
       const std::vector<dealii::Point<dim>> &) const;                          \
-  template void SurfacePairRows<dim>::note_apart(                              \
-      const Component &, const std::vector<double> &, double, double, double,  \
-      Apart &) const;
+  template std::vector<double> SurfacePairRows<dim>::clearances(               \
+      const std::vector<Direction> &, bool);                                   \
+  template std::vector<double> SurfacePairRows<dim>::clearances(               \
+      const la::Vector &);                                                     \
+  template double SurfacePairRows<dim>::clearance(                             \
+      const Component &, const std::vector<double> &) const;
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

@@ -73,6 +73,8 @@ namespace abut::shim
       Place &place = places_[first + i];
       place.hessian.assign(view.hessian + view.hessian_start[i],
                            view.hessian + view.hessian_start[i + 1]);
+      if (view.least != nullptr)
+        place.least = view.least[i];
       if (view.line != nullptr)
       {
         place.lines.assign(view.line + view.line_start[i],

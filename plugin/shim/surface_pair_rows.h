@@ -152,6 +152,11 @@ namespace abut::shim
                              const double *row_pressure, const double *row_gap,
                              const std::uint8_t *row_state);
 
+    /** [rows] How far apart surfaces are around the rows of mortar that moves:
+     * the least gap, length, at nodes of both sides and at points of
+     * integration, of the law; infinite for other rows. Collective. */
+    std::vector<double> clearances(const la::Vector &displacement);
+
     using Narrow = ObstacleWidth;
 
     /** The obstacle of a pair where it is narrowest for the facets, by the last
@@ -550,9 +555,11 @@ namespace abut::shim
     distances_of_nodes(Pair &pair,
                        const std::vector<dealii::Point<dim>> &reference,
                        const std::vector<dealii::Point<dim>> &present) const;
-    void note_apart(const Component &row, const std::vector<double> &distance,
-                    double pressure, double gap, double visible,
-                    Apart &found) const;
+    /** [rows] As the public function. */
+    std::vector<double> clearances(const std::vector<Direction> &u,
+                                   bool only_moving);
+    double clearance(const Component &row,
+                     const std::vector<double> &distance) const;
     std::string wrong_side(Pair &pair) const;
     void refuse_inside(Pair &pair, const la::Vector &displacement) const;
     /** Measure how deep bodies that may come near are in each other before

@@ -3,8 +3,9 @@
 """Forces between bodies that do not touch: none should have one.
 
 Prints, for each kind of scene, in how many of them there is a force, or no
-answer, and the largest clearance of these, divided by the length of a facet;
-and the same of bodies of which one comes there, with points that follow.
+answer, of these without a report of the force, and the largest clearance of
+these, divided by the length of a facet; and the same of bodies of which one
+comes there, with points that follow.
 
     tests/bench/false_contact.py build/release/abut_served [600 [NAME=VALUE ...]]
 """
@@ -19,28 +20,33 @@ from program import Folder, set_words  # noqa: E402
 from served import Served  # noqa: E402
 
 
-def is_right(abut, folder, file, words):
-    """Whether a scene is solved without any contact force."""
+def look(abut, folder, file, words):
+    """Whether a scene is solved without any contact force, and whether a force
+    is reported, or the scene has no answer."""
     result = abut.run(["run", file, "--output", "out", "--quiet", *words],
                       folder, 600)
-    return result.returncode == 0 and json.loads((
-        pathlib.Path(folder) / "out/summary.json").read_text())[
-            "contact_force"] == 0.
+    if result.returncode != 0:
+        return False, True
+    force = json.loads((pathlib.Path(folder) / "out/summary.json").read_text())[
+        "contact_force"]
+    return force == 0., "constraints press where" in result.stderr
 
 
 def count(abut, make, n, words, title=""):
-    number, wrong, largest = {}, {}, {}
+    number, wrong, silent, largest = {}, {}, {}, {}
     for seed in range(n):
         with tempfile.TemporaryDirectory(prefix="abut-bench-") as folder:
             file, kind, clearance = make(Folder(folder), seed)
             number[kind] = number.get(kind, 0) + 1
-            if not is_right(abut, folder, file, words):
+            is_right, is_reported = look(abut, folder, file, words)
+            if not is_right:
                 wrong[kind] = wrong.get(kind, 0) + 1
+                silent[kind] = silent.get(kind, 0) + (not is_reported)
                 largest[kind] = max(largest.get(kind, 0.), clearance)
     for kind in number:
         print(f"{kind}{title}: {number[kind]} scenes, {wrong.get(kind, 0)} "
-              f"wrong, clearances up to {largest.get(kind, 0.):.2g}",
-              flush=True)
+              f"wrong, {silent.get(kind, 0)} not reported, clearances up to "
+              f"{largest.get(kind, 0.):.2g}", flush=True)
 
 
 def main():

@@ -276,6 +276,27 @@ test_interpolated_normals(void **state)
   }
 }
 
+/* Chords of circles, seen from the centre by the secondary's normals as lines:
+ * one that passes the direction along the secondary has its ends on both sides,
+ * and nothing over the middle. */
+static void
+test_behind_the_normals(void **state)
+{
+  (void)state;
+  uint64_t seed = 6;
+  for (int i = 0; i < 100; ++i)
+  {
+    const double right = acos(0.), a = uniform(&seed, 0.05, 0.3),
+                 from = uniform(&seed, 0.4, right - 0.01),
+                 to = uniform(&seed, right + 0.01, 2.7),
+                 R = uniform(&seed, 1.1, 3.);
+    const double s[] = {cos(-a), sin(-a), cos(a), sin(a)};
+    const double m[] = {R * cos(to), R * sin(to), R * cos(from), R * sin(from)};
+    abut_clip2 c;
+    assert_int_equal(abut_clip2_segments(s, m, s, &c), 0);
+  }
+}
+
 int
 main(void)
 {
@@ -288,6 +309,7 @@ main(void)
       cmocka_unit_test(test_quadratic),
       cmocka_unit_test(test_empty),
       cmocka_unit_test(test_smallest_segment),
-      cmocka_unit_test(test_interpolated_normals)};
+      cmocka_unit_test(test_interpolated_normals),
+      cmocka_unit_test(test_behind_the_normals)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

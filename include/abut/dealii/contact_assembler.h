@@ -589,6 +589,16 @@ namespace abut
     /** A vector of Abut's type with the values of @p vector. Collective. */
     virtual la::Vector copy_of(const la::VectorView &vector) const;
 
+    /** Where points of mortar move: raise the gaps of rows that press although
+     * surfaces are apart around them at @p displacement, so that they open.
+     * Weighted gaps of dual functions are less than the least gap of a convex
+     * surface. To be called at the end of a Newton iteration, after follow(),
+     * until it returns false: true, and the same step is to be solved on from
+     * there, with linearise(). ContactSolver does. What gaps are raised by is
+     * constant in between, and forgotten by detect(); true at most ten times
+     * from there on. Collective. */
+    virtual bool raise_gaps(const la::VectorView &displacement);
+
     /** examine() with the address of the residual, which may be null. */
     ContactExamination examine(const la::VectorView &displacement,
                                const la::Vector *residual,

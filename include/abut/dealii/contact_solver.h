@@ -129,7 +129,9 @@ namespace abut
         ++result_.n_searches;
         relax(u);
         enter(SolvePhase::solve);
-        const bool has_answer = iterate(u);
+        bool has_answer = iterate(u);
+        while (has_answer && contact_.raise_gaps(goal(u)))
+          has_answer = iterate(u);
         enter(SolvePhase::check);
         if (!has_answer || is_refused(u))
           break;

@@ -15,7 +15,7 @@ typedef struct array_size
 
 enum
 {
-  N_ARRAYS = 63
+  N_ARRAYS = 64
 };
 
 /* All arrays with the sizes of their elements (segments: set by their users);
@@ -76,6 +76,7 @@ list_arrays(abut_coupling *c, array_size *list)
                             {&c->point_number, sizeof(int32_t)},
                             {&c->point_full, sizeof(double)},
                             {&c->point_position, sizeof(double)},
+                            {&c->point_least, sizeof(double)},
                             {&c->point_primary, sizeof(int32_t)},
                             {&c->point_hessian_start, sizeof(int64_t)},
                             {&c->point_hessian, sizeof(double)},

@@ -103,6 +103,8 @@ typedef struct abut_coupling_share
   double weight; /* integral of psi */
   double gap[3]; /* integral of psi (x_m - x_s) */
   double distance;
+  double least;        /* mortar against a surface: least gap at the points of
+                          its facet along the facet's normal */
   double offset[3];    /* dual mortar: integral of psi (I - 1) (x_m - x_s), with
                           the interpolant I of the gaps at nodes */
   double normal[3];    /* integral of psi n */
@@ -238,6 +240,7 @@ struct abut_coupling
   const abut_coupling_target *target;
   abut_array point_node, point_facet, point_number; /* int32_t */
   abut_array point_full, point_position;            /* double */
+  abut_array point_least;                           /* double */
   abut_array point_primary;                         /* int32_t */
   abut_array point_hessian_start;                   /* int64_t */
   abut_array point_hessian;                         /* double */

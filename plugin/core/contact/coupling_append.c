@@ -219,9 +219,10 @@ note_point(abut_coupling *c, const abut_coupling_share *total, double full)
   {
     abut_array *array;
     int64_t each;
-  } const list[] = {{&c->point_node, 1},    {&c->point_facet, 1},
-                    {&c->point_number, 1},  {&c->point_full, 1},
-                    {&c->point_primary, 1}, {&c->point_position, dim}};
+  } const list[] = {{&c->point_node, 1},      {&c->point_facet, 1},
+                    {&c->point_number, 1},    {&c->point_full, 1},
+                    {&c->point_least, 1},     {&c->point_primary, 1},
+                    {&c->point_position, dim}};
   for (size_t k = 0; k < sizeof(list) / sizeof(list[0]); ++k)
   {
     const abut_status status = abut_array_reserve(
@@ -238,6 +239,7 @@ note_point(abut_coupling *c, const abut_coupling_share *total, double full)
   ((int32_t *)c->point_number.data)[i] = total->point;
   ((int32_t *)c->point_primary.data)[i] = total->primary;
   ((double *)c->point_full.data)[i] = full;
+  ((double *)c->point_least.data)[i] = total->least;
   memcpy((double *)c->point_position.data + i * dim, position,
          sizeof(double) * (size_t)dim);
   return abut_coupling_moves(c) ? note_hessian(c, total) : ABUT_SUCCESS;
@@ -402,6 +404,7 @@ add_up(const abut_coupling *c, const int64_t *list, int64_t n,
     const abut_coupling_share *s = shares + list[i];
     total->weight += s->weight;
     total->distance += s->distance;
+    total->least = fmin(total->least, s->least);
     for (int d = 0; d < 3; ++d)
     {
       total->gap[d] += s->gap[d];
@@ -508,5 +511,6 @@ abut_coupling_append(abut_coupling *c)
   v->column_start = turns ? c->point_column_start.data : NULL;
   v->column = turns ? c->point_column.data : NULL;
   v->primary = c->point_primary.data;
+  v->least = abut_coupling_follows(c) ? c->point_least.data : NULL;
   return ABUT_SUCCESS;
 }

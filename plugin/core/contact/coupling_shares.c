@@ -8,7 +8,9 @@
  * weight after the dropped ones, so that the sum of D_jl is the weight to the
  * last bit. */
 #include "contact/coupling.h"
+#include "geometry/vector.h"
 
+#include <math.h>
 #include <string.h>
 
 abut_coupling_share *
@@ -134,12 +136,15 @@ add_primary(abut_coupling *c, abut_coupling_share *share)
 }
 
 static void
-add_gap(const abut_coupling *c, abut_coupling_share *share)
+add_gap(const abut_coupling *c, const abut_coupling_facet *facet,
+        abut_coupling_share *share)
 {
   const abut_coupling_point *p = c->points.data;
   const double *value = c->values.data;
+  share->least = INFINITY;
   for (int32_t q = 0; q < c->n_points; ++q)
   {
+    share->least = fmin(share->least, dot3(facet->normal, p[q].gap));
     share->weight += value[q];
     share->distance += value[q] * p[q].distance;
     for (int d = 0; d < 3; ++d)
@@ -172,7 +177,7 @@ abut_coupling_add_shares(abut_coupling *c, const abut_coupling_facet *facet,
       return ABUT_OUT_OF_MEMORY;
     s->node = node;
     s->facet = facet->index;
-    add_gap(c, s);
+    add_gap(c, facet, s);
     status = add_secondary(c, facet, f, j, s);
     if (status == ABUT_SUCCESS)
       status = add_primary(c, s);

@@ -8,6 +8,9 @@
 #include "geometry/clip.h"
 #include "geometry/vector.h"
 
+/* Of a parameter whose equation may be nearly degenerate. */
+static const double round_off = 1e-3;
+
 static double
 cross2(const double *a, const double *b)
 {
@@ -66,7 +69,11 @@ abut_clip2_segments(const double *secondary, const double *primary,
     const double slope = cross2(k, n);
     if (slope == 0.)
       return 0;
-    clip->primary[i] = clamp(cross2(r, n) / slope, -1., 1.);
+    const double t = cross2(r, n) / slope;
+    /* Ends on both sides of where normals meet: nothing is over the middle. */
+    if (!(fabs(t) <= 1. + round_off))
+      return 0;
+    clip->primary[i] = clamp(t, -1., 1.);
   }
   return 1;
 }
