@@ -245,7 +245,9 @@ namespace abut::app
   {
     const std::int64_t change = last_active < 0 ? 0 : n_active - last_active;
     last_active = n_active;
-    n_layers = change * direction > 0 ? n_layers + 1 : change != 0;
+    if (change == 0)
+      return;
+    n_layers = change * direction >= 0 ? n_layers + 1 : 1;
     direction = change;
   }
 
