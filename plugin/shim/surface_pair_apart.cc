@@ -20,7 +20,7 @@ namespace abut::shim
     void find_distances(abut_context *context, const SurfaceSide<dim> &nodes,
                         const SurfaceSide<dim> &facets,
                         const abut_detection_options &options,
-                        std::vector<double> &distance)
+                        const double deepest, std::vector<double> &distance)
     {
       const auto detection = create_detection(context, nodes.surface.get(),
                                               facets.surface.get(), options);
@@ -28,7 +28,8 @@ namespace abut::shim
       abut_detection_view view;
       check(context, abut_detection_get(detection.get(), &view));
       for (std::int32_t n = 0; n < view.n_nodes; ++n)
-        if (view.contact[n].facet >= 0)
+        // Deeper than a facet it is the other side of a body.
+        if (view.contact[n].facet >= 0 && view.contact[n].gap > deepest)
           distance[nodes.node[n]] = view.contact[n].gap;
     }
   } // namespace
@@ -83,7 +84,10 @@ namespace abut::shim
     for_each_secondary(row.point, take);
     for_each_primary(row.point, take);
     // Edges may cross between nodes.
-    return std::min(least, row.place.least) + pairs_[row.place.pair].data.gap;
+    const Pair &pair = pairs_[row.place.pair];
+    if (row.place.least > -facet_size(pair))
+      least = std::min(least, row.place.least);
+    return least + pair.data.gap;
   }
 
   template <int dim>
@@ -141,8 +145,10 @@ namespace abut::shim
         std::max(options.search.reach, pair.secondary.everywhere.largest);
     options.extension = 0.;
     std::vector<double> distance(surface_.nodes.size(), INFINITY);
-    find_distances(context_, pair.secondary, pair.primary, options, distance);
-    find_distances(context_, pair.primary, pair.secondary, options, distance);
+    find_distances(context_, pair.secondary, pair.primary, options,
+                   -facet_size(pair), distance);
+    find_distances(context_, pair.primary, pair.secondary, options,
+                   -facet_size(pair), distance);
     // A row sees the facets around its node, and what is opposite.
     std::vector<double> around(distance);
     for (const std::int32_t f : pair.secondary.facet)
