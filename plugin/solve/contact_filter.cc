@@ -11,7 +11,7 @@ namespace abut::solve
       const MPI_Comm communicator = matrix.get_mpi_communicator();
       const dealii::IndexSet numbers =
           la::number(unknowns.size(), communicator);
-      la::Vector number(matrix.locally_owned_range_indices(), communicator);
+      la::Vector number(la::owned_rows(matrix), communicator);
       number = -1.;
       for (std::size_t k = 0; k < unknowns.size(); ++k)
         la::data(number)[unknowns[k]] =
@@ -55,9 +55,9 @@ namespace abut::solve
     direct_ = std::make_unique<DirectSolver>(*small_);
     const MPI_Comm communicator = matrix.get_mpi_communicator();
     for (la::Vector *vector : {&residual_, &correction_})
-      vector->reinit(matrix.locally_owned_range_indices(), communicator);
+      vector->reinit(la::owned_rows(matrix), communicator);
     for (la::Vector *vector : {&small_residual_, &small_correction_})
-      vector->reinit(small_->locally_owned_range_indices(), communicator);
+      vector->reinit(la::owned_rows(*small_), communicator);
   }
 
   void ContactFilter::add_correction(la::Vector &x) const

@@ -38,7 +38,7 @@ namespace abut::solve
     {
     public:
       explicit Columns(const la::Matrix &matrix)
-          : first_(matrix.local_range().first),
+          : first_(la::row_range(matrix).first),
             n_owned_(la::local_rows(matrix).n_rows)
       {
         const int n = la::local_rows(matrix).n_columns;
@@ -189,8 +189,7 @@ namespace abut::solve
       const MPI_Comm communicator = matrix.get_mpi_communicator();
       if (MPI::n_mpi_processes(communicator) == 1)
         return;
-      const auto ends =
-          MPI::all_gather(communicator, matrix.local_range().second);
+      const auto ends = la::row_ends(matrix);
       const la::LocalRows rows = la::local_rows(matrix);
       std::map<unsigned int, Message> send;
       for (int i = 0; i < rows.n_rows; ++i)

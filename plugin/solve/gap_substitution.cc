@@ -226,8 +226,7 @@ namespace abut::solve
     Lines result(lines_);
     if (MPI::n_mpi_processes(communicator_) == 1)
       return result;
-    const auto ends =
-        MPI::all_gather(communicator_, matrix.local_range().second);
+    const auto ends = la::row_ends(matrix);
     const la::LocalRows rows = la::local_rows(matrix);
     WordMail questions;
     for (int k = rows.n_rows; k < rows.n_columns; ++k)

@@ -64,7 +64,7 @@ namespace abut::solve
       create(meshes);
     else
     {
-      const dealii::IndexSet owned = matrix.locally_owned_range_indices();
+      const dealii::IndexSet owned = la::owned_rows(matrix);
       ghosts_ = ghosts_of(matrix);
       shared_ = std::make_unique<SharedMeshes>(
           meshes, owned, with_touched(owned, ghosts_, touched), communicator);

@@ -31,8 +31,7 @@ namespace abut::solve
                   const NearNullSpace &space)
           : rows_(rows),
             solver_(parameters),
-            force_(stiffness.locally_owned_range_indices(),
-                   stiffness.get_mpi_communicator()),
+            force_(la::owned_rows(stiffness), stiffness.get_mpi_communicator()),
             answer_(force_),
             factor_(rows_.n_rows(), 0.)
       {

@@ -2,6 +2,7 @@
 #include <abut/dealii/linear_algebra.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace abut::la
 {
@@ -18,6 +19,16 @@ namespace abut::la
     }
     dealii::IndexSet result(total);
     result.add_range(first, first + n);
+    return result;
+  }
+
+  std::vector<dealii::types::global_dof_index> row_ends(const Matrix &matrix)
+  {
+    auto result = dealii::Utilities::MPI::all_gather(
+        matrix.get_mpi_communicator(), row_range(matrix).second);
+    // A rank without rows has an end of 0.
+    std::partial_sum(result.begin(), result.end(), result.begin(),
+                     [](const auto a, const auto b) { return std::max(a, b); });
     return result;
   }
 

@@ -109,8 +109,7 @@ namespace abut::solve
                              const Mask &mask, const bool everything)
   {
     // 1: held; 2: changed since the last call.
-    la::Vector flags(matrix_->locally_owned_range_indices(),
-                     matrix_->get_mpi_communicator());
+    la::Vector flags(la::owned_rows(*matrix_), matrix_->get_mpi_communicator());
     double *flag = la::data(flags);
     for (std::size_t i = 0; i < held.size(); ++i)
       flag[i] = held[i] + (everything || held[i] != cut_[i] ? 2. : 0.);

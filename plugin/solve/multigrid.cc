@@ -82,7 +82,7 @@ namespace abut::solve
         // ML restricts again on kept aggregates on one rank only.
         if (space.n_bodies == 1 || MPI::n_mpi_processes(communicator) > 1)
           return;
-        la::Vector body(matrix.locally_owned_range_indices(), communicator);
+        la::Vector body(la::owned_rows(matrix), communicator);
         std::copy(space.body.begin(), space.body.end(), la::data(body));
         const std::vector<double> body_of = la::gather(matrix, body);
         for (int i = 0; i < rows_.n_rows; ++i)

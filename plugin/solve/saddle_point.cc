@@ -253,8 +253,7 @@ namespace abut::solve
     constraints.add_range(system.first_constraint,
                           system.first_constraint + system.row.size());
     const MPI_Comm communicator = stiffness_->get_mpi_communicator();
-    BlockVector right({stiffness_->locally_owned_range_indices(), constraints},
-                      communicator);
+    BlockVector right({la::owned_rows(*stiffness_), constraints}, communicator);
     right.block(0) = force;
     for (std::size_t k = 0; k < system.row.size(); ++k)
       la::data(right.block(1))[k] = system.scale[k] * system.right[k];
@@ -381,7 +380,7 @@ namespace abut::solve
                                    std::vector<double> &multiplier) const
   {
     const la::Matrix matrix = assemble_matrix(system);
-    const dealii::IndexSet owned = matrix.locally_owned_range_indices();
+    const dealii::IndexSet owned = la::owned_rows(matrix);
     const MPI_Comm communicator = stiffness_->get_mpi_communicator();
     la::Vector right(owned, communicator), solution(owned, communicator);
     const int n_unknowns = la::n_owned(increment);

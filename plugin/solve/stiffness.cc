@@ -31,7 +31,7 @@ namespace abut::solve
 
   Stiffness::Stiffness(const la::Matrix &matrix)
       : Tangent(matrix),
-        owned_(matrix.locally_owned_range_indices()),
+        owned_(la::owned_rows(matrix)),
         communicator_(matrix.get_mpi_communicator())
   {
   }

@@ -411,7 +411,7 @@ namespace
       dealii::VectorTools::interpolate_boundary_values(
           blocks.mapping, dofs, side,
           dealii::Functions::ConstantFunction<dim>(
-              {is_top ? 0.02 : 0., is_top ? -0.03 : 0., 0.}),
+              std::vector<double>{is_top ? 0.02 : 0., is_top ? -0.03 : 0., 0.}),
           constraints, displacement);
     }
     constraints.close();

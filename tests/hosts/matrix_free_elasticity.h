@@ -28,11 +28,21 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace abut::hosts
 {
   using LevelVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /** First of the values of this rank. */
+  template <class V> auto *own_values(V &vector)
+  {
+    if constexpr (std::is_same<std::remove_const_t<V>, abut::la::Vector>::value)
+      return abut::la::data(vector);
+    else
+      return vector.begin();
+  }
 
   /** Lame's coefficients of a material. */
   struct Lame
@@ -78,9 +88,10 @@ namespace abut::hosts
     /** The product without constraints. */
     template <class V> void multiply(V &dst, const V &src) const
     {
-      std::copy(src.begin(), src.end(), source_.begin());
+      std::copy_n(own_values(src), src.locally_owned_size(), source_.begin());
       multiply_source();
-      std::copy_n(result_.begin(), result_.locally_owned_size(), dst.begin());
+      std::copy_n(result_.begin(), result_.locally_owned_size(),
+                  own_values(dst));
     }
 
     /** The product with the diagonal alone in rows and columns of constrained
@@ -88,13 +99,14 @@ namespace abut::hosts
      * without constraints, whichever unknowns these are. */
     template <class V> void vmult(V &dst, const V &src) const
     {
-      std::copy(src.begin(), src.end(), source_.begin());
+      std::copy_n(own_values(src), src.locally_owned_size(), source_.begin());
       set_zero(source_);
       multiply_source();
       for (const unsigned int i : constrained_)
         result_.local_element(i) =
-            diagonal_.local_element(i) * *(src.begin() + i);
-      std::copy_n(result_.begin(), result_.locally_owned_size(), dst.begin());
+            diagonal_.local_element(i) * own_values(src)[i];
+      std::copy_n(result_.begin(), result_.locally_owned_size(),
+                  own_values(dst));
     }
 
     void Tvmult(LevelVector &dst, const LevelVector &src) const
@@ -380,7 +392,7 @@ namespace abut::hosts
   private:
     template <class From, class To> static void copy(const From &from, To &to)
     {
-      std::copy_n(from.begin(), from.locally_owned_size(), to.begin());
+      std::copy_n(own_values(from), from.locally_owned_size(), own_values(to));
     }
 
     ElasticStiffness<dim> stiffness_;

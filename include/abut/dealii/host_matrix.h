@@ -73,7 +73,8 @@ namespace abut::la
     template <typename M>
     using BlockRows = decltype(std::declval<const M &>().block(0, 0));
     template <typename M>
-    using Range = decltype(std::declval<const M &>().local_range());
+    using Range =
+        decltype(std::declval<const M &>().locally_owned_range_indices());
     template <typename M>
     using Compressible =
         decltype(std::declval<M &>().compress(dealii::VectorOperation::add));
@@ -91,10 +92,7 @@ namespace abut::la
     std::pair<HostMatrix::Index, HostMatrix::Index> row_range(const M &matrix)
     {
       if constexpr (Has<Range, M>::value)
-      {
-        const auto range = matrix.local_range();
-        return {range.first, range.second};
-      }
+        return la::row_range(matrix);
       else
         return {0, matrix.m()};
     }
@@ -195,7 +193,8 @@ namespace abut::la
     void add(const Index row, const std::vector<Index> &columns,
              const std::vector<double> &values) const override
     {
-      const_cast<M &>(matrix_).add(row, columns, values, false);
+      const_cast<M &>(matrix_).add(row, columns.size(), columns.data(),
+                                   values.data(), false);
     }
 
     void compress() const override

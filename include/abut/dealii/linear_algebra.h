@@ -57,6 +57,31 @@ namespace abut::la
   dealii::types::global_dof_index global_column(const Matrix &matrix,
                                                 int column);
 
+  /** Rows of this rank. (Of a Tpetra matrix deal.II 9.8 has a wrong set where
+   * a rank has none.) */
+  template <typename M> dealii::IndexSet owned_rows(const M &matrix)
+  {
+    return matrix.local_size() == 0 ? dealii::IndexSet(matrix.m())
+                                    : matrix.locally_owned_range_indices();
+  }
+
+  /** First row of this rank and the one after its last. (Of a Tpetra matrix
+   * deal.II 9.8 has local numbers in local_range().) */
+  template <typename M>
+  std::pair<dealii::types::global_dof_index, dealii::types::global_dof_index>
+  row_range(const M &matrix)
+  {
+    const dealii::IndexSet rows = owned_rows(matrix);
+    if (rows.n_elements() == 0)
+      return {0, 0};
+    const auto first = rows.nth_index_in_set(0);
+    return {first, first + rows.n_elements()};
+  }
+
+  /** One after the last row of each rank, ascending: what owns a row is the
+   * first rank with an end beyond it. Collective. */
+  std::vector<dealii::types::global_dof_index> row_ends(const Matrix &matrix);
+
   /** Diagonal of the rows on this rank, [n_rows]. */
   std::vector<double> diagonal(const LocalRows &rows);
 

@@ -27,7 +27,7 @@ namespace abut::app
   CellSum<dim>::CellSum(const DiscreteProblem<dim> &problem, la::Matrix &matrix)
       : constraints_(problem.constraints),
         matrix_(matrix),
-        first_(matrix.local_range().first),
+        first_(la::row_range(matrix).first),
         load_(problem.vector()),
         place_(problem.fe.n_dofs_per_cell(), 0)
   {

@@ -34,6 +34,8 @@ namespace abut::solve
       list.sublist("smoother: params")
           .set("chebyshev: degree", static_cast<int>(options.smoother_sweeps))
           .set("chebyshev: ratio eigenvalue", 10.);
+      // Aggregates smaller than the near-null space have empty coarse rows.
+      list.set("rap: fix zero diagonals", true);
       list.set("coarse: max size", 2000);
       list.set("coarse: type", "KLU2");
       if (options.keeps_aggregates)
