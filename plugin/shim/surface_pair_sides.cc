@@ -463,6 +463,7 @@ namespace abut::shim
       const Pair &, const std::set<dealii::types::boundary_id> &,              \
       const SurfaceSide<dim> &) const;                                         \
   template std::uint64_t SurfacePairRows<dim>::mesh_signature() const;         \
+  template const la::Vector &SurfacePairRows<dim>::last_commit() const;        \
   template bool SurfacePairRows<dim>::is_owned(Node) const;                    \
   template double SurfacePairRows<dim>::motion(                                \
       const Pair &, const std::vector<Direction> &) const;                     \
