@@ -6,6 +6,7 @@
 
 #include "contact_implementation.h"
 
+#include "solve/factors.h"
 #include "solve/inf_sup.h"
 
 #include <algorithm>
@@ -37,19 +38,20 @@ namespace abut
     }
 
     /** Programs without MPI of their own need it, too: Trilinos does. */
-    void check_mpi()
+    void check_mpi(const MPI_Comm communicator)
     {
       AssertThrow(dealii::Utilities::MPI::job_supports_mpi(),
                   ExcMessage("MPI is not initialised. Begin main() with: "
                              "dealii::Utilities::MPI::MPI_InitFinalize "
                              "mpi(argc, argv, 1);"));
+      solve::check_ranks(communicator);
     }
   } // namespace
 
   template <int dim>
   ContactAssembler<dim>::ContactAssembler(const MPI_Comm communicator)
-      : implementation(
-          (check_mpi(), std::make_unique<Implementation>(communicator)))
+      : implementation((check_mpi(communicator),
+                        std::make_unique<Implementation>(communicator)))
   {
   }
 

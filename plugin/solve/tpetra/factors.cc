@@ -81,6 +81,15 @@ namespace abut::solve
     return Amesos2::query("MUMPS");
   }
 
+  void check_ranks(const MPI_Comm communicator)
+  {
+    AssertThrow(dealii::Utilities::MPI::n_mpi_processes(communicator) == 1,
+                dealii::ExcMessage(
+                    "With the Tpetra stack of this deal.II Abut computes on "
+                    "one rank: forces on several were wrong by percents. Use "
+                    "one rank, or a deal.II with Epetra (up to 9.7)."));
+  }
+
   std::unique_ptr<Factors> make_factors(const la::Matrix &matrix)
   {
     return std::make_unique<Amesos2Factors>(matrix);
