@@ -569,10 +569,12 @@ namespace abut
                                || pairs[p].between_rows > 0.);
       judge_apart(pairs[p].name, apart[p], follows, scale, findings);
       judge_width(pairs[p].name, narrow, findings);
+      // What presses may be deformed by bending alone: beside all that moves.
+      const Scale motion{scale.far, scale.far, scale.least};
       judge_chords(pairs[p].name,
                    i.surfaces->chord_error(p, i.row_states().data(),
-                                           scale.limit(useless_chord)),
-                   scale, findings);
+                                           motion.limit(useless_chord)),
+                   motion, findings);
       if (!is_obstacle)
         judge_corners(pairs[p], checks[p], i.surfaces->held_in_the_mean(p),
                       scale, findings);

@@ -48,8 +48,8 @@ namespace abut
       return *given.native();
     }
     const dealii::IndexSet &owned = dof_handler->locally_owned_dofs();
-    const bool is_block =
-        given.size() != n_unknowns && given.size() == displacement_block();
+    const bool is_block = given.size() > 0 && given.size() != n_unknowns
+                          && given.size() == displacement_block();
     if (!is_block)
     {
       check_size(call, what, given.size());
@@ -89,8 +89,8 @@ namespace abut
                              communicator);
       return tangent.matrix();
     }
-    const bool is_block =
-        other->m() != n_unknowns && other->m() == displacement_block();
+    const bool is_block = other->m() > 0 && other->m() != n_unknowns
+                          && other->m() == displacement_block();
     if (!is_block)
       check_size(call, "matrix", other->m());
     const bool fits =

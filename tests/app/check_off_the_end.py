@@ -61,7 +61,7 @@ scene = (p.source / "prm/ironing-3d.prm").read_text()
 p.write("corner.prm", scene.replace(
     "if(t > 1, 2*(t - 1), 0), 0,",
     "if(t > 1, -1.6*(t - 1), 0), if(t > 1, -1.6*(t - 1), 0),"))
-check_end("over the corner", *solved("corner.prm", *QUIET), 9)
+check_end("over the corner", *solved("corner.prm", *QUIET), 10)
 
 # It is pressed in until its border is in contact, and slides on.
 p.write("deep.prm", scene.replace("-0.1", "-0.25"))

@@ -4,14 +4,12 @@
 #include "app/atlas/atlas.h"
 #include "app/chart/chart.h"
 #include "app/input/collective.h"
-#include "app/input/dealii_message.h"
 #include "app/input/output_folder.h"
 #include "app/restart/restart.h"
 #include "app/restart/run_lock.h"
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/loaded_scene.h"
 #include "command_line.h"
-#include "solve/factors.h"
 
 #include <abut/version.h>
 
@@ -247,14 +245,6 @@ namespace abut::app
   {
     const CommandLine line = parse_command_line(words);
     std::ostringstream text;
-    try
-    {
-      solve::check_ranks(communicator);
-    }
-    catch (const dealii::ExcMessage &error)
-    {
-      throw InputError("", dealii_message(error));
-    }
     switch (line.command)
     {
     case Command::run:
