@@ -21,9 +21,9 @@ namespace abut
     /** Part of a whole by which an answer may contradict itself. */
     constexpr double useless = 0.1;
 
-    /** Distance of facets from their curve, by what bodies are deformed by,
+    /** Distance of facets from their curve, by what moves at the most,
      * that leaves no digit of a pressure. */
-    constexpr double useless_chord = 0.5;
+    constexpr double useless_chord = 1.;
 
     /** Strains that small-strain theory is off by visibly, and that it is of
      * no use for. A body that is a third of its size shorter has such a mean.

@@ -99,11 +99,15 @@ class MassesInMotionJudge:
             self.force)
         # by the sum: the step in which a velocity turns may give a little back
         # and what sticks creeps by the round-off of its velocity
-        limit, time = THRESHOLDS["friction"], self.rows[-1]["time"]
-        creep = 1e-15 * (self.force * time)**2 / self.total
+        limit = THRESHOLDS["friction"]
         self.findings.check("dissipation is not negative",
                             max(-r["dissipated_energy"] for r in self.rows),
-                            limit.value * self.energy + creep, limit.reason)
+                            limit.value * self.energy + self.creep(),
+                            limit.reason)
+
+    def creep(self):
+        """Energy by the round-off of what forces would make of velocities."""
+        return 1e-15 * (self.force * self.rows[-1]["time"])**2 / self.total
 
     def last_masses(self):
         """Of masses.csv in the last row of levels.csv."""
@@ -132,8 +136,11 @@ class MassesInMotionJudge:
             if self.scheme == "velocity level":
                 least = min(least, row["energy_balance"])
             gain = max(gain, row["energy_balance"] - least)
-        self.check("gain of energy", gain, "gain",
-                   (5 if explicit else 1) * self.energy)
+        limit = THRESHOLDS["gain"]
+        self.findings.check(
+            "gain of energy", gain, limit.value
+            * (5 if explicit else 1) * self.energy + self.creep(),
+            limit.reason)
         if self.scheme == "energy momentum":
             first = self.rows[0]["energy_balance"]
             self.check("energy that is kept", max(
