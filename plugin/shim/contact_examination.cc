@@ -106,9 +106,11 @@ namespace abut
           "The largest strain is " + percent(seen.strain) + ", "
               + percent(seen.mean_strain) + " in the mean"
               + ", but strains are taken as small ones, linear in the "
-                "displacement. Look at the units of loads and stiffness; "
-                "where the largest grows with refinement and the mean does "
-                "not, a corner is singular"
+                "displacement. Look at the units of loads and stiffness"
+              + (seen.strain > 3. * seen.mean_strain
+                     ? ", or for a singular corner, where the largest strain "
+                       "grows with refinement and the mean does not"
+                     : "")
               + (is_error ? "; if such strains are meant, allow them (Allow "
                             "large strain)."
                           : "."));
