@@ -144,10 +144,10 @@ extern "C"
      * weight of a point is multiplied by 2 pi x (2D only; x >= 0 at all
      * nodes). Default false. */
     bool axisymmetric;
-    /** Dual mortar, where points stay: gaps are those at nodes, interpolated,
-     * which a convex primary does not make smaller (default true). False:
-     * weighted ones, whose derivatives the forces are, so that points made anew
-     * on surfaces that slide do no work. */
+    /** Dual mortar, where points stay: interpolate the gaps at nodes, which a
+     * convex primary does not make smaller (default true). False: weighted
+     * gaps. Contact forces are their derivatives, and conserve energy where
+     * points are renewed in each step. */
     bool interpolated_gaps;
     /** Largest cosine of the angle between the two outward normals, in
      * [-1, 1]; default -0.17: within 80 degrees of opposite. */

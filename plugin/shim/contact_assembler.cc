@@ -6,8 +6,8 @@
 
 #include "contact_implementation.h"
 
-#include "solve/factors.h"
 #include "solve/inf_sup.h"
+#include "solve/stack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,9 @@ namespace abut
                   ExcMessage("MPI is not initialised. Begin main() with: "
                              "dealii::Utilities::MPI::MPI_InitFinalize "
                              "mpi(argc, argv, 1);"));
-      solve::check_ranks(communicator);
+      const std::string refusal = solve::refusal_of_ranks(
+          dealii::Utilities::MPI::n_mpi_processes(communicator));
+      AssertThrow(refusal.empty(), ExcMessage(refusal));
     }
   } // namespace
 

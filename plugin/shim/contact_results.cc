@@ -265,10 +265,13 @@ namespace abut
   {
     const Implementation &i = *implementation;
     i.check_mesh("size_of_forces()");
-    const solve::Stiffness stiffness =
-        i.stiffness_of("size_of_forces()", tangent);
-    if (!stiffness.has_matrix())
+    if (!tangent.has_matrix())
       return {};
+    // One of Abut's type is that of a solve, which has examined it.
+    const solve::Stiffness stiffness =
+        tangent.other() == nullptr
+            ? solve::Stiffness(tangent.matrix())
+            : i.stiffness_of("size_of_forces()", tangent);
     la::Vector free(
         i.take("size_of_forces()", "displacement", given_displacement));
     i.constraints->set_zero(free);

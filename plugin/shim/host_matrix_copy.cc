@@ -83,16 +83,17 @@ namespace abut::shim
     const double visible = 1e-10; // beside the diagonal
     const la::LocalRows rows = la::local_rows(matrix);
     Index bad = dealii::numbers::invalid_dof_index;
-    for (int r = rows.n_rows - 1; r >= 0; --r)
+    const dealii::IndexSet owned = la::owned_rows(matrix);
+    for (const auto &line : constraints.get_lines())
     {
-      const Index row = la::global_column(matrix, r);
-      if (!constraints.is_constrained(row))
+      if (!owned.is_element(line.index))
         continue;
+      const auto r = static_cast<int>(owned.index_within_set(line.index));
       double diagonal = 0., other = 0.;
       for (int k = rows.start[r]; k < rows.start[r + 1]; ++k)
         (rows.column[k] == r ? diagonal : other) += std::abs(rows.value[k]);
       if (other > visible * diagonal)
-        bad = row;
+        bad = std::min(bad, line.index);
     }
     refuse_row(bad, name,
                "entries beside the diagonal, although the constraints given to "

@@ -45,14 +45,29 @@ namespace abut::shim
     const bool is_straight =
         surface_.kind == ABUT_FACET_LINE2 || surface_.kind == ABUT_FACET_QUAD4;
     const std::size_t n_nodes = surface_.nodes.size();
-    const std::vector<std::uint8_t> touching = touching_nodes(row_state);
+    if (!is_straight || pair.data.obstacle || !pair.data.geometric_gap)
+      return 0.;
+    std::vector<std::uint8_t> touching = touching_nodes(row_state);
+    for_each_component(
+        [&](const Component &row)
+        {
+          if (row_state != nullptr && row_state[row.row] != ABUT_STATE_OPEN)
+            for_each_primary(row.point,
+                             [&](const Node node, double) {
+                               touching[row.place.pair * n_nodes + node] = 1;
+                             });
+        });
+    exchange_->merge_marks(surface_, touching);
     const std::uint8_t *marks = touching.data() + number * n_nodes;
     const auto me = dealii::Utilities::MPI::this_mpi_process(communicator_);
-    const auto worst = [&](const SurfaceSide<dim> &side,
-                           const SurfaceSide<dim> &other,
-                           const bool is_secondary)
+    const auto worst =
+        [&](const SurfaceSide<dim> &side, const SurfaceSide<dim> &other)
     {
       double error = 0.;
+      std::vector<dealii::Point<dim>> opposite;
+      for (const Node node : other.node)
+        if (marks[node] != 0)
+          opposite.push_back(surface_.nodes[node].point);
       for (const std::int32_t f : side.facet)
       {
         const auto &facet = surface_.facets[f];
@@ -65,21 +80,18 @@ namespace abut::shim
         chord.middle = face->center();
         chord.to_curve = face->center(true) - chord.middle;
         chord.size = face->diameter();
-        bool touches = !is_secondary;
+        bool touches = false;
         for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)
           touches = touches || marks[facet.node[a]] != 0;
         if (!touches || chord.to_curve.norm() <= least)
           continue;
-        for (const Node node : other.node)
-          if (is_secondary || marks[node] != 0)
-            error = std::max(error, chord.error_at(surface_.nodes[node].point));
+        for (const dealii::Point<dim> &x : opposite)
+          error = std::max(error, chord.error_at(x));
       }
       return error;
     };
-    double error = 0.;
-    if (is_straight && !pair.data.obstacle && pair.data.geometric_gap)
-      error = std::max(worst(pair.secondary, pair.primary, true),
-                       worst(pair.primary, pair.secondary, false));
+    const double error = std::max(worst(pair.secondary, pair.primary),
+                                  worst(pair.primary, pair.secondary));
     return dealii::Utilities::MPI::max(error > least ? error : 0.,
                                        communicator_);
   }

@@ -417,8 +417,7 @@ namespace abut::shim
           pair.gap_error_place = place;
         }
     for (Pair &pair : pairs_)
-      for (double *value : {&pair.slip, &pair.gap_error, &pair.missed_depth,
-                            &pair.between_rows})
+      for (double *value : {&pair.slip, &pair.missed_depth, &pair.between_rows})
         *value = MPI::max(*value, communicator_);
   }
 

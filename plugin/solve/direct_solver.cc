@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "direct_solver.h"
 
+#include "stack.h"
+
 #include <abut/dealii/coded.h>
 
 namespace abut::solve

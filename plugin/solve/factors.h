@@ -24,13 +24,6 @@ namespace abut::solve
     virtual std::string solve(la::Vector &x, const la::Vector &b) = 0;
   };
 
-  /** Whether MUMPS is built in. */
-  bool has_mumps();
-
-  /** Throw dealii::ExceptionBase if vectors of this stack are not right on
-   * the ranks of @p communicator. */
-  void check_ranks(MPI_Comm communicator);
-
   /** For @p matrix, which must exist and keep its values as long as the result
    * is used. */
   std::unique_ptr<Factors> make_factors(const la::Matrix &matrix);

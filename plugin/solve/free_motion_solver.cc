@@ -187,10 +187,7 @@ namespace abut::solve
     free.motions = floating_.free_motions(*rows_, free.resisting.now);
     if (free.motions.empty())
       return free;
-    const Free found = along(free.motions, residual);
-    free.forces = found.forces;
-    free.works = found.works;
-    free.mass = found.mass;
+    find_work(residual, free);
     bool slips = false;
     for (int i = 0; i < rows_->n_rows() && free.resisting.has_friction; ++i)
       slips = slips || (free.resisting.sticks[i] && !free.resisting.now[i]);
@@ -198,22 +195,17 @@ namespace abut::solve
     return free;
   }
 
-  FreeMotionSolver::Free
-  FreeMotionSolver::along(const Combinations &motions,
-                          const la::Vector &residual) const
+  void FreeMotionSolver::find_work(const la::Vector &residual, Free &free) const
   {
-    Free result;
-    result.motions = motions;
     const std::vector<double> work = floating_.work(residual);
-    for (const Combination &motion : motions)
+    for (const Combination &motion : free.motions)
     {
       const double sum =
           -std::inner_product(motion.begin(), motion.end(), work.begin(), 0.);
-      result.works = result.works || std::abs(sum) > no_work_;
-      result.forces.push_back(sum);
+      free.works = free.works || std::abs(sum) > no_work_;
+      free.forces.push_back(sum);
     }
-    find_mass(result);
-    return result;
+    find_mass(free);
   }
 
   void FreeMotionSolver::find_mass(Free &free) const
@@ -528,7 +520,12 @@ namespace abut::solve
     no_work_ = work_tolerance();
     la::Vector forces(given_residual);
     if (check_unfelt(forces))
-      forces = balanced(along(unfelt_, forces), forces);
+    {
+      Free unfelt;
+      unfelt.motions = unfelt_;
+      find_work(forces, unfelt);
+      forces = balanced(unfelt, forces);
+    }
     const la::Vector &residual = forces;
     Free free = find_free(residual, request);
     LinearReport report;

@@ -68,8 +68,8 @@ namespace abut::solve
     bool check_unfelt(const la::Vector &residual);
     Free find_free(const la::Vector &residual,
                    const abut_request &request) const;
-    /** These motions, and what the loads do along them. Collective. */
-    Free along(const Combinations &motions, const la::Vector &residual) const;
+    /** What the loads do along the motions. Collective. */
+    void find_work(const la::Vector &residual, Free &free) const;
     void find_mass(Free &free) const;
     /** The motion that the loads drive, 1 at most. */
     Combination driven(const Free &free) const;

@@ -2,7 +2,6 @@
 """Answers that converge and are of no use are said to be so: strains that are
 not small, obstacles that are turned round, thin, or smaller than the mesh,
 surfaces that slide, laws that are too soft. Those that are right are not."""
-import json
 import subprocess
 
 from block_scene import block, pair, section, solid
@@ -22,18 +21,7 @@ def run(scene, *settings, command="run"):
     return p.call(command, scene, *words)
 
 
-def expect(result, code, *words, without=()):
-    what = " ".join(map(str, result.args[2:]))
-    p.expect(result.returncode == code,
-             f"{what}: exit code {result.returncode} instead of {code}:\n"
-             + result.stderr)
-    for word in words:
-        p.expect(word in result.stderr, f"{what}: no '{word}':\n{result.stderr}")
-    for word in without:
-        p.expect(word not in result.stderr,
-                 f"{what}: '{word}' in:\n{result.stderr}")
-    file = p.folder / "out/summary.json"
-    return json.loads(file.read_text()) if file.exists() else {}
+expect = p.expect_run
 
 
 def near(value, expected, tolerance, what):

@@ -2,7 +2,6 @@
 """What ends without a usable answer names its own reason: obstacles that are
 narrower than facets, motions whose inertia vanishes, curved surfaces of few
 facets, coefficients of friction without bound, walls that a force reaches."""
-import json
 import random
 
 from program import Program, set_words
@@ -20,18 +19,7 @@ def run(scene, *settings, command="run"):
     return p.call(command, scene, *words)
 
 
-def expect(result, codes, *words, without=()):
-    what = " ".join(map(str, result.args[1:]))
-    p.expect(result.returncode in codes,
-             f"{what}: exit code {result.returncode} is none of {codes}:\n"
-             + result.stderr)
-    for word in words:
-        p.expect(word in result.stderr, f"{what}: no '{word}':\n{result.stderr}")
-    for word in without:
-        p.expect(word not in result.stderr,
-                 f"{what}: '{word}' in:\n{result.stderr}")
-    file = p.folder / "out/summary.json"
-    return json.loads(file.read_text()) if file.exists() else {}
+expect = p.expect_run
 
 
 def narrow(x, y, size, round_):

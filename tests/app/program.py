@@ -114,6 +114,23 @@ class Program:
             self.expect(any(text in line for line in lines),
                         f"{what}: no '{text}' in: {result.stderr}")
 
+    def expect_run(self, result, codes, *words, without=()):
+        """This exit code, or one of several, with these words and without
+        others in what is said; returns the summary."""
+        codes = codes if isinstance(codes, tuple) else (codes,)
+        what = " ".join(map(str, result.args[1:]))
+        self.expect(result.returncode in codes,
+                    f"{what}: exit code {result.returncode} is none of "
+                    f"{codes}:\n{result.stderr}")
+        for word in words:
+            self.expect(word in result.stderr,
+                        f"{what}: no '{word}':\n{result.stderr}")
+        for word in without:
+            self.expect(word not in result.stderr,
+                        f"{what}: '{word}' in:\n{result.stderr}")
+        file = self.folder / "out/summary.json"
+        return json.loads(file.read_text()) if file.exists() else {}
+
     def solve(self, scene, *words, ranks=0):
         """Run a shipped scene; returns summary and rows of levels.csv."""
         result = self.call("run", self.source / "prm" / scene, "--output",

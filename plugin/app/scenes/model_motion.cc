@@ -296,12 +296,13 @@ namespace abut::app
                            &last = records.back().bodies;
     const double force =
         std::max(std::abs(first.contact_force), std::abs(last.contact_force));
-    if (lost || time.scheme.impulses != 0
-        || !loses_motion(before, balance, force, way))
+    if (lost)
       return;
-    lost = true;
-    run.report.warn(text_of_lost_motion(
-        (before.last - balance.last) / balance.scale, first.time, last.time));
+    const std::string text = text_of_lost_motion(
+        time.scheme, before, balance, force, way, first.time, last.time);
+    lost = !text.empty();
+    if (lost)
+      run.report.warn(text);
   }
 
   template <int dim> std::string ModelMotion<dim>::commit()

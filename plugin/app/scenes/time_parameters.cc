@@ -67,26 +67,24 @@ namespace abut::app
                            + other + "."));
   }
 
-  bool loses_motion(const abut_time_balance &before,
-                    const abut_time_balance &after, const double force,
-                    const double way)
+  std::string text_of_lost_motion(const abut_time_scheme &scheme,
+                                  const abut_time_balance &before,
+                                  const abut_time_balance &after,
+                                  const double force, const double way,
+                                  const double begin, const double end)
   {
     // A load that is there at once loses half of its work where it is only
     // damped; and a scheme may take the contact's force at either end.
     constexpr double most = 0.6, ends = 2.;
     const double fall = before.last - after.last;
-    return before.n > 0 && fall > most * after.scale
-           && fall > ends * force * way;
-  }
-
-  std::string text_of_lost_motion(const double part, const double begin,
-                                  const double end)
-  {
+    if (scheme.impulses != 0 || before.n == 0 || fall <= most * after.scale
+        || fall <= ends * force * way)
+      return "";
     return coded(
         ABUT_FAILURE_ENERGY_LOSS,
         "inertia vanishes beside the stiffness: the step from time "
             + short_number(begin, 6) + " to " + short_number(end, 6) + " loses "
-            + short_number(100. * part, 3)
+            + short_number(100. * fall / after.scale, 3)
             + " % of the energy without contact that could take it. The step "
               "is longer than the slowest oscillation, and the motion is "
               "damped away. Use a shorter Time/Step, a larger density or mass, "

@@ -22,15 +22,16 @@ namespace abut::app
                            const abut_time_balance &balance, double begin,
                            double end, bool stops = false);
 
-  /** Whether a step has taken most of the energy although contact, by this
-   * largest @p force over this displacement @p way within the step, cannot: the
-   * step is longer than the slowest oscillation, and there is no motion left.
+  /** What to say of a step from time @p begin to @p end that has taken most of
+   * the energy although contact, by this largest @p force over this
+   * displacement @p way within the step, cannot: it is longer than the slowest
+   * oscillation, and there is no motion left. Empty of others, and of schemes
+   * with impulses.
    * @param before,after the balance at the ends of the step */
-  bool loses_motion(const abut_time_balance &before,
-                    const abut_time_balance &after, double force, double way);
-
-  /** What to say of such a step. */
-  std::string text_of_lost_motion(double part, double begin, double end);
+  std::string text_of_lost_motion(const abut_time_scheme &scheme,
+                                  const abut_time_balance &before,
+                                  const abut_time_balance &after, double force,
+                                  double way, double begin, double end);
 
   /** Section `Time`: motion by a scheme of the core. */
   struct TimeParameters

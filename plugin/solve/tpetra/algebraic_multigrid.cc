@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solve/algebraic_multigrid.h"
+#include "types.h"
 
 DEAL_II_DISABLE_EXTRA_DIAGNOSTICS
 #include <MueLu_CreateTpetraPreconditioner.hpp>
@@ -14,12 +15,7 @@ namespace abut::solve
 {
   namespace
   {
-    using TpetraMatrix =
-        std::decay_t<decltype(std::declval<la::Matrix &>().trilinos_matrix())>;
-    using Scalar = TpetraMatrix::scalar_type;
-    using Local = TpetraMatrix::local_ordinal_type;
-    using Global = TpetraMatrix::global_ordinal_type;
-    using Node = TpetraMatrix::node_type;
+    using namespace tpetra;
 
     /** With the same sizes as ML's by deal.II. */
     Teuchos::ParameterList
@@ -50,13 +46,12 @@ namespace abut::solve
                  const AggregationOptions &options) override
       {
         // MueLu does not change the matrix, but has no const.
-        matrix_ = Teuchos::rcp_const_cast<TpetraMatrix>(matrix.trilinos_rcp());
+        matrix_ = Teuchos::rcp_const_cast<Matrix>(matrix.trilinos_rcp());
         Teuchos::ParameterList list = aggregation_parameters(options);
         if (options.n_modes > 0)
         {
-          using Modes = Tpetra::MultiVector<Scalar, Local, Global, Node>;
-          const auto modes =
-              Teuchos::rcp(new Modes(matrix_->getDomainMap(), options.n_modes));
+          const auto modes = Teuchos::rcp(
+              new Vectors(matrix_->getDomainMap(), options.n_modes));
           const std::size_t n = matrix_->getLocalNumRows();
           for (unsigned int mode = 0; mode < options.n_modes; ++mode)
             std::copy_n(options.modes.begin() + mode * n, n,
@@ -79,7 +74,7 @@ namespace abut::solve
       }
 
     private:
-      Teuchos::RCP<TpetraMatrix> matrix_;
+      Teuchos::RCP<Matrix> matrix_;
       Teuchos::RCP<MueLu::TpetraOperator<Scalar, Local, Global, Node>> cycle_;
     };
   } // namespace

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solve/factors.h"
+#include "solve/stack.h"
+#include "types.h"
 
 DEAL_II_DISABLE_EXTRA_DIAGNOSTICS
 #include <Amesos2.hpp>
 DEAL_II_ENABLE_EXTRA_DIAGNOSTICS
 
 #include <exception>
-#include <type_traits>
-#include <utility>
 
 namespace abut::solve
 {
   namespace
   {
-    using TpetraMatrix =
-        std::decay_t<decltype(std::declval<la::Matrix &>().trilinos_matrix())>;
-    using TpetraVectors = Tpetra::MultiVector<
-        TpetraMatrix::scalar_type, TpetraMatrix::local_ordinal_type,
-        TpetraMatrix::global_ordinal_type, TpetraMatrix::node_type>;
-
     /** First line of what a package threw, by @p action; empty: nothing. */
     template <typename Action> std::string reason(const Action &action)
     {
@@ -40,7 +34,7 @@ namespace abut::solve
     {
     public:
       explicit Amesos2Factors(const la::Matrix &matrix)
-          : solver_(Amesos2::create<TpetraMatrix, TpetraVectors>(
+          : solver_(Amesos2::create<tpetra::Matrix, tpetra::Vectors>(
               has_mumps() ? "MUMPS" : "KLU2", matrix.trilinos_rcp()))
       {
       }
@@ -72,7 +66,7 @@ namespace abut::solve
       }
 
     private:
-      Teuchos::RCP<Amesos2::Solver<TpetraMatrix, TpetraVectors>> solver_;
+      Teuchos::RCP<Amesos2::Solver<tpetra::Matrix, tpetra::Vectors>> solver_;
     };
   } // namespace
 
@@ -81,13 +75,13 @@ namespace abut::solve
     return Amesos2::query("MUMPS");
   }
 
-  void check_ranks(const MPI_Comm communicator)
+  std::string refusal_of_ranks(const unsigned int n_ranks)
   {
-    AssertThrow(dealii::Utilities::MPI::n_mpi_processes(communicator) == 1,
-                dealii::ExcMessage(
-                    "With the Tpetra stack of this deal.II Abut computes on "
-                    "one rank: forces on several were wrong by percents. Use "
-                    "one rank, or a deal.II with Epetra (up to 9.7)."));
+    return n_ranks == 1
+               ? ""
+               : "With the Tpetra stack of this deal.II Abut computes on one "
+                 "rank: forces on several were wrong by percents. Use one "
+                 "rank, or a deal.II with Epetra (up to 9.7).";
   }
 
   std::unique_ptr<Factors> make_factors(const la::Matrix &matrix)

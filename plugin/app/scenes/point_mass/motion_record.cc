@@ -64,16 +64,16 @@ namespace abut::app
     for (std::size_t k = 0; k < displacement.size(); ++k)
       way = std::max(way, std::abs(motion.u[k] - displacement[k]));
     displacement = motion.u;
-    if (!lost && scheme.impulses == 0 && entries.size() > 1
-        && loses_motion(
-            before, balance,
-            std::max(std::abs(now.force), std::abs(entries.end()[-2].force)),
-            way))
+    if (!lost && entries.size() > 1)
     {
-      lost = true;
-      report.warn(
-          text_of_lost_motion((before.last - balance.last) / balance.scale,
-                              entries.end()[-2].time, time));
+      const Entry &last = entries.end()[-2];
+      const std::string text = text_of_lost_motion(
+          scheme, before, balance,
+          std::max(std::abs(now.force), std::abs(last.force)), way, last.time,
+          time);
+      lost = !text.empty();
+      if (lost)
+        report.warn(text);
     }
     std::map<std::string, double> row = {
         {"step", static_cast<double>(entries.size()) - 1.},
