@@ -4,7 +4,7 @@
 // large strain, and a nonlinear material that the program does not have.
 
 #include "app/physics/elasticity.h"
-#include "app/physics/finite_strain.h"
+#include "app/physics/material_kind.h"
 
 #include "expect.h"
 #include "problem.h"
@@ -42,36 +42,31 @@ namespace
     return law == Law::hooke_of_cells || law == Law::neo_hooke_of_cells;
   }
 
+  /** Words of the materials in the table; Stiffening is no entry of it. */
+  const char *word(const Law law)
+  {
+    static const char *const words[] = {"hooke",     nullptr,
+                                        "neo-hooke", "st venant-kirchhoff",
+                                        "hooke",     "neo-hooke"};
+    return words[static_cast<unsigned int>(law)];
+  }
+
   bool is_of_large_strain(const Law law)
   {
-    return law == Law::neo_hooke || law == Law::st_venant_kirchhoff
-           || law == Law::neo_hooke_of_cells;
+    return word(law) && find_material(word(law)).large_strain;
   }
 
   template <int dim>
   std::shared_ptr<const Material<dim>> make(const Law law,
                                             const PlaneModel plane)
   {
-    switch (law)
-    {
-    case Law::hooke:
-      return std::make_shared<Hooke<dim>>(young_modulus, poisson_ratio, plane);
-    case Law::neo_hooke:
-      return std::make_shared<NeoHooke<dim>>(young_modulus, poisson_ratio,
-                                             plane);
-    case Law::hooke_of_cells:
-      return std::make_shared<Hooke<dim>>(young_modulus, poisson_ratio, plane,
-                                          VolumeChange::of_cell);
-    case Law::neo_hooke_of_cells:
-      return std::make_shared<NeoHooke<dim>>(young_modulus, poisson_ratio,
-                                             plane, VolumeChange::of_cell);
-    case Law::st_venant_kirchhoff:
-      return std::make_shared<StVenantKirchhoff<dim>>(young_modulus,
-                                                      poisson_ratio, plane);
-    default:
+    if (!word(law))
       return std::make_shared<Stiffening<dim>>(young_modulus, poisson_ratio,
                                                stiffening, plane);
-    }
+    return find_material(word(law)).make<dim>(
+        {{young_modulus, poisson_ratio},
+         plane,
+         is_of_cells(law) ? VolumeChange::of_cell : VolumeChange::of_point});
   }
 
   /** The material at points: of a cell whose volume has grown by 0.3, where
@@ -495,7 +490,9 @@ namespace
   template <int dim>
   void compressed(const double side, const double nominal, const double cauchy)
   {
-    const NeoHooke<dim> material(1., 0.3, PlaneModel::strain);
+    const auto made =
+        find_material("neo-hooke").make<dim>({{1., 0.3}, PlaneModel::strain});
+    const Material<dim> &material = *made;
     Tensor<1, dim> stretch;
     for (unsigned int d = 0; d < dim; ++d)
       stretch[d] = d + 1 < dim ? side : 0.8;
@@ -542,6 +539,38 @@ namespace
                  "Hooke's law of small strain");
   }
 
+  /** Entries of the table say what their materials are: a body that has only
+   * turned by 1 has stress, unless the material is for large strain; the stress
+   * of twice a small state is twice that of a linear material. */
+  template <int dim> void entry(const MaterialKind &kind)
+  {
+    MaterialData data;
+    for (const MaterialNumber &number : kind.numbers)
+    {
+      data.numbers.push_back(std::stod(number.value));
+      Expect::that(abut_limit_holds(&number.range, data.numbers.back()),
+                   "default in its range");
+    }
+    const auto material = kind.make<dim>(data);
+    Tensor<1, dim> one;
+    for (unsigned int d = 0; d < dim; ++d)
+      one[d] = 1.;
+    const double turn = stress(*material, turned<dim>(1., one)).tensor.norm();
+    Expect::that((turn < 1e-12) == kind.large_strain, "large strain");
+    const auto twice =
+        stress(*material, some_state<dim>(0.02, 1.)).tensor
+        - 2. * stress(*material, some_state<dim>(0.01, 1.)).tensor;
+    Expect::that((twice.norm() < 1e-14) == kind.linear, "linear");
+    Expect::that(material->is_linear() == kind.linear, "is_linear()");
+    Expect::that((material->least_stretch() == 0.)
+                     == (kind.below_least_stretch == nullptr),
+                 "what happens below the least stretch");
+    data.volume = VolumeChange::of_cell;
+    Expect::that((kind.make<dim>(data)->cell_volume() != nullptr)
+                     == (kind.without_mean_dilatation == nullptr),
+                 "mean dilatation");
+  }
+
   template <int dim> void all(const PlaneModel plane)
   {
     energy_by_hand<dim>(plane);
@@ -578,6 +607,11 @@ main(int argc, char **argv)
              {PlaneModel::strain, PlaneModel::stress, PlaneModel::axisymmetric})
           all<2>(plane);
         all<3>(PlaneModel::strain);
+        for (const MaterialKind *kind : material_kinds())
+        {
+          entry<2>(*kind);
+          entry<3>(*kind);
+        }
         for (const Law law : {Law::hooke, Law::stiffening})
         {
           stretched<2>(law);

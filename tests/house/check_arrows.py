@@ -32,8 +32,8 @@ ROOMS = [
     ("app/process", ""),
     ("app/restart", "app/input"),
     ("app/report", "app/input app/restart"),
-    ("app/mesh", "app/input"),
     ("app/physics", "app/input shim"),
+    ("app/mesh", "app/input app/physics"),
     ("app/adapt", "app/input app/restart app/report app/physics"),
     ("app/pictures", "app/input app/process app/restart app/report app/mesh "
                      "app/physics"),

@@ -19,14 +19,15 @@ namespace abut::app
     prm.declare_entry("Refinements", "0", Patterns::Integer(0, 30),
                       "Uniform refinements of this body before those of "
                       "`Refinement/Level`.");
+    std::string materials;
+    for (const MaterialKind *kind : material_kinds())
+      materials += std::string(" ") + kind->word + ": " + kind->help;
     prm.declare_entry(
-        "Material", "hooke",
-        Patterns::Selection("hooke|neo-hooke|st venant-kirchhoff"),
-        "What stress follows from: hooke is for small strain; neo-hooke and st "
-        "venant-kirchhoff (Hooke's law in large rotations, for compressions of "
-        "up to a fifth) are for large displacements, with loads per area and "
-        "volume of the undeformed body. All bodies of a scene are of small "
-        "strain or none is.");
+        "Material", material_kinds().front()->word,
+        Patterns::Selection(
+            material_words("|", [](const MaterialKind &) { return true; })),
+        "Law of stress and strain." + materials
+            + " All bodies of a scene are of small strain or none is.");
     prm.declare_entry(
         "Element", "full integration",
         Patterns::Selection("full integration|mean dilatation"),
@@ -34,17 +35,13 @@ namespace abut::app
         "in nearly incompressible bodies with `Solid/Degree` = 1. mean "
         "dilatation gives each cell one change of volume and one pressure: "
         "what other programs call B-bar, F-bar, Q1/P0, hybrid or u-p elements "
-        "with constant pressure, for rubber (neo-hooke) and for hooke up to nu "
-        "= 0.4999 or so.");
-    prm.declare_entry("Young modulus", "1",
-                      NumberPattern::between(1. / largest_value, largest_value),
-                      "E, force per area; of large strain that at its "
-                      "beginning, as nu.");
-    prm.declare_entry("Poisson ratio", "0.3",
-                      NumberPattern({nullptr, -1., 0.5, true, true}),
-                      "nu. At 0.5 the material would be incompressible, which "
-                      "displacements alone cannot describe. From 0.45 on set "
-                      "`Element` = mean dilatation.");
+        "with constant pressure, for nu up to 0.4999 or so. Materials: "
+            + material_words(", ", [](const MaterialKind &kind)
+                             { return !kind.without_mean_dilatation; })
+            + ".");
+    for (const MaterialNumber &number : material_numbers())
+      prm.declare_entry(number.name, number.value, NumberPattern(number.range),
+                        number.help);
     prm.declare_entry("Density", "0", NumberPattern::between(0., largest_value),
                       "Mass per volume; its weight is density times "
                       "`Solid/Gravity`, and its inertia that of section "
@@ -81,22 +78,16 @@ namespace abut::app
     mesh.parse(prm, section + "/Mesh");
     prm.leave_subsection();
     refinements = prm.get_integer("Refinements");
-    const std::string word = prm.get("Material");
-    law = word == "hooke"       ? MaterialLaw::hooke
-          : word == "neo-hooke" ? MaterialLaw::neo_hooke
-                                : MaterialLaw::st_venant_kirchhoff;
-    element = prm.get("Element") == "mean dilatation"
-                  ? ElementKind::mean_dilatation
-                  : ElementKind::full_integration;
-    if (element == ElementKind::mean_dilatation
-        && law == MaterialLaw::st_venant_kirchhoff)
-      throw InputError(parameter("Element"),
-                       "the energy of st venant-kirchhoff has no part that is "
-                       "one of volume alone, so that mean dilatation has "
-                       "nothing to average: set Material = neo-hooke, or "
-                       "Element = full integration.");
-    young_modulus = prm.get_double("Young modulus");
-    poisson_ratio = prm.get_double("Poisson ratio");
+    material = &find_material(prm.get("Material"));
+    volume = prm.get("Element") == "mean dilatation" ? VolumeChange::of_cell
+                                                     : VolumeChange::of_point;
+    if (volume == VolumeChange::of_cell && material->without_mean_dilatation)
+      throw InputError(
+          parameter("Element"),
+          material->without_mean_dilatation + std::string(": set Material = ")
+              + material->instead + ", or Element = full integration.");
+    for (const MaterialNumber &number : material->numbers)
+      numbers.push_back(prm.get_double(number.name));
     density = prm.get_double("Density");
     support = prm.get("Support");
     traction = prm.get("Traction");

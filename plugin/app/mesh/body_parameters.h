@@ -2,6 +2,7 @@
 #ifndef ABUT_APP_BODY_PARAMETERS_H
 #define ABUT_APP_BODY_PARAMETERS_H
 
+#include "app/physics/material_kind.h"
 #include "mesh.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -10,31 +11,15 @@
 
 namespace abut::app
 {
-  /** Laws of elastic bodies. */
-  enum class MaterialLaw
-  {
-    hooke,              /**< small strain */
-    neo_hooke,          /**< large strain */
-    st_venant_kirchhoff /**< Hooke's law in large rotations */
-  };
-
-  /** What the cells of a body are. */
-  enum class ElementKind
-  {
-    full_integration, /**< stress of the strain at each point */
-    mean_dilatation   /**< of the mean change of volume of a cell */
-  };
-
   /** A section `Body N` of a scene: shape, material, supports and loads. */
   struct BodyParameters
   {
     std::string section; ///< "Body 1"
     MeshParameters mesh;
     unsigned int refinements = 0;
-    MaterialLaw law = MaterialLaw::hooke;
-    ElementKind element = ElementKind::full_integration;
-    double young_modulus = 1.;
-    double poisson_ratio = 0.3;
+    const MaterialKind *material = nullptr;
+    std::vector<double> numbers; ///< of the material
+    VolumeChange volume = VolumeChange::of_point;
     double density = 0.;
     std::string support, traction, pressure, body_force;
     std::string initial_displacement, initial_velocity;

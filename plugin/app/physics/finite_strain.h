@@ -13,157 +13,146 @@
  * with the same E and nu for small strain. Where J <= 0 all is nan.
  */
 
-#include "cell_volume.h"
+#include "material_kind.h"
 
-#include <memory>
-#include <optional>
+#include <cmath>
+#include <limits>
 
 namespace abut::app
 {
   /** What all of them share: the third direction, and what E and nu mean. */
   template <int dim> class FiniteStrain : public Material<dim>
   {
+  protected:
+    using Gradient = dealii::Tensor<2, dim>;
+    using Displacement = dealii::Tensor<1, dim>;
+    using Point = dealii::Point<dim>;
+    using Matrix = dealii::Tensor<2, 3>;
+
   public:
-    /** @param young_modulus E > 0, stress
-     * @param poisson_ratio -1 < nu < 1/2
-     * @param plane not PlaneModel::stress */
-    FiniteStrain(double young_modulus, double poisson_ratio, PlaneModel plane);
+    /** Of elastic_constants, not in plane stress. */
+    explicit FiniteStrain(const MaterialData &data)
+        : Material<dim>(data.plane),
+          young_modulus(data.numbers[0]),
+          nu(data.numbers[1]),
+          mu(young_modulus / (2. * (1. + nu))),
+          lambda(young_modulus * nu / ((1. + nu) * (1. - 2. * nu)))
+    {
+    }
 
     bool is_linear() const override
     {
       return false;
     }
 
-    Stress<dim> stress(const dealii::Tensor<2, dim> &gradient,
-                       const dealii::Tensor<1, dim> &displacement,
-                       const dealii::Point<dim> &point) const override;
+    Stress<dim> stress(const Gradient &gradient,
+                       const Displacement &displacement,
+                       const Point &point) const override
+    {
+      const Matrix f = deformation(gradient, displacement, point);
+      const double j = determinant(f);
+      const Matrix cauchy =
+          j > 0. ? piola_of(f) * transpose(f) / j : nan * Matrix();
+      const NominalStress<dim> part = nominal(cauchy);
+      return {symmetrize(part.tensor), part.out_of_plane};
+    }
+
+    NominalStress<dim> nominal_stress(const Gradient &gradient,
+                                      const Displacement &displacement,
+                                      const Point &point) const override
+    {
+      const Matrix f = deformation(gradient, displacement, point);
+      return nominal(determinant(f) > 0. ? piola_of(f) : nan * Matrix());
+    }
+
+    double energy(const Gradient &gradient, const Displacement &displacement,
+                  const Point &point) const override
+    {
+      const Matrix f = deformation(gradient, displacement, point);
+      return determinant(f) > 0. ? energy_of(f) : nan;
+    }
 
     NominalStress<dim>
-    nominal_stress(const dealii::Tensor<2, dim> &gradient,
-                   const dealii::Tensor<1, dim> &displacement,
-                   const dealii::Point<dim> &point) const override;
-
-    double energy(const dealii::Tensor<2, dim> &gradient,
-                  const dealii::Tensor<1, dim> &displacement,
-                  const dealii::Point<dim> &point) const override;
-
-    NominalStress<dim>
-    tangent(const dealii::Tensor<2, dim> &gradient,
-            const dealii::Tensor<1, dim> &displacement,
-            const dealii::Point<dim> &point,
-            const dealii::Tensor<2, dim> &gradient_change,
-            const dealii::Tensor<1, dim> &displacement_change) const override;
+    tangent(const Gradient &gradient, const Displacement &displacement,
+            const Point &point, const Gradient &gradient_change,
+            const Displacement &displacement_change) const override
+    {
+      const Matrix f = deformation(gradient, displacement, point);
+      const Matrix df = with_third(
+          gradient_change,
+          this->hoop_strain(gradient_change, displacement_change, point), 0.);
+      return nominal(determinant(f) > 0. ? piola_change(f, df)
+                                         : nan * Matrix());
+    }
 
     double stiffness() const override
     {
-      return young_modulus_;
+      return young_modulus;
     }
 
     double dilation_stiffness() const override
     {
-      return lambda_;
+      return lambda;
     }
 
     double poisson_ratio() const override
     {
-      return poisson_ratio_;
+      return nu;
     }
 
     /** ln J. */
-    double dilation(const dealii::Tensor<2, dim> &gradient,
-                    const dealii::Tensor<1, dim> &displacement,
-                    const dealii::Point<dim> &point) const override;
+    double dilation(const Gradient &gradient, const Displacement &displacement,
+                    const Point &point) const override
+    {
+      return std::log(determinant(deformation(gradient, displacement, point)));
+    }
 
   protected:
-    using Matrix = dealii::Tensor<2, 3>;
-
-    /** F. */
-    Matrix deformation(const dealii::Tensor<2, dim> &gradient,
-                       const dealii::Tensor<1, dim> &displacement,
-                       const dealii::Point<dim> &point) const;
-
     /** psi, P and the change of P with F, for J > 0. */
     virtual double energy_of(const Matrix &f) const = 0;
     virtual Matrix piola_of(const Matrix &f) const = 0;
     virtual Matrix piola_change(const Matrix &f, const Matrix &df) const = 0;
 
-    double mu() const
+    /** F. */
+    Matrix deformation(const Gradient &gradient,
+                       const Displacement &displacement,
+                       const Point &point) const
     {
-      return mu_;
+      return with_third(gradient,
+                        this->hoop_strain(gradient, displacement, point), 1.);
     }
-    double lambda() const
+
+    /** The part of a tensor that the model has. */
+    static NominalStress<dim> nominal(const Matrix &piola)
     {
-      return lambda_;
+      NominalStress<dim> result;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          result.tensor[i][j] = piola[i][j];
+      if (dim == 2)
+        result.out_of_plane = piola[2][2];
+      return result;
     }
+
+    static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const double young_modulus, nu, mu, lambda;
 
   private:
-    double young_modulus_, poisson_ratio_, mu_, lambda_;
-  };
-
-  /** psi = mu/2 (tr C - 3 - 2 ln J) + lambda/2 (ln J)^2: compressible
-   * neo-Hooke. By the volume of cells J is their mean in the last term. */
-  template <int dim>
-  class NeoHooke : public FiniteStrain<dim>, public CellVolume<dim>
-  {
-  public:
-    /** @param volume which J is in the last term */
-    NeoHooke(double young_modulus, double poisson_ratio, PlaneModel plane,
-             VolumeChange volume = VolumeChange::of_point)
-        : FiniteStrain<dim>(young_modulus, poisson_ratio, plane),
-          volume_(volume)
+    /** A tensor of the model with what is along the third direction; @p first
+     * is added to the diagonal. */
+    static Matrix with_third(const Gradient &gradient, const double third,
+                             const double first)
     {
+      Matrix result;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          result[i][j] = gradient[i][j];
+      if (dim == 2)
+        result[2][2] = third;
+      for (unsigned int i = 0; i < 3; ++i)
+        result[i][i] += first;
+      return result;
     }
-
-    const CellVolume<dim> *cell_volume() const override
-    {
-      return volume_ == VolumeChange::of_cell ? this : nullptr;
-    }
-
-    /** J - 1. */
-    double change(const dealii::Tensor<2, dim> &gradient,
-                  const dealii::Tensor<1, dim> &displacement,
-                  const dealii::Point<dim> &point) const override;
-    NominalStress<dim>
-    change_slope(const dealii::Tensor<2, dim> &gradient,
-                 const dealii::Tensor<1, dim> &displacement,
-                 const dealii::Point<dim> &point) const override;
-    double bulk_tangent(double mean_change) const override;
-    std::shared_ptr<const Material<dim>>
-    held_at(double mean_change) const override;
-
-  private:
-    using typename FiniteStrain<dim>::Matrix;
-
-    /** lambda ln(J) / J, which J is multiplied by in the stress. */
-    double pressure(double volume_ratio) const;
-
-    VolumeChange volume_;
-    std::optional<double> held_; ///< J of the cell
-    double energy_of(const Matrix &f) const override;
-    Matrix piola_of(const Matrix &f) const override;
-    Matrix piola_change(const Matrix &f, const Matrix &df) const override;
-  };
-
-  /** psi = lambda/2 (tr E)^2 + mu E:E: Hooke's law in large rotations, after
-   * St. Venant and Kirchhoff. It softens under compression, and a bar can be
-   * squeezed to nothing by finite forces, so that there is an end to its use.
-   */
-  template <int dim> class StVenantKirchhoff : public FiniteStrain<dim>
-  {
-  public:
-    using FiniteStrain<dim>::FiniteStrain;
-
-    /** A compression by a fifth, where a bar has lost half of its stiffness. */
-    double least_stretch() const override
-    {
-      return 0.8;
-    }
-
-  private:
-    using typename FiniteStrain<dim>::Matrix;
-    double energy_of(const Matrix &f) const override;
-    Matrix piola_of(const Matrix &f) const override;
-    Matrix piola_change(const Matrix &f, const Matrix &df) const override;
   };
 } // namespace abut::app
 

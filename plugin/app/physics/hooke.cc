@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "hooke.h"
 
+#include "material_kind.h"
 #include "nodal_places.h"
 
 namespace abut::app
@@ -214,4 +215,18 @@ namespace abut::app
 
   template class Hooke<2>;
   template class Hooke<3>;
+
+  namespace
+  {
+    template <int dim>
+    std::shared_ptr<const Material<dim>> make_hooke(const MaterialData &data)
+    {
+      return std::make_shared<Hooke<dim>>(data.numbers[0], data.numbers[1],
+                                          data.plane, data.volume);
+    }
+  } // namespace
+
+  extern const MaterialKind hooke_kind = {
+      "hooke", "small strain.",   false,         true,         nullptr, nullptr,
+      nullptr, elastic_constants, make_hooke<2>, make_hooke<3>};
 } // namespace abut::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_effects.h"
 
+#include "app/physics/material_kind.h"
 #include "app/scenes/motion_effects.h"
 
 namespace abut::app
@@ -55,7 +56,15 @@ namespace abut::app
 
     bool has_large_strain(const SceneValues &values)
     {
-      return values("Body 1/Material") != "hooke";
+      return find_material(values("Body 1/Material")).large_strain;
+    }
+
+    bool has_nonlinear_material(const SceneValues &values)
+    {
+      for (const std::string &path : values.matching("Body */Material"))
+        if (!find_material(values(path)).linear)
+          return true;
+      return false;
     }
 
     /** Whether points follow the deformed bodies, unless the method forbids
@@ -251,6 +260,24 @@ namespace abut::app
       return rules;
     }
 
+    /** Numbers have an effect in the materials that list them. */
+    EffectRules of_materials()
+    {
+      EffectRules rules;
+      for (const MaterialNumber &number : material_numbers())
+        rules.push_back({std::string("Body */") + number.name, Weight::data,
+                         [name = number.name](const SceneValues &values,
+                                              const std::string &path)
+                         {
+                           const std::string word =
+                               values(section_of(path) + "/Material");
+                           return find_material(word).has(name)
+                                      ? ""
+                                      : "Material = " + word + " has none.";
+                         }});
+      return rules;
+    }
+
     EffectRules of_load_steps()
     {
       return {setting(
@@ -258,9 +285,9 @@ namespace abut::app
                   [](const SceneValues &values)
                   { return values.is_true("Load steps/Cut back"); },
                   "it belongs to Load steps/Cut back = true."),
-              setting("Load steps/Newton*", has_large_strain,
-                      "Body 1/Material is hooke, whose forces are linear in "
-                      "the displacement."),
+              setting("Load steps/Newton*", has_nonlinear_material,
+                      "the materials of all bodies have forces that are linear "
+                      "in the displacement."),
               setting(
                   "Solid/Allow large strain",
                   [](const SceneValues &values)
@@ -284,7 +311,7 @@ namespace abut::app
   EffectRules solid_effects()
   {
     return joined(
-        {of_loads(), of_contact(), of_obstacles(), of_search(),
+        {of_loads(), of_materials(), of_contact(), of_obstacles(), of_search(),
          mesh_effects("Body */Mesh"), mesh_effects("Obstacle *"), law_effects(),
          solver_effects(), refinement_effects(), of_load_steps(), of_motion(),
          motion_effects({"Body */Initial*"}, "hht"), result_effects()});

@@ -2,8 +2,6 @@
 #include "solid_functions.h"
 
 #include "app/input/input_error.h"
-#include "app/physics/finite_strain.h"
-#include "app/physics/hooke.h"
 #include "app/physics/nodal_interpolation.h"
 
 #include <algorithm>
@@ -11,28 +9,6 @@
 namespace abut::app
 {
   using dealii::types::boundary_id;
-
-  namespace
-  {
-    template <int dim>
-    std::shared_ptr<const Material<dim>>
-    make_material(const BodyParameters &body, const PlaneModel plane)
-    {
-      const double e = body.young_modulus, nu = body.poisson_ratio;
-      const VolumeChange volume = body.element == ElementKind::mean_dilatation
-                                      ? VolumeChange::of_cell
-                                      : VolumeChange::of_point;
-      switch (body.law)
-      {
-      case MaterialLaw::neo_hooke:
-        return std::make_shared<NeoHooke<dim>>(e, nu, plane, volume);
-      case MaterialLaw::st_venant_kirchhoff:
-        return std::make_shared<StVenantKirchhoff<dim>>(e, nu, plane);
-      default:
-        return std::make_shared<Hooke<dim>>(e, nu, plane, volume);
-      }
-    }
-  } // namespace
 
   template <int dim>
   SolidFunctions<dim>::SolidFunctions(const SolidParameters &parameters)
@@ -101,8 +77,9 @@ namespace abut::app
       require_effect(bodies, body, result);
       if (own.force->is_present())
         result.body_force[body] = own.force.get();
-      result.materials[body] =
-          make_material<dim>(parameters.bodies[body], parameters.plane);
+      const BodyParameters &given = parameters.bodies[body];
+      result.materials[body] = given.material->make<dim>(
+          {given.numbers, parameters.plane, given.volume});
     }
     return result;
   }

@@ -55,6 +55,7 @@ namespace abut::app
                        "steps, or refine the mesh there.")});
     if (seen.excess <= 0.)
       return findings;
+    const MaterialKind &material = *bodies[seen.where].material;
     const auto percent = [](const double part)
     { return short_number(100. * part, 3) + " %"; };
     findings.push_back(
@@ -62,14 +63,12 @@ namespace abut::app
          coded(ABUT_FAILURE_LARGE_STRAIN,
                "Body " + std::to_string(seen.where + 1) + " is compressed to "
                    + percent(seen.allowed - seen.excess)
-                   + " of its length where St. Venant and Kirchhoff's law "
-                     "is of use down to "
-                   + percent(seen.allowed)
-                   + ": beyond, it becomes softer the more it is pressed. "
-                     "Set "
-                   + bodies[seen.where].parameter("Material")
-                   + " = neo-hooke, or look at the units of loads and "
-                     "stiffness.")});
+                   + " of its length where " + material.word
+                   + " is of use down to " + percent(seen.allowed)
+                   + ": beyond, " + material.below_least_stretch + ". Set "
+                   + bodies[seen.where].parameter("Material") + " = "
+                   + material.instead
+                   + ", or look at the units of loads and stiffness.")});
     return findings;
   }
 

@@ -152,7 +152,7 @@ namespace abut::app
 
   void SolidParameters::check_element(const BodyParameters &body) const
   {
-    if (body.element != ElementKind::mean_dilatation)
+    if (body.volume != VolumeChange::of_cell)
       return;
     const auto refuse = [&body](const std::string &why)
     {
@@ -170,23 +170,32 @@ namespace abut::app
 
   void SolidParameters::check_materials() const
   {
+    const auto words = [](const bool large)
+    {
+      return material_words(" or ", [large](const MaterialKind &kind)
+                            { return kind.large_strain == large; });
+    };
     for (const BodyParameters &body : bodies)
-      if ((body.law != MaterialLaw::hooke) != has_large_strain())
+    {
+      if (body.material->large_strain != has_large_strain())
         throw InputError(body.parameter("Material"),
-                         "hooke is for small strain, and "
+                         words(false) + " is for small strain, and "
                              + bodies.front().parameter("Material")
-                             + " is not of the same kind: set both to hooke, "
-                               "or both to neo-hooke or st venant-kirchhoff. A "
-                               "stiff body hardly strains with any of them.");
-    for (const BodyParameters &body : bodies)
+                             + " is not of the same kind: set both to "
+                             + words(false) + ", or both to " + words(true)
+                             + ". A stiff body hardly strains with any of "
+                               "them.");
       check_element(body);
+    }
     if (!has_large_strain())
       return;
-    const auto refuse = [](const std::string &parameter, const std::string &why)
+    const auto refuse =
+        [&words](const std::string &parameter, const std::string &why)
     {
       throw InputError(parameter, why
                                       + " Or describe bodies of small strain: "
-                                        "Body N/Material = hooke.");
+                                        "Body N/Material = "
+                                      + words(false) + ".");
     };
     if (plane == PlaneModel::stress)
       refuse("Solid/Plane", "large strain is computed in plane strain, around "

@@ -61,7 +61,7 @@ namespace abut::app
     /** Whether bodies are of materials for large strain. */
     bool has_large_strain() const
     {
-      return bodies.front().law != MaterialLaw::hooke;
+      return bodies.front().material->large_strain;
     }
 
   private:
