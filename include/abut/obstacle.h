@@ -234,6 +234,18 @@ extern "C"
                                          const double *points, double *gap,
                                          double *gradient, double *hessian);
 
+  /** Width of a bounded shape for a surface with this unit normal, length > 0:
+   * the least length of the shape through its centre along the surface.
+   * Infinite for planes, cones, hollow shapes, functions and surfaces. O(1).
+   * @param normal [dimension] in space */
+  ABUT_API double abut_obstacle_width(const abut_obstacle *obstacle,
+                                      const double *normal);
+
+  /** Depth of a bounded shape: half of its least length, which no point inside
+   * exceeds. Infinite for planes, cones, hollow shapes, functions and
+   * surfaces. O(1). */
+  ABUT_API double abut_obstacle_depth(const abut_obstacle *obstacle);
+
   /** What an obstacle is, and what it has found. */
   typedef struct abut_obstacle_view
   {

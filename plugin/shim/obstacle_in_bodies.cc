@@ -272,9 +272,7 @@ namespace abut::shim
     ObstacleInBodies<dim> found;
     found.at_surface = found.elsewhere = -INFINITY;
     const abut_obstacle_view view = pair.obstacle->view();
-    const bool is_bounded = view.kind == ABUT_OBSTACLE_SPHERE
-                            || view.kind == ABUT_OBSTACLE_BOX
-                            || view.kind == ABUT_OBSTACLE_CYLINDER;
+    const bool is_bounded = std::isfinite(pair.obstacle->depth());
     const bool may_be_thinner = pair.geometric_gap && pair.gap > 0.
                                 && !is_bounded
                                 && view.kind != ABUT_OBSTACLE_PLANE;

@@ -3,11 +3,8 @@
 
 #include <abut/dealii/rigid_obstacle.h>
 
-#include <algorithm>
 #include <cmath>
 #include <exception>
-#include <limits>
-#include <optional>
 #include <utility>
 
 namespace abut
@@ -234,7 +231,6 @@ namespace abut
       shim::check(context.get(),
                   abut_obstacle_create_shape(context.get(), &shape, &made));
       obstacle.reset(made);
-      this->shape = shape;
     }
 
     Implementation(std::unique_ptr<HostFunction<dim>> host, const bool hollow)
@@ -276,7 +272,6 @@ namespace abut
     shim::Handle<abut_obstacle> obstacle;
     std::function<RigidPose<dim>(double)> motion;
     double time = 0.;
-    std::optional<abut_obstacle_shape> shape;
   };
 
   template <int dim>
@@ -429,59 +424,12 @@ namespace abut
   template <int dim>
   double RigidObstacle<dim>::width(const Tensor<1, dim> &normal) const
   {
-    double least = std::numeric_limits<double>::infinity();
-    if (!implementation->shape || implementation->shape->hollow)
-      return least;
-    const abut_obstacle_shape &shape = *implementation->shape;
-    const abut_obstacle_view pose = view();
-    // A length along an axis of the obstacle's frame, seen along the surface.
-    const auto take = [&](const double length, const Tensor<1, dim> &own)
-    {
-      Tensor<1, dim> axis;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          axis[i] += pose.rotation[dim * i + j] * own[j];
-      axis /= axis.norm();
-      const double along = (axis - (axis * normal) * normal).norm();
-      // Faces parallel to the surface to round-off have no end in it.
-      if (along > 1e-8)
-        least = std::min(least, length / along);
-    };
-    Tensor<1, dim> axis;
-    if (shape.kind == ABUT_OBSTACLE_SPHERE
-        || shape.kind == ABUT_OBSTACLE_CYLINDER)
-      least = 2. * shape.radius;
-    if (shape.kind == ABUT_OBSTACLE_CYLINDER && shape.length > 0.)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        axis[d] = shape.axis[d];
-      take(shape.length, axis);
-    }
-    if (shape.kind == ABUT_OBSTACLE_BOX)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        axis = 0.;
-        axis[d] = 1.;
-        take(shape.size[d], axis);
-      }
-    return least;
+    return abut_obstacle_width(handle(), normal.begin_raw());
   }
 
   template <int dim> double RigidObstacle<dim>::depth() const
   {
-    double result = std::numeric_limits<double>::infinity();
-    if (!implementation->shape || implementation->shape->hollow)
-      return result;
-    const abut_obstacle_shape &shape = *implementation->shape;
-    if (shape.kind == ABUT_OBSTACLE_SPHERE
-        || shape.kind == ABUT_OBSTACLE_CYLINDER)
-      result = shape.radius;
-    if (shape.kind == ABUT_OBSTACLE_CYLINDER && shape.length > 0.)
-      result = std::min(result, shape.length / 2.);
-    if (shape.kind == ABUT_OBSTACLE_BOX)
-      for (unsigned int d = 0; d < dim; ++d)
-        result = std::min(result, shape.size[d] / 2.);
-    return result;
+    return abut_obstacle_depth(handle());
   }
 
   template struct RigidPose<2>;

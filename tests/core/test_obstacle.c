@@ -55,6 +55,70 @@ shape_number(int i)
   return s;
 }
 
+/* Width and depth of a shape that is turned by an angle about the axis out of
+ * the plane of x and y, for a normal in that plane. */
+static void
+check_size(const abut_obstacle_shape *shape, double angle, double normal_angle,
+           double width, double depth)
+{
+  const double c = cos(angle), t = sin(angle);
+  const double rotation_2d[4] = {c, -t, t, c};
+  const double rotation_3d[9] = {c, -t, 0, t, c, 0, 0, 0, 1};
+  const double normal[3] = {cos(normal_angle), sin(normal_angle), 0};
+  abut_obstacle *o = make(shape);
+  assert_ok(abut_obstacle_set_pose(
+      o, shape->dimension == 2 ? rotation_2d : rotation_3d, NULL));
+  if (isinf(width))
+    assert_true(isinf(abut_obstacle_width(o, normal)));
+  else
+    assert_close(abut_obstacle_width(o, normal), width, 1e-14);
+  if (isinf(depth))
+    assert_true(isinf(abut_obstacle_depth(o)));
+  else
+    assert_close(abut_obstacle_depth(o), depth, 0);
+  assert_ok(abut_obstacle_destroy(&o));
+}
+
+/* A line through the centre at angle a to an edge of length l of a box, between
+ * two sides of it, has the length l / cos(a). */
+static void
+sizes(void **state)
+{
+  (void)state;
+  abut_obstacle_shape s = abut_obstacle_shape_defaults();
+  check_size(&s, 0.3, 0.2, INFINITY, INFINITY);
+  s.kind = ABUT_OBSTACLE_CONE;
+  s.length = 2;
+  check_size(&s, 0.3, 0.2, INFINITY, INFINITY);
+  s.kind = ABUT_OBSTACLE_SPHERE;
+  s.radius = 0.75;
+  check_size(&s, 0.3, 0.2, 1.5, 0.75);
+  s.hollow = true;
+  check_size(&s, 0.3, 0.2, INFINITY, INFINITY);
+  s.hollow = false;
+  /* The axis, along x before the turn: its end counts if it is nearer. */
+  s.kind = ABUT_OBSTACLE_CYLINDER;
+  s.axis[0] = 3;
+  s.axis[2] = 0;
+  s.length = 0;
+  check_size(&s, 0.4, 0.4 + pi / 2, 1.5, 0.75);
+  s.length = 1;
+  check_size(&s, 0.4, 0.4 + pi / 2, 1, 0.5);
+  check_size(&s, 0.4, 0.4 + pi / 2 - 0.5, 1 / cos(0.5), 0.5);
+  check_size(&s, 0.4, 0.4, 1.5, 0.5);
+  s.kind = ABUT_OBSTACLE_BOX;
+  s.size[0] = 4;
+  s.size[1] = 3;
+  s.size[2] = 5;
+  check_size(&s, 0.4, 0.4 + pi / 2, 4, 1.5);
+  check_size(&s, 0.4, 0.4, 3, 1.5);
+  check_size(&s, 0.4, 0.4 + 0.2, 3 / cos(0.2), 1.5);
+  s.dimension = 2;
+  s.size[1] = 5;
+  check_size(&s, 0.4, 0.4 + pi / 2, 4, 2);
+  check_size(&s, 0.4, 0.4, 5, 2);
+}
+
 static void
 known_distances(void **state)
 {
@@ -785,6 +849,7 @@ int
 main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(sizes, set_up, tear_down),
       cmocka_unit_test_setup_teardown(known_distances, set_up, tear_down),
       cmocka_unit_test_setup_teardown(functions, set_up, tear_down),
       cmocka_unit_test_setup_teardown(curvature_of_functions, set_up,

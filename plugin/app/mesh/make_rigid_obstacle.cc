@@ -96,21 +96,16 @@ namespace abut::app
     {
       const Numbers numbers(parameters);
       const double infinity = std::numeric_limits<double>::infinity();
-      const std::string &kind = parameters.kind;
       abut_obstacle_shape shape = abut_obstacle_shape_defaults();
       shape.dimension = dim;
       shape.hollow = parameters.hollow;
-      if (abut_obstacle_find(kind.c_str(), &shape.kind) != ABUT_SUCCESS
-          || abut_obstacle_fields(shape.kind) == 0)
-        numbers.wrong("Kind", "'" + kind + "' is none of the shapes.");
-      if (dim == 2 && kind == "cylinder")
-        numbers.wrong("Kind", "a cylinder exists in 3 dimensions only; in 2, "
-                              "its section is a sphere or a box.");
-      const bool tip = kind == "plane" || kind == "cone";
-      const Tensor<1, dim> point =
-          numbers.vector<dim>(tip ? "Point" : "Centre", Tensor<1, dim>());
+      if (abut_obstacle_find(parameters.kind.c_str(), &shape.kind)
+          != ABUT_SUCCESS)
+        numbers.wrong("Kind", "'" + parameters.kind + "' is no shape.");
+      const Tensor<1, dim> point = numbers.vector<dim>(
+          parameters.has("Point") ? "Point" : "Centre", Tensor<1, dim>());
       const Tensor<1, dim> axis =
-          numbers.direction<dim>(kind == "plane" ? "Normal" : "Axis");
+          numbers.direction<dim>(parameters.has("Normal") ? "Normal" : "Axis");
       std::vector<double> size = numbers.list("Size");
       if (size.size() == 1)
         size.resize(dim, size[0]);
@@ -448,7 +443,7 @@ namespace abut::app
       catch (const dealii::ExceptionBase &error)
       {
         throw InputError(parameters.parameter("Kind"),
-                         "the numbers make no " + parameters.kind + ": "
+                         "there is no such " + parameters.kind + ": "
                              + dealii_message(error));
       }
     }

@@ -198,6 +198,14 @@ namespace abut::app
     }
   } // namespace
 
+  bool RigidObstacleParameters::has(const std::string &name) const
+  {
+    for (const Entry &entry : entries())
+      if (entry.name == name)
+        return std::count(entry.kinds.begin(), entry.kinds.end(), kind) > 0;
+    return false;
+  }
+
   void RigidObstacleParameters::declare(ParameterHandler &prm)
   {
     prm.declare_entry("Kind", "plane", Patterns::Selection(kind_names()),

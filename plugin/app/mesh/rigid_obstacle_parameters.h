@@ -41,6 +41,9 @@ namespace abut::app
      * the kind. */
     void parse(dealii::ParameterHandler &prm, const std::string &section);
 
+    /** Whether the kind has a parameter of its own with this name. */
+    bool has(const std::string &name) const;
+
     /** Full name of a parameter, for messages. */
     std::string parameter(const std::string &name) const
     {

@@ -7,6 +7,7 @@
 #include "geometry/obstacle.h"
 
 #include "geometry/kernels.h"
+#include "geometry/vector.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,6 +36,48 @@ abut_obstacle_find(const char *name, abut_obstacle_kind *kind)
       return ABUT_SUCCESS;
     }
   return ABUT_INVALID_ARGUMENT;
+}
+
+/* Length of an extent along a surface with this normal. */
+static double
+length_along(const abut_obstacle *o, int32_t i, const double *normal)
+{
+  static const double parallel = 1e-8; /* faces without an end in the surface */
+  const int32_t dim = o->view.dimension;
+  double axis[3] = {0., 0., 0.}, n[3] = {0., 0., 0.};
+  for (int32_t k = 0; k < dim; ++k)
+  {
+    n[k] = normal[k];
+    for (int32_t l = 0; l < dim; ++l)
+      axis[k] += o->view.rotation[dim * k + l] * o->extents.axis[i][l];
+  }
+  if (unit3(axis, 0.) == 0.)
+    return o->extents.length[i];
+  axpy3(axis, -dot3(axis, n), n, axis);
+  const double along = norm3(axis);
+  return along > parallel ? o->extents.length[i] / along : INFINITY;
+}
+
+double
+abut_obstacle_width(const abut_obstacle *o, const double *normal)
+{
+  double least = INFINITY;
+  if (o == NULL || normal == NULL || o->view.hollow)
+    return least;
+  for (int32_t i = 0; i < o->extents.n; ++i)
+    least = min2(least, length_along(o, i, normal));
+  return least;
+}
+
+double
+abut_obstacle_depth(const abut_obstacle *o)
+{
+  double least = INFINITY;
+  if (o == NULL || o->view.hollow)
+    return least;
+  for (int32_t i = 0; i < o->extents.n; ++i)
+    least = min2(least, o->extents.length[i]);
+  return least / 2.;
 }
 
 static void

@@ -24,12 +24,23 @@ typedef struct abut_obstacle_methods
   void (*release)(abut_obstacle *obstacle);
 } abut_obstacle_methods;
 
+/* Lengths of a bounded shape through its centre, along unit vectors of its own
+ * frame; a zero vector: in all directions. */
+typedef struct abut_obstacle_extents
+{
+  int32_t n; /* 0: not bounded */
+  double length[4];
+  double axis[4][3];
+} abut_obstacle_extents;
+
 struct abut_obstacle
 {
   abut_context *context;
   const abut_obstacle_methods *methods;
   size_t bytes; /* of the kind's struct */
   abut_obstacle_view view;
+  abut_obstacle_extents extents;
+  bool smooth;         /* no edges, corners or tips */
   bool placed;         /* the pose is not the identity */
   abut_array local;    /* double, points in the obstacle's own frame */
   abut_array gradient; /* double, for callers that want none */

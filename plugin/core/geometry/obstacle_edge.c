@@ -422,8 +422,7 @@ store(const seeker *s, double gap, const double *direction, double weight,
 bool
 abut_obstacle_has_edges(const abut_obstacle *o)
 {
-  return o->view.kind != ABUT_OBSTACLE_PLANE
-         && o->view.kind != ABUT_OBSTACLE_SPHERE;
+  return !o->smooth;
 }
 
 abut_status

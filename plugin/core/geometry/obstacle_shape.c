@@ -52,30 +52,41 @@ is_length(double v)
 
 static void prepare_cylinder(abut_shape_data *s);
 static void prepare_cone(abut_shape_data *s);
+static void sphere_extents(const abut_obstacle_shape *s,
+                           abut_obstacle_extents *e);
+static void cylinder_extents(const abut_obstacle_shape *s,
+                             abut_obstacle_extents *e);
+static void box_extents(const abut_obstacle_shape *s, abut_obstacle_extents *e);
 
-/* A shape: which fields it has, its kernel, and what the kernel needs. */
+/* A shape: its fields, its kernel with what that needs, and its size. */
 typedef struct shape_entry
 {
   uint32_t fields; /* sum of abut_shape_field; none: no shape */
   void (*kernel)(const abut_shape_data *s, const double *x,
                  abut_shape_distance *d);
   void (*prepare)(abut_shape_data *s); /* or NULL */
+  void (*extents)(const abut_obstacle_shape *s, abut_obstacle_extents *e);
+  /* NULL: not bounded; its axis is unit */
+  bool smooth;           /* no edges, corners or tips */
   const char *not_in_2d; /* why it exists in 3D only; NULL: in 2D, too */
 } shape_entry;
 
 static const shape_entry shapes[ABUT_OBSTACLE_N_KINDS] = {
-    [ABUT_OBSTACLE_PLANE] = {ABUT_SHAPE_AXIS, abut_plane_distance, NULL, NULL},
+    [ABUT_OBSTACLE_PLANE] = {ABUT_SHAPE_AXIS, abut_plane_distance, NULL, NULL,
+                             true, NULL},
     [ABUT_OBSTACLE_SPHERE] = {ABUT_SHAPE_RADIUS, abut_sphere_distance, NULL,
-                              NULL},
+                              sphere_extents, true, NULL},
     [ABUT_OBSTACLE_CYLINDER] = {ABUT_SHAPE_AXIS | ABUT_SHAPE_RADIUS
                                     | ABUT_SHAPE_LENGTH,
                                 abut_turned_distance, prepare_cylinder,
+                                cylinder_extents, false,
                                 "a cylinder exists in 3D only; its section in "
                                 "2D is a sphere or a box"},
-    [ABUT_OBSTACLE_BOX] = {ABUT_SHAPE_SIZE, abut_box_distance, NULL, NULL},
-    [ABUT_OBSTACLE_CONE] = {ABUT_SHAPE_AXIS | ABUT_SHAPE_LENGTH
-                                | ABUT_SHAPE_ANGLE,
-                            abut_turned_distance, prepare_cone, NULL}};
+    [ABUT_OBSTACLE_BOX] = {ABUT_SHAPE_SIZE, abut_box_distance, NULL,
+                           box_extents, false, NULL},
+    [ABUT_OBSTACLE_CONE] = {
+        ABUT_SHAPE_AXIS | ABUT_SHAPE_LENGTH | ABUT_SHAPE_ANGLE,
+        abut_turned_distance, prepare_cone, NULL, false, NULL}};
 
 uint32_t
 abut_obstacle_fields(abut_obstacle_kind kind)
@@ -191,6 +202,39 @@ prepare_cone(abut_shape_data *s)
   s->corner[1] = s->top;
 }
 
+/* Append a length along an axis; NULL: in all directions. */
+static void
+add_extent(abut_obstacle_extents *e, double length, const double *axis)
+{
+  if (axis != NULL)
+    memcpy(e->axis[e->n], axis, sizeof(e->axis[0]));
+  e->length[e->n++] = length;
+}
+
+static void
+sphere_extents(const abut_obstacle_shape *s, abut_obstacle_extents *e)
+{
+  add_extent(e, 2. * s->radius, NULL);
+}
+
+static void
+cylinder_extents(const abut_obstacle_shape *s, abut_obstacle_extents *e)
+{
+  sphere_extents(s, e);
+  if (s->length > 0.)
+    add_extent(e, s->length, s->axis);
+}
+
+static void
+box_extents(const abut_obstacle_shape *s, abut_obstacle_extents *e)
+{
+  for (int32_t d = 0; d < s->dimension; ++d)
+  {
+    add_extent(e, s->size[d], NULL);
+    e->axis[d][d] = 1.;
+  }
+}
+
 abut_status
 abut_obstacle_create_shape(abut_context *context,
                            const abut_obstacle_shape *given,
@@ -227,9 +271,13 @@ abut_obstacle_create_shape(abut_context *context,
   if (o == NULL)
     return ABUT_OUT_OF_MEMORY;
   o->data = data;
-  o->kernel = shapes[shape->kind].kernel;
-  if (shapes[shape->kind].prepare != NULL)
-    shapes[shape->kind].prepare(&o->data);
+  const shape_entry *entry = &shapes[shape->kind];
+  o->kernel = entry->kernel;
+  o->base.smooth = entry->smooth;
+  if (entry->prepare != NULL)
+    entry->prepare(&o->data);
+  if (entry->extents != NULL)
+    entry->extents(&o->data.shape, &o->base.extents);
   *obstacle = &o->base;
   return ABUT_SUCCESS;
 }
