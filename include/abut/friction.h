@@ -80,9 +80,13 @@ extern "C"
                          double *d_bound);
   } abut_friction;
 
-  /** Coulomb's law, rho = min(mu max(p, 0), cap). With a cap alone in mind
-   * (Tresca's law, plastic surfaces) give a large mu. */
-  ABUT_API const abut_friction *abut_friction_coulomb(void);
+  /** Built-in law number i, or NULL from the number of laws on. The first is
+   * the default, "coulomb": rho = min(mu max(p, 0), cap). With a cap alone in
+   * mind (Tresca's law, plastic surfaces) give a large mu. */
+  ABUT_API const abut_friction *abut_friction_get(int32_t i);
+
+  /** Built-in law by its name, or NULL. */
+  ABUT_API const abut_friction *abut_friction_find(const char *name);
 
   /** Points at which friction is evaluated; arrays owned by the caller.
    * Tangents of a point stand together, points in their order: [m] numbers, m

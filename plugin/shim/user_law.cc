@@ -15,11 +15,12 @@ namespace abut::shim
     /** Words in which the two kinds of tables differ. */
     struct Kind
     {
-      const char *query, *exported, *parameters;
+      const char *query, *exported, *file, *parameters;
     };
     const Kind normal = {ABUT_USER_LAW_QUERY, "ABUT_USER_LAW",
-                         "Method/Law parameters"};
+                         "Method/Law file", "Method/Law parameters"};
     const Kind tangential = {ABUT_USER_FRICTION_QUERY, "ABUT_USER_FRICTION",
+                             "Method/Friction file",
                              "Method/Friction parameters"};
 
     /** What the shared object exports by a function of type Query; throws a
@@ -89,8 +90,8 @@ namespace abut::shim
           || law->name == nullptr || law->bound == nullptr)
         throw std::string("its abut_friction is not complete: struct_size, "
                           "name and bound must be set");
-      if (law->name == std::string(abut_friction_coulomb()->name))
-        throw "its law has the name of the built-in one, '"
+      if (abut_friction_find(law->name) != nullptr)
+        throw "its law has the name of a built-in one, '"
             + std::string(law->name) + "': give it another";
     }
 
@@ -116,19 +117,36 @@ namespace abut::shim
             + "', but its parameters are: " + (all.empty() ? "none" : all);
       return values;
     }
-    /** The law of a table, and its parameters in order. */
-    template <typename Law, typename Table>
-    std::shared_ptr<const Law> take(const Kind &kind, const Table &user,
-                                    const std::map<std::string, double> &given)
+
+    /** The law of a shared object with its parameters in order; @p sizes are
+     * those of the structures of what it exports. */
+    template <typename Law, typename Query, typename Sizes>
+    std::shared_ptr<const Law> load(const Kind &kind, const std::string &file,
+                                    const std::map<std::string, double> &given,
+                                    const Sizes &sizes)
     {
-      check_table(user.law);
-      const Law result = {*user.law, order(kind, user.parameter_names, given)};
-      const char *const complaint = user.check != nullptr
-                                        ? user.check(result.parameters.data())
-                                        : nullptr;
-      if (complaint != nullptr)
-        throw std::string(complaint);
-      return std::make_shared<Law>(result);
+      try
+      {
+        if (file.empty())
+          throw std::string("the name is empty: Method/Enforcement = user "
+                            "needs the shared object of your law");
+        const auto &user = open<Query>(file, kind);
+        check_version(user.abi, sizes(user));
+        check_table(user.law);
+        const Law result = {*user.law,
+                            order(kind, user.parameter_names, given)};
+        const char *const complaint = user.check != nullptr
+                                          ? user.check(result.parameters.data())
+                                          : nullptr;
+        if (complaint != nullptr)
+          throw std::string(complaint);
+        return std::make_shared<Law>(result);
+      }
+      catch (const std::string &problem)
+      {
+        throw dealii::ExcMessage(kind.file + (" = " + file) + ": " + problem
+                                 + ".");
+      }
     }
   } // namespace
 
@@ -136,50 +154,33 @@ namespace abut::shim
   load_user_law(const std::string &file,
                 const std::map<std::string, double> &parameters)
   {
-    try
-    {
-      if (file.empty())
-        throw std::string("the name is empty: Method/Enforcement = user needs "
-                          "the shared object of your law");
-      const abut_user_law &user =
-          open<abut_user_law_query_function>(file, normal);
-      check_version(
-          user.abi,
-          {{"abut_user_law", {user.struct_size, sizeof(abut_user_law)}},
-           {"abut_law", {user.law_size, sizeof(abut_law)}},
-           {"abut_law_points", {user.points_size, sizeof(abut_law_points)}},
-           {"abut_law_linearisation",
-            {user.linearisation_size, sizeof(abut_law_linearisation)}}});
-      return take<UserLaw>(normal, user, parameters);
-    }
-    catch (const std::string &problem)
-    {
-      throw dealii::ExcMessage("Method/Law file = " + file + ": " + problem
-                               + ".");
-    }
+    return load<UserLaw, abut_user_law_query_function>(
+        normal, file, parameters,
+        [](const abut_user_law &user)
+        {
+          return std::vector<Size>{
+              {"abut_user_law", {user.struct_size, sizeof(abut_user_law)}},
+              {"abut_law", {user.law_size, sizeof(abut_law)}},
+              {"abut_law_points", {user.points_size, sizeof(abut_law_points)}},
+              {"abut_law_linearisation",
+               {user.linearisation_size, sizeof(abut_law_linearisation)}}};
+        });
   }
 
   std::shared_ptr<const UserFriction>
   load_user_friction(const std::string &file,
                      const std::map<std::string, double> &parameters)
   {
-    try
-    {
-      const abut_user_friction &user =
-          open<abut_user_friction_query_function>(file, tangential);
-      check_version(
-          user.abi,
-          {{"abut_user_friction",
-            {user.struct_size, sizeof(abut_user_friction)}},
-           {"abut_friction", {user.friction_size, sizeof(abut_friction)}},
-           {"abut_friction_bounds",
-            {user.bounds_size, sizeof(abut_friction_bounds)}}});
-      return take<UserFriction>(tangential, user, parameters);
-    }
-    catch (const std::string &problem)
-    {
-      throw dealii::ExcMessage("Method/Friction file = " + file + ": " + problem
-                               + ".");
-    }
+    return load<UserFriction, abut_user_friction_query_function>(
+        tangential, file, parameters,
+        [](const abut_user_friction &user)
+        {
+          return std::vector<Size>{
+              {"abut_user_friction",
+               {user.struct_size, sizeof(abut_user_friction)}},
+              {"abut_friction", {user.friction_size, sizeof(abut_friction)}},
+              {"abut_friction_bounds",
+               {user.bounds_size, sizeof(abut_friction_bounds)}}};
+        });
   }
 } // namespace abut::shim

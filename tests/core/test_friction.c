@@ -393,7 +393,8 @@ bounds(void **unused)
   const double p[] = {2, 0, -1, 10}, mu[] = {.5, .5, .25, .5};
   const double cap[] = {9, 9, 9, 3};
   double rho[4], d_rho[4];
-  const abut_friction *law = abut_friction_coulomb();
+  const abut_friction *law = abut_friction_find("coulomb");
+  assert_ptr_equal(law, abut_friction_get(0));
   assert_string_equal(law->name, "coulomb");
   const abut_friction_bounds points = {sizeof(points), 4, p, mu, cap, NULL};
   assert_ok(law->bound(&points, rho, d_rho));
@@ -406,6 +407,23 @@ bounds(void **unused)
   const abut_friction_bounds without = {sizeof(without), 4, p, mu, NULL, NULL};
   assert_ok(law->bound(&without, rho, d_rho));
   assert_close(rho[3], 5, 0);
+}
+
+static void
+table(void **unused)
+{
+  (void)unused;
+  int32_t n = 0;
+  for (; abut_friction_get(n) != NULL; ++n)
+  {
+    const abut_friction *law = abut_friction_get(n);
+    assert_int_equal(law->struct_size, sizeof(abut_friction));
+    assert_ptr_equal(abut_friction_find(law->name), law);
+  }
+  assert_true(n >= 1);
+  assert_null(abut_friction_get(-1));
+  assert_null(abut_friction_find("Coulomb"));
+  assert_null(abut_friction_find(NULL));
 }
 
 static void
@@ -575,6 +593,7 @@ main(void)
       cmocka_unit_test(the_block_is_regular),
       cmocka_unit_test(opposed_tractions),
       cmocka_unit_test(the_border_of_stick),
+      cmocka_unit_test(table),
       cmocka_unit_test(bounds),
       cmocka_unit_test(bad_input),
       cmocka_unit_test(a_mass_on_springs),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* Coulomb friction: bound, stick or slip, linearisation; abut/friction.h has
+/* Friction of a given bound: stick or slip, linearisation; abut/friction.h has
  * the equations. */
 #include "base/sized.h"
 
@@ -241,28 +241,4 @@ abut_friction_linearise(const abut_friction_points *given, const uint8_t *state,
     block += (int64_t)at.t * at.t;
   }
   return probe == 0 ? ABUT_SUCCESS : ABUT_NOT_FINITE;
-}
-
-static abut_status
-coulomb_bound(const abut_friction_bounds *points, double *bound,
-              double *d_bound)
-{
-  for (int32_t i = 0; i < points->n; ++i)
-  {
-    const double mu = points->coefficient[i];
-    const double rho = mu * fmax(points->pressure[i], 0);
-    const bool capped = points->cap != NULL && rho > points->cap[i];
-    bound[i] = capped ? points->cap[i] : rho;
-    d_bound[i] = capped ? 0 : mu;
-  }
-  return ABUT_SUCCESS;
-}
-
-static const abut_friction coulomb = {sizeof(abut_friction), "coulomb",
-                                      coulomb_bound};
-
-const abut_friction *
-abut_friction_coulomb(void)
-{
-  return &coulomb;
 }

@@ -2,8 +2,9 @@
 #ifndef ABUT_LAW_LAW_TABLE_H
 #define ABUT_LAW_LAW_TABLE_H
 
-/* The built-in laws, one file each. */
+/* The built-in laws of contact and of friction, one file each. */
 
+#include <abut/friction.h>
 #include <abut/law.h>
 
 extern const abut_law abut_law_lagrange;
@@ -13,5 +14,7 @@ extern const abut_law abut_law_augmented_lagrangian;
 extern const abut_law abut_law_barrier;
 extern const abut_law abut_law_interior_point;
 extern const abut_law abut_law_nitsche;
+
+extern const abut_friction abut_friction_coulomb;
 
 #endif

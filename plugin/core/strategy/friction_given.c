@@ -177,7 +177,7 @@ abut_strategy_set_friction(abut_strategy *strategy,
   if (status != ABUT_SUCCESS)
     return status;
   if (taken.law == NULL)
-    taken.law = abut_friction_coulomb();
+    taken.law = abut_friction_get(0);
   int32_t m = 0, blocks = 0;
   status = check_friction(s, &taken, &m, &blocks);
   if (status == ABUT_SUCCESS)
