@@ -6,7 +6,6 @@
 
 #include "contact_implementation.h"
 
-#include "solve/inf_sup.h"
 #include "solve/stack.h"
 
 #include <algorithm>
@@ -569,21 +568,6 @@ namespace abut
   template <int dim> global_dof_index ContactAssembler<dim>::n_active() const
   {
     return static_cast<global_dof_index>(progress().n_active);
-  }
-
-  template <int dim>
-  double ContactAssembler<dim>::inf_sup_constant(const Tangent &tangent) const
-  {
-    const Implementation &i = *implementation;
-    i.check_rows("inf_sup_constant()");
-    AssertThrow(
-        tangent.has_matrix(),
-        ExcMessage("inf_sup_constant() needs a matrix, not a HostOperator."));
-    const solve::Stiffness stiffness =
-        i.stiffness_of("inf_sup_constant()", tangent);
-    return solve::inf_sup_constant(stiffness.matrix(), i.coefficients,
-                                   i.solver_parameters, i.near_null_space())
-        .constant;
   }
 
   template <int dim>

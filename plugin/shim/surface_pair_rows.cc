@@ -176,7 +176,7 @@ namespace abut::shim
   void SurfacePairRows<dim>::refuse(Pair &pair, const std::string &text) const
   {
     const abut_failure failure = failure_of(text);
-    if (!settings_.method.run_refused || failure == ABUT_FAILURE_NONE)
+    if (!settings_.method.solve_known_failures || failure == ABUT_FAILURE_NONE)
       throw ContactError("Pair '" + pair.data.name + "': " + text);
     const bool is_noted = std::any_of(pair.refused.begin(), pair.refused.end(),
                                       [&](const ContactFinding &each)

@@ -199,7 +199,8 @@ namespace abut::shim
       return pairs_[pair].held_in_the_mean;
     }
 
-    /** Why a pair would be refused but for MethodParameters::run_refused. */
+    /** Why a pair would be refused but for
+     * MethodParameters::solve_known_failures. */
     const std::vector<ContactFinding> &refused(std::size_t pair) const
     {
       return pairs_[pair].refused;

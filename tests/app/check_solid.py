@@ -32,6 +32,12 @@ p.expect(summary["contact_force"] > 4e-3, "the blocks press on each other")
 p.close(summary["reaction_1"][1], summary["contact_force"], 1e-6,
         "support and contact")
 
+# A parameter by its former name, which counts as the present one.
+known = p.source / "prm/failures/rich-multipliers.prm"
+p.expect(p.call("check", known).returncode != 2, "a known failure is refused")
+p.expect_error(p.call("check", known, "--set", "Solid/Run what fails=false"),
+               "ABUT-F02")
+
 # Mistakes.
 p.expect_error(run("Pair 1/Secondary=2: 7"), "Pair 1/Secondary",
                "no boundary id 7")

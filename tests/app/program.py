@@ -43,11 +43,13 @@ class Program:
         parser.add_argument("--abut", required=True)
         parser.add_argument("--source", required=True)
         parser.add_argument("--served", help="the program for many runs")
+        parser.add_argument("--study", help="a program that takes a scene")
         parser.add_argument("--part", type=int, help="of a test in parts")
         parser.add_argument("--short", action="store_true",
                             help="fewer cases on the same paths")
         arguments = parser.parse_args()
         self.abut = arguments.abut
+        self.study = arguments.study
         self.part = arguments.part
         self.short = arguments.short
         self._served = arguments.served and Served(arguments.served)

@@ -62,7 +62,6 @@ namespace
         {"imbalance", [&] { contact.imbalance(r, 1.); }},
         {"transfer_errors", [&] { contact.transfer_errors(u); }},
         {"check_penetration", [&] { contact.check_penetration(u, 1e-3); }},
-        {"inf_sup_constant", [&] { contact.inf_sup_constant(matrix); }},
     };
   }
 

@@ -90,7 +90,7 @@ KEPT = ("Scene", "Dimension", "Title", "Refinement/Level",
         "Output/Linear solves for comparison", "Method/Law file",
         "Method/Friction file",
         "Method/Maximum steps", "Checkpoint/Every minutes",
-        "Checkpoint/Every steps", "Output/Inf-sup constant")
+        "Checkpoint/Every steps")
 
 
 class Mutation:

@@ -3,7 +3,7 @@
 // with multipliers that are offered and with some that are not.
 #include "../app_blocks/run_checks.h"
 #include "dense_problem.h"
-#include "solve/inf_sup.h"
+#include "inf_sup.h"
 #include "two_blocks.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>

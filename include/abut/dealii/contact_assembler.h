@@ -542,18 +542,6 @@ namespace abut
      * Collective. */
     virtual bool search_farther(const la::VectorView &displacement);
 
-    /** Discrete inf-sup constant of the pressures of all present rows against
-     * the displacements of @p matrix, dimensionless:
-     * \f[ \beta^2 = \min_p \; (B^T W p) \cdot K^{-1} (B^T W p) \; / \;
-     *     \sum_i w_i p_i^2 / s_i \f]
-     * with the local stiffness s_i that penalties are multiples of, about E/h.
-     * Under refinement it stays where it is for a sound pair of spaces, and
-     * falls to 0 where there are too many pressures for the displacements: 0
-     * means that some pressure moves nothing. Call after detect(). A few dozen
-     * solves with @p matrix: for studies, not for each step. Throws
-     * SolverFailure if a body is held by nothing. */
-    virtual double inf_sup_constant(const Tangent &tangent) const;
-
     /** What this rank has sent about the surfaces of pairs since construction,
      * and what it has of them now. Not collective. */
     virtual CommunicationReport communication() const;
@@ -622,6 +610,8 @@ namespace abut
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation;
+
+    friend struct StudyAccess; ///< tests/solve/inf_sup_study.cc
   };
 } // namespace abut
 

@@ -146,7 +146,7 @@ namespace abut
      * where they would be refused, to measure how they fail;
      * ContactAssembler::examine() then has an error with the code. Not a
      * parameter of the section. */
-    bool run_refused = false;
+    bool solve_known_failures = false;
 
     /** Declare the section `Method` in the present section of @p prm. */
     static void declare_parameters(dealii::ParameterHandler &prm);

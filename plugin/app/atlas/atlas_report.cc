@@ -165,7 +165,7 @@ fails and one that is cured. Both were run, and what they showed was compared wi
 they were expected to show. A warning or an error about a known failure begins with its
 code. Exit code 3 means that the answer is unusable, 2 that the input was refused, and 0
 with a warning that the answer is as accurate as the settings allow and no more. Where a pair
-would be refused, the scene has `Solid/Run what fails = true`, so that its failure can be measured.
+would be refused, the scene has `Solid/Solve known failures = true`, so that its failure can be measured.
 Names of numbers are those of `summary.json` and `levels.csv`. How to add an entry stands at the end.
 
 )";

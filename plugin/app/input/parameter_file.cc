@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -55,6 +56,15 @@ namespace abut::app
     std::string text_of(const ParameterFile::Place &place)
     {
       return place.file + ":" + std::to_string(place.line);
+    }
+
+    /** The path of a parameter that had another one before. */
+    std::string present_path(const std::string &path)
+    {
+      static const std::map<std::string, std::string> renamed = {
+          {"Solid/Run what fails", "Solid/Solve known failures"}};
+      const auto found = renamed.find(path);
+      return found == renamed.end() ? path : found->second;
     }
 
     [[noreturn]] void complain(const ParameterFile::Place &place,
@@ -202,9 +212,9 @@ namespace abut::app
       const std::size_t sign = rest.find('=');
       if (sign == std::string::npos)
         complain(place, "'set' without '=': " + line);
-      assignments.push_back({join(sections, squeezed(rest.substr(0, sign))),
-                             Utilities::trim(rest.substr(sign + 1)),
-                             text_of(place)});
+      assignments.push_back(
+          {present_path(join(sections, squeezed(rest.substr(0, sign)))),
+           Utilities::trim(rest.substr(sign + 1)), text_of(place)});
     }
     else
       complain(place, "'" + keyword + "' is not a word of a scene file."
@@ -226,7 +236,7 @@ namespace abut::app
     const std::string name = words.empty() ? "" : words.back();
     if (!words.empty())
       words.pop_back();
-    assignments.push_back({join(words, name),
+    assignments.push_back({present_path(join(words, name)),
                            Utilities::trim(argument.substr(sign + 1)),
                            option + "\"" + argument + "\""});
   }

@@ -38,7 +38,6 @@ namespace abut::app
     std::optional<ErrorNorms> errors;
     std::optional<double> estimate;
     std::optional<ErrorParts> error_parts; ///< with a target only
-    std::optional<double> inf_sup;
     double seconds = 0.; ///< since the end of the one before, counted parts
   };
 

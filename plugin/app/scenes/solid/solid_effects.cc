@@ -255,8 +255,6 @@ namespace abut::app
                         ? ""
                         : no_contact;
            }});
-      rules.push_back(
-          setting("Output/Inf-sup constant", has_pairs, no_contact));
       return rules;
     }
 

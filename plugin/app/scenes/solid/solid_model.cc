@@ -489,7 +489,6 @@ namespace abut::app
                                         "energy_norm_error",
                                         "estimate",
                                         "estimated_error",
-                                        "inf_sup",
                                         "setup_seconds",
                                         "krylov_seconds",
                                         "seconds"};
@@ -513,8 +512,6 @@ namespace abut::app
   void SolidModel<dim>::add_to_row(ContactResult &result,
                                    std::map<std::string, double> &row) const
   {
-    if (!pairs->empty() && parameters.inf_sup)
-      result.inf_sup = run.contact.inf_sup_constant(elasticity.stiffness);
     if (pairs->has_friction())
     {
       for (const PairResult<dim> &pair : run.contact.pair_results())
@@ -548,8 +545,6 @@ namespace abut::app
     row["time"] = result.time;
     if (result.errors)
       row["energy_norm_error"] = *result.errors->energy;
-    if (result.inf_sup)
-      row["inf_sup"] = *result.inf_sup;
   }
 
   template <int dim>

@@ -87,7 +87,7 @@ namespace abut::app
                         "mean of a body, are an answer to be used (exit code "
                         "0) although they are computed as small ones, linear "
                         "in the displacement.");
-      prm.declare_entry("Run what fails", "false", Patterns::Bool(),
+      prm.declare_entry("Solve known failures", "false", Patterns::Bool(),
                         "Solve pairs that are known to fail (codes ABUT-F01, "
                         "F02, F11, F23, F24) where they would be refused, to "
                         "measure how they fail: exit code 3 if they still "
@@ -120,12 +120,6 @@ namespace abut::app
                         "and at its end.");
       prm.declare_entry("All levels", "false", Patterns::Bool(),
                         "Write fields on every level, not only on the last.");
-      prm.declare_entry("Inf-sup constant", "false", Patterns::Bool(),
-                        "Compute on each mesh how well the displacements "
-                        "determine the contact pressures: column `inf_sup`. It "
-                        "stays where it is under refinement, or falls to 0 if "
-                        "there are too many pressures. Costs a few dozen "
-                        "linear solves.");
       prm.declare_entry("Nodal values", "false", Patterns::Bool(),
                         "Write displacement and forces at all nodes of the "
                         "last level as nodal.csv, with all digits.");
@@ -258,7 +252,7 @@ namespace abut::app
             : word == "stress" ? PlaneModel::stress
                                : PlaneModel::axisymmetric;
     large_strain = prm.get_bool("Allow large strain");
-    run_refused = prm.get_bool("Run what fails");
+    solve_known_failures = prm.get_bool("Solve known failures");
     gravity = prm.get("Gravity");
     prm.leave_subsection();
     bodies.resize(counts.bodies);
@@ -293,7 +287,6 @@ namespace abut::app
     fields = prm.get_bool("Fields");
     every = prm.get_integer("Every");
     all_levels = prm.get_bool("All levels");
-    inf_sup = prm.get_bool("Inf-sup constant");
     nodal_values = prm.get_bool("Nodal values");
     points = prm.get("Points");
     prm.leave_subsection();

@@ -32,8 +32,8 @@ namespace abut::app
   {
     unsigned int degree = 1;
     PlaneModel plane = PlaneModel::strain;
-    bool large_strain = false; ///< allowed
-    bool run_refused = false;  ///< pairs that are known to fail
+    bool large_strain = false;         ///< allowed
+    bool solve_known_failures = false; ///< pairs that are known to fail
     std::string gravity;
     std::vector<BodyParameters> bodies;
     std::vector<PairParameters> pairs;
@@ -50,7 +50,6 @@ namespace abut::app
     bool fields = true;
     unsigned int every = 1; ///< step, fields
     bool all_levels = false;
-    bool inf_sup = false;
     bool nodal_values = false;
     std::string points;
 

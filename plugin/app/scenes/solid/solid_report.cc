@@ -430,8 +430,6 @@ namespace abut::app
     }
     if (last.estimate)
       report.set("estimate", *last.estimate);
-    if (last.inf_sup)
-      report.set("inf_sup", *last.inf_sup);
     if (last.estimate && last.errors)
       report.set("effectivity", *last.estimate / *last.errors->energy);
     if (!std::isnan(parameters.exact_energy))

@@ -92,7 +92,7 @@ namespace abut::app
             [&](const Sliding each)
             { return can_move<dim>(each, this->method, parameters.pairs); });
         this->method.sliding = *way;
-        this->method.run_refused = parameters.run_refused;
+        this->method.solve_known_failures = parameters.solve_known_failures;
       }
 
       std::vector<EffectRule> effects() const override
@@ -112,6 +112,7 @@ namespace abut::app
         return std::make_unique<SolidModel<dim>>(parameters, state, search);
       }
 
+    protected:
       SolidCounts counts;
       SolidParameters parameters;
       SearchParameters search;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_SOLVE_INF_SUP_H
-#define ABUT_SOLVE_INF_SUP_H
+#ifndef ABUT_TESTS_INF_SUP_H
+#define ABUT_TESTS_INF_SUP_H
 
-#include "near_null_space.h"
-#include "point_operator.h"
+#include "solve/near_null_space.h"
+#include "solve/point_operator.h"
 
 #include <abut/dealii/solver_parameters.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "inf_sup.h"
 
-#include "condensed_solver.h"
-#include "floating_bodies.h"
-#include "row_stiffness.h"
+#include "solve/condensed_solver.h"
+#include "solve/floating_bodies.h"
+#include "solve/row_stiffness.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
