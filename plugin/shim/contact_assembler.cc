@@ -6,8 +6,6 @@
 
 #include "contact_implementation.h"
 
-#include "solve/stack.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -37,22 +35,19 @@ namespace abut
     }
 
     /** Programs without MPI of their own need it, too: Trilinos does. */
-    void check_mpi(const MPI_Comm communicator)
+    void check_mpi()
     {
       AssertThrow(dealii::Utilities::MPI::job_supports_mpi(),
                   ExcMessage("MPI is not initialised. Begin main() with: "
                              "dealii::Utilities::MPI::MPI_InitFinalize "
                              "mpi(argc, argv, 1);"));
-      const std::string refusal = solve::refusal_of_ranks(
-          dealii::Utilities::MPI::n_mpi_processes(communicator));
-      AssertThrow(refusal.empty(), ExcMessage(refusal));
     }
   } // namespace
 
   template <int dim>
   ContactAssembler<dim>::ContactAssembler(const MPI_Comm communicator)
-      : implementation((check_mpi(communicator),
-                        std::make_unique<Implementation>(communicator)))
+      : implementation(
+          (check_mpi(), std::make_unique<Implementation>(communicator)))
   {
   }
 

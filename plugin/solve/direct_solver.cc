@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "direct_solver.h"
 
-#include "stack.h"
-
 #include <abut/dealii/coded.h>
 
 namespace abut::solve

@@ -24,6 +24,9 @@ namespace abut::solve
     virtual std::string solve(la::Vector &x, const la::Vector &b) = 0;
   };
 
+  /** Whether MUMPS is built in. */
+  bool has_mumps();
+
   /** For @p matrix, which must exist and keep its values as long as the result
    * is used. */
   std::unique_ptr<Factors> make_factors(const la::Matrix &matrix);

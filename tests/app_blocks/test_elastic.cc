@@ -15,6 +15,7 @@
 #include "run_checks.h"
 #include "stiffening.h"
 
+#include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -507,7 +508,8 @@ namespace
                 local[i] +=
                     2. * points.shape_value(i, q) * points.JxW(q)
                     * materials.at(0)->measure(points.quadrature_point(q));
-          problem.constraints.distribute_local_to_global(local, dofs, open);
+          abut::versions::distribute_local_to_global(problem.constraints, local,
+                                                     dofs, open);
         }
     open.compress(dealii::VectorOperation::add);
     la::Vector force(problem.owned, MPI_COMM_WORLD);

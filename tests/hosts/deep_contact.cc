@@ -6,6 +6,7 @@
 #include "expect.h"
 
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -156,7 +157,8 @@ namespace
           constraints.distribute_local_to_global(matrix, vector, indices,
                                                  tangent, residual);
         else
-          constraints.distribute_local_to_global(vector, indices, residual);
+          abut::versions::distribute_local_to_global(constraints, vector,
+                                                     indices, residual);
       }
       tangent.compress(VectorOperation::add);
       residual.compress(VectorOperation::add);

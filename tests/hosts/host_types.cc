@@ -125,10 +125,25 @@ namespace
   };
 
   template <typename M, typename V>
+  void multiply(const M &K, V &product, const V &u)
+  {
+    K.vmult(product, u);
+  }
+
+  /** deal.II 9.8 has no product of a Tpetra matrix with these vectors. */
+  void multiply(const la::Matrix &K, Distributed &product, const Distributed &u)
+  {
+    la::Vector of(u.locally_owned_elements(), MPI_COMM_WORLD), result(of);
+    la::copy(u, of);
+    K.vmult(result, of);
+    la::copy(result, product);
+  }
+
+  template <typename M, typename V>
   void find_residual(const Problem &problem, const M &K, const V &rhs,
                      const V &u, V &R)
   {
-    K.vmult(R, u);
+    multiply(K, R, u);
     R -= rhs;
     problem.blocks.constraints.set_zero(R);
   }
@@ -489,7 +504,7 @@ namespace
     HostOperatorOf<Distributed> K(
         rhs,
         [&](Distributed &dst, const Distributed &src)
-        { problem.matrix.vmult(dst, src); },
+        { multiply(problem.matrix, dst, src); },
         diagonal,
         [&](Distributed &dst, const Distributed &src)
         {

@@ -7,6 +7,7 @@
 #include "jacobi_host.h"
 
 #include <abut/dealii/contact_solver.h>
+#include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/function_parser.h>
@@ -283,7 +284,8 @@ namespace
         }
       cell->get_dof_indices(dofs);
       constraints.distribute_local_to_global(cell_matrix, dofs, matrix);
-      constraints.distribute_local_to_global(cell_load, dofs, load);
+      abut::versions::distribute_local_to_global(constraints, cell_load, dofs,
+                                                 load);
     }
     matrix.compress(dealii::VectorOperation::add);
     load.compress(dealii::VectorOperation::add);

@@ -5,6 +5,7 @@
 #include "patch.h"
 
 #include <abut/dealii/contact_solver.h>
+#include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
 #include <array>
@@ -265,7 +266,8 @@ namespace abut::hosts
           if (matrix != nullptr)
             constraints.distribute_local_to_global(k, dofs, *matrix);
           if (residual != nullptr)
-            constraints.distribute_local_to_global(r, dofs, *residual);
+            abut::versions::distribute_local_to_global(constraints, r, dofs,
+                                                       *residual);
         }
       if (matrix != nullptr)
         matrix->compress(dealii::VectorOperation::add);

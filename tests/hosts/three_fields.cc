@@ -15,6 +15,7 @@
 // are constants in each cell, of an element without support points. Prints
 // time, force on the block, energy and linearisations of each step.
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -376,7 +377,8 @@ namespace
         cell->get_dof_indices(indices);
         if (with_tangent)
           constraints.distribute_local_to_global(matrix, indices, tangent);
-        constraints.distribute_local_to_global(vector, indices, residual);
+        abut::versions::distribute_local_to_global(constraints, vector, indices,
+                                                   residual);
       }
       tangent.compress(VectorOperation::add);
       residual.compress(VectorOperation::add);

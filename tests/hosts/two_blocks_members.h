@@ -8,6 +8,7 @@
 
 #include "two_blocks.h"
 
+#include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -353,7 +354,8 @@ namespace abut::hosts
                 force(i) -=
                     values.shape_value_component(i, q, dim - 1) * values.JxW(q);
             cell->get_dof_indices(dofs);
-            constraints_.distribute_local_to_global(force, dofs, load_);
+            abut::versions::distribute_local_to_global(constraints_, force,
+                                                       dofs, load_);
           }
   }
 
@@ -396,7 +398,8 @@ namespace abut::hosts
             prescribed(i) = constraints_.get_inhomogeneity(dofs[i]);
         matrix.vmult(force, prescribed);
         force *= -1.;
-        constraints_.distribute_local_to_global(force, dofs, load_);
+        abut::versions::distribute_local_to_global(constraints_, force, dofs,
+                                                   load_);
       }
     if (run_.pressed)
       press();

@@ -13,6 +13,7 @@
 #include "stress.h"
 
 #include <abut/dealii/contact_solver.h>
+#include <abut/dealii/distribute.h>
 #include <abut/dealii/load_plugin.h>
 #include <abut/dealii/versions.h>
 
@@ -236,7 +237,8 @@ Indentation::assemble(const la::Vector &u, la::Matrix *matrix,
       constraints.distribute_local_to_global(cell_matrix, dofs, *matrix);
     }
     if (residual)
-      constraints.distribute_local_to_global(cell_residual, dofs, *residual);
+      abut::versions::distribute_local_to_global(constraints, cell_residual,
+                                                 dofs, *residual);
   }
   if (matrix)
     matrix->compress(VectorOperation::add);

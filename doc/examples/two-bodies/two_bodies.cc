@@ -6,6 +6,7 @@
 //
 //     two-bodies [dim] [cycles]
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -177,7 +178,8 @@ private:
         cell->get_dof_indices(dofs);
         // One by one: together they would add boundary values, which are in u.
         constraints.distribute_local_to_global(cell_matrix, dofs, matrix);
-        constraints.distribute_local_to_global(cell_residual, dofs, residual);
+        abut::versions::distribute_local_to_global(constraints, cell_residual,
+                                                   dofs, residual);
       }
     matrix.compress(VectorOperation::add);
     residual.compress(VectorOperation::add);

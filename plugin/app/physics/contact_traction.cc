@@ -2,6 +2,7 @@
 
 #include "contact_traction.h"
 
+#include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
@@ -57,7 +58,7 @@ namespace abut::app
                 for (unsigned int q = 0; q < points.n_quadrature_points; ++q)
                   local[i] += points.shape_value(i, q) * points.JxW(q)
                               * material.measure(points.quadrature_point(q));
-              hanging.distribute_local_to_global(local, dofs, open);
+              versions::distribute_local_to_global(hanging, local, dofs, open);
             });
         return close(open);
       }

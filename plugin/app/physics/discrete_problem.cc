@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete_problem.h"
 
+#include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/dofs/dof_renumbering.h>
@@ -171,7 +172,7 @@ namespace abut::app
         for (unsigned int i = 0; i < n; ++i)
           values(i) = of(dofs[i]);
         cell_stiffness(cell).vmult(force, values);
-        hanging.distribute_local_to_global(force, dofs, by);
+        versions::distribute_local_to_global(hanging, force, dofs, by);
       }
       return close_load(by);
     };

@@ -8,6 +8,8 @@
 #include "nodal_places.h"
 #include "stiffness_cache.h"
 
+#include <abut/dealii/distribute.h>
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
@@ -250,8 +252,9 @@ namespace abut::app
         }
       }
       cell->get_dof_indices(dofs);
-      this->constraints.distribute_local_to_global(force, dofs, load);
-      this->hanging.distribute_local_to_global(force, dofs, all);
+      versions::distribute_local_to_global(this->constraints, force, dofs,
+                                           load);
+      versions::distribute_local_to_global(this->hanging, force, dofs, all);
     }
   }
 
@@ -305,8 +308,9 @@ namespace abut::app
                 force(places(c, i)) += stress * dx * values.shape_value(i, q);
             }
           cell->get_dof_indices(dofs);
-          this->constraints.distribute_local_to_global(force, dofs, load);
-          this->hanging.distribute_local_to_global(force, dofs, all);
+          versions::distribute_local_to_global(this->constraints, force, dofs,
+                                               load);
+          versions::distribute_local_to_global(this->hanging, force, dofs, all);
         }
   }
 
@@ -324,7 +328,8 @@ namespace abut::app
         continue;
       cache->matrix(cell).vmult(force, moved);
       force *= -1.;
-      this->constraints.distribute_local_to_global(force, dofs, load);
+      versions::distribute_local_to_global(this->constraints, force, dofs,
+                                           load);
     }
   }
 
@@ -363,7 +368,8 @@ namespace abut::app
                    {
                      materials->at(cell->material_id())
                          ->cell_forces(points, this->fe, state, force);
-                     rules.distribute_local_to_global(force, dofs, open);
+                     versions::distribute_local_to_global(rules, force, dofs,
+                                                          open);
                    });
     return this->close_load(open);
   }

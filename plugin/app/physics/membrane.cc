@@ -8,6 +8,8 @@
 #include "error_norms.h"
 #include "shim/shifted_cells.h"
 
+#include <abut/dealii/distribute.h>
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
@@ -224,7 +226,8 @@ namespace abut::app
         system.compute(cell);
         sum.add(system.matrix, system.load, dofs, open);
         if (flux.compute(cell))
-          this->constraints.distribute_local_to_global(flux.load, dofs, open);
+          versions::distribute_local_to_global(this->constraints, flux.load,
+                                               dofs, open);
       }
     };
     collective(this->communicator, add);
@@ -246,9 +249,11 @@ namespace abut::app
     {
       cell->get_dof_indices(dofs);
       system.compute(cell);
-      this->hanging.distribute_local_to_global(system.load, dofs, open);
+      versions::distribute_local_to_global(this->hanging, system.load, dofs,
+                                           open);
       if (flux.compute(cell))
-        this->hanging.distribute_local_to_global(flux.load, dofs, open);
+        versions::distribute_local_to_global(this->hanging, flux.load, dofs,
+                                             open);
     }
     return this->at_supports(this->close_load(open));
   }
@@ -292,9 +297,11 @@ namespace abut::app
           continue;
         cell->get_dof_indices(dofs);
         system.compute_load(cell);
-        this->hanging.distribute_local_to_global(system.load, dofs, open);
+        versions::distribute_local_to_global(this->hanging, system.load, dofs,
+                                             open);
         if (flux.compute(cell))
-          this->hanging.distribute_local_to_global(flux.load, dofs, open);
+          versions::distribute_local_to_global(this->hanging, flux.load, dofs,
+                                               open);
       }
     };
     collective(this->communicator, add);

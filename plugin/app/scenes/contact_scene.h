@@ -2,11 +2,9 @@
 #ifndef ABUT_APP_CONTACT_SCENE_H
 #define ABUT_APP_CONTACT_SCENE_H
 
-#include "app/input/input_error.h"
 #include "app/restart/checkpoint_parameters.h"
 #include "contact_run.h"
 #include "scene.h"
-#include "solve/stack.h"
 
 #include <memory>
 
@@ -40,7 +38,6 @@ namespace abut::app
 
     void check(const RunOptions &options, Report &report) override
     {
-      check_ranks(options);
       ContactRunState<dim> state(settings(), options, report);
       const auto model = create_model(state);
       ContactRun<dim>(state, *model).check();
@@ -48,19 +45,9 @@ namespace abut::app
 
     Outcome run(const RunOptions &options, Report &report) override
     {
-      check_ranks(options);
       ContactRunState<dim> state(settings(), options, report);
       const auto model = create_model(state);
       return ContactRun<dim>(state, *model).run();
-    }
-
-  private:
-    static void check_ranks(const RunOptions &options)
-    {
-      const std::string refusal = solve::refusal_of_ranks(
-          dealii::Utilities::MPI::n_mpi_processes(options.communicator));
-      if (!refusal.empty())
-        throw InputError("", refusal);
     }
 
   protected:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solve/factors.h"
-#include "solve/stack.h"
 
 #include <Amesos.h>
 #include <Epetra_CrsMatrix.h>
@@ -67,11 +66,6 @@ namespace abut::solve
   bool has_mumps()
   {
     return Amesos().Query("Amesos_Mumps");
-  }
-
-  std::string refusal_of_ranks(unsigned int)
-  {
-    return "";
   }
 
   std::unique_ptr<Factors> make_factors(const la::Matrix &matrix)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solve/factors.h"
-#include "solve/stack.h"
 #include "types.h"
 
 DEAL_II_DISABLE_EXTRA_DIAGNOSTICS
@@ -73,15 +72,6 @@ namespace abut::solve
   bool has_mumps()
   {
     return Amesos2::query("MUMPS");
-  }
-
-  std::string refusal_of_ranks(const unsigned int n_ranks)
-  {
-    return n_ranks == 1
-               ? ""
-               : "With the Tpetra stack of this deal.II Abut computes on one "
-                 "rank: forces on several were wrong by percents. Use one "
-                 "rank, or a deal.II with Epetra (up to 9.7).";
   }
 
   std::unique_ptr<Factors> make_factors(const la::Matrix &matrix)
