@@ -528,8 +528,8 @@ namespace abut
                          "it. The answer has the least such motion in the mean "
                          "square over the body. Support the body in that "
                          "direction if the motion matters.");
-    if (i.solver != nullptr)
-      result.motions = i.solver->rigid_motions(displacement);
+    result.motions = i.solver != nullptr ? i.solver->rigid_motions(displacement)
+                                         : i.followed_motions;
     const std::vector<shim::Unseen> unseen = i.find_unseen(displacement);
     i.surfaces->examine(displacement, i.row_pressures().data(), i.gap.data(),
                         i.row_states().data(), unseen);

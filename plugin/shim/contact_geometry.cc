@@ -167,6 +167,20 @@ namespace abut
   }
 
   template <int dim>
+  void ContactAssembler<dim>::Implementation::add_round_off_of_positions(
+      la::Vector &displacement) const
+  {
+    // Round-off of displacements counts a hundred times in forces; that of
+    // positions cancels but for a facet, a tenth of a body.
+    constexpr double part = 1e-3;
+    const auto &point = near_null_space().point;
+    for (std::size_t k = 0; k < point.size(); ++k)
+      la::data(displacement)[k] =
+          std::abs(la::data(displacement)[k])
+          + part * dealii::Tensor<1, 3>(point[k]).norm();
+  }
+
+  template <int dim>
   typename ContactAssembler<dim>::Implementation::RowsElsewhere
   ContactAssembler<dim>::Implementation::rows_at(const la::Vector &displacement)
   {
@@ -227,6 +241,8 @@ namespace abut
   ContactAssembler<dim>::Implementation::follow(const la::Vector &displacement)
   {
     const std::vector<std::int64_t> before = row_numbers();
+    if (solver != nullptr)
+      followed_motions = solver->rigid_motions(displacement);
     surfaces->bring_in_reach(displacement);
     auto kept = surfaces->keep();
     shim::Handle<abut_points> old_points = std::move(points);
@@ -297,6 +313,9 @@ namespace abut
   ContactAssembler<dim>::Implementation::with_geometry(const la::Matrix &);    \
   template la::Vector ContactAssembler<dim>::Implementation::with_geometry(    \
       const la::Vector &) const;                                               \
+  template void                                                                \
+  ContactAssembler<dim>::Implementation::add_round_off_of_positions(           \
+      la::Vector &) const;                                                     \
   template void ContactAssembler<dim>::Implementation::take_increment(         \
       la::Vector &);                                                           \
   template void ContactAssembler<dim>::Implementation::update_gap(             \

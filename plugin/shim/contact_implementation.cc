@@ -668,6 +668,7 @@ namespace abut
   template <int dim> void ContactAssembler<dim>::Implementation::note_end()
   {
     undetermined.clear();
+    followed_motions.clear();
     if (request.action == ABUT_ACTION_STOP && solver != nullptr)
       undetermined = solver->end_iteration(request);
   }
@@ -744,6 +745,8 @@ namespace abut
         solver_has_matrix ? with_geometry(of_host.matrix()) : of_host;
     if (is_renewed)
     {
+      if (moves())
+        solver->set_bodies(of_host);
       solver->renew(matrix, coefficients, row_stiffness);
       return;
     }
@@ -757,6 +760,8 @@ namespace abut
                                         coefficients, solver_has_matrix);
       solver->set_near_null_space(near_null_space());
     }
+    if (moves())
+      solver->set_bodies(of_host);
     solver->reinit(matrix, coefficients, row_stiffness);
     restore_preconditioner();
   }

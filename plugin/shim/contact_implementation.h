@@ -172,6 +172,9 @@ namespace abut
     void take_increment(la::Vector &increment);
     /** Gaps where the iteration has come to. Collective. */
     void update_gap(const la::Vector &displacement);
+    /** Add the part of the coordinates that stands for the round-off of gaps
+     * and strains at points that move. Not collective. */
+    void add_round_off_of_positions(la::Vector &displacement) const;
     /** See ContactAssembler::evaluate(), with rows of that displacement.
      * Collective. */
     double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
@@ -341,6 +344,8 @@ namespace abut
     double largest_load = 0.; ///< sum of magnitudes at nodes, of all solves
     /** Rigid motions that the last iteration has left undetermined. */
     std::vector<solve::FreeMotion> undetermined;
+    /** Rigid motions of bodies where points were last taken to. */
+    std::vector<BodyMotion> followed_motions;
     /** How far rigid motions are foreseen to go, for searches. */
     double foreseen_motion = 0.;
     double iteration_tolerance = 0.; ///< of linear systems; 0: the method's

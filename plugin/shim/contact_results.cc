@@ -274,6 +274,8 @@ namespace abut
             : i.stiffness_of("size_of_forces()", tangent);
     la::Vector free(
         i.take("size_of_forces()", "displacement", given_displacement));
+    if (i.moves())
+      i.add_round_off_of_positions(free);
     i.constraints->set_zero(free);
     const la::LocalRows rows = la::local_rows(stiffness.matrix());
     const std::vector<double> u = la::gather(stiffness.matrix(), free);

@@ -5,6 +5,9 @@
 
 #include <abut/dealii/coded.h>
 
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -45,6 +48,11 @@ namespace abut::solve
     inner_->set_near_null_space(space);
   }
 
+  void FreeMotionSolver::set_bodies(const Stiffness &bodies)
+  {
+    bodies_ = bodies;
+  }
+
   void FreeMotionSolver::reinit(const Stiffness &stiffness,
                                 const PointOperator &rows,
                                 const std::vector<double> &row_stiffness)
@@ -75,11 +83,12 @@ namespace abut::solve
   {
     rows_ = &rows;
     row_stiffness_ = row_stiffness;
-    floating_.reinit(stiffness, rows, space_);
+    floating_.reinit(bodies_ ? *bodies_ : stiffness, rows, space_);
+    find_turning(stiffness);
     diagonal_ =
         floating_.empty() ? std::vector<double>() : stiffness.diagonal();
-    unfelt_ = floating_.free_motions(
-        rows, std::vector<std::uint8_t>(rows.n_rows(), 1));
+    unfelt_ = unresisted(floating_.free_motions(
+        rows, std::vector<std::uint8_t>(rows.n_rows(), 1)));
     fixed_.clear();
     if (unfelt_.empty() || !stiffness.has_matrix())
       return stiffness;
@@ -114,6 +123,70 @@ namespace abut::solve
         if (matrix.column[k] == static_cast<int>(i))
           matrix.value[k] *= 2.;
     stiffness_ = Stiffness(fixed_);
+  }
+
+  void FreeMotionSolver::find_turning(const Stiffness &stiffness)
+  {
+    turning_.clear();
+    if (!bodies_ || floating_.empty())
+      return;
+    const std::size_t n = floating_.size();
+    std::vector<double> works;
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      Combination one(n, 0.);
+      one[j] = 1.;
+      la::Vector motion = stiffness.make_vector();
+      la::Vector force(motion);
+      floating_.add(one, motion);
+      stiffness.vmult(force, motion);
+      const std::vector<double> work = floating_.work(force);
+      works.insert(works.end(), work.begin(), work.end());
+    }
+    turning_ = works;
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t k = 0; k < n; ++k)
+        turning_[j * n + k] = 0.5 * (works[j * n + k] + works[k * n + j]);
+  }
+
+  FreeMotionSolver::Combinations
+  FreeMotionSolver::unresisted(const Combinations &motions) const
+  {
+    constexpr double weak = 1e-3, round_off = 1e-13;
+    double reference = 0., diagonal = 0.;
+    for (const double value : turning_)
+      reference += value * value;
+    reference = std::sqrt(reference);
+    for (const double value : diagonal_)
+      diagonal += std::abs(value);
+    diagonal = MPI::sum(diagonal, rows_->communicator());
+    if (motions.empty() || reference <= round_off * diagonal)
+      return motions;
+    const unsigned int n = motions.size();
+    dealii::LAPACKFullMatrix<double> matrix(n, n);
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int k = 0; k < n; ++k)
+      {
+        double sum = 0.;
+        const std::size_t all = floating_.size();
+        for (std::size_t a = 0; a < all; ++a)
+          for (std::size_t b = 0; b < all; ++b)
+            sum += motions[j][a] * turning_[a * all + b] * motions[k][b];
+        matrix(j, k) = sum;
+      }
+    dealii::Vector<double> values;
+    dealii::FullMatrix<double> vectors;
+    matrix.compute_eigenvalues_symmetric(-10. * n * reference, weak * reference,
+                                         0., values, vectors);
+    Combinations result;
+    for (unsigned int k = 0; k < values.size(); ++k)
+    {
+      std::vector<double> coefficients;
+      for (unsigned int j = 0; j < n; ++j)
+        coefficients.push_back(vectors(j, k));
+      result.push_back(combine(motions, coefficients));
+    }
+    return result;
   }
 
   double FreeMotionSolver::work_tolerance() const
@@ -187,11 +260,13 @@ namespace abut::solve
     free.motions = floating_.free_motions(*rows_, free.resisting.now);
     if (free.motions.empty())
       return free;
-    find_work(residual, free);
     bool slips = false;
     for (int i = 0; i < rows_->n_rows() && free.resisting.has_friction; ++i)
       slips = slips || (free.resisting.sticks[i] && !free.resisting.now[i]);
     free.slips = MPI::logical_or(slips, rows_->communicator());
+    if (!free.slips)
+      free.motions = unresisted(free.motions);
+    find_work(residual, free);
     return free;
   }
 
@@ -589,7 +664,8 @@ namespace abut::solve
     if (!deferred_.empty() && MPI::sum(pressed, rows_->communicator()) == 0.)
       floating_.fail_in_contact(deferred_, 0.);
     std::vector<FreeMotion> result;
-    for (const Combination &motion : floating_.free_motions(*rows_, resists))
+    for (const Combination &motion :
+         unresisted(floating_.free_motions(*rows_, resists)))
       result.push_back({floating_.body(motion), floating_.describe(motion)});
     return result;
   }

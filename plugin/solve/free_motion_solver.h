@@ -6,6 +6,7 @@
 #include "row_solver.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace abut::solve
@@ -30,6 +31,7 @@ namespace abut::solve
     explicit FreeMotionSolver(std::unique_ptr<RowSolver> inner);
 
     void set_near_null_space(const NearNullSpace &space) override;
+    void set_bodies(const Stiffness &bodies) override;
     void reinit(const Stiffness &stiffness, const PointOperator &rows,
                 const std::vector<double> &row_stiffness) override;
     void renew(const Stiffness &stiffness, const PointOperator &rows,
@@ -63,6 +65,9 @@ namespace abut::solve
     const Stiffness &take(const Stiffness &stiffness, const PointOperator &rows,
                           const std::vector<double> &row_stiffness);
     void fix_unfelt(const Stiffness &stiffness);
+    void find_turning(const Stiffness &stiffness);
+    /** The parts of these motions that forces which turn do not resist. */
+    Combinations unresisted(const Combinations &motions) const;
     /** Returns whether loads do work along motions that no row feels, which
      * are an error unless the next iteration may resist them. */
     bool check_unfelt(const la::Vector &residual);
@@ -117,7 +122,9 @@ namespace abut::solve
     std::unique_ptr<RowSolver> inner_;
     NearNullSpace space_;
     FloatingBodies floating_;
-    Combinations unfelt_; ///< motions that no row feels
+    Combinations unfelt_;             ///< motions that no row feels
+    std::optional<Stiffness> bodies_; ///< without forces that turn
+    std::vector<double> turning_;     ///< [motions x motions] their stiffness
     std::vector<double> diagonal_;
     const PointOperator *rows_ = nullptr;
     std::vector<double> row_stiffness_;

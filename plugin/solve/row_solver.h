@@ -69,6 +69,13 @@ namespace abut::solve
      * mesh changes. Not collective. */
     virtual void set_near_null_space(const NearNullSpace &space) = 0;
 
+    /** The stiffness of the bodies alone, which says what rigid motions
+     * supports leave, where that of reinit() and renew() has terms of contact
+     * forces that turn, too. Called before these. */
+    virtual void set_bodies(const Stiffness & /*bodies*/)
+    {
+    }
+
     /** Take a stiffness and the rows that go with it, which must outlive the
      * calls to solve(), and what row_stiffness() gives for both. Columns of
      * rows may be unknowns of other ranks. Collective. */

@@ -216,4 +216,34 @@ for number, clearance in enumerate((0., 1e-12, 1e-6, 1e-3, 0.1, 0.3)):
     moved = sum(m * u for m, u in zip(summary["body_1_moved"], unit))
     p.expect(0.999 * clearance < moved < 1.021 * clearance + 1e-2 * size,
              f"{what}: {moved}")
+
+# At points that move the pin goes on to where both corners carry as much; of a
+# stiff neo-Hookean body it rotates there. Friction may hold it before, within
+# its cone.
+for number, clearance in enumerate((0., 1e-12, 1e-6, 1e-3, 0.1, 0.3) * 2):
+    size = (1e-6, 1e-4, 0.01, 1.)[random.randrange(4)]
+    friction = (0, 0.3)[number % 2]
+    angle = random.uniform(0, 2 * math.pi)
+    unit = (math.cos(angle), math.sin(angle))
+    scene = pin("pin.prm", 2, clearance, [size * u for u in unit], 2)
+    material = ("hooke", "neo-hooke")[number // 6]
+    result = run(scene, "Method/Sliding=large", f"Pair 1/Friction={friction}",
+                 f"Body 1/Material={material}", "Output/Points=1: 0, 0")
+    what = (f"moving pin {number}, {material}, friction {friction}, "
+            f"clearance {clearance}, load {size}")
+    p.expect(result.returncode == 0, f"{what}: {result.stderr}")
+    if result.returncode != 0:
+        continue
+    summary = p.results()[0]
+    load = 8 * math.sin(math.pi / 8) * (1 - clearance)**2 * size
+    for value, u in zip(summary["pair_1_force"], unit):
+        p.expect(abs(value + load * u) < 1e-5 * load, f"{what}: {value}")
+    point = summary["point_1"]
+    moved = sum(m * u for m, u in zip(point, unit))
+    least = 0.999 / math.sqrt(1 + friction**2)
+    p.expect(least * clearance < moved < 1.021 * clearance + 1e-2 * size,
+             f"{what}: {moved}")
+    for value, of_body in zip(point, summary["body_1_moved"]):
+        p.expect(abs(value - of_body) < 1e-2 * (clearance + size),
+                 f"{what}: {value}, {of_body}")
 p.finish()

@@ -298,6 +298,8 @@ namespace abut
       find_residual(u);
       set_linear_tolerance(1e-2);
       last_excess_ = std::numeric_limits<double>::infinity();
+      watch_ = Watch();
+      watch_.may_begin = contact_.points_move();
       for (unsigned int step = 0; step < parameters_.max_steps; ++step)
       {
         const Tangent tangent = contact_.copy_of(problem_.tangent(u));
@@ -305,12 +307,20 @@ namespace abut
         add_prescribed_change(u);
         if (!std::isfinite(residual_.l2_norm()))
           return stop_not_finite();
-        contact_.linearise(goal_, linear_tolerance_);
-        trial_ = u;
-        if (!solve_linearised(tangent, trial_) || !move(tangent, u))
-          return false;
-        if (result_.error > parameters_.tolerance)
+        if (!take_step(tangent, u))
+        {
+          if (!go_back(u))
+            return false;
           continue;
+        }
+        if (result_.error > parameters_.tolerance)
+        {
+          if (watch_.left == 1)
+            go_back(u);
+          else if (watch_.left > 1)
+            --watch_.left;
+          continue;
+        }
         contact_.follow(goal(u));
         if (is_settled(u) || step + 1 == parameters_.max_steps)
           return true;
@@ -324,6 +334,24 @@ namespace abut
               + ". Use smaller load steps, or check that the tangent "
                 "is the derivative of the residual.",
           u);
+    }
+
+    /** Linearise at @p u and go towards the solution of that; false: there is
+     * no such solution, or no way. */
+    bool take_step(const Tangent &tangent, la::Vector &u)
+    {
+      try
+      {
+        contact_.linearise(goal_, linear_tolerance_);
+        trial_ = u;
+        return solve_linearised(tangent, trial_) && move(tangent, u);
+      }
+      catch (const SolverFailure &)
+      {
+        if (watch_.left == 0)
+          throw;
+        return false;
+      }
     }
 
     /** Whether forces are in balance at @p u, where the displacement has come
@@ -556,27 +584,103 @@ namespace abut
       double part = 1.;
       for (unsigned int halving = 0;; ++halving)
       {
-        find_residual(trial_);
-        find_contact(trial_, false);
-        result_.residual = imbalance();
-        if (result_.residual + as_force(scales, defect_)
-                <= (1. - 1e-3 * part)
-                       * (imbalance_to_lower(scales, part)
-                          + as_force(scales, scales.defect))
-            || is_at_end(scales))
+        evaluate_trial();
+        if (is_lower(scales, part) || is_at_end(scales))
           break;
-        if (halving == parameters_.max_halvings)
-          return give_up(scales, u);
-        part /= 2.;
+        part = halving < parameters_.max_halvings ? part / 2. : 0.;
+        if (part == 0.)
+          break;
         trial_ = u;
         trial_.add(part, step_);
       }
+      if (takes_whole_step(scales, part, u))
+        part = 1.;
+      else if (part == 0.)
+        return give_up(scales, u);
       u = trial_;
       estimate(scales, part);
       if (events_.moved)
         events_.moved({result_.n_steps, part, scales.before, result_.residual,
                        result_.error});
       return true;
+    }
+
+    /** Steps that are taken as a whole although they do not lower the residual:
+     * along constraints that turn, each step leaves them by its square, and
+     * the next one comes back (the watchdog of Chamberlain et al., Math.
+     * Program. Study 16, 1982). */
+    struct Watch
+    {
+      bool may_begin = false;
+      unsigned int left = 0; ///< such steps that may follow; 0: no watch
+      double goal = 0.;      ///< what the residual has to be less than
+      la::Vector start;      ///< where to go back to
+    };
+
+    /** Take the whole step where a @p part is too small, if it may lead to a
+     * lower residual later. */
+    bool takes_whole_step(const Scales &scales, const double part,
+                          const la::Vector &u)
+    {
+      constexpr double small_part = 0.25;
+      constexpr unsigned int most_steps = 5;
+      if (part > 0. && watch_.left > 0
+          && (is_at_end(scales)
+              || result_.residual + as_force(scales, defect_) < watch_.goal))
+      {
+        watch_.left = 0;
+        watch_.may_begin = true;
+      }
+      if (part > small_part || (watch_.left == 0 && !watch_.may_begin))
+        return false;
+      trial_ = u;
+      trial_ += step_;
+      evaluate_trial();
+      if (!std::isfinite(result_.residual))
+      {
+        trial_ = u;
+        trial_.add(part, step_);
+        evaluate_trial();
+        return false;
+      }
+      if (std::exchange(watch_.may_begin, false))
+      {
+        watch_.left = most_steps;
+        watch_.start = u;
+        watch_.goal = scales.before + as_force(scales, scales.defect);
+      }
+      return true;
+    }
+
+    /** End a watch that has not led anywhere. Returns whether there was one. */
+    bool go_back(la::Vector &u)
+    {
+      if (watch_.left == 0)
+        return false;
+      watch_.left = 0;
+      result_.reason = NewtonReason::converged;
+      result_.explanation.clear();
+      result_.failure = ABUT_FAILURE_NONE;
+      u = watch_.start;
+      find_residual(u);
+      return true;
+    }
+
+    void evaluate_trial()
+    {
+      find_residual(trial_);
+      find_contact(trial_, false);
+      result_.residual = imbalance();
+    }
+
+    /** Whether this part of a step lowers forces out of balance and what the
+     * law is off by enough. */
+    bool is_lower(const Scales &scales, const double part) const
+    {
+      return result_.residual + as_force(scales, defect_)
+             <= (1. - 1e-3 * part)
+                    * (imbalance_to_lower(scales, part)
+                       + as_force(scales, scales.defect));
     }
 
     /** The error after this part of a step, and the linear tolerance that the
@@ -755,6 +859,7 @@ namespace abut
     NewtonResult result_;
     bool linear_ = false; ///< the problem is its own linearisation
     double largest_ = 0.; ///< energy norm of displacements since the start
+    Watch watch_;
     la::Vector residual_, increment_, step_, product_, forces_, trial_;
     la::Vector goal_;    ///< present displacement with prescribed values
     la::Vector change_;  ///< of the residual by prescribed values, linearised
