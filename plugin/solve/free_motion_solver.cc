@@ -191,14 +191,19 @@ namespace abut::solve
 
   double FreeMotionSolver::work_tolerance() const
   {
-    constexpr double round_off = 1e-15;
+    // Strains at points that move have the round-off of positions, by facets.
+    constexpr double round_off = 1e-15, facet = 1e-2;
+    const bool has_positions = bodies_ && !space_.point.empty();
     double internal = 0.;
     for (std::size_t i = 0; i < diagonal_.size(); ++i)
-      internal += std::abs(diagonal_[i])
-                  * (std::abs(la::data(moved_)[i])
-                     + (iteration_.start == nullptr
-                            ? 0.
-                            : std::abs(la::data(*iteration_.start)[i])));
+    {
+      double size = std::abs(la::data(moved_)[i]);
+      if (iteration_.start != nullptr)
+        size += std::abs(la::data(*iteration_.start)[i]);
+      if (has_positions)
+        size += facet * dealii::Tensor<1, 3>(space_.point[i]).norm();
+      internal += std::abs(diagonal_[i]) * size;
+    }
     return FloatingBodies::no_work * iteration_.load
            + round_off * MPI::sum(internal, rows_->communicator());
   }

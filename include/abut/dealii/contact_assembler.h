@@ -464,7 +464,8 @@ namespace abut
 
     /** What the entries of @p tangent make of @p displacement one by one,
      * before they cancel: no solver lowers residuals beyond the round-off of
-     * it. 0 without a matrix. Collective. */
+     * it. Where points move, with a thousandth of the coordinates, for the
+     * round-off of positions. 0 without a matrix. Collective. */
     virtual ForceSize size_of_forces(const Tangent &tangent,
                                      const la::VectorView &displacement) const;
 
