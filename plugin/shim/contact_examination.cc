@@ -554,7 +554,8 @@ namespace abut
     {
       const bool is_obstacle = i.pairs[p].obstacle != nullptr;
       const Scale &scale = scales[p];
-      const bool follows = i.method.sliding == Sliding::large
+      const bool follows = kinematics_info(i.method.kinematics).points
+                               == ABUT_CONFIGURATION_CURRENT
                            && !i.pairs[p].tied && !is_obstacle;
       if (!follows)
         judge_sliding(pairs[p], checks[p], i.surfaces->gap_error_place(p),

@@ -291,7 +291,8 @@ namespace abut
     }
     if (surfaces != nullptr && makes_points_at_commits())
     {
-      check_committed("Points of Sliding::step are made where bodies were at");
+      check_committed(
+          "Points of ABUT_KINEMATICS_UPDATED are made where bodies were at");
       surfaces->set_place(committed);
     }
     if (surfaces != nullptr)

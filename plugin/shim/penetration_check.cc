@@ -290,7 +290,7 @@ namespace abut::shim
       const double depth = met[i].depth - pair.data.gap;
       if (met[i].through)
         way = std::max(way, (to[i] - from[i]).norm());
-      else if (pair.steps && is_free[i] && depth > tolerance)
+      else if (pair.has_committed_points() && is_free[i] && depth > tolerance)
         missed.push_back({pair.data.name, to[i], depth, false, false});
     }
     // What is apart again no search finds, and rows are of the far side.
@@ -345,9 +345,10 @@ namespace abut::shim
     const Pair &pair = pairs_[p];
     // Where points do not step, those on straight ways round a corner are no
     // failure: only what comes out on the far side is.
-    if (!pair.steps && pair.data.may_be_apart && pair.data.obstacle)
+    if (!pair.has_committed_points() && pair.data.may_be_apart
+        && pair.data.obstacle)
       check_passage_of_obstacle(p, held, committed, present, tolerance, missed);
-    if (!pair.steps || present_.empty())
+    if (!pair.has_committed_points() || present_.empty())
       return;
     if (pair.data.obstacle)
     {
@@ -438,8 +439,8 @@ namespace abut::shim
                                         reference, present);
         // What was missed earlier may be deeper than the last step went.
         const double all = std::min(1.5 * motion(pair, u), pair.reach);
-        const double reach =
-            std::max({pair.data.reach, 1.5 * moved[p], pair.moves ? all : 0.});
+        const double reach = std::max({pair.data.reach, 1.5 * moved[p],
+                                       pair.has_current_points() ? all : 0.});
         check_surfaces(pair, marks, present, reach, tolerance, missed);
         if (SelfContact<dim>::is_split(pair.data))
           check_same_sides(pair, present, reach, tolerance, missed);

@@ -10,6 +10,7 @@
 
 #include <abut/dealii/contact_examination.h>
 #include <abut/dealii/contact_pair.h>
+#include <abut/dealii/method_parameters.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,26 +66,52 @@ namespace abut::shim
   template <int dim> struct SurfacePair
   {
     ContactPair<dim> data;
-    bool moves = false; ///< its points are where the bodies are
-    bool turns = false; ///< their directions are, while partners stay
-    bool steps = false; ///< they are where these were at the last commit()
+    abut_kinematics kinematics = ABUT_KINEMATICS_REFERENCE;
+    /** Configurations that it makes points in, and that its directions and
+     * gaps refer to. */
+    abut_configuration points = ABUT_CONFIGURATION_REFERENCE;
+    abut_configuration directions = ABUT_CONFIGURATION_REFERENCE;
+
+    void set_kinematics(const abut_kinematics chosen)
+    {
+      const abut_kinematics_info info = kinematics_info(chosen);
+      kinematics = chosen;
+      points = info.points;
+      directions = info.directions;
+    }
+
+    bool has_current_points() const
+    {
+      return points == ABUT_CONFIGURATION_CURRENT;
+    }
+
+    bool has_committed_points() const
+    {
+      return points == ABUT_CONFIGURATION_COMMITTED;
+    }
 
     /** Whether its sides are somewhere else when points are made. */
     bool has_displaced_sides() const
     {
-      return moves || steps;
+      return points != ABUT_CONFIGURATION_REFERENCE;
+    }
+
+    bool has_current_directions() const
+    {
+      return directions == ABUT_CONFIGURATION_CURRENT;
+    }
+
+    /** Whether partners stay those of the reference configuration, while
+     * directions do not. */
+    bool is_corotational() const
+    {
+      return has_current_directions() && !has_displaced_sides();
     }
 
     /** Whether directions and gaps are not those of the undeformed bodies. */
     bool is_displaced() const
     {
-      return has_displaced_sides() || turns;
-    }
-
-    /** Whether they are those of where the bodies are. */
-    bool is_present() const
-    {
-      return moves || turns;
+      return directions != ABUT_CONFIGURATION_REFERENCE;
     }
 
     abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;

@@ -224,8 +224,9 @@ namespace abut::shim
       std::vector<Direction> normal;
       for (unsigned int a = 0; a < n_nodes; ++a)
       {
-        nodes.push_back(pair.steps ? present_[facet.node[a]]
-                                   : surface_.nodes[facet.node[a]].point);
+        nodes.push_back(pair.has_committed_points()
+                            ? present_[facet.node[a]]
+                            : surface_.nodes[facet.node[a]].point);
         normal.push_back(normal_at[facet.node[a]]);
       }
       here.peak = peak_of(obstacle, grid, nodes, normal, depth);
@@ -597,7 +598,7 @@ namespace abut::shim
     {
       const ContactPair<dim> &data = pair.data;
       if (data.obstacle || !data.geometric_gap
-          || !(pair.is_present() || data.may_be_apart))
+          || !(pair.has_current_directions() || data.may_be_apart))
         continue;
       pair.first_inside =
           deepest_inside(mapping_, dof_handler_, data.secondary, data.primary);

@@ -94,7 +94,8 @@ namespace abut::shim
                                      const bool of_step) const
   {
     for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if ((of_step || pairs_[p].steps) && p < committed_poses_.size())
+      if ((of_step || pairs_[p].has_committed_points())
+          && p < committed_poses_.size())
         now[p] = committed_poses_[p];
       else if (pairs_[p].data.first_pose)
         now[p] = *pairs_[p].data.first_pose;
@@ -211,7 +212,7 @@ namespace abut::shim
       const Friction<dim> &friction = *pair.data.friction;
       std::string wrong;
       dealii::Point<dim> place = places_[i].position;
-      if (pair.moves) // back on the undeformed body
+      if (pair.has_current_points()) // back on the undeformed body
         for_each_secondary(i, [&](const Node node, const double c)
                            { place -= c * made_at(node); });
       result.first.push_back(first);
@@ -251,7 +252,8 @@ namespace abut::shim
     for (std::size_t i = 0; i < places_.size(); ++i)
     {
       const Pair &pair = pairs_[places_[i].pair];
-      if (places_[i].node < 0 || pair.data.obstacle == nullptr || pair.moves)
+      if (places_[i].node < 0 || pair.data.obstacle == nullptr
+          || pair.has_current_points())
         continue;
       const auto [begin, end] = seen.equal_range(places_[i].node);
       for (auto other = begin; other != end; ++other)

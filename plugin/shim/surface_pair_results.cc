@@ -105,7 +105,7 @@ namespace abut::shim
   {
     Pair &pair = pairs_[number];
     if (!pair.data.obstacle)
-      return pair.is_present() ? pair.first_inside.depth : overlap;
+      return pair.has_current_directions() ? pair.first_inside.depth : overlap;
     // At rest obstacles are moved into bodies on purpose.
     if (!pair.data.may_be_apart || !pair.data.geometric_gap)
       return 0.;
@@ -217,7 +217,8 @@ namespace abut::shim
     const std::string overlap = overlap_at_start(pair, result);
     if (!overlap.empty())
       result.warnings.push_back(overlap);
-    if (!pair.data.obstacle && !pair.is_present() && result.covered_area > 0.)
+    if (!pair.data.obstacle && !pair.has_current_directions()
+        && result.covered_area > 0.)
     {
       // Of graded meshes the smallest facets are likely to be those that meet.
       const double smallest =
@@ -240,7 +241,7 @@ namespace abut::shim
               + " degrees at a node in the contact zone: normals and gaps "
                 "there are those of a polygon, and so are the pressures. "
                 "Refine the surface, or leave the corner out of the pair."));
-    const bool may_come_near = pair.moves && !pair.data.obstacle;
+    const bool may_come_near = pair.has_current_points() && !pair.data.obstacle;
     if (result.n_rows == 0 && (pair.data.may_be_apart || may_come_near))
     {
       checks_.push_back(result);

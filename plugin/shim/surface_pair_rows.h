@@ -219,7 +219,7 @@ namespace abut::shim
     /** [rows] pair of each row. */
     std::vector<int> row_pairs() const;
 
-    /** Whether points of a pair are made step by step (Sliding::step). */
+    /** Whether points of a pair are made step by step (updated kinematics). */
     bool has_steps() const;
 
     /** Let facets be known that are near each other at @p displacement, so
@@ -268,7 +268,7 @@ namespace abut::shim
 
     /** Where the bodies were at the last commit() (owned; empty: nothing has
      * moved), which must outlive its use here: find() makes the points of
-     * Sliding::step there. */
+     * updated kinematics there. */
     void set_place(const la::Vector &committed)
     {
       committed_ = &committed;

@@ -222,9 +222,10 @@ namespace abut
   };
 
   /** How far closed rows of a pair go, at a displacement, from where their
-   * points were made at the beginning of the step (Sliding::step), or, where
-   * partners stay (Sliding::small and turn, between bodies), from where they
-   * were paired. All 0 where points move. Global over ranks. */
+   * points were made at the beginning of the step (ABUT_KINEMATICS_UPDATED),
+   * or, where partners stay (reference and corotational kinematics, between
+   * bodies), from where they were paired. All 0 where points move. Global over
+   * ranks. */
   struct StepMotion
   {
     double slip = 0.;  /**< along the surface, of both sides against each other,
@@ -232,7 +233,7 @@ namespace abut
     double facet = 0.; /**< to compare it with: median size of the side with
                             the smaller ones; 0: an obstacle, which has none */
     double turn = 0.;  /**< of facets in contact, or of the obstacle's normal,
-                            radian >= 0; Sliding::step only */
+                            radian >= 0; updated kinematics only */
     bool stays = false; /**< from the undeformed bodies, not from the step */
   };
 
