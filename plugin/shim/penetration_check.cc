@@ -168,7 +168,7 @@ namespace abut::shim
     {
       const double depth = -distance[n] - pair.data.gap;
       if (supported[n])
-        pair.held_inside = std::max(pair.held_inside, depth);
+        pair.measured.held_inside = std::max(pair.measured.held_inside, depth);
       else if (depth > tolerance)
         missed.push_back({pair.data.name, points[n], depth, false,
                           outward[n] * gradient[n] > 0.});
@@ -189,7 +189,7 @@ namespace abut::shim
       const Node node = pair.secondary.node[inside.node];
       const double found = inside.depth - pair.data.gap;
       if (is_supported(pair, inside.node) && is_owned(node))
-        pair.held_inside = std::max(pair.held_inside, found);
+        pair.measured.held_inside = std::max(pair.measured.held_inside, found);
       else if (held[node] == 0 && is_owned(node))
         missed.push_back({pair.data.name, present[node], found, false, false});
       else if (is_owned(node))
@@ -210,7 +210,8 @@ namespace abut::shim
         between = between || held[facet.node[a]] != 0;
       const double found = inside.depth - pair.data.gap;
       if (between)
-        pair.between_rows = std::max(pair.between_rows, found);
+        pair.measured.between_rows =
+            std::max(pair.measured.between_rows, found);
       else if (found > tolerance)
         missed.push_back({pair.data.name, present[node], found, true, false});
     }
@@ -422,7 +423,8 @@ namespace abut::shim
       try
       {
         Pair &pair = pairs_[p];
-        pair.between_rows = pair.held_inside = pair.held_in_the_mean = 0.;
+        pair.measured.between_rows = pair.measured.held_inside = 0.;
+        pair.held_in_the_mean = 0.;
         if (pair.data.tied || !pair.data.geometric_gap)
           continue;
         const std::uint8_t *marks = held.data() + p * surface_.nodes.size();
@@ -454,11 +456,7 @@ namespace abut::shim
       }
     throw_everywhere<ContactError>(communicator_, message);
     for (Pair &pair : pairs_)
-    {
-      pair.between_rows = MPI::max(pair.between_rows, communicator_);
-      pair.held_inside = MPI::max(pair.held_inside, communicator_);
       pair.held_in_the_mean = MPI::max(pair.held_in_the_mean, communicator_);
-    }
     missed = everywhere(missed, communicator_);
     // The next find() splits a surface again where one of its sides has met
     // itself.

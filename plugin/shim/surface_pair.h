@@ -101,11 +101,11 @@ namespace abut::shim
       return directions == ABUT_CONFIGURATION_CURRENT;
     }
 
-    /** Whether partners stay those of the reference configuration, while
-     * directions do not. */
-    bool is_corotational() const
+    /** Whether directions and gaps refer to another configuration than that
+     * in which partners are found. */
+    bool keeps_partners() const
     {
-      return has_current_directions() && !has_displaced_sides();
+      return directions != points;
     }
 
     /** Whether directions and gaps are not those of the undeformed bodies. */
@@ -126,8 +126,8 @@ namespace abut::shim
     /** [nodes of the secondary] without a multiplier in the present rows:
      * 1 because of another pair, of_supports because of supports. */
     std::vector<std::uint8_t> dropped;
-    // As in PairResult.
-    double between_rows = 0., held_inside = 0.;
+    /** Parts of this rank, by the last examine() and check_penetration(). */
+    PairResult<dim> measured;
     double held_in_the_mean = 0.; ///< as the function
     /** The deepest node in the other body, or in an obstacle that bodies fly
      * towards, before anything is displaced. */
@@ -136,7 +136,6 @@ namespace abut::shim
     double least_extent = 0.;
     /** Known failures that it was made with all the same. */
     std::vector<ContactFinding> refused;
-    double slip = 0., gap_error = 0., missed_depth = 0.;
     dealii::Point<dim> gap_error_place;
     DirectionTurn<dim> turn;
     ObstacleWidth narrow;

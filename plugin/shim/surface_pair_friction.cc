@@ -457,11 +457,9 @@ namespace abut::shim
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
       const std::size_t first = p * n_nodes;
-      const auto n_found =
-          static_cast<dealii::types::global_dof_index>(std::count(
-              found.begin() + first, found.begin() + first + n_nodes, 1));
-      results[p].n_prescribed = MPI::sum(n_found, communicator_);
-      if (n_found == 0)
+      results[p].n_prescribed =
+          std::count(found.begin() + first, found.begin() + first + n_nodes, 1);
+      if (results[p].n_prescribed == 0)
         continue;
       const auto &side = pairs_[p].secondary;
       const double *normal = nullptr;
@@ -498,9 +496,6 @@ namespace abut::shim
             results[places_[i].pair].shared_stick_force +=
                 view_.weight[i] * row_pressure[row];
         });
-    for (PairResult<dim> &result : results)
-      result.shared_stick_force =
-          MPI::sum(result.shared_stick_force, communicator_);
   }
 
   template <int dim>
@@ -538,19 +533,6 @@ namespace abut::shim
     }
     find_prescribed_nodes(row_state, results);
     find_shared_sticks(row_pressure, row_state, results);
-    for (PairResult<dim> &result : results)
-    {
-      double sums[3] = {result.normal_force, result.friction_force,
-                        result.dissipation};
-      MPI::sum(sums, communicator_, sums);
-      result.normal_force = sums[0];
-      result.friction_force = sums[1];
-      result.dissipation = sums[2];
-      result.n_slipping = MPI::sum(result.n_slipping, communicator_);
-      result.traction = MPI::max(result.traction, communicator_);
-      result.secondary_friction =
-          MPI::sum(result.secondary_friction, communicator_);
-    }
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

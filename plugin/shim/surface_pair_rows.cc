@@ -402,7 +402,7 @@ namespace abut::shim
       reference = places_of(side.node, reference_);
       target.reference = reference.data();
     }
-    else if (pair.is_corotational())
+    else if (pair.keeps_partners())
     {
       current = places_of(side.node, present_);
       current_primary = places_of(pair.primary.node, present_);

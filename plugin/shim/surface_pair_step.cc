@@ -130,7 +130,7 @@ namespace abut::shim
     const Pair &pair = pairs_[row.place.pair];
     // A turn of both sides is no slip: by places, which have been opposite each
     // other.
-    if (pair.is_corotational())
+    if (pair.keeps_partners())
       return apart(row.point, u);
     Direction way;
     const auto add = [&](const Node node, const double c)

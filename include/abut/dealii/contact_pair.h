@@ -181,6 +181,8 @@ namespace abut
      * last examine(), those of bodies of large strain, which are in balance
      * there; before the first, @ref secondary_moment. */
     dealii::Tensor<1, 3> present_moment;
+    /** The same on the primary side. */
+    dealii::Tensor<1, 3> present_primary_moment;
     /** |sum of the forces| / |force|; 0 where there is no force. */
     double force_imbalance = 0.;
     /** |sum of the moments| / (|force| * diameter of the surface); 0 where

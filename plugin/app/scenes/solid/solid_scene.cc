@@ -49,9 +49,10 @@ namespace abut::app
         result.push_back(ABUT_KINEMATICS_CURRENT);
       if (!given && in_time)
         result.push_back(ABUT_KINEMATICS_UPDATED);
+      if (has_large_strain
+          && kinematics_info(given).directions == ABUT_CONFIGURATION_REFERENCE)
+        result.push_back(ABUT_KINEMATICS_COROTATIONAL);
       result.push_back(given.value_or(ABUT_KINEMATICS_REFERENCE));
-      if (result.back() == ABUT_KINEMATICS_REFERENCE && has_large_strain)
-        result.insert(result.end() - 1, ABUT_KINEMATICS_COROTATIONAL);
       return result;
     }
 
