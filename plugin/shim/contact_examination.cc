@@ -85,8 +85,9 @@ namespace abut
                const std::string &text, const double between_nodes = 0.,
                const std::size_t pair = 0)
       {
-        result_.findings.push_back(
-            {failure, is_error, coded(failure, text), between_nodes, pair});
+        result_.findings.push_back({failure, is_error,
+                                    coded(failure, text).text, between_nodes,
+                                    pair});
       }
 
     private:
@@ -274,9 +275,8 @@ namespace abut
     {
       const bool turns =
           std::any_of(check.warnings.begin(), check.warnings.end(),
-                      [](const std::string &warning) {
-                        return failure_of(warning) == ABUT_FAILURE_COARSE_CURVE;
-                      });
+                      [](const Message &warning)
+                      { return warning.failure == ABUT_FAILURE_COARSE_CURVE; });
       if (turns
           && scale.is_more(depth - std::max(0., pair.penetration), useless))
         findings.add(ABUT_FAILURE_COARSE_CURVE, true,

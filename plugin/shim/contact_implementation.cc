@@ -365,7 +365,6 @@ namespace abut
   void ContactAssembler<dim>::Implementation::find_rows_in_reach(
       const la::Vector &displacement)
   {
-    const std::string code = abut_failure_get(ABUT_FAILURE_NO_PARTNER)->code;
     for (bool is_found = false; !is_found;)
       try
       {
@@ -374,9 +373,8 @@ namespace abut
       }
       catch (const ContactError &error)
       {
-        const bool is_far =
-            std::string(error.what()).find(code) != std::string::npos;
-        if (!is_far || surfaces == nullptr
+        if (error.message().failure != ABUT_FAILURE_NO_PARTNER
+            || surfaces == nullptr
             || solve::FloatingBodies::are_supported(near_null_space(),
                                                     communicator)
             || !widen_search())

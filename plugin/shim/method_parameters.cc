@@ -269,9 +269,8 @@ namespace abut
     return info;
   }
 
-  std::string refusal(const abut_law &law,
-                      const abut_discretisation discretisation,
-                      const System system, const bool tied)
+  Message refusal(const abut_law &law, const abut_discretisation discretisation,
+                  const System system, const bool tied)
   {
     const abut_discretisation_info info = discretisation_info(discretisation);
     const bool hard = abut_law_is_exact(&law);

@@ -418,7 +418,7 @@ namespace abut::shim
     const std::vector<double> moved = motions(has_steps() ? way_since(u) : u);
 
     std::vector<Penetration<dim>> missed;
-    std::string message;
+    Message message;
     for (std::size_t p = 0; p < pairs_.size() && message.empty(); ++p)
       try
       {
@@ -452,7 +452,7 @@ namespace abut::shim
       }
       catch (const std::exception &error)
       {
-        message = "Pair '" + pairs_[p].data.name + "': " + error.what();
+        message = about_pair(pairs_[p].data.name, message_of(error));
       }
     throw_everywhere<ContactError>(communicator_, message);
     for (Pair &pair : pairs_)

@@ -615,8 +615,8 @@ namespace abut::shim
       return;
     std::ostringstream place;
     place << pair.first_inside.place;
-    const std::string why = explain_no_rows(number);
-    refuse(pair, failure_of(why) == ABUT_FAILURE_OVERLAP
+    const Message why = explain_no_rows(number);
+    refuse(pair, why.failure == ABUT_FAILURE_OVERLAP
                      ? why
                      : coded(ABUT_FAILURE_OVERLAP,
                              "the bodies overlap: the node of a surface at ("

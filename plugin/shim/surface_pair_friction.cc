@@ -201,7 +201,7 @@ namespace abut::shim
     FrictionalPoints result;
     for (const Pair &pair : pairs_)
       result.any = result.any || pair.data.friction != nullptr;
-    std::string message;
+    Message message;
     for (std::size_t i = 0; i < places_.size() && result.any; ++i)
     {
       const std::int32_t first = view_.component_start[i];
@@ -210,7 +210,7 @@ namespace abut::shim
       if (view_.kind[i] == ABUT_POINT_TIE || n == 1)
         continue;
       const Friction<dim> &friction = *pair.data.friction;
-      std::string wrong;
+      std::string wrong, wrong_cap;
       dealii::Point<dim> place = places_[i].position;
       if (pair.has_current_points()) // back on the undeformed body
         for_each_secondary(i, [&](const Node node, const double c)
@@ -222,12 +222,15 @@ namespace abut::shim
       result.coefficient.push_back(coefficient);
       for (const abut_tangent kind : tangent_kinds(i))
         result.tangent.push_back(static_cast<std::uint8_t>(kind));
-      result.cap.push_back(
-          friction.cap
-              ? value_of<dim>(friction.cap, place, "largest traction", wrong)
-              : std::numeric_limits<double>::infinity());
+      result.cap.push_back(friction.cap
+                               ? value_of<dim>(friction.cap, place,
+                                               "largest traction", wrong_cap)
+                               : std::numeric_limits<double>::infinity());
       if (!wrong.empty())
-        message = "Pair '" + pair.data.name + "': " + wrong;
+        message = about_pair(pair.data.name, wrong, PairField::friction);
+      if (!wrong_cap.empty())
+        message =
+            about_pair(pair.data.name, wrong_cap, PairField::largest_friction);
     }
     throw_everywhere<ContactError>(communicator_, message);
     if (result.any)
@@ -314,12 +317,12 @@ namespace abut::shim
         continue;
       std::ostringstream text;
       text.precision(3);
-      text << "Pair '" << pairs_[p].data.name << "': its obstacle turns by "
-           << angle * 180. / M_PI
+      text << "its obstacle turns by " << angle * 180. / M_PI
            << " degrees within a load step, and friction takes the chord for "
               "the way along the surface: use load steps of at most 15 degrees "
               "(Load steps/Steps).";
-      throw ContactError(text.str());
+      throw ContactError(
+          about_pair(pairs_[p].data.name, text.str(), PairField::obstacle));
     }
   }
 

@@ -138,8 +138,8 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::string SurfacePairRows<dim>::overlap_at_start(Pair &pair,
-                                                     const PairCheck &found)
+  Message SurfacePairRows<dim>::overlap_at_start(Pair &pair,
+                                                 const PairCheck &found)
   {
     const double depth = found.first_overlap;
     const bool is_large = depth > large_overlap * found.facet_size;
@@ -215,7 +215,7 @@ namespace abut::shim
                 "those of the secondary: exchange the two sides, or refine the "
                 "secondary."));
     result.first_overlap = first_overlap(number, result.overlap);
-    const std::string overlap = overlap_at_start(pair, result);
+    const Message overlap = overlap_at_start(pair, result);
     if (!overlap.empty())
       result.warnings.push_back(overlap);
     if (!pair.data.obstacle && !pair.has_current_directions()
@@ -273,7 +273,7 @@ namespace abut::shim
       result.warnings.push_back(explain_no_rows(number));
     // Nodes that supports prescribe have no rows, whatever is near them.
     if (result.n_rows == 0
-        && failure_of(result.warnings.back()) == ABUT_FAILURE_NO_PARTNER
+        && result.warnings.back().failure == ABUT_FAILURE_NO_PARTNER
         && is_prescribed(pair))
       result.warnings.back() =
           coded(ABUT_FAILURE_HELD_NODES,
@@ -286,12 +286,12 @@ namespace abut::shim
     // configuration of bodies stays as it is.
     if (result.n_rows == 0 && !pair.data.obstacle)
       refuse(pairs_[number], result.warnings.back());
-    std::vector<std::string> &said = checks_.back().warnings;
+    std::vector<Message> &said = checks_.back().warnings;
     for (const ContactFinding &refused : pair.refused)
       if (std::none_of(said.begin(), said.end(),
-                       [&](const std::string &warning)
-                       { return failure_of(warning) == refused.failure; }))
-        said.push_back(refused.text);
+                       [&](const Message &warning)
+                       { return warning.failure == refused.failure; }))
+        said.push_back(refused.message());
   }
 
   template <int dim>

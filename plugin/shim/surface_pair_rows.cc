@@ -125,7 +125,7 @@ namespace abut::shim
       pair.set_kinematics(kinematics);
     pair.discretisation = settings_.method.discretisation.value_or(
         automatic_discretisation(law, data.obstacle != nullptr));
-    const std::string reason =
+    const Message reason =
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
       refuse(pair, reason);
@@ -144,7 +144,8 @@ namespace abut::shim
                     + ". Use one of these, or give its two sides boundary ids "
                       "of their own.";
     if (!no_friction.empty())
-      throw ContactError("Pair '" + data.name + "': " + no_friction);
+      throw ContactError(
+          about_pair(data.name, no_friction, PairField::friction));
     for (const Pair &other : pairs_)
       if (are_the_same(data, other.data))
         refuse(pair, "some of its surface touches what it touches in pair '"
@@ -168,21 +169,21 @@ namespace abut::shim
                       kinematics, law, pair.discretisation,
                       {data.obstacle != nullptr, data.geometric_gap});
     if (!fixed.empty())
-      throw ContactError("Pair '" + data.name + "': " + fixed);
+      throw ContactError(about_pair(data.name, fixed));
     pairs_.push_back(std::move(pair));
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::refuse(Pair &pair, const std::string &text) const
+  void SurfacePairRows<dim>::refuse(Pair &pair, const Message &message) const
   {
-    const abut_failure failure = failure_of(text);
+    const abut_failure failure = message.failure;
     if (!settings_.method.run_refused || failure == ABUT_FAILURE_NONE)
-      throw ContactError("Pair '" + pair.data.name + "': " + text);
+      throw ContactError(about_pair(pair.data.name, message));
     const bool is_noted = std::any_of(pair.refused.begin(), pair.refused.end(),
                                       [&](const ContactFinding &each)
                                       { return each.failure == failure; });
     if (!is_noted)
-      pair.refused.push_back({failure, true, text});
+      pair.refused.push_back({failure, true, message.text});
   }
 
   template <int dim>
@@ -190,7 +191,7 @@ namespace abut::shim
   {
     const auto &data = pair.data;
     const auto refuse = [&](const std::string &what)
-    { throw ContactError("Pair '" + data.name + "': " + what); };
+    { throw ContactError(about_pair(data.name, what)); };
     if (data.obstacle && !data.primary.empty())
       refuse("it has both a primary surface and an obstacle; leave one out.");
     if (!data.obstacle && data.primary.empty())
@@ -326,16 +327,17 @@ namespace abut::shim
     nodes.hanging_weight = side.hanging_weight.data();
     const abut_status status =
         abut_coupling_build(coupling, &nodes, motion, &target);
-    std::string message;
+    Message message;
     if (status != ABUT_SUCCESS)
     {
       const bool of_obstacle =
           pair.data.obstacle
           && (status == ABUT_CALLBACK_FAILED || status == ABUT_NOT_FINITE);
-      message =
-          "Pair '" + pair.data.name + "': "
-          + (of_obstacle ? "its obstacle: " + pair.data.obstacle->failure()
-                         : message_of(context_, status));
+      message = about_pair(
+          pair.data.name,
+          of_obstacle ? "its obstacle: " + pair.data.obstacle->failure()
+                      : message_of(context_, status),
+          of_obstacle ? PairField::obstacle : PairField::surfaces);
     }
     throw_everywhere<ContactError>(communicator_, message);
   }

@@ -571,7 +571,7 @@ namespace abut::shim
 
     /** Throws ContactError with the text; if it is a known failure that is to
      * be measured, it is noted in place of that. */
-    void refuse(Pair &pair, const std::string &text) const;
+    void refuse(Pair &pair, const Message &message) const;
 
     void create_pair(const ContactPair<dim> &data);
     /** First unknowns of the nodes that points refer to. */
@@ -610,7 +610,7 @@ namespace abut::shim
     /** Displacement of the last commit(); empty: 0, or not known. */
     const la::Vector &last_commit() const;
     void renew(const la::Vector *place);
-    std::string explain_no_rows(std::size_t pair);
+    Message explain_no_rows(std::size_t pair);
     /** Whether supports prescribe the displacement along the normal of all
      * nodes of the secondary. Collective. */
     bool is_prescribed(const Pair &pair) const;
@@ -726,7 +726,7 @@ namespace abut::shim
      * Collective. */
     double first_overlap(std::size_t pair, double overlap);
     /** What to say of it, or nothing. Collective. */
-    std::string overlap_at_start(Pair &pair, const PairCheck &found);
+    Message overlap_at_start(Pair &pair, const PairCheck &found);
     void make_check(std::size_t pair, unsigned int n_dropped);
     la::Vector field() const;
     /** Pairs with rows at quadrature points, and these rows. Collective. */

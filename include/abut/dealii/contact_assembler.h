@@ -82,10 +82,10 @@ namespace abut
 
   /** An obstacle that no displacement can respect, or that is not a number:
    * the message says where. Thrown on all ranks. */
-  class ObstacleError : public std::runtime_error
+  class ObstacleError : public MessageError
   {
   public:
-    using std::runtime_error::runtime_error;
+    using MessageError::MessageError;
   };
 
   /** A history of contact that cannot be read or written, or belongs to another

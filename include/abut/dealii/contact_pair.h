@@ -7,6 +7,7 @@
  * and what was found there.
  */
 
+#include <abut/dealii/coded.h>
 #include <abut/dealii/rigid_obstacle.h>
 
 #include <deal.II/base/point.h>
@@ -116,7 +117,7 @@ namespace abut
     bool history_by_place = false; /**< points of this pair have no number that
                                         lasts: pressures are taken over from
                                         the nearest old point of the facet */
-    std::vector<std::string> warnings; /**< in words, with what to do */
+    std::vector<Message> warnings; /**< with what to do */
   };
 
   /** What a solve found on a pair. Global over ranks. */
@@ -257,10 +258,10 @@ namespace abut
 
   /** Contact pairs that cannot be solved as they are: the message names the
    * pair and says what to do. Thrown on all ranks. */
-  class ContactError : public std::runtime_error
+  class ContactError : public MessageError
   {
   public:
-    using std::runtime_error::runtime_error;
+    using MessageError::MessageError;
   };
 } // namespace abut
 

@@ -7,6 +7,7 @@
  */
 
 #include <abut/coupling.h>
+#include <abut/dealii/coded.h>
 #include <abut/strategy.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -38,8 +39,8 @@ namespace abut
 
   /** Why a law (or a tie) is not offered with a discretisation, with what to
    * take instead; empty if it is. */
-  std::string refusal(const abut_law &law, abut_discretisation discretisation,
-                      System system, bool tied);
+  Message refusal(const abut_law &law, abut_discretisation discretisation,
+                  System system, bool tied);
 
   /** Properties of a kinematics; of reference if there is none. */
   abut_kinematics_info

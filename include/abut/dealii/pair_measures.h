@@ -4,6 +4,7 @@
 
 #include <abut/dealii/contact_pair.h>
 
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -29,12 +30,16 @@ namespace abut
    * it. */
   template <int dim> struct PairMeasure
   {
-    using Result = PairResult<dim>;
+    template <typename T> using Member = T PairResult<dim>::*;
+    using Number = dealii::types::global_dof_index;
+    using Vector = dealii::Tensor<1, dim>;
+    using Moment = dealii::Tensor<1, 3>;
 
     const char *name; ///< in summary.json behind pair_N_
-    std::variant<double Result::*, dealii::types::global_dof_index Result::*,
-                 dealii::Tensor<1, dim> Result::*,
-                 dealii::Tensor<1, 3> Result::*>
+    std::conditional_t<
+        dim == 3, std::variant<Member<double>, Member<Number>, Member<Vector>>,
+        std::variant<Member<double>, Member<Number>, Member<Vector>,
+                     Member<Moment>>>
         value;
     Reduction reduction;
     ReportedOf reported;

@@ -169,8 +169,8 @@ namespace abut::app
       // A run moves bodies without supports across clearances.
       const ContactPair<dim> &pair = pairs.pairs().at(number - 1);
       const bool may_come = pair.holds_body && pair.obstacle;
-      for (const std::string &warning : check.warnings)
-        if (may_come && failure_of(warning) == ABUT_FAILURE_NO_PARTNER)
+      for (const Message &warning : check.warnings)
+        if (may_come && warning.failure == ABUT_FAILURE_NO_PARTNER)
           report.progress(check.name
                           + ": not within reach of the obstacle; a run "
                             "moves the body, which has no supports that way, "
