@@ -53,6 +53,7 @@
 
 #include <abut/context.h>
 #include <abut/export.h>
+#include <abut/kinematics.h>
 #include <abut/obstacle.h>
 #include <abut/points.h>
 #include <abut/search.h>
@@ -282,41 +283,36 @@ extern "C"
     bool flush; /**< surfaces count as touching: leave out their distance */
     /** Points of contact have their tangents, too, with slips of zero: in the
      * plane t = (-n2, n1); in space t1 is the axis that is most tangential, in
-     * the tangent plane, and t2 = n x t1. With reference, areas or present they
-     * turn with the secondary instead: t1 is, in the tangent plane, half way
-     * between a facet's first local direction and its second one turned by a
-     * right angle; at a node it is the facet with the smallest number there,
-     * but for those that are 60 degrees off. Their numbers follow that of the
-     * normal: numbers of points that are given must leave room. */
+     * the tangent plane, and t2 = n x t1. In other kinematics
+     * than reference they turn with the secondary instead: t1 is, in the
+     * tangent plane, half way between a facet's first local direction and its
+     * second one turned by a right angle; at a node it is the facet with the
+     * smallest number there, but for those that are 60 degrees off. Their
+     * numbers follow that of the normal: numbers of points that are given must
+     * leave room. */
     bool tangents;
-    /** Points move: [n_nodes * dimension] positions of the secondary's nodes
-     * that weights are measured at, those of the undeformed body, while all
-     * else is that of the present ones. Gaps against an obstacle are then those
-     * of abut_obstacle_gap(), against a surface the signed distance of the
-     * nearest point (abut_facet_distance_derivatives(); a little beyond its
-     * border, up to abut_detection_options.extension, that of the facet there
-     * continued). The first direction of a point is minus their gradient, and
-     * the view has their second derivatives. Quadrature points are always on
-     * whole facets then, and mortar always has its segments. Points of mortar
-     * meet what is opposite now, along the present normals, and the view has
-     * what their forces change by; nodes that are covered by less than a fifth
-     * have none. No ties, and no mortar against obstacles. NULL (default):
-     * points are fixed. */
+    /** Default: reference. Ties have no other. Updated and current: the
+     * surfaces stand at that configuration. Current: gaps against an obstacle
+     * are those of abut_obstacle_gap(), against a surface the signed distance
+     * of the nearest point (abut_facet_distance_derivatives(); a little beyond
+     * its border, up to abut_detection_options.extension, that of the facet
+     * there continued). The first direction of a point is minus their gradient,
+     * and the view has their second derivatives. Quadrature points are on whole
+     * facets then, and mortar has its segments. Points of mortar meet what is
+     * opposite along the normals, and the view has what their forces change by;
+     * nodes that are covered by less than a fifth have none. No mortar against
+     * obstacles. Corotational: a pair that rotates as one keeps gaps and
+     * pressures; the view has what the forces change by as nodes move. Mortar
+     * between surfaces only. With flush gaps are what they have changed by. */
+    abut_kinematics kinematics;
+    /** Updated and current: [n_nodes * dimension] positions of the secondary's
+     * nodes in the reference configuration, which weights are measured in;
+     * else NULL (default). */
     const double *reference;
-    /** Points stand where the surfaces are now and are fixed there:
-     * [n_nodes * dimension] positions of the secondary's nodes that weights are
-     * measured at, those of the undeformed body. Nothing else is of them.
-     * Without reference only. NULL (default): the present ones. */
-    const double *areas;
-    /** Partners and weights are those of the surfaces as they stand, that is
-     * undeformed, but directions and gaps those of these places,
-     * [n_nodes * dimension] of the secondary and of the primary: a pair that
-     * turns as one keeps gaps and pressures. The view has what the forces
-     * change by as nodes move from there. Mortar between surfaces only, and
-     * no ties. With flush gaps are what they have changed by. NULL
-     * (default): those of the surfaces as they stand. */
-    const double *present;
-    const double *present_primary; /**< given with present */
+    /** Corotational: [n_nodes * dimension] current positions of the nodes of
+     * the secondary and of the primary; else NULL (default). */
+    const double *current;
+    const double *current_primary;
   } abut_coupling_target;
 
   enum
@@ -338,7 +334,7 @@ extern "C"
                                          0.,
                                          false,
                                          false,
-                                         NULL,
+                                         ABUT_KINEMATICS_REFERENCE,
                                          NULL,
                                          NULL,
                                          NULL};

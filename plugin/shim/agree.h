@@ -3,36 +3,50 @@
 #define ABUT_SHIM_AGREE_H
 
 #include <abut/context.h>
+#include <abut/dealii/coded.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace abut::shim
 {
   /** The message that is not empty of the lowest rank; empty if there is none.
    * Collective. */
-  inline std::string first_message(const MPI_Comm communicator,
-                                   const std::string &message)
+  inline Message first_message(const MPI_Comm communicator,
+                               const Message &message)
   {
     namespace MPI = dealii::Utilities::MPI;
     const unsigned int none = std::numeric_limits<unsigned int>::max();
     const unsigned int first =
         MPI::min(message.empty() ? none : MPI::this_mpi_process(communicator),
                  communicator);
-    return first == none ? "" : MPI::broadcast(communicator, message, first);
+    return first == none ? Message()
+                         : MPI::broadcast(communicator, message, first);
   }
 
   /** Throw @p message on all ranks if it is not empty on one: that of the
    * lowest such rank. Collective. */
   template <typename Error>
-  void throw_everywhere(const MPI_Comm communicator, const std::string &message)
+  void throw_everywhere(const MPI_Comm communicator, const Message &message)
   {
-    const std::string first = first_message(communicator, message);
-    if (!first.empty())
+    const Message first = first_message(communicator, message);
+    if (first.empty())
+      return;
+    if constexpr (std::is_base_of_v<MessageError, Error>)
       throw Error(first);
+    else
+      throw Error(first.text);
+  }
+
+  /** The data of an error, or its text alone if it has none. */
+  inline Message message_of(const std::exception &error)
+  {
+    const auto *known = dynamic_cast<const MessageError *>(&error);
+    return known == nullptr ? Message(error.what()) : known->message();
   }
 
   /** Run @p function. What it throws on any rank is thrown on all: as an Error
@@ -43,7 +57,7 @@ namespace abut::shim
   {
     const bool alone =
         dealii::Utilities::MPI::n_mpi_processes(communicator) == 1;
-    std::string message;
+    Message message;
     try
     {
       function();
@@ -52,7 +66,7 @@ namespace abut::shim
     {
       if (alone)
         throw;
-      message = error.what();
+      message = message_of(error);
     }
     catch (...)
     {

@@ -85,8 +85,9 @@ namespace abut
                const std::string &text, const double between_nodes = 0.,
                const std::size_t pair = 0)
       {
-        result_.findings.push_back(
-            {failure, is_error, coded(failure, text), between_nodes, pair});
+        result_.findings.push_back({failure, is_error,
+                                    coded(failure, text).text, between_nodes,
+                                    pair});
       }
 
     private:
@@ -274,9 +275,8 @@ namespace abut
     {
       const bool turns =
           std::any_of(check.warnings.begin(), check.warnings.end(),
-                      [](const std::string &warning) {
-                        return failure_of(warning) == ABUT_FAILURE_COARSE_CURVE;
-                      });
+                      [](const Message &warning)
+                      { return warning.failure == ABUT_FAILURE_COARSE_CURVE; });
       if (turns
           && scale.is_more(depth - std::max(0., pair.penetration), useless))
         findings.add(ABUT_FAILURE_COARSE_CURVE, true,
@@ -554,7 +554,8 @@ namespace abut
     {
       const bool is_obstacle = i.pairs[p].obstacle != nullptr;
       const Scale &scale = scales[p];
-      const bool follows = i.method.sliding == Sliding::large
+      const bool follows = kinematics_info(i.method.kinematics).points
+                               == ABUT_CONFIGURATION_CURRENT
                            && !i.pairs[p].tied && !is_obstacle;
       if (!follows)
         judge_sliding(pairs[p], checks[p], i.surfaces->gap_error_place(p),

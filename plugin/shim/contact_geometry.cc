@@ -19,7 +19,8 @@ namespace abut
   {
     if (source != nullptr && !source_is_outdated)
       return source->moves();
-    return (method.sliding == Sliding::large || method.sliding == Sliding::turn)
+    return kinematics_info(method.kinematics).directions
+               == ABUT_CONFIGURATION_CURRENT
            && std::any_of(pairs.begin(), pairs.end(),
                           [](const ContactPair<dim> &pair)
                           { return !pair.tied; });

@@ -291,7 +291,8 @@ namespace abut
     }
     if (surfaces != nullptr && makes_points_at_commits())
     {
-      check_committed("Points of Sliding::step are made where bodies were at");
+      check_committed(
+          "Points of ABUT_KINEMATICS_UPDATED are made where bodies were at");
       surfaces->set_place(committed);
     }
     if (surfaces != nullptr)
@@ -364,7 +365,6 @@ namespace abut
   void ContactAssembler<dim>::Implementation::find_rows_in_reach(
       const la::Vector &displacement)
   {
-    const std::string code = abut_failure_get(ABUT_FAILURE_NO_PARTNER)->code;
     for (bool is_found = false; !is_found;)
       try
       {
@@ -373,9 +373,8 @@ namespace abut
       }
       catch (const ContactError &error)
       {
-        const bool is_far =
-            std::string(error.what()).find(code) != std::string::npos;
-        if (!is_far || surfaces == nullptr
+        if (error.message().failure != ABUT_FAILURE_NO_PARTNER
+            || surfaces == nullptr
             || solve::FloatingBodies::are_supported(near_null_space(),
                                                     communicator)
             || !widen_search())

@@ -128,7 +128,8 @@ namespace abut
     /** Whether a commit() tells where the next points are made. */
     bool makes_points_at_commits() const
     {
-      return method.sliding == Sliding::step;
+      return kinematics_info(method.kinematics).points
+             == ABUT_CONFIGURATION_COMMITTED;
     }
     /** Throws if the displacement of the last commit() is not known. */
     void check_committed(const std::string &what) const;

@@ -308,14 +308,7 @@ namespace abut
       return {};
     const std::vector<double> pressure = i.row_pressures();
     const std::vector<std::uint8_t> state = i.row_states();
-    auto results =
-        i.surfaces->results(pressure.data(), i.gap.data(), state.data());
-    // Also where supports leave nothing that could slide.
-    if (std::any_of(i.pairs.begin(), i.pairs.end(),
-                    [](const auto &pair) { return pair.friction != nullptr; }))
-      i.surfaces->add_friction(pressure.data(), i.gap.data(), state.data(),
-                               results);
-    return results;
+    return i.surfaces->results(pressure.data(), i.gap.data(), state.data());
   }
 
   template <int dim>

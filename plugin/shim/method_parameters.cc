@@ -269,9 +269,8 @@ namespace abut
     return info;
   }
 
-  std::string refusal(const abut_law &law,
-                      const abut_discretisation discretisation,
-                      const System system, const bool tied)
+  Message refusal(const abut_law &law, const abut_discretisation discretisation,
+                  const System system, const bool tied)
   {
     const abut_discretisation_info info = discretisation_info(discretisation);
     const bool hard = abut_law_is_exact(&law);
@@ -329,7 +328,8 @@ namespace abut
                "variants act on the stress of the body, too, so that tractions "
                "are no balance of forces along the surface.";
     if (info.row_per_point && method.segments && !has_obstacle
-        && method.sliding != Sliding::large)
+        && kinematics_info(method.kinematics).points
+               != ABUT_CONFIGURATION_CURRENT)
       return "friction needs points that last: on the common parts of facets "
              "they change with the pairs. Use Method/Segments = false, or dual "
              "mortar.";
@@ -338,49 +338,72 @@ namespace abut
 
   namespace
   {
-    std::string turn_refusal(const abut_law &law, const bool is_weighted,
-                             const SlidingPair &pair)
+    /** Words of Method/Sliding. */
+    struct SlidingWord
     {
-      const std::string why =
-          "Points whose partners stay turn with the bodies ";
-      if (!is_weighted || pair.has_obstacle)
-        return why + "for mortar between bodies only. Use Sliding = large.";
-      if (abut_law_is_interior(&law))
-        return why + "not with Method/Enforcement = " + std::string(law.name)
-               + ". Use lagrange, penalty, quadratic penalty or augmented "
-                 "lagrangian.";
-      return "";
+      const char *word;
+      abut_kinematics kinematics;
+    };
+    constexpr SlidingWord sliding_words[] = {
+        {"small", ABUT_KINEMATICS_REFERENCE},
+        {"step", ABUT_KINEMATICS_UPDATED},
+        {"large", ABUT_KINEMATICS_CURRENT}};
+
+    std::optional<abut_kinematics> kinematics_of(const std::string &word)
+    {
+      for (const SlidingWord &each : sliding_words)
+        if (word == each.word)
+          return each.kinematics;
+      return {};
+    }
+
+    /** The parameter's value, as messages name it. */
+    std::string sliding_text(const abut_kinematics kinematics)
+    {
+      for (const SlidingWord &each : sliding_words)
+        if (kinematics == each.kinematics)
+          return std::string("Method/Sliding = ") + each.word + " ";
+      return "Corotational kinematics ";
     }
   } // namespace
 
-  std::string sliding_refusal(const Sliding sliding, const abut_law &law,
-                              const abut_discretisation discretisation,
-                              const SlidingPair &pair)
+  abut_kinematics_info
+  kinematics_info(const std::optional<abut_kinematics> kinematics)
+  {
+    abut_kinematics_info info = {};
+    if (abut_kinematics_describe(kinematics.value_or(ABUT_KINEMATICS_REFERENCE),
+                                 &info)
+        != ABUT_SUCCESS)
+      throw std::invalid_argument("there is no such kinematics");
+    return info;
+  }
+
+  std::string kinematics_refusal(const abut_kinematics kinematics,
+                                 const abut_law &law,
+                                 const abut_discretisation discretisation,
+                                 const KinematicsPair &pair)
   {
     const bool is_weighted = discretisation_info(discretisation).is_weighted;
-    if (sliding == Sliding::step && abut_law_needs_stress(&law))
-      return "Method/Sliding = step does not go with Method/Enforcement = "
-             + std::string(law.name)
-             + ", whose stress is that of the undeformed bodies. Use small.";
-    if (sliding == Sliding::turn)
-      return turn_refusal(law, is_weighted, pair);
-    if (sliding == Sliding::small || sliding == Sliding::automatic)
-      return "";
-    const std::string why = std::string("Method/Sliding = ")
-                            + (sliding == Sliding::step ? "step " : "large ");
-    if (!pair.has_geometric_gap)
+    const abut_kinematics_info info = kinematics_info(kinematics);
+    const std::string why = sliding_text(kinematics);
+    if (info.points != ABUT_CONFIGURATION_REFERENCE && !pair.has_geometric_gap)
       return why
              + "measures gaps where the surfaces are: they must count (leave "
                "out the gap that stands for them), or use small.";
-    if (sliding == Sliding::step)
-      return "";
-    const std::string mortar = std::string("Method/Discretisation = ")
-                               + abut_discretisation_name(discretisation);
-    if (is_weighted && pair.has_obstacle)
+    if (info.bodies_only && (!is_weighted || pair.has_obstacle))
+      return why + "is for mortar between bodies only. Use Sliding = large.";
+    if (is_weighted && pair.has_obstacle && !info.weighted_obstacle)
       return why
              + "follows nodes and quadrature points against an obstacle, not "
-             + mortar + ". Use node to segment or quadrature point.";
-    if (abut_law_needs_stress(&law) || abut_law_is_interior(&law))
+               "Method/Discretisation = "
+             + abut_discretisation_name(discretisation)
+             + ". Use node to segment or quadrature point.";
+    if (abut_law_needs_stress(&law) && !info.stress_laws)
+      return why
+             + "does not go with Method/Enforcement = " + std::string(law.name)
+             + ", whose stress is that of the undeformed bodies. Use lagrange, "
+               "penalty, quadratic penalty or augmented lagrangian, or small.";
+    if (abut_law_is_interior(&law) && !info.interior_laws)
       return why
              + "does not go with Method/Enforcement = " + std::string(law.name)
              + ". Use lagrange, penalty, quadratic penalty or augmented "
@@ -466,11 +489,7 @@ namespace abut
       discretisation = way;
     else
       discretisation.reset();
-    const std::string slides = prm.get("Sliding");
-    sliding = slides == "small"   ? Sliding::small
-              : slides == "step"  ? Sliding::step
-              : slides == "large" ? Sliding::large
-                                  : Sliding::automatic;
+    kinematics = kinematics_of(prm.get("Sliding"));
     const std::string law = prm.get("Enforcement");
     law_is_automatic = law == "auto";
     options.law = abut_law_find(law_is_automatic ? automatic_law(discretisation)

@@ -46,6 +46,13 @@ namespace abut::shim
       return text.str();
     }
 
+    Message of_upper(const std::string &text)
+    {
+      Message message(text);
+      message.field = PairField::upper_obstacle;
+      return message;
+    }
+
     dealii::types::global_dof_index first_of(const dealii::IndexSet &owned)
     {
       return owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
@@ -87,19 +94,19 @@ namespace abut::shim
   void NodalObstacleRows<dim>::check_obstacles(
       const std::vector<double> &lower, const std::vector<double> &upper) const
   {
-    std::string message;
+    Message message;
     for (std::size_t i = 0; i < lower.size() && message.empty(); ++i)
     {
       if (std::isnan(lower[i]) || lower[i] == INFINITY)
         message = "The obstacle is not a number or is infinite";
       else if (std::isnan(upper[i]) || upper[i] == -INFINITY)
-        message = "The upper obstacle is not a number or is infinite";
+        message = of_upper("The upper obstacle is not a number or is infinite");
       else if (upper[i] < lower[i])
         message = "No displacement can lie between the upper obstacle, "
                   + std::to_string(upper[i]) + ", and the obstacle, "
                   + std::to_string(lower[i]) + ",";
       if (!message.empty())
-        message += at(candidates_.free[i].point) + ".";
+        message.text += at(candidates_.free[i].point) + ".";
     }
     throw_everywhere<ObstacleError>(communicator_, message);
   }
@@ -120,7 +127,7 @@ namespace abut::shim
       largest = std::max({largest, obstacle_.lower ? std::abs(lower[i]) : 0.,
                           obstacle_.upper ? std::abs(upper[i]) : 0.});
     const double slack = 1e-10 * MPI::max(largest, communicator_);
-    std::string message;
+    Message message;
     for (std::size_t i = 0; i < lower.size() && message.empty(); ++i)
     {
       const auto &node = candidates_.prescribed[i];
@@ -131,10 +138,11 @@ namespace abut::shim
                   + std::to_string(value) + ")" + at(node.point)
                   + ". Lower the obstacle there or raise the Dirichlet value.";
       else if (value > upper[i] + slack)
-        message = "The upper obstacle (" + std::to_string(upper[i])
-                  + ") lies below the prescribed value ("
-                  + std::to_string(value) + ")" + at(node.point)
-                  + ". Raise the obstacle there or lower the Dirichlet value.";
+        message = of_upper(
+            "The upper obstacle (" + std::to_string(upper[i])
+            + ") lies below the prescribed value (" + std::to_string(value)
+            + ")" + at(node.point)
+            + ". Raise the obstacle there or lower the Dirichlet value.");
     }
     throw_everywhere<ObstacleError>(communicator_, message);
   }

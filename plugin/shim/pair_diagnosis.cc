@@ -50,10 +50,10 @@ namespace abut::shim
   } // namespace
 
   template <int dim>
-  std::string
-  why_no_rows(abut_context *context, const SurfaceSide<dim> &secondary,
-              const SurfaceSide<dim> &primary, const SearchParameters &search,
-              const double reach, const MPI_Comm communicator)
+  Message why_no_rows(abut_context *context, const SurfaceSide<dim> &secondary,
+                      const SurfaceSide<dim> &primary,
+                      const SearchParameters &search, const double reach,
+                      const MPI_Comm communicator)
   {
     const double facing = search.detection.normal_cosine;
     const Nearest opposed =
@@ -100,10 +100,10 @@ namespace abut::shim
     return coded(failure, text.str());
   }
 
-  template std::string why_no_rows(abut_context *, const SurfaceSide<2> &,
-                                   const SurfaceSide<2> &,
-                                   const SearchParameters &, double, MPI_Comm);
-  template std::string why_no_rows(abut_context *, const SurfaceSide<3> &,
-                                   const SurfaceSide<3> &,
-                                   const SearchParameters &, double, MPI_Comm);
+  template Message why_no_rows(abut_context *, const SurfaceSide<2> &,
+                               const SurfaceSide<2> &, const SearchParameters &,
+                               double, MPI_Comm);
+  template Message why_no_rows(abut_context *, const SurfaceSide<3> &,
+                               const SurfaceSide<3> &, const SearchParameters &,
+                               double, MPI_Comm);
 } // namespace abut::shim

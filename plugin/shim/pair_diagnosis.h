@@ -24,7 +24,7 @@ namespace abut::shim
     }
     catch (const std::exception &error)
     {
-      throw ContactError("Pair '" + pair + "': " + error.what());
+      throw ContactError(about_pair(pair, error.what()));
     }
   }
 
@@ -33,10 +33,10 @@ namespace abut::shim
    * do. Of the facets known here: they must be those up to the least distance
    * of the surfaces. Collective. */
   template <int dim>
-  std::string
-  why_no_rows(abut_context *context, const SurfaceSide<dim> &secondary,
-              const SurfaceSide<dim> &primary, const SearchParameters &search,
-              double reach, MPI_Comm communicator);
+  Message why_no_rows(abut_context *context, const SurfaceSide<dim> &secondary,
+                      const SurfaceSide<dim> &primary,
+                      const SearchParameters &search, double reach,
+                      MPI_Comm communicator);
 } // namespace abut::shim
 
 #endif

@@ -321,8 +321,8 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::string too_long_a_step(const ContactPair<dim> &pair, const double way,
-                              const std::string &so_that)
+  Message too_long_a_step(const ContactPair<dim> &pair, const double way,
+                          const std::string &so_that)
   {
     const double half = pair.obstacle->depth();
     std::ostringstream text;
@@ -335,7 +335,10 @@ namespace abut::shim
          << " It must not move by more than the thinner of the two is thick: "
             "make steps shorter (Time/Step), or let it move more slowly (its "
             "Motion, its velocity, the forces on it).";
-    return coded(ABUT_FAILURE_NO_PARTNER, text.str());
+    Message message = coded(ABUT_FAILURE_NO_PARTNER, text.str());
+    message.pair = pair.name;
+    message.field = PairField::obstacle;
+    return message;
   }
 
   namespace
@@ -416,8 +419,8 @@ namespace abut::shim
   template std::vector<OnTheWay> on_the_way(                                   \
       const RigidObstacle<dim> &, const std::vector<dealii::Point<dim>> &,     \
       const std::vector<dealii::Point<dim>> &, const std::vector<double> &);   \
-  template std::string too_long_a_step(const ContactPair<dim> &, double,       \
-                                       const std::string &);                   \
+  template Message too_long_a_step(const ContactPair<dim> &, double,           \
+                                   const std::string &);                       \
   template std::vector<double> deepest_between(                                \
       const std::shared_ptr<const RigidObstacle<dim>> &, double,               \
       const RigidPose<dim> &, const std::vector<dealii::Point<dim>> &,         \

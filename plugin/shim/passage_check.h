@@ -61,8 +61,8 @@ namespace abut::shim
   /** Why a step in which the obstacle of @p pair moves by @p way, seen from the
    * body, has no answer: what comes of it is the end of a sentence. */
   template <int dim>
-  std::string too_long_a_step(const ContactPair<dim> &pair, double way,
-                              const std::string &so_that);
+  Message too_long_a_step(const ContactPair<dim> &pair, double way,
+                          const std::string &so_that);
 
   /** How deep points are at the most, [points] length >= 0, between the ends of
    * their straight ways in an obstacle that changes with time: from @p begin,

@@ -168,7 +168,7 @@ namespace abut::shim
     {
       const double depth = -distance[n] - pair.data.gap;
       if (supported[n])
-        pair.held_inside = std::max(pair.held_inside, depth);
+        pair.measured.held_inside = std::max(pair.measured.held_inside, depth);
       else if (depth > tolerance)
         missed.push_back({pair.data.name, points[n], depth, false,
                           outward[n] * gradient[n] > 0.});
@@ -189,7 +189,7 @@ namespace abut::shim
       const Node node = pair.secondary.node[inside.node];
       const double found = inside.depth - pair.data.gap;
       if (is_supported(pair, inside.node) && is_owned(node))
-        pair.held_inside = std::max(pair.held_inside, found);
+        pair.measured.held_inside = std::max(pair.measured.held_inside, found);
       else if (held[node] == 0 && is_owned(node))
         missed.push_back({pair.data.name, present[node], found, false, false});
       else if (is_owned(node))
@@ -210,7 +210,8 @@ namespace abut::shim
         between = between || held[facet.node[a]] != 0;
       const double found = inside.depth - pair.data.gap;
       if (between)
-        pair.between_rows = std::max(pair.between_rows, found);
+        pair.measured.between_rows =
+            std::max(pair.measured.between_rows, found);
       else if (found > tolerance)
         missed.push_back({pair.data.name, present[node], found, true, false});
     }
@@ -290,7 +291,7 @@ namespace abut::shim
       const double depth = met[i].depth - pair.data.gap;
       if (met[i].through)
         way = std::max(way, (to[i] - from[i]).norm());
-      else if (pair.steps && is_free[i] && depth > tolerance)
+      else if (pair.has_committed_points() && is_free[i] && depth > tolerance)
         missed.push_back({pair.data.name, to[i], depth, false, false});
     }
     // What is apart again no search finds, and rows are of the far side.
@@ -345,9 +346,10 @@ namespace abut::shim
     const Pair &pair = pairs_[p];
     // Where points do not step, those on straight ways round a corner are no
     // failure: only what comes out on the far side is.
-    if (!pair.steps && pair.data.may_be_apart && pair.data.obstacle)
+    if (!pair.has_committed_points() && pair.data.may_be_apart
+        && pair.data.obstacle)
       check_passage_of_obstacle(p, held, committed, present, tolerance, missed);
-    if (!pair.steps || present_.empty())
+    if (!pair.has_committed_points() || present_.empty())
       return;
     if (pair.data.obstacle)
     {
@@ -416,12 +418,13 @@ namespace abut::shim
     const std::vector<double> moved = motions(has_steps() ? way_since(u) : u);
 
     std::vector<Penetration<dim>> missed;
-    std::string message;
+    Message message;
     for (std::size_t p = 0; p < pairs_.size() && message.empty(); ++p)
       try
       {
         Pair &pair = pairs_[p];
-        pair.between_rows = pair.held_inside = pair.held_in_the_mean = 0.;
+        pair.measured.between_rows = pair.measured.held_inside = 0.;
+        pair.held_in_the_mean = 0.;
         if (pair.data.tied || !pair.data.geometric_gap)
           continue;
         const std::uint8_t *marks = held.data() + p * surface_.nodes.size();
@@ -438,8 +441,8 @@ namespace abut::shim
                                         reference, present);
         // What was missed earlier may be deeper than the last step went.
         const double all = std::min(1.5 * motion(pair, u), pair.reach);
-        const double reach =
-            std::max({pair.data.reach, 1.5 * moved[p], pair.moves ? all : 0.});
+        const double reach = std::max({pair.data.reach, 1.5 * moved[p],
+                                       pair.has_current_points() ? all : 0.});
         check_surfaces(pair, marks, present, reach, tolerance, missed);
         if (SelfContact<dim>::is_split(pair.data))
           check_same_sides(pair, present, reach, tolerance, missed);
@@ -449,15 +452,11 @@ namespace abut::shim
       }
       catch (const std::exception &error)
       {
-        message = "Pair '" + pairs_[p].data.name + "': " + error.what();
+        message = about_pair(pairs_[p].data.name, message_of(error));
       }
     throw_everywhere<ContactError>(communicator_, message);
     for (Pair &pair : pairs_)
-    {
-      pair.between_rows = MPI::max(pair.between_rows, communicator_);
-      pair.held_inside = MPI::max(pair.held_inside, communicator_);
       pair.held_in_the_mean = MPI::max(pair.held_in_the_mean, communicator_);
-    }
     missed = everywhere(missed, communicator_);
     // The next find() splits a surface again where one of its sides has met
     // itself.

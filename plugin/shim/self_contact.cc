@@ -40,21 +40,23 @@ namespace abut::shim
       if (touches_itself(pair))
         for (const BoundaryId id : pair.secondary)
           if (id >= primary_side || !own.insert(id).second)
-            throw ContactError(
-                "Pair '" + pair.name + "': boundary id " + std::to_string(id)
-                + (id >= primary_side ? " is too large for a surface that "
-                                        "touches itself; take one below 2^31."
-                                      : " touches itself in another pair, too; "
-                                        "make one pair of the two."));
+            throw ContactError(about_pair(
+                pair.name,
+                "boundary id " + std::to_string(id)
+                    + (id >= primary_side
+                           ? " is too large for a surface that touches itself; "
+                             "take one below 2^31."
+                           : " touches itself in another pair, too; make one "
+                             "pair of the two.")));
     std::vector<ContactPair<dim>> result = pairs;
     for (auto &pair : result)
     {
       if (touches_itself(pair))
       {
         if (pair.tied)
-          throw ContactError("Pair '" + pair.name
-                             + "': a surface cannot be tied to itself; give "
-                               "its two sides boundary ids of their own.");
+          throw ContactError(about_pair(
+              pair.name, "a surface cannot be tied to itself; give its two "
+                         "sides boundary ids of their own."));
         pair.primary.clear();
         for (const BoundaryId id : pair.secondary)
           pair.primary.insert(id | primary_side);
@@ -225,7 +227,7 @@ namespace abut::shim
   template <typename Function>
   void SelfContact<dim>::for_each(const Function &function) const
   {
-    std::string message;
+    Message message;
     for (const auto &pair : pairs_)
       try
       {
@@ -233,8 +235,7 @@ namespace abut::shim
       }
       catch (const dealii::ExceptionBase &error)
       {
-        const char *text = error.what();
-        message = "Pair '" + pair.name + "': " + text;
+        message = about_pair(pair.name, error.what());
         break;
       }
     throw_everywhere<ContactError>(versions::communicator(*dof_handler_),

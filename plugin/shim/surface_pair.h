@@ -10,6 +10,7 @@
 
 #include <abut/dealii/contact_examination.h>
 #include <abut/dealii/contact_pair.h>
+#include <abut/dealii/method_parameters.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,26 +66,52 @@ namespace abut::shim
   template <int dim> struct SurfacePair
   {
     ContactPair<dim> data;
-    bool moves = false; ///< its points are where the bodies are
-    bool turns = false; ///< their directions are, while partners stay
-    bool steps = false; ///< they are where these were at the last commit()
+    abut_kinematics kinematics = ABUT_KINEMATICS_REFERENCE;
+    /** Configurations that it makes points in, and that its directions and
+     * gaps refer to. */
+    abut_configuration points = ABUT_CONFIGURATION_REFERENCE;
+    abut_configuration directions = ABUT_CONFIGURATION_REFERENCE;
+
+    void set_kinematics(const abut_kinematics chosen)
+    {
+      const abut_kinematics_info info = kinematics_info(chosen);
+      kinematics = chosen;
+      points = info.points;
+      directions = info.directions;
+    }
+
+    bool has_current_points() const
+    {
+      return points == ABUT_CONFIGURATION_CURRENT;
+    }
+
+    bool has_committed_points() const
+    {
+      return points == ABUT_CONFIGURATION_COMMITTED;
+    }
 
     /** Whether its sides are somewhere else when points are made. */
     bool has_displaced_sides() const
     {
-      return moves || steps;
+      return points != ABUT_CONFIGURATION_REFERENCE;
+    }
+
+    bool has_current_directions() const
+    {
+      return directions == ABUT_CONFIGURATION_CURRENT;
+    }
+
+    /** Whether directions and gaps refer to another configuration than that
+     * in which partners are found. */
+    bool keeps_partners() const
+    {
+      return directions != points;
     }
 
     /** Whether directions and gaps are not those of the undeformed bodies. */
     bool is_displaced() const
     {
-      return has_displaced_sides() || turns;
-    }
-
-    /** Whether they are those of where the bodies are. */
-    bool is_present() const
-    {
-      return moves || turns;
+      return directions != ABUT_CONFIGURATION_REFERENCE;
     }
 
     abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
@@ -99,8 +126,8 @@ namespace abut::shim
     /** [nodes of the secondary] without a multiplier in the present rows:
      * 1 because of another pair, of_supports because of supports. */
     std::vector<std::uint8_t> dropped;
-    // As in PairResult.
-    double between_rows = 0., held_inside = 0.;
+    /** Parts of this rank, by the last examine() and check_penetration(). */
+    PairResult<dim> measured;
     double held_in_the_mean = 0.; ///< as the function
     /** The deepest node in the other body, or in an obstacle that bodies fly
      * towards, before anything is displaced. */
@@ -109,7 +136,6 @@ namespace abut::shim
     double least_extent = 0.;
     /** Known failures that it was made with all the same. */
     std::vector<ContactFinding> refused;
-    double slip = 0., gap_error = 0., missed_depth = 0.;
     dealii::Point<dim> gap_error_place;
     DirectionTurn<dim> turn;
     ObstacleWidth narrow;

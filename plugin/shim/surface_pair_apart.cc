@@ -54,7 +54,8 @@ namespace abut::shim
           {
             Pair &pair = pairs_[p];
             if (pair.data.obstacle || pair.data.tied || !has_mean_gaps(p)
-                || !pair.data.geometric_gap || (only_moving && !pair.moves))
+                || !pair.data.geometric_gap
+                || (only_moving && !pair.has_current_points()))
               continue;
             run_named(pair.data.name,
                       [&]

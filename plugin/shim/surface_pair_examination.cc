@@ -224,8 +224,9 @@ namespace abut::shim
       std::vector<Direction> normal;
       for (unsigned int a = 0; a < n_nodes; ++a)
       {
-        nodes.push_back(pair.steps ? present_[facet.node[a]]
-                                   : surface_.nodes[facet.node[a]].point);
+        nodes.push_back(pair.has_committed_points()
+                            ? present_[facet.node[a]]
+                            : surface_.nodes[facet.node[a]].point);
         normal.push_back(normal_at[facet.node[a]]);
       }
       here.peak = peak_of(obstacle, grid, nodes, normal, depth);
@@ -327,10 +328,11 @@ namespace abut::shim
     std::vector<Distances> distances(pairs_.size());
     for (Pair &pair : pairs_)
     {
-      pair.slip = pair.gap_error = pair.missed_depth = 0.;
+      PairResult<dim> &measured = pair.measured;
+      measured.slip = measured.gap_error = measured.missed_depth = 0.;
       if (!pair.data.obstacle)
         continue;
-      pair.between_rows = 0.;
+      measured.between_rows = 0.;
       find_narrow(pair, u);
     }
     for_each_component(
@@ -358,7 +360,7 @@ namespace abut::shim
           motion -= way;
           const Direction tangential =
               motion - (motion * row.direction) * row.direction;
-          pair.slip = std::max(pair.slip, tangential.norm());
+          pair.measured.slip = std::max(pair.measured.slip, tangential.norm());
           if (!pair.data.obstacle)
             return;
           Distances &looked_at = distances[row.place.pair];
@@ -393,9 +395,9 @@ namespace abut::shim
             {
               const double error =
                   std::abs(to[i] - from[i] - distances[p].expected[i]);
-              if (error <= pairs_[p].gap_error)
+              if (error <= pairs_[p].measured.gap_error)
                 continue;
-              pairs_[p].gap_error = error;
+              pairs_[p].measured.gap_error = error;
               pairs_[p].gap_error_place = distances[p].to[i];
             }
           }
@@ -403,22 +405,21 @@ namespace abut::shim
     for (const Unseen &found : unseen)
     {
       Pair &pair = pairs_[found.pair];
-      pair.between_rows = std::max(pair.between_rows, found.depth);
+      pair.measured.between_rows =
+          std::max(pair.measured.between_rows, found.depth);
       if (found.is_missed)
-        pair.missed_depth = std::max(pair.missed_depth, found.depth);
+        pair.measured.missed_depth =
+            std::max(pair.measured.missed_depth, found.depth);
     }
     for (Pair &pair : pairs_)
-      for (const auto &[error, place] :
-           MPI::all_gather(communicator_, std::make_pair(pair.gap_error,
-                                                         pair.gap_error_place)))
-        if (error > pair.gap_error)
+      for (const auto &[error, place] : MPI::all_gather(
+               communicator_,
+               std::make_pair(pair.measured.gap_error, pair.gap_error_place)))
+        if (error > pair.measured.gap_error)
         {
-          pair.gap_error = error;
+          pair.measured.gap_error = error;
           pair.gap_error_place = place;
         }
-    for (Pair &pair : pairs_)
-      for (double *value : {&pair.slip, &pair.missed_depth, &pair.between_rows})
-        *value = MPI::max(*value, communicator_);
   }
 
   template <int dim>
@@ -597,7 +598,7 @@ namespace abut::shim
     {
       const ContactPair<dim> &data = pair.data;
       if (data.obstacle || !data.geometric_gap
-          || !(pair.is_present() || data.may_be_apart))
+          || !(pair.has_current_directions() || data.may_be_apart))
         continue;
       pair.first_inside =
           deepest_inside(mapping_, dof_handler_, data.secondary, data.primary);
@@ -614,8 +615,8 @@ namespace abut::shim
       return;
     std::ostringstream place;
     place << pair.first_inside.place;
-    const std::string why = explain_no_rows(number);
-    refuse(pair, failure_of(why) == ABUT_FAILURE_OVERLAP
+    const Message why = explain_no_rows(number);
+    refuse(pair, why.failure == ABUT_FAILURE_OVERLAP
                      ? why
                      : coded(ABUT_FAILURE_OVERLAP,
                              "the bodies overlap: the node of a surface at ("

@@ -94,7 +94,8 @@ namespace abut::shim
                                      const bool of_step) const
   {
     for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if ((of_step || pairs_[p].steps) && p < committed_poses_.size())
+      if ((of_step || pairs_[p].has_committed_points())
+          && p < committed_poses_.size())
         now[p] = committed_poses_[p];
       else if (pairs_[p].data.first_pose)
         now[p] = *pairs_[p].data.first_pose;
@@ -200,7 +201,7 @@ namespace abut::shim
     FrictionalPoints result;
     for (const Pair &pair : pairs_)
       result.any = result.any || pair.data.friction != nullptr;
-    std::string message;
+    Message message;
     for (std::size_t i = 0; i < places_.size() && result.any; ++i)
     {
       const std::int32_t first = view_.component_start[i];
@@ -209,9 +210,9 @@ namespace abut::shim
       if (view_.kind[i] == ABUT_POINT_TIE || n == 1)
         continue;
       const Friction<dim> &friction = *pair.data.friction;
-      std::string wrong;
+      std::string wrong, wrong_cap;
       dealii::Point<dim> place = places_[i].position;
-      if (pair.moves) // back on the undeformed body
+      if (pair.has_current_points()) // back on the undeformed body
         for_each_secondary(i, [&](const Node node, const double c)
                            { place -= c * made_at(node); });
       result.first.push_back(first);
@@ -221,12 +222,15 @@ namespace abut::shim
       result.coefficient.push_back(coefficient);
       for (const abut_tangent kind : tangent_kinds(i))
         result.tangent.push_back(static_cast<std::uint8_t>(kind));
-      result.cap.push_back(
-          friction.cap
-              ? value_of<dim>(friction.cap, place, "largest traction", wrong)
-              : std::numeric_limits<double>::infinity());
+      result.cap.push_back(friction.cap
+                               ? value_of<dim>(friction.cap, place,
+                                               "largest traction", wrong_cap)
+                               : std::numeric_limits<double>::infinity());
       if (!wrong.empty())
-        message = "Pair '" + pair.data.name + "': " + wrong;
+        message = about_pair(pair.data.name, wrong, PairField::friction);
+      if (!wrong_cap.empty())
+        message =
+            about_pair(pair.data.name, wrong_cap, PairField::largest_friction);
     }
     throw_everywhere<ContactError>(communicator_, message);
     if (result.any)
@@ -251,7 +255,8 @@ namespace abut::shim
     for (std::size_t i = 0; i < places_.size(); ++i)
     {
       const Pair &pair = pairs_[places_[i].pair];
-      if (places_[i].node < 0 || pair.data.obstacle == nullptr || pair.moves)
+      if (places_[i].node < 0 || pair.data.obstacle == nullptr
+          || pair.has_current_points())
         continue;
       const auto [begin, end] = seen.equal_range(places_[i].node);
       for (auto other = begin; other != end; ++other)
@@ -312,12 +317,12 @@ namespace abut::shim
         continue;
       std::ostringstream text;
       text.precision(3);
-      text << "Pair '" << pairs_[p].data.name << "': its obstacle turns by "
-           << angle * 180. / M_PI
+      text << "its obstacle turns by " << angle * 180. / M_PI
            << " degrees within a load step, and friction takes the chord for "
               "the way along the surface: use load steps of at most 15 degrees "
               "(Load steps/Steps).";
-      throw ContactError(text.str());
+      throw ContactError(
+          about_pair(pairs_[p].data.name, text.str(), PairField::obstacle));
     }
   }
 
@@ -455,11 +460,9 @@ namespace abut::shim
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
       const std::size_t first = p * n_nodes;
-      const auto n_found =
-          static_cast<dealii::types::global_dof_index>(std::count(
-              found.begin() + first, found.begin() + first + n_nodes, 1));
-      results[p].n_prescribed = MPI::sum(n_found, communicator_);
-      if (n_found == 0)
+      results[p].n_prescribed =
+          std::count(found.begin() + first, found.begin() + first + n_nodes, 1);
+      if (results[p].n_prescribed == 0)
         continue;
       const auto &side = pairs_[p].secondary;
       const double *normal = nullptr;
@@ -496,9 +499,6 @@ namespace abut::shim
             results[places_[i].pair].shared_stick_force +=
                 view_.weight[i] * row_pressure[row];
         });
-    for (PairResult<dim> &result : results)
-      result.shared_stick_force =
-          MPI::sum(result.shared_stick_force, communicator_);
   }
 
   template <int dim>
@@ -536,19 +536,6 @@ namespace abut::shim
     }
     find_prescribed_nodes(row_state, results);
     find_shared_sticks(row_pressure, row_state, results);
-    for (PairResult<dim> &result : results)
-    {
-      double sums[3] = {result.normal_force, result.friction_force,
-                        result.dissipation};
-      MPI::sum(sums, communicator_, sums);
-      result.normal_force = sums[0];
-      result.friction_force = sums[1];
-      result.dissipation = sums[2];
-      result.n_slipping = MPI::sum(result.n_slipping, communicator_);
-      result.traction = MPI::max(result.traction, communicator_);
-      result.secondary_friction =
-          MPI::sum(result.secondary_friction, communicator_);
-    }
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

@@ -79,8 +79,8 @@ namespace abut::shim
     const ContactPair<dim> &data = pair.data;
     const auto refuse = [&](const std::string &of, const double depth)
     {
-      throw ContactError("Pair '" + data.name
-                         + "': " + nothing_left(data.gap, of, depth));
+      throw ContactError(about_pair(
+          data.name, nothing_left(data.gap, of, depth), PairField::gap));
     };
     if (!(data.gap > 0.) || !data.geometric_gap || data.tied)
       return;

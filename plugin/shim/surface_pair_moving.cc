@@ -14,7 +14,7 @@ namespace abut::shim
   template <int dim> bool SurfacePairRows<dim>::moves() const
   {
     for (const Pair &pair : pairs_)
-      if (pair.is_present())
+      if (pair.has_current_directions())
         return true;
     return false;
   }
@@ -57,9 +57,10 @@ namespace abut::shim
     // Lists of facets have a reach of their own; all of an obstacle is there,
     // and its interference is within reach.
     for (const Pair &pair : pairs_)
-      result.push_back(pair.data.obstacle
-                           ? motion(pair, u) + std::max(0., -pair.data.gap)
-                           : motion(pair, pair.moves ? since : u));
+      result.push_back(
+          pair.data.obstacle
+              ? motion(pair, u) + std::max(0., -pair.data.gap)
+              : motion(pair, pair.has_current_points() ? since : u));
     return result;
   }
 

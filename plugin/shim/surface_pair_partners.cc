@@ -23,7 +23,7 @@ namespace abut::shim
   template <int dim>
   bool SurfacePairRows<dim>::has_partners(const Pair &pair) const
   {
-    return pair.is_present() && pair.data.friction != nullptr
+    return pair.has_current_directions() && pair.data.friction != nullptr
            && discretisation_info(pair.discretisation).is_weighted;
   }
 

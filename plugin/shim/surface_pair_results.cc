@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What was met on pairs of surfaces, and what a solve found there.
+#include "pair_measures.h"
 #include "surface_pair_rows.h"
 
 #include "agree.h"
@@ -105,7 +106,7 @@ namespace abut::shim
   {
     Pair &pair = pairs_[number];
     if (!pair.data.obstacle)
-      return pair.is_present() ? pair.first_inside.depth : overlap;
+      return pair.has_current_directions() ? pair.first_inside.depth : overlap;
     // At rest obstacles are moved into bodies on purpose.
     if (!pair.data.may_be_apart || !pair.data.geometric_gap)
       return 0.;
@@ -137,8 +138,8 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::string SurfacePairRows<dim>::overlap_at_start(Pair &pair,
-                                                     const PairCheck &found)
+  Message SurfacePairRows<dim>::overlap_at_start(Pair &pair,
+                                                 const PairCheck &found)
   {
     const double depth = found.first_overlap;
     const bool is_large = depth > large_overlap * found.facet_size;
@@ -214,10 +215,11 @@ namespace abut::shim
                 "those of the secondary: exchange the two sides, or refine the "
                 "secondary."));
     result.first_overlap = first_overlap(number, result.overlap);
-    const std::string overlap = overlap_at_start(pair, result);
+    const Message overlap = overlap_at_start(pair, result);
     if (!overlap.empty())
       result.warnings.push_back(overlap);
-    if (!pair.data.obstacle && !pair.is_present() && result.covered_area > 0.)
+    if (!pair.data.obstacle && !pair.has_current_directions()
+        && result.covered_area > 0.)
     {
       // Of graded meshes the smallest facets are likely to be those that meet.
       const double smallest =
@@ -240,7 +242,7 @@ namespace abut::shim
               + " degrees at a node in the contact zone: normals and gaps "
                 "there are those of a polygon, and so are the pressures. "
                 "Refine the surface, or leave the corner out of the pair."));
-    const bool may_come_near = pair.moves && !pair.data.obstacle;
+    const bool may_come_near = pair.has_current_points() && !pair.data.obstacle;
     if (result.n_rows == 0 && (pair.data.may_be_apart || may_come_near))
     {
       checks_.push_back(result);
@@ -271,7 +273,7 @@ namespace abut::shim
       result.warnings.push_back(explain_no_rows(number));
     // Nodes that supports prescribe have no rows, whatever is near them.
     if (result.n_rows == 0
-        && failure_of(result.warnings.back()) == ABUT_FAILURE_NO_PARTNER
+        && result.warnings.back().failure == ABUT_FAILURE_NO_PARTNER
         && is_prescribed(pair))
       result.warnings.back() =
           coded(ABUT_FAILURE_HELD_NODES,
@@ -284,12 +286,12 @@ namespace abut::shim
     // configuration of bodies stays as it is.
     if (result.n_rows == 0 && !pair.data.obstacle)
       refuse(pairs_[number], result.warnings.back());
-    std::vector<std::string> &said = checks_.back().warnings;
+    std::vector<Message> &said = checks_.back().warnings;
     for (const ContactFinding &refused : pair.refused)
       if (std::none_of(said.begin(), said.end(),
-                       [&](const std::string &warning)
-                       { return failure_of(warning) == refused.failure; }))
-        said.push_back(refused.text);
+                       [&](const Message &warning)
+                       { return warning.failure == refused.failure; }))
+        said.push_back(refused.message());
   }
 
   template <int dim>
@@ -299,21 +301,17 @@ namespace abut::shim
                                 const std::uint8_t *row_state) const
   {
     std::vector<PairResult<dim>> results(pairs_.size());
+    constexpr double none = std::numeric_limits<double>::infinity();
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
+      results[p] = pairs_[p].measured;
       results[p].name = pairs_[p].data.name;
-      results[p].between_rows = pairs_[p].between_rows;
-      results[p].held_inside = pairs_[p].held_inside;
-      results[p].slip = pairs_[p].slip;
-      results[p].gap_error = pairs_[p].gap_error;
-      results[p].missed_depth = pairs_[p].missed_depth;
+      results[p].least_pressure = none;
       const Turn &turn = pairs_[p].turn;
       results[p].turn = turn.force > 0. ? turn.sum / turn.force : 0.;
       results[p].largest_turn = turn.largest;
       results[p].turned_force = turn.change;
     }
-    const double none = std::numeric_limits<double>::infinity();
-    std::vector<double> least(pairs_.size(), none);
     for_each_component(
         [&](const Component &row)
         {
@@ -340,15 +338,14 @@ namespace abut::shim
             result.largest_tension =
                 std::max(result.largest_tension, -row_pressure[i]);
             if (is_closed)
-              least[row.place.pair] =
-                  std::min(least[row.place.pair], row_pressure[i]);
+              result.least_pressure =
+                  std::min(result.least_pressure, row_pressure[i]);
           }
           // Of points that move the gaps at displacement 0 are none.
           if (row.place.hessian.empty())
             result.initial_gap_work += weight * row_pressure[i] * view_.gap[i];
         });
     const bool is_examined = examined_.size() == surface_.nodes.size();
-    std::vector<Tensor<1, 3>> primary_now(pairs_.size());
     for_each_row(
         [&](const Component &row)
         {
@@ -378,34 +375,23 @@ namespace abut::shim
                                             result.present_moment));
           for_each_primary(row.point,
                            add(result.primary_force, result.primary_moment,
-                               primary_now[row.place.pair]));
+                               result.present_primary_moment));
         });
+    if (std::any_of(pairs_.begin(), pairs_.end(),
+                    [](const Pair &pair)
+                    { return pair.data.friction != nullptr; }))
+      add_friction(row_pressure, row_gap, row_state, results);
+    reduce(results, communicator_);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
       PairResult<dim> &result = results[p];
-      result.n_rows = MPI::sum(result.n_rows, communicator_);
-      result.n_active = MPI::sum(result.n_active, communicator_);
-      result.covered_area = MPI::sum(result.covered_area, communicator_);
-      result.contact_area = MPI::sum(result.contact_area, communicator_);
-      result.penetration = MPI::max(result.penetration, communicator_);
-      result.pressure = MPI::max(result.pressure, communicator_);
-      result.largest_tension = MPI::max(result.largest_tension, communicator_);
-      least[p] = MPI::min(least[p], communicator_);
-      result.least_pressure = least[p] < none ? least[p] : 0.;
-      result.initial_gap_work =
-          MPI::sum(result.initial_gap_work, communicator_);
-      result.secondary_force = MPI::sum(result.secondary_force, communicator_);
-      result.primary_force = MPI::sum(result.primary_force, communicator_);
-      result.secondary_moment =
-          MPI::sum(result.secondary_moment, communicator_);
-      result.primary_moment = MPI::sum(result.primary_moment, communicator_);
-      result.present_moment = MPI::sum(result.present_moment, communicator_);
-      primary_now[p] = MPI::sum(primary_now[p], communicator_);
+      if (result.least_pressure == none)
+        result.least_pressure = 0.;
       if (pairs_[p].data.obstacle)
       {
         result.primary_force = -result.secondary_force;
         result.primary_moment = -result.secondary_moment;
-        primary_now[p] = -result.present_moment;
+        result.present_primary_moment = -result.present_moment;
       }
       const double force = result.secondary_force.norm();
       if (force > 0.)
@@ -416,7 +402,8 @@ namespace abut::shim
         result.moment_imbalance =
             (result.secondary_moment + result.primary_moment).norm() / size;
         result.present_moment_imbalance =
-            (result.present_moment + primary_now[p]).norm() / size;
+            (result.present_moment + result.present_primary_moment).norm()
+            / size;
       }
     }
     return results;

@@ -119,13 +119,13 @@ namespace abut::shim
     Pair pair;
     pair.data = data;
     const abut_law &law = *settings_.method.options.law;
-    const Sliding sliding = settings_.method.sliding;
-    pair.moves = sliding == Sliding::large && !data.tied;
-    pair.turns = sliding == Sliding::turn && !data.tied;
-    pair.steps = sliding == Sliding::step && !data.tied;
+    const abut_kinematics kinematics =
+        settings_.method.kinematics.value_or(ABUT_KINEMATICS_REFERENCE);
+    if (!data.tied)
+      pair.set_kinematics(kinematics);
     pair.discretisation = settings_.method.discretisation.value_or(
         automatic_discretisation(law, data.obstacle != nullptr));
-    const std::string reason =
+    const Message reason =
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
       refuse(pair, reason);
@@ -144,7 +144,8 @@ namespace abut::shim
                     + ". Use one of these, or give its two sides boundary ids "
                       "of their own.";
     if (!no_friction.empty())
-      throw ContactError("Pair '" + data.name + "': " + no_friction);
+      throw ContactError(
+          about_pair(data.name, no_friction, PairField::friction));
     for (const Pair &other : pairs_)
       if (are_the_same(data, other.data))
         refuse(pair, "some of its surface touches what it touches in pair '"
@@ -163,26 +164,26 @@ namespace abut::shim
                            "lagrangian."));
     pair.reach = data.reach;
     const std::string fixed =
-        data.tied
-            ? ""
-            : sliding_refusal(sliding, law, pair.discretisation,
-                              {data.obstacle != nullptr, data.geometric_gap});
+        data.tied ? ""
+                  : kinematics_refusal(
+                      kinematics, law, pair.discretisation,
+                      {data.obstacle != nullptr, data.geometric_gap});
     if (!fixed.empty())
-      throw ContactError("Pair '" + data.name + "': " + fixed);
+      throw ContactError(about_pair(data.name, fixed));
     pairs_.push_back(std::move(pair));
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::refuse(Pair &pair, const std::string &text) const
+  void SurfacePairRows<dim>::refuse(Pair &pair, const Message &message) const
   {
-    const abut_failure failure = failure_of(text);
+    const abut_failure failure = message.failure;
     if (!settings_.method.solve_known_failures || failure == ABUT_FAILURE_NONE)
-      throw ContactError("Pair '" + pair.data.name + "': " + text);
+      throw ContactError(about_pair(pair.data.name, message));
     const bool is_noted = std::any_of(pair.refused.begin(), pair.refused.end(),
                                       [&](const ContactFinding &each)
                                       { return each.failure == failure; });
     if (!is_noted)
-      pair.refused.push_back({failure, true, text});
+      pair.refused.push_back({failure, true, message.text});
   }
 
   template <int dim>
@@ -190,7 +191,7 @@ namespace abut::shim
   {
     const auto &data = pair.data;
     const auto refuse = [&](const std::string &what)
-    { throw ContactError("Pair '" + data.name + "': " + what); };
+    { throw ContactError(about_pair(data.name, what)); };
     if (data.obstacle && !data.primary.empty())
       refuse("it has both a primary surface and an obstacle; leave one out.");
     if (!data.obstacle && data.primary.empty())
@@ -233,7 +234,8 @@ namespace abut::shim
         static_cast<std::int32_t>(settings_.method.quadrature_degree);
     options.segments = settings_.method.segments;
     options.axisymmetric = settings_.axisymmetric;
-    options.interpolated_gaps = !pair.steps || pair.data.obstacle != nullptr;
+    options.interpolated_gaps =
+        !pair.has_committed_points() || pair.data.obstacle != nullptr;
     options.normal_cosine = settings_.search.detection.normal_cosine;
     options.search = settings_.search.detection.search;
     options.search.reach = std::max(options.search.reach, pair.data.reach);
@@ -325,16 +327,17 @@ namespace abut::shim
     nodes.hanging_weight = side.hanging_weight.data();
     const abut_status status =
         abut_coupling_build(coupling, &nodes, motion, &target);
-    std::string message;
+    Message message;
     if (status != ABUT_SUCCESS)
     {
       const bool of_obstacle =
           pair.data.obstacle
           && (status == ABUT_CALLBACK_FAILED || status == ABUT_NOT_FINITE);
-      message =
-          "Pair '" + pair.data.name + "': "
-          + (of_obstacle ? "its obstacle: " + pair.data.obstacle->failure()
-                         : message_of(context_, status));
+      message = about_pair(
+          pair.data.name,
+          of_obstacle ? "its obstacle: " + pair.data.obstacle->failure()
+                      : message_of(context_, status),
+          of_obstacle ? PairField::obstacle : PairField::surfaces);
     }
     throw_everywhere<ContactError>(communicator_, message);
   }
@@ -394,15 +397,20 @@ namespace abut::shim
     target.gap = pair.data.gap;
     target.tangents = pair.data.friction != nullptr;
     target.flush = !pair.data.geometric_gap;
-    std::vector<double> place, of_primary;
-    if (pair.is_displaced())
-      place = places_of(side.node, pair.turns ? present_ : reference_);
-    if (pair.turns)
-      of_primary = places_of(pair.primary.node, present_);
-    target.reference = pair.moves ? place.data() : nullptr;
-    target.areas = pair.steps ? place.data() : nullptr;
-    target.present = pair.turns ? place.data() : nullptr;
-    target.present_primary = pair.turns ? of_primary.data() : nullptr;
+    target.kinematics = pair.kinematics;
+    std::vector<double> reference, current, current_primary;
+    if (pair.has_displaced_sides())
+    {
+      reference = places_of(side.node, reference_);
+      target.reference = reference.data();
+    }
+    else if (pair.keeps_partners())
+    {
+      current = places_of(side.node, present_);
+      current_primary = places_of(pair.primary.node, present_);
+      target.current = current.data();
+      target.current_primary = current_primary.data();
+    }
     build(pair, pair.coupling.get(), dropped, motion, target);
 
     abut_coupling_view view;
@@ -417,7 +425,7 @@ namespace abut::shim
         place.position[d] = view.position[i * dim + d];
       places_.push_back(place);
     }
-    if (pair.is_present())
+    if (pair.has_current_directions())
       take_hessians(pair, view);
     if (pair.is_displaced())
       check(context_,
@@ -576,8 +584,9 @@ namespace abut::shim
   {
     // Against obstacles, where they move, and if they are told so, points are
     // those of a rule over the whole facet.
-    return !discretisation_info(pair.discretisation).row_per_point || pair.moves
-           || pair.data.obstacle != nullptr || !settings_.method.segments;
+    return !discretisation_info(pair.discretisation).row_per_point
+           || pair.has_current_points() || pair.data.obstacle != nullptr
+           || !settings_.method.segments;
   }
 
   template <int dim>

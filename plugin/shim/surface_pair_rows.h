@@ -220,7 +220,7 @@ namespace abut::shim
     /** [rows] pair of each row. */
     std::vector<int> row_pairs() const;
 
-    /** Whether points of a pair are made step by step (Sliding::step). */
+    /** Whether points of a pair are made step by step (updated kinematics). */
     bool has_steps() const;
 
     /** Let facets be known that are near each other at @p displacement, so
@@ -269,7 +269,7 @@ namespace abut::shim
 
     /** Where the bodies were at the last commit() (owned; empty: nothing has
      * moved), which must outlive its use here: find() makes the points of
-     * Sliding::step there. */
+     * updated kinematics there. */
     void set_place(const la::Vector &committed)
     {
       committed_ = &committed;
@@ -572,7 +572,7 @@ namespace abut::shim
 
     /** Throws ContactError with the text; if it is a known failure that is to
      * be measured, it is noted in place of that. */
-    void refuse(Pair &pair, const std::string &text) const;
+    void refuse(Pair &pair, const Message &message) const;
 
     void create_pair(const ContactPair<dim> &data);
     /** First unknowns of the nodes that points refer to. */
@@ -611,7 +611,7 @@ namespace abut::shim
     /** Displacement of the last commit(); empty: 0, or not known. */
     const la::Vector &last_commit() const;
     void renew(const la::Vector *place);
-    std::string explain_no_rows(std::size_t pair);
+    Message explain_no_rows(std::size_t pair);
     /** Whether supports prescribe the displacement along the normal of all
      * nodes of the secondary. Collective. */
     bool is_prescribed(const Pair &pair) const;
@@ -727,7 +727,7 @@ namespace abut::shim
      * Collective. */
     double first_overlap(std::size_t pair, double overlap);
     /** What to say of it, or nothing. Collective. */
-    std::string overlap_at_start(Pair &pair, const PairCheck &found);
+    Message overlap_at_start(Pair &pair, const PairCheck &found);
     void make_check(std::size_t pair, unsigned int n_dropped);
     la::Vector field() const;
     /** Pairs with rows at quadrature points, and these rows. Collective. */

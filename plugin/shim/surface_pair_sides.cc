@@ -332,19 +332,22 @@ namespace abut::shim
   void SurfacePairRows<dim>::check_displacements(
       const std::vector<Direction> &u) const
   {
-    std::ostringstream message;
+    Message message;
     for (const Pair &pair : pairs_)
       for (const auto *side : {&pair.secondary, &pair.primary})
         for (const Node node : side->node)
-          if (!std::isfinite(u[node].norm_square()) && message.tellp() == 0)
-            message << "Pair '" << pair.data.name << "': "
-                    << coded(ABUT_FAILURE_NOT_FINITE,
-                             "the displacement of the node at (")
-                    << surface_.nodes[node].point
-                    << ") is infinite or not a number. Look for loads, "
-                       "supports and stiffnesses that are not finite, or off "
-                       "by many powers of ten.";
-    throw_everywhere<ContactError>(communicator_, message.str());
+          if (!std::isfinite(u[node].norm_square()) && message.empty())
+          {
+            std::ostringstream text;
+            text << "the displacement of the node at ("
+                 << surface_.nodes[node].point
+                 << ") is infinite or not a number. Look for loads, supports "
+                    "and stiffnesses that are not finite, or off by many "
+                    "powers of ten.";
+            message = about_pair(pair.data.name,
+                                 coded(ABUT_FAILURE_NOT_FINITE, text.str()));
+          }
+    throw_everywhere<ContactError>(communicator_, message);
   }
 
   template <int dim> const la::Vector &SurfacePairRows<dim>::last_commit() const
@@ -436,7 +439,7 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::string SurfacePairRows<dim>::explain_no_rows(const std::size_t number)
+  Message SurfacePairRows<dim>::explain_no_rows(const std::size_t number)
   {
     // Nothing but this message needs facets from so far.
     Pair &pair = pairs_[number];
@@ -471,7 +474,7 @@ namespace abut::shim
       const std::vector<Direction> &) const;                                   \
   template std::vector<dealii::Tensor<1, dim>>                                 \
   SurfacePairRows<dim>::displacements_in_reach(const la::Vector &);            \
-  template std::string SurfacePairRows<dim>::explain_no_rows(std::size_t);
+  template Message SurfacePairRows<dim>::explain_no_rows(std::size_t);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

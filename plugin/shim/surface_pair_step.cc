@@ -46,7 +46,8 @@ namespace abut::shim
   template <int dim> bool SurfacePairRows<dim>::has_steps() const
   {
     return std::any_of(pairs_.begin(), pairs_.end(),
-                       [](const Pair &pair) { return pair.steps; });
+                       [](const Pair &pair)
+                       { return pair.has_committed_points(); });
   }
 
   template <int dim>
@@ -84,14 +85,15 @@ namespace abut::shim
     if (!has_steps())
       return true;
     const std::vector<Direction> way = way_since(place);
-    return std::all_of(
-        pairs_.begin(), pairs_.end(),
-        [&](const Pair &pair)
-        {
-          const double facet = std::min(pair.secondary.everywhere.smallest,
-                                        pair.primary.everywhere.smallest);
-          return !pair.steps || motion(pair, way) <= skin * facet;
-        });
+    return std::all_of(pairs_.begin(), pairs_.end(),
+                       [&](const Pair &pair)
+                       {
+                         const double facet =
+                             std::min(pair.secondary.everywhere.smallest,
+                                      pair.primary.everywhere.smallest);
+                         return !pair.has_committed_points()
+                                || motion(pair, way) <= skin * facet;
+                       });
   }
 
   template <int dim>
@@ -128,11 +130,15 @@ namespace abut::shim
     const Pair &pair = pairs_[row.place.pair];
     // A turn of both sides is no slip: by places, which have been opposite each
     // other.
-    if (pair.turns)
+    if (pair.keeps_partners())
       return apart(row.point, u);
     Direction way;
     const auto add = [&](const Node node, const double c)
-    { way += c * (u[node] - (pair.steps ? made_at(node) : Direction())); };
+    {
+      way += c
+             * (u[node]
+                - (pair.has_committed_points() ? made_at(node) : Direction()));
+    };
     for_each_secondary(row.point, add);
     for_each_primary(row.point, add);
     return way;
@@ -146,8 +152,8 @@ namespace abut::shim
     std::vector<StepMotion> result(pairs_.size());
     const auto stays = [](const Pair &pair)
     {
-      return !pair.moves && !pair.steps && !pair.data.tied
-             && !pair.data.obstacle;
+      return !pair.has_current_points() && !pair.has_committed_points()
+             && !pair.data.tied && !pair.data.obstacle;
     };
     if (!has_steps() && std::none_of(pairs_.begin(), pairs_.end(), stays))
       return result;
@@ -160,14 +166,14 @@ namespace abut::shim
         [&](const Component &row)
         {
           const std::size_t p = row.place.pair;
-          if ((!pairs_[p].steps && !stays(pairs_[p]))
+          if ((!pairs_[p].has_committed_points() && !stays(pairs_[p]))
               || row_state[row.row] == ABUT_STATE_OPEN)
             return;
           const Direction motion = way_of_partners(row, u);
           const Direction n = row.direction / row.direction.norm();
           result[p].slip =
               std::max(result[p].slip, (motion - (motion * n) * n).norm());
-          if (!pairs_[p].steps)
+          if (!pairs_[p].has_committed_points())
             return;
           const auto mark = [&](const Node node, double)
           { marked[p][node] = 1; };
@@ -189,7 +195,7 @@ namespace abut::shim
             {
               motion.facet = std::min(pair.secondary.everywhere.median,
                                       pair.primary.everywhere.median);
-              if (pair.steps)
+              if (pair.has_committed_points())
                 for (const auto *side : {&pair.secondary, &pair.primary})
                   motion.turn = std::max(
                       motion.turn, largest_turn_of(*side, marked[p], way));

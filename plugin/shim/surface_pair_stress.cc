@@ -150,9 +150,9 @@ namespace abut::shim
               static_cast<std::int32_t>(stencil.node.size()),
               stencil.node.data(), stencil.coefficient.data());
           if (status != ABUT_SUCCESS)
-            throw ContactError("Pair '" + pairs_[places_[i].pair].data.name
-                               + "': the stress of a body: "
-                               + message_of(context_, status));
+            throw ContactError(about_pair(pairs_[places_[i].pair].data.name,
+                                          "the stress of a body: "
+                                              + message_of(context_, status)));
         }
     }
     return nodes.map();

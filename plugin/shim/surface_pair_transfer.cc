@@ -21,7 +21,7 @@ namespace abut::shim
       if (pair.data.obstacle)
         continue;
       std::optional<DisplacedSides<dim>> displaced;
-      if (pair.moves)
+      if (pair.has_current_points())
         displaced.emplace(context_, pair.secondary, pair.primary, reference_,
                           present_);
       // The first unknown of a node stands for it.
@@ -33,13 +33,14 @@ namespace abut::shim
       const Handle<abut_points> points = create_points(context_, dim);
       abut_coupling_target target = abut_coupling_target_defaults(points.get());
       std::vector<double> reference;
-      if (pair.moves) // as the rows are weighed, and where there are any
+      // As the rows are weighed, and where there are any.
+      if (pair.has_current_points())
       {
         reference = places_of(pair.secondary.node, reference_);
-        target.reference = discretisation_info(pair.discretisation).is_weighted
-                               ? reference.data()
-                               : nullptr;
-        target.areas = target.reference == nullptr ? reference.data() : nullptr;
+        target.reference = reference.data();
+        target.kinematics = discretisation_info(pair.discretisation).is_weighted
+                                ? pair.kinematics
+                                : ABUT_KINEMATICS_UPDATED;
       }
       target.secondary_node = pair.secondary.node.data();
       target.primary_node = pair.primary.node.data();

@@ -644,12 +644,13 @@ namespace abut::solve
 
   void FloatingBodies::fail_slipping(const Combination &free) const
   {
-    throw SolverFailure(coded(
-        ABUT_FAILURE_FREE_SLIDING,
-        "Friction does not hold the bodies: " + describe(free)
-            + " once its contacts slip. Support the body in that direction, "
-              "load it less along the surface, or give the pair a larger "
-              "coefficient of friction."));
+    throw_failure(free,
+                  coded(ABUT_FAILURE_FREE_SLIDING,
+                        "Friction does not hold the bodies: " + describe(free)
+                            + " once its contacts slip. Support the body "
+                              "in that direction, load it less along the "
+                              "surface, or give the pair a larger "
+                              "coefficient of friction."));
   }
 
   void FloatingBodies::fail(const std::vector<Combination> &free,
@@ -667,6 +668,13 @@ namespace abut::solve
          << ". Support the body in that direction (contact without friction "
             "holds it along the normal only), "
          << or_else << '.';
-    throw SolverFailure(coded(ABUT_FAILURE_FLOATING_BODY, text.str()));
+    throw_failure(free[0], coded(ABUT_FAILURE_FLOATING_BODY, text.str()));
+  }
+
+  void FloatingBodies::throw_failure(const Combination &free,
+                                     Message message) const
+  {
+    message.body = static_cast<int>(body(free));
+    throw SolverFailure(message);
   }
 } // namespace abut::solve

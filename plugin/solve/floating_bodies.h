@@ -7,6 +7,8 @@
 #include "point_operator.h"
 #include "stiffness.h"
 
+#include <abut/dealii/coded.h>
+
 #include <abut/dealii/contact_examination.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -121,6 +123,10 @@ namespace abut::solve
 
     /** The body and its motion, as "body 1 can rotate about (0, 1)". */
     std::string describe(const Combination &combination) const;
+
+    /** Throw the message, with the body that the motion is of. */
+    [[noreturn]] void throw_failure(const Combination &free,
+                                    Message message) const;
 
     /** Throw SolverFailure F12: the first of these motions is free in the
      * presence of @p n_rows rows. */

@@ -29,6 +29,7 @@ rebuild(moving *m)
   require(abut_surface_update(m->c.primary, m->x + m->dim * m->n_secondary));
   require(abut_points_clear(m->c.points));
   abut_coupling_target target = abut_coupling_target_defaults(m->c.points);
+  target.kinematics = ABUT_KINEMATICS_CURRENT;
   target.reference = m->reference;
   target.tangents = true;
   require(abut_coupling_build(m->c.coupling, NULL, 0., &target));
@@ -427,6 +428,7 @@ check_skin(abut_discretisation discretisation, abut_search_algorithm algorithm)
       place[3 * i + 2] = 0.002 * sin(20. * x[0] + 0.1 * k);
     }
     abut_coupling_target target = abut_coupling_target_defaults(NULL);
+    target.kinematics = ABUT_KINEMATICS_CURRENT;
     target.reference = secondary.position;
     couple *both[2] = {&exact, &listed};
     for (int c = 0; c < 2; ++c)

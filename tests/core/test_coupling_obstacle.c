@@ -369,6 +369,7 @@ build_moving(couple *c, const double *x, const double *reference)
   require(abut_surface_update(c->secondary, x));
   require(abut_points_clear(c->points));
   abut_coupling_target target = abut_coupling_target_defaults(c->points);
+  target.kinematics = ABUT_KINEMATICS_CURRENT;
   target.reference = reference;
   require(abut_coupling_build(c->coupling, NULL, 10., &target));
 }
@@ -520,6 +521,7 @@ test_not_moving(void **state)
                                     : ABUT_DISCRETISATION_NODE_TO_SEGMENT;
     couple c = couple_obstacle(&s, o, &options);
     abut_coupling_target target = abut_coupling_target_defaults(c.points);
+    target.kinematics = ABUT_KINEMATICS_CURRENT;
     target.reference = x;
     target.tie_axes = k == 1;
     assert_int_equal(abut_coupling_build(c.coupling, NULL, 0., &target),

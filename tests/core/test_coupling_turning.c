@@ -41,12 +41,14 @@ rebuild(moving *m)
   {
     require(abut_surface_update(m->c.secondary, m->x));
     require(abut_surface_update(m->c.primary, primary));
+    target.kinematics = ABUT_KINEMATICS_CURRENT;
     target.reference = m->reference;
   }
   else
   {
-    target.present = m->x;
-    target.present_primary = primary;
+    target.kinematics = ABUT_KINEMATICS_COROTATIONAL;
+    target.current = m->x;
+    target.current_primary = primary;
   }
   require(abut_coupling_build(m->c.coupling, NULL, 0., &target));
   m->view.struct_size = sizeof(m->view);
@@ -370,14 +372,18 @@ test_refusals(void **state)
   const scene_mesh primary = {2, 6, 5, ABUT_FACET_LINE2, x_long, up},
                    secondary = {2, 5, 4, ABUT_FACET_LINE2, y_short, down};
   start(&m, &secondary, &primary, ABUT_DISCRETISATION_DUAL_MORTAR, FOLLOWS);
-  for (int k = 0; k < 4; ++k)
+  for (int k = 0; k < 7; ++k)
   {
     abut_coupling_target target = abut_coupling_target_defaults(m.c.points);
-    target.reference = k != 1 ? m.reference : NULL;
+    target.kinematics = k == 1 || k == 2 ? ABUT_KINEMATICS_COROTATIONAL
+                        : k == 4         ? ABUT_KINEMATICS_REFERENCE
+                        : k == 5         ? ABUT_KINEMATICS_UPDATED
+                        : k == 6         ? ABUT_KINEMATICS_N
+                                         : ABUT_KINEMATICS_CURRENT;
+    target.reference = k != 1 && k != 5 ? m.reference : NULL;
     target.tie_axes = k == 0;
-    target.present = k == 1 || k == 2 ? m.x : NULL;
-    target.present_primary = k == 2 ? m.x : NULL;
-    target.areas = k == 3 ? m.reference : NULL;
+    target.current = k == 1 || k == 2 || k == 3 ? m.x : NULL;
+    target.current_primary = k == 2 || k == 3 ? m.x : NULL;
     assert_int_equal(abut_coupling_build(m.c.coupling, NULL, 0., &target),
                      ABUT_INVALID_ARGUMENT);
   }

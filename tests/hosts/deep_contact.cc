@@ -298,7 +298,7 @@ namespace
       MethodParameters method;
       method.options.law = abut_law_find(settings.law.c_str());
       method.discretisation = settings.discretisation;
-      method.sliding = Sliding::large;
+      method.kinematics = ABUT_KINEMATICS_CURRENT;
       SolverParameters solver;
       solver.linear = SolverParameters::Linear::direct;
       ContactPair<dim> pair;

@@ -83,7 +83,7 @@ namespace
         expect(result.converged(), "the right sign: " + result.explanation);
       else
         expect(result.reason == NewtonReason::unbalanced
-                   && result.failure == ABUT_FAILURE_UNBALANCED
+                   && result.explanation.failure == ABUT_FAILURE_UNBALANCED
                    && result.explanation.find("sign") != std::string::npos,
                "the wrong sign: " + result.explanation);
       // The same for those with a loop of their own.

@@ -401,7 +401,7 @@ namespace
     method.system = System::saddle_point;
     expect_need("Method/System = saddle point", method);
     method = MethodParameters();
-    method.sliding = Sliding::large;
+    method.kinematics = ABUT_KINEMATICS_CURRENT;
     expect_need("Contact at points that move (Method/Sliding)", method);
     SolverParameters solver;
     solver.linear = SolverParameters::Linear::direct;

@@ -113,7 +113,7 @@ namespace
 
       // contact
       abut::MethodParameters method;
-      method.sliding = abut::Sliding::large;
+      method.kinematics = ABUT_KINEMATICS_CURRENT;
       abut::SolverParameters solver;
       solver.linear = abut::SolverParameters::Linear::direct;
       abut::ContactPair<dim> pair;

@@ -14,8 +14,8 @@ LAWS = re.compile(r"^(include/abut/(user_)?law\.h|plugin/core/law/.*"
                   r"|plugin/core/strategy/outer_table\.c|plugin/shim/user_law\.cc)$")
 FLAG = re.compile(r"\bABUT_(OUTER_[A-Z]|LAW_(HARD|INTERIOR|SLACK|STRESS))")
 # Comparisons with one entry of a table.
-COMPARED = re.compile(r"[=!]=\s*ABUT_(DISCRETISATION|OUTER)_(?!N\b)[A-Z]"
-                      r"|case ABUT_(DISCRETISATION|OUTER)_")
+COMPARED = re.compile(r"[=!]=\s*ABUT_(DISCRETISATION|KINEMATICS|OUTER)_(?!N\b)[A-Z]"
+                      r"|case ABUT_(DISCRETISATION|KINEMATICS|OUTER)_")
 
 
 def sources():

@@ -4,43 +4,157 @@
 
 #include <abut/failure.h>
 
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace abut
 {
+  /** Data of a pair that a message is about. */
+  enum class PairField
+  {
+    surfaces,
+    obstacle,
+    upper_obstacle, /**< of nodal obstacles */
+    gap,
+    friction,        /**< the coefficient, or friction as such */
+    largest_friction /**< the largest traction */
+  };
+
+  /** A message: the known failure, and the pair, its field and the body that it
+   * is about, as data, and the text for the user. Programs ask the data, never
+   * the text. */
+  struct Message
+  {
+    abut_failure failure = ABUT_FAILURE_NONE;
+    std::string text; /**< begins with the code of coded() */
+    std::string pair; /**< name; empty: none */
+    PairField field = PairField::surfaces;
+    int body = -1; /**< number from 0 of a body without support */
+
+    Message() = default;
+
+    Message(std::string words) // NOLINT(google-explicit-constructor)
+        : text(std::move(words))
+    {
+    }
+
+    Message(const char *words) // NOLINT(google-explicit-constructor)
+        : text(words)
+    {
+    }
+
+    operator std::string() const // NOLINT(google-explicit-constructor)
+    {
+      return text;
+    }
+
+    bool empty() const
+    {
+      return text.empty();
+    }
+
+    /** The same data with more text. */
+    friend Message operator+(Message message, const std::string &more)
+    {
+      message.text += more;
+      return message;
+    }
+
+    friend Message operator+(Message message, const char *more)
+    {
+      message.text += more;
+      return message;
+    }
+
+    friend Message operator+(const std::string &before, Message message)
+    {
+      message.text = before + message.text;
+      return message;
+    }
+
+    template <class Archive> void serialize(Archive &archive, unsigned int)
+    {
+      archive &failure &text &pair &field &body;
+    }
+  };
+
   /** A message about a known failure, with its code in front: `ABUT-F06: text`.
    * The text alone for ABUT_FAILURE_NONE. */
-  inline std::string coded(const abut_failure failure, const std::string &text)
+  inline Message coded(const abut_failure failure, const std::string &text)
   {
     const abut_failure_entry *entry = abut_failure_get(failure);
-    return entry == nullptr ? text : entry->code + (": " + text);
+    Message message(entry == nullptr ? text : entry->code + (": " + text));
+    message.failure = failure;
+    return message;
   }
 
-  /** The failure whose code the message begins with, or ABUT_FAILURE_NONE. */
-  inline abut_failure failure_of(const std::string &message)
+  /** The message without the code that coded() has put in front. */
+  inline std::string uncoded(const Message &message)
   {
-    for (int i = 0; abut_failure_at(i) != nullptr; ++i)
-      if (message.rfind(abut_failure_at(i)->code, 0) == 0)
-        return abut_failure_at(i)->failure;
-    return ABUT_FAILURE_NONE;
+    const std::string code = coded(message.failure, "").text;
+    return message.text.substr(
+        message.text.compare(0, code.size(), code) == 0 ? code.size() : 0);
   }
 
-  /** The message without the code that it may begin with. */
-  inline std::string uncoded(const std::string &message)
+  /** The message with @p subject in front of its text, and behind its code if
+   * it has one: `ABUT-F11: Pair 1: text`. */
+  inline Message about(const std::string &subject, Message message)
   {
-    const bool has_code = message.rfind("ABUT-F", 0) == 0;
-    return message.substr(has_code ? std::string("ABUT-F00: ").size() : 0);
+    message.text =
+        coded(message.failure, subject + ": " + uncoded(message)).text;
+    return message;
   }
 
-  /** The message with what it is about in front of its text, and behind its
-   * code if it has one: `ABUT-F11: Pair 1: text`. */
-  inline std::string about(const std::string &subject,
-                           const std::string &message)
+  /** A message about a pair: `Pair 'name': text`. The field is that of
+   * @p message unless another one is given. */
+  inline Message about_pair(const std::string &name, const Message &message,
+                            const PairField field = PairField::surfaces)
   {
-    const std::string text = uncoded(message);
-    return message.substr(0, message.size() - text.size()) + subject + ": "
-           + text;
+    Message result = "Pair '" + name + "': " + message;
+    result.pair = name;
+    if (field != PairField::surfaces)
+      result.field = field;
+    return result;
   }
+
+  /** The message without what about_pair() has put in front. */
+  inline Message without_pair(Message message)
+  {
+    const std::string front = "Pair '" + message.pair + "': ";
+    if (message.text.compare(0, front.size(), front) == 0)
+      message.text.erase(0, front.size());
+    return message;
+  }
+
+  /** An error with the data of its message. */
+  class MessageError : public std::runtime_error
+  {
+  public:
+    MessageError(Message message) // NOLINT(google-explicit-constructor)
+        : std::runtime_error(message.text), message_(std::move(message))
+    {
+    }
+
+    MessageError(const std::string &text) // NOLINT(google-explicit-constructor)
+        : MessageError(Message(text))
+    {
+    }
+
+    MessageError(const char *text) // NOLINT(google-explicit-constructor)
+        : MessageError(Message(text))
+    {
+    }
+
+    /** Failure, pair and field. */
+    const Message &message() const
+    {
+      return message_;
+    }
+
+  private:
+    Message message_;
+  };
 } // namespace abut
 
 #endif

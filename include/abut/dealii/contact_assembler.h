@@ -82,10 +82,10 @@ namespace abut
 
   /** An obstacle that no displacement can respect, or that is not a number:
    * the message says where. Thrown on all ranks. */
-  class ObstacleError : public std::runtime_error
+  class ObstacleError : public MessageError
   {
   public:
-    using std::runtime_error::runtime_error;
+    using MessageError::MessageError;
   };
 
   /** A history of contact that cannot be read or written, or belongs to another
@@ -250,11 +250,11 @@ namespace abut
      * HistoryError for streams of anything else. Collective. */
     virtual void load_preconditioner(std::istream &stream);
 
-    /** Tell what slips are measured from, and where points of Sliding::step are
-     * made, on a new mesh: the displacement of the last commit(), with
-     * prescribed values as they were then, brought to this mesh. Needed after
-     * reinit() for pairs with friction and for Sliding::step only, and after
-     * load(). Collective. */
+    /** Tell what slips are measured from, and where points of updated
+     * kinematics are made, on a new mesh: the displacement of the last
+     * commit(), with prescribed values as they were then, brought to this mesh.
+     * Needed after reinit() for pairs with friction and for updated kinematics
+     * only, and after load(). Collective. */
     virtual void set_committed(const la::VectorView &displacement);
 
     /** Add the couplings that add() needs: those of all rows, in contact or
@@ -343,7 +343,8 @@ namespace abut
     /** The length that gaps and depths at @p displacement are measured by:
      * the one that was set or, without, the largest displacement, but of pairs
      * not more than a facet, the median of their secondary surfaces: a body
-     * may travel far. With Sliding::step it is a facet where nothing has moved.
+     * may travel far. With updated kinematics it is a facet where nothing has
+     * moved.
      */
     virtual double length_scale(const la::VectorView &displacement) const;
 
@@ -394,7 +395,8 @@ namespace abut
      */
     virtual double complementarity_error() const;
 
-    /** With Sliding::step: how far closed rows go in the step that leads to
+    /** With updated kinematics: how far closed rows go in the step that leads
+     * to
      * @p displacement, by pair. A host halves steps in which surfaces slide by
      * more than half a facet, or turn by more than 5 degrees: points are those
      * of its beginning. To be called after the solve and before commit(). Where
@@ -407,7 +409,7 @@ namespace abut
     {
       unsigned int finds = 0; /**< by detect(), or by points that move */
       /** Of these, those that found the points of the one before to be good
-       * still: nothing they depend on had changed, or, with Sliding::step,
+       * still: nothing they depend on had changed, or, with updated kinematics,
        * surfaces had moved against each other by less than a hundredth of a
        * facet. */
       unsigned int kept = 0;
@@ -487,13 +489,13 @@ namespace abut
      * rows, for points of secondary surfaces that are inside the other body (or
      * obstacle) by more than @p tolerance, length > 0, although they have no
      * row: nodes of the secondary, and facets of it without rows that hold a
-     * node of the primary; with Sliding::step also what has come through the
-     * other side since the last commit(), on straight ways, and is outside of
-     * it again. To be called after convergence; if something is
-     * found, call detect() with this displacement, whose reach follows the
-     * motion, and solve on. Nodes of the primary between rows are no misses: no
-     * search helps against them, see PairResult::between_rows. The same list on
-     * all ranks; empty without pairs. As costly as detect(). */
+     * node of the primary; with updated kinematics also what has come through
+     * the other side since the last commit(), on straight ways, and is outside
+     * of it again. To be called after convergence; if something is found, call
+     * detect() with this displacement, whose reach follows the motion, and
+     * solve on. Nodes of the primary between rows are no misses: no search
+     * helps against them, see PairResult::between_rows. The same list on all
+     * ranks; empty without pairs. As costly as detect(). */
     virtual std::vector<Penetration<dim>>
     check_penetration(const la::VectorView &displacement, double tolerance);
 

@@ -6,7 +6,7 @@
  * What an answer is worth: measures that its iteration knows nothing of.
  */
 
-#include <abut/failure.h>
+#include <abut/dealii/coded.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -41,6 +41,14 @@ namespace abut
      * that tells whether it matters. */
     double between_nodes = 0.;
     std::size_t pair = 0; /**< its number, from 0 */
+
+    /** As a message. */
+    Message message() const
+    {
+      Message result(text);
+      result.failure = failure;
+      return result;
+    }
   };
 
   /** The rigid part of the displacement of a body without sufficient supports,

@@ -7,6 +7,7 @@
  * and what was found there.
  */
 
+#include <abut/dealii/coded.h>
 #include <abut/dealii/rigid_obstacle.h>
 
 #include <deal.II/base/point.h>
@@ -116,7 +117,7 @@ namespace abut
     bool history_by_place = false; /**< points of this pair have no number that
                                         lasts: pressures are taken over from
                                         the nearest old point of the facet */
-    std::vector<std::string> warnings; /**< in words, with what to do */
+    std::vector<Message> warnings; /**< with what to do */
   };
 
   /** What a solve found on a pair. Global over ranks. */
@@ -181,6 +182,8 @@ namespace abut
      * last examine(), those of bodies of large strain, which are in balance
      * there; before the first, @ref secondary_moment. */
     dealii::Tensor<1, 3> present_moment;
+    /** The same on the primary side. */
+    dealii::Tensor<1, 3> present_primary_moment;
     /** |sum of the forces| / |force|; 0 where there is no force. */
     double force_imbalance = 0.;
     /** |sum of the moments| / (|force| * diameter of the surface); 0 where
@@ -222,9 +225,10 @@ namespace abut
   };
 
   /** How far closed rows of a pair go, at a displacement, from where their
-   * points were made at the beginning of the step (Sliding::step), or, where
-   * partners stay (Sliding::small and turn, between bodies), from where they
-   * were paired. All 0 where points move. Global over ranks. */
+   * points were made at the beginning of the step (ABUT_KINEMATICS_UPDATED),
+   * or, where partners stay (reference and corotational kinematics, between
+   * bodies), from where they were paired. All 0 where points move. Global over
+   * ranks. */
   struct StepMotion
   {
     double slip = 0.;  /**< along the surface, of both sides against each other,
@@ -232,7 +236,7 @@ namespace abut
     double facet = 0.; /**< to compare it with: median size of the side with
                             the smaller ones; 0: an obstacle, which has none */
     double turn = 0.;  /**< of facets in contact, or of the obstacle's normal,
-                            radian >= 0; Sliding::step only */
+                            radian >= 0; updated kinematics only */
     bool stays = false; /**< from the undeformed bodies, not from the step */
   };
 
@@ -254,10 +258,10 @@ namespace abut
 
   /** Contact pairs that cannot be solved as they are: the message names the
    * pair and says what to do. Thrown on all ranks. */
-  class ContactError : public std::runtime_error
+  class ContactError : public MessageError
   {
   public:
-    using std::runtime_error::runtime_error;
+    using MessageError::MessageError;
   };
 } // namespace abut
 

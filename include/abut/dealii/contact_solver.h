@@ -99,8 +99,8 @@ namespace abut
         }
         catch (const SolverFailure &failure)
         {
-          stop(NewtonReason::linear_solve, failure.what());
-          is_searched = moves_farther(failure.what(), start, u);
+          stop(NewtonReason::linear_solve, failure.message());
+          is_searched = moves_farther(failure.message().failure, start, u);
         }
       } while (is_searched);
       enter(SolvePhase::end);
@@ -140,18 +140,17 @@ namespace abut
 
     /** Whether bodies without supports that nothing stops may meet others
      * farther away: then there is a search already, and @p u the start. */
-    bool moves_farther(const std::string &why, const la::Vector &start,
+    bool moves_farther(const abut_failure why, const la::Vector &start,
                        la::Vector &u)
     {
-      // By their codes: programs that load Abut have no table of them.
-      if (why.rfind("ABUT-F12", 0) != 0 && why.rfind("ABUT-F42", 0) != 0)
+      if (why != ABUT_FAILURE_FLOATING_BODY && why != ABUT_FAILURE_FREE_SLIDING)
         return false;
       enter(SolvePhase::detect);
       if (!contact_.search_farther(goal(start)))
         return false;
       u = start;
       result_.reason = NewtonReason::converged;
-      result_.explanation.clear();
+      result_.explanation = Message();
       return true;
     }
 
@@ -184,13 +183,20 @@ namespace abut
         events_.phase(phase);
     }
 
-    bool stop(const NewtonReason reason, const std::string &explanation,
-              const abut_failure failure = ABUT_FAILURE_NONE)
+    bool stop(const NewtonReason reason, const Message &explanation)
     {
       result_.reason = reason;
       result_.explanation = explanation;
-      result_.failure = failure;
       return false;
+    }
+
+    /** Programs that load Abut have no table of codes: the text is without. */
+    bool stop(const NewtonReason reason, const std::string &text,
+              const abut_failure failure)
+    {
+      Message explanation(text);
+      explanation.failure = failure;
+      return stop(reason, explanation);
     }
 
     void set_linear_tolerance(const double chosen)
@@ -294,7 +300,7 @@ namespace abut
     /** Newton's method. */
     bool solve_nonlinear(la::Vector &u)
     {
-      result_.explanation.clear();
+      result_.explanation = Message();
       find_residual(u);
       set_linear_tolerance(1e-2);
       last_excess_ = std::numeric_limits<double>::infinity();
@@ -428,7 +434,7 @@ namespace abut
     {
       if (!events_.refuse)
         return false;
-      const std::string why = events_.refuse(u, result_.n_searches);
+      const Message why = events_.refuse(u, result_.n_searches);
       return !why.empty() && !stop(NewtonReason::refused, why);
     }
 

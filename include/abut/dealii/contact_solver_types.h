@@ -118,7 +118,7 @@ namespace abut
 
     /** Look at a converged answer: a text that is not empty says why it must
      * not be used. @p search counts calls of detect() so far, from 1. */
-    std::function<std::string(const la::Vector &u, unsigned int search)> refuse;
+    std::function<Message(const la::Vector &u, unsigned int search)> refuse;
 
     /** So many nodes have penetrated without a row. */
     std::function<void(std::size_t n_nodes)> missed;
@@ -169,10 +169,9 @@ namespace abut
   struct NewtonResult
   {
     NewtonReason reason = NewtonReason::converged; /**< why it stopped */
-    std::string explanation; /**< in words, with what to try */
-    /** The known failure that was seen, or NONE; its code is not in the
-     * explanation. */
-    abut_failure failure = ABUT_FAILURE_NONE;
+    /** What to try, and the known failure that was seen; its code is in front
+     * of the text of linear solves alone. */
+    Message explanation;
     unsigned int n_steps = 0;     /**< linearisations */
     unsigned int n_systems = 0;   /**< linear systems */
     unsigned int n_residuals = 0; /**< calls of HostProblem::residual */

@@ -7,6 +7,7 @@
  */
 
 #include <abut/coupling.h>
+#include <abut/dealii/coded.h>
 #include <abut/strategy.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -28,23 +29,6 @@ namespace abut
     saddle_point /**< pressures are unknowns of the linear system */
   };
 
-  /** Where contact is looked at. */
-  enum class Sliding
-  {
-    automatic, /**< what a program takes that knows its bodies; else small */
-    small,     /**< gaps are linear in the displacement, as they are made of
-                    the undeformed bodies */
-    turn,      /**< partners and weights are those of the undeformed bodies,
-                    directions and gaps those of the present places: what
-                    `small` is for bodies of large strain. Mortar between
-                    bodies */
-    step,      /**< gaps are linear from where the bodies were at the last
-                    commit(): detect() makes points at that displacement */
-    large      /**< points move with the bodies: at each linearisation gaps,
-                    directions and their derivatives are those of the present
-                    places */
-  };
-
   /** The word of a parameter file for a discretisation, `auto` for none. */
   std::string
   discretisation_name(std::optional<abut_discretisation> discretisation);
@@ -55,23 +39,28 @@ namespace abut
 
   /** Why a law (or a tie) is not offered with a discretisation, with what to
    * take instead; empty if it is. */
-  std::string refusal(const abut_law &law, abut_discretisation discretisation,
-                      System system, bool tied);
+  Message refusal(const abut_law &law, abut_discretisation discretisation,
+                  System system, bool tied);
+
+  /** Properties of a kinematics; of reference if there is none. */
+  abut_kinematics_info
+  kinematics_info(std::optional<abut_kinematics> kinematics);
 
   struct MethodParameters;
 
-  /** What decides whether the points of a pair can move. */
-  struct SlidingPair
+  /** What a kinematics needs to know of a pair. */
+  struct KinematicsPair
   {
     bool has_obstacle = false;     ///< a rigid obstacle, not a second body
     bool has_geometric_gap = true; ///< gaps are those of surfaces
   };
 
-  /** Why points cannot move in this way with a method, with what to take
-   * instead; empty if they can. Ties never do. */
-  std::string sliding_refusal(Sliding sliding, const abut_law &law,
-                              abut_discretisation discretisation,
-                              const SlidingPair &pair);
+  /** Why a kinematics is not offered with a method, with what to take instead;
+   * empty if it is. Ties have the reference kinematics. */
+  std::string kinematics_refusal(abut_kinematics kinematics,
+                                 const abut_law &law,
+                                 abut_discretisation discretisation,
+                                 const KinematicsPair &pair);
 
   /** Why there is no friction with a method, with what to take instead; empty
    * if there is. */
@@ -134,8 +123,8 @@ namespace abut
      * facets. */
     bool segments = true;
 
-    /** Whether points move with the bodies. */
-    Sliding sliding = Sliding::automatic;
+    /** Empty: what a program takes that knows its bodies; else reference. */
+    std::optional<abut_kinematics> kinematics;
 
     /** Whether the tangent has what forces and gaps of points that move change
      * by because directions and partners do. Without it Newton's method is of

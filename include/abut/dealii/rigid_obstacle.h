@@ -56,7 +56,7 @@ namespace abut
   {
     /** Height as a function of the point; its coordinate along the axis is
      * zero. Gradients are asked for only if along_axis is false, or if points
-     * move (Sliding::large). */
+     * move (ABUT_KINEMATICS_CURRENT). */
     std::shared_ptr<dealii::Function<dim>> height;
     unsigned int axis = dim - 1; /**< 0 .. dim - 1 */
     /** The material is above the height, seen along the axis: a die. */

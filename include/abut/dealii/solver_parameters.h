@@ -2,6 +2,8 @@
 #ifndef ABUT_DEALII_SOLVER_PARAMETERS_H
 #define ABUT_DEALII_SOLVER_PARAMETERS_H
 
+#include <abut/dealii/coded.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
@@ -54,10 +56,10 @@ namespace abut
 
   /** A linear system could not be solved: the message says what was seen and
    * what to try. Thrown on all ranks. */
-  class SolverFailure : public std::runtime_error
+  class SolverFailure : public MessageError
   {
   public:
-    using std::runtime_error::runtime_error;
+    using MessageError::MessageError;
   };
 
   /** What linear solves have cost. */

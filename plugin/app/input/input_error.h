@@ -7,6 +7,8 @@
  * them.
  */
 
+#include <abut/dealii/coded.h>
+
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -32,14 +34,14 @@ namespace abut::app
    * parameter, its name and the message, once, and ends with exit code 2.
    *
    * To be thrown by all ranks alike, or by some inside collective(). */
-  class InputError : public std::runtime_error
+  class InputError : public MessageError
   {
   public:
     /** @param parameter full name, `Section/Subsection/Name`; empty when no
      * parameter is to blame
      * @param message a sentence that says what is wrong and what is legal */
-    InputError(std::string parameter, const std::string &message)
-        : std::runtime_error(message), parameter(std::move(parameter))
+    InputError(std::string parameter, const Message &message)
+        : MessageError(message), parameter(std::move(parameter))
     {
     }
 

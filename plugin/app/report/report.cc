@@ -160,9 +160,17 @@ namespace abut::app
     std::cout << out.str() << std::flush;
   }
 
-  void Report::warn(const std::string &line)
+  void Report::warn(const Message &message)
   {
+    const std::string &line = message.text;
     warnings.push_back(line);
+    if (const auto *known = abut_failure_get(message.failure))
+    {
+      const auto place =
+          std::lower_bound(codes.begin(), codes.end(), known->code);
+      if (place == codes.end() || *place != known->code)
+        codes.insert(place, known->code);
+    }
     if (root)
       std::cerr << "abut: warning: " << line << std::endl;
   }
@@ -241,6 +249,7 @@ namespace abut::app
       std::visit([&json, &name = name](const auto &v) { json.value(name, v); },
                  value);
     json.value("warnings", warnings);
+    json.value("codes", codes);
     json.value("not_used", unused);
     json.value("could_be_left_out", left_out);
     json.begin("modelled");

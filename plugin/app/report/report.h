@@ -85,9 +85,9 @@ namespace abut::app
     void progress(const std::string &line);
 
     /** A line for the user that is printed even when quiet, and again at the
-     * end. Collected under the key `warnings`. Those about known failures begin
-     * with a code, see coded(). */
-    void warn(const std::string &line);
+     * end. Collected under the key `warnings`; known failures, see coded(),
+     * under `codes`, too. */
+    void warn(const Message &message);
 
     /** A line of the closing table of what was modelled: @p what ("adaptive
      * refinement"), on or off, and the reason. @p cost names the sections of
@@ -135,7 +135,7 @@ namespace abut::app
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
       double seconds = elapsed(), processor = used_processor_seconds();
-      archive &seconds &processor &times &values &rows &warnings;
+      archive &seconds &processor &times &values &rows &warnings &codes;
       archive &model_lines &left_out;
       count_from(seconds, processor);
     }
@@ -178,6 +178,7 @@ namespace abut::app
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
     std::vector<std::string> warnings;
+    std::vector<std::string> codes; ///< sorted, each once
     std::vector<ModelLine> model_lines;
     std::vector<std::string> left_out;
     std::vector<std::string> unused;

@@ -164,7 +164,7 @@ namespace abut::app
      * false) has no answer there: where obstacles that forces move have to be
      * for these to be in balance. @p why: of what is lost, unless the problem
      * itself has told. */
-    virtual Placing place_obstacles(bool solved, std::string &why)
+    virtual Placing place_obstacles(bool solved, Message &why)
     {
       (void)why;
       return solved ? Placing::settled : Placing::lost;
@@ -178,7 +178,7 @@ namespace abut::app
 
     /** Its load step is accepted. Returns why the run must end here, or
      * nothing. */
-    virtual std::string commit()
+    virtual Message commit()
     {
       return "";
     }
@@ -211,17 +211,17 @@ namespace abut::app
     }
 
     /** The parameter that a message about contact belongs to. */
-    virtual std::string parameter_of(const std::string &message) const = 0;
+    virtual std::string parameter_of(const Message &message) const = 0;
 
     /** A message of a solver with the scene's names of bodies. */
-    virtual std::string with_names(const std::string &message) const
+    virtual Message with_names(const Message &message) const
     {
       return message;
     }
 
-    /** The parameter that a message about a body without support, with_names(),
+    /** The parameter that a message about a body without support
      * belongs to. */
-    virtual std::string support_of(const std::string &) const
+    virtual std::string support_of(const Message &) const
     {
       return "";
     }
@@ -241,7 +241,7 @@ namespace abut::app
     }
 
     /** Why a converged solution must not be used; empty: it may. */
-    virtual std::string refuse() const
+    virtual Message refuse() const
     {
       return "";
     }

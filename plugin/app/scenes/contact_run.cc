@@ -97,7 +97,7 @@ namespace abut::app
       begin_contact();
       name_parameter(model, [&] { state.contact.detect(state.u); });
       model.assemble();
-      std::string why = free_motion();
+      Message why = free_motion();
       while (!why.empty() && state.contact.search_farther(state.u))
         why = free_motion();
       if (!why.empty())
@@ -107,7 +107,7 @@ namespace abut::app
     report.set("dofs", model.problem().dof_handler.n_dofs());
   }
 
-  template <int dim> std::string ContactRun<dim>::free_motion()
+  template <int dim> Message ContactRun<dim>::free_motion()
   {
     if (!model.has_contact() || model.has_inertia())
       return "";
@@ -121,7 +121,7 @@ namespace abut::app
     }
     catch (const SolverFailure &failure)
     {
-      return model.with_names(failure.what());
+      return model.with_names(failure.message());
     }
     return "";
   }
@@ -295,7 +295,7 @@ namespace abut::app
                : result;
   }
 
-  template <int dim> bool ContactRun<dim>::is_balanced(std::string &why)
+  template <int dim> bool ContactRun<dim>::is_balanced(Message &why)
   {
     if (!wants_balance())
       return true;
@@ -313,24 +313,23 @@ namespace abut::app
                             state.contact.progress().penalty, by, why);
   }
 
-  template <int dim>
-  std::string ContactRun<dim>::refuse(const unsigned int search)
+  template <int dim> Message ContactRun<dim>::refuse(const unsigned int search)
   {
-    std::string why = model.refuse();
+    Message why = model.refuse();
     if (!why.empty())
       return why;
     const bool is_cold = !state.settings.refinement.nested && search == 1
                          && state.load_steps.n_accepted() == 0
                          && abut_law_solves_once(state.method.options.law);
     diagnose_iteration(report, state.contact.progress(), is_cold, n_layers);
-    return is_balanced(why) ? "" : why;
+    return is_balanced(why) ? Message() : why;
   }
 
   template <int dim>
-  std::string ContactRun<dim>::failure_of(const NewtonResult &result) const
+  Message ContactRun<dim>::failure_of(const NewtonResult &result) const
   {
     if (model.has_inertia()
-        && abut::failure_of(result.explanation) == ABUT_FAILURE_FLOATING_BODY)
+        && result.explanation.failure == ABUT_FAILURE_FLOATING_BODY)
       return coded(ABUT_FAILURE_FLOATING_BODY, inertia_vanishes);
     switch (result.reason)
     {
@@ -343,7 +342,8 @@ namespace abut::app
       return diagnose_solver_failure(model.with_names(result.explanation),
                                      state.contact.progress().penalty);
     default:
-      return coded(result.failure, model.with_names(result.explanation));
+      return coded(result.explanation.failure,
+                   uncoded(model.with_names(result.explanation)));
     }
   }
 
@@ -403,12 +403,9 @@ namespace abut::app
     }
     catch (const InputError &error)
     {
-      const std::string what = error.what();
-      const auto has_code = [&what](const abut_failure code)
-      { return what.find(abut_failure_get(code)->code) != std::string::npos; };
-      const bool by_force =
-          has_code(ABUT_FAILURE_WRONG_SIDE) && model.places_obstacles();
-      if (!by_force && !has_code(ABUT_FAILURE_NO_PARTNER))
+      const bool by_force = error.message().failure == ABUT_FAILURE_WRONG_SIDE
+                            && model.places_obstacles();
+      if (!by_force && error.message().failure != ABUT_FAILURE_NO_PARTNER)
         throw;
       section.reset();
       // Reports want rows; there are those that the step began with.
@@ -419,8 +416,7 @@ namespace abut::app
                             "Within a step forces drive an obstacle into a "
                             "body past its surface: use a smaller Time/Step, "
                             "or smaller forces.")
-                    : what.substr(what.find(
-                        abut_failure_get(ABUT_FAILURE_NO_PARTNER)->code));
+                    : without_pair(error.message());
       return false;
     }
   }
@@ -465,7 +461,7 @@ namespace abut::app
     }
     catch (const SolverFailure &error)
     {
-      failure = diagnose_solver_failure(error.what(), 0.);
+      failure = diagnose_solver_failure(error.message(), 0.);
       return false;
     }
     state.u += increment;
@@ -629,7 +625,7 @@ namespace abut::app
       model.write_fields();
       if (model.has_contact())
         state.contact.commit(state.u);
-      const std::string why = model.commit();
+      const Message why = model.commit();
       load_steps.accept(is_hard());
       if (!why.empty())
       {
@@ -639,18 +635,18 @@ namespace abut::app
       return examine();
     }
     // What no row can hold no load step holds either.
-    const abut_failure code = abut::failure_of(failure);
-    const std::string why =
-        code == ABUT_FAILURE_FLOATING_BODY ? free_motion() : "";
+    const abut_failure code = failure.failure;
+    const Message why =
+        code == ABUT_FAILURE_FLOATING_BODY ? free_motion() : Message();
     if (!why.empty())
       failure = why;
     const std::string where = time_step();
     const bool goes_on = load_steps.reject() && why.empty();
-    const bool is_same = failure == told;
+    const bool is_same = failure.text == told;
     if (goes_on)
       report.progress("load step cut back to time "
                       + short_number(load_steps.target(), 6) + ": "
-                      + (is_same ? "for the same reason" : failure));
+                      + (is_same ? "for the same reason" : failure.text));
     else
     {
       // Perhaps the reason.
@@ -664,7 +660,7 @@ namespace abut::app
                            "are not made smaller by them."
                          : ""));
     }
-    told = failure;
+    told = failure.text;
     if (!goes_on && model.reports_failures())
     {
       model.write_fields();
@@ -746,7 +742,7 @@ namespace abut::app
     for (const BodyMotion &motion : examination.motions)
       report.progress(motion.text);
     for (const ContactFinding &finding : examination.findings)
-      report.warn(finding.text);
+      report.warn(finding.message());
     for (const std::string &lost : model.written_numbers().lost())
       report.warn(lost);
     converged =

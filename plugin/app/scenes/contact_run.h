@@ -53,18 +53,18 @@ namespace abut::app
     void set_parameters();
     void begin_contact();
     /** A rigid motion that nothing can hold, in words; or empty. */
-    std::string free_motion();
+    Message free_motion();
     NewtonParameters newton_parameters() const;
     HostProblem host_problem();
     SolverEvents solver_events();
     void note_step(const LinearReport &cost, const la::Vector &increment);
     void count_layers(std::int64_t n_active);
-    std::string refuse(unsigned int search);
+    Message refuse(unsigned int search);
     bool wants_balance() const;
     /** Forces out of balance as a part of those of contact. Collective. */
     double imbalance(const la::Vector &residual) const;
-    bool is_balanced(std::string &why);
-    std::string failure_of(const NewtonResult &result) const;
+    bool is_balanced(Message &why);
+    Message failure_of(const NewtonResult &result) const;
     /** A sentence about the present step in time; empty in statics. */
     std::string time_step() const;
     /** A sentence about limit points, for statics that are not linear. */
@@ -166,7 +166,7 @@ namespace abut::app
      * systems in a row that have changed their number in the same direction. */
     std::int64_t last_active = -1, direction = 0;
     int n_layers = 0;
-    std::string failure;            ///< why the last solve has no answer
+    Message failure;                ///< why the last solve has no answer
     std::string told;               ///< of these, the last one
     std::string missed_target;      ///< why, or empty
     double largest_load = 0.;       ///< at an unknown, of all load steps

@@ -110,7 +110,7 @@ namespace abut::app
   {
     for (BodyMotion &motion : examination.motions)
     {
-      motion.text = model.with_names(motion.text);
+      motion.text = model.with_names(motion.text).text;
       const std::string body = "body_" + std::to_string(motion.body + 1);
       const double *const along = &motion.translation[0];
       report.set(body + "_moved", std::vector<double>(along, along + dim));
@@ -141,10 +141,10 @@ namespace abut::app
     std::vector<ContactFinding> &findings = examination.findings;
     for (ContactFinding &finding : findings)
     {
-      finding.text = model.with_names(finding.text);
+      finding.text = model.with_names(finding.text).text;
       if (model.has_inertia() && finding.failure == ABUT_FAILURE_FLOATING_BODY)
       {
-        finding.text = coded(ABUT_FAILURE_FLOATING_BODY, inertia_vanishes);
+        finding.text = coded(ABUT_FAILURE_FLOATING_BODY, inertia_vanishes).text;
         finding.is_error = true;
       }
     }

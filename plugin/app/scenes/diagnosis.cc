@@ -61,8 +61,7 @@ namespace abut::app
             + ". It has no unit: leave it 0 for the method's own."));
   }
 
-  std::string diagnose_solver_failure(const std::string &message,
-                                      const double penalty)
+  Message diagnose_solver_failure(const Message &message, const double penalty)
   {
     if (penalty <= stiffest)
       return message;
@@ -102,7 +101,7 @@ namespace abut::app
 
   bool diagnose_balance(Report &report, const double imbalance,
                         const double penalty, const SolvedBy &by,
-                        std::string &failure)
+                        Message &failure)
   {
     report.set("imbalance", imbalance);
     if (imbalance <= (by.to_round_off && penalty == 0. ? useless_imbalance
@@ -132,7 +131,7 @@ namespace abut::app
                               "the other forces.")
                 : "the linear system was not solved to its tolerance. Try "
                       + digits + " or Solver/Linear solver = direct.";
-    const std::string text =
+    const Message text =
         coded(penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER,
               seen + why);
     if (!(imbalance <= useless_imbalance))

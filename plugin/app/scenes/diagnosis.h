@@ -26,8 +26,7 @@ namespace abut::app
 
   /** What a linear solver has said when it failed; blames the penalty (0: none)
    * where that leaves too few digits for the rest of the matrix. */
-  std::string diagnose_solver_failure(const std::string &message,
-                                      double penalty);
+  Message diagnose_solver_failure(const Message &message, double penalty);
 
   /** Of a converged contact iteration: whether sets of active rows came back,
    * and how many steps it needed on one mesh.
@@ -54,7 +53,7 @@ namespace abut::app
    * answer may be used; @p failure is then what to say.
    * @param penalty of the law, 0 if none */
   bool diagnose_balance(Report &report, double imbalance, double penalty,
-                        const SolvedBy &by, std::string &failure);
+                        const SolvedBy &by, Message &failure);
 
   /** Of what is stored and what the forces do, see find_works(), in linear
    * statics without friction: a finding if they contradict each other.

@@ -261,8 +261,8 @@ namespace abut::app
   }
 
   template <int dim>
-  std::string ModelMotion<dim>::explain_gain(const abut_failure failure,
-                                             const std::string &judgement) const
+  Message ModelMotion<dim>::explain_gain(const abut_failure failure,
+                                         const std::string &judgement) const
   {
     const std::vector<PairCheck> checks = run.contact.pair_checks();
     if (const PairCheck *const found = overlap_of(checks))
@@ -298,14 +298,14 @@ namespace abut::app
         std::max(std::abs(first.contact_force), std::abs(last.contact_force));
     if (lost)
       return;
-    const std::string text = text_of_lost_motion(
-        time.scheme, before, balance, force, way, first.time, last.time);
+    const Message text = text_of_lost_motion(time.scheme, before, balance,
+                                             force, way, first.time, last.time);
     lost = !text.empty();
     if (lost)
       run.report.warn(text);
   }
 
-  template <int dim> std::string ModelMotion<dim>::commit()
+  template <int dim> Message ModelMotion<dim>::commit()
   {
     const double way = way_of_step();
     motion.commit();

@@ -112,7 +112,7 @@ namespace abut::app
 
     /** Accept it, and judge the balance of energies: returns why the run must
      * end, or nothing. */
-    std::string commit();
+    Message commit();
 
     /** Whether the energy made so far leaves an answer. */
     bool keeps_energy() const;
@@ -188,8 +188,8 @@ namespace abut::app
     const PairCheck *overlap_of(const std::vector<PairCheck> &checks) const;
     /** The reason and the cure of energy that was made: @p failure, unless
      * bodies that overlap at the start are it. */
-    std::string explain_gain(abut_failure failure,
-                             const std::string &judgement) const;
+    Message explain_gain(abut_failure failure,
+                         const std::string &judgement) const;
 
     const InertiaParameters &time;
     const MotionWords words;

@@ -73,9 +73,9 @@ namespace abut::app
       motion->end_step();
   }
 
-  template <int dim> std::string MovingModel<dim>::commit()
+  template <int dim> Message MovingModel<dim>::commit()
   {
-    return motion ? motion->commit() : "";
+    return motion ? motion->commit() : Message();
   }
 
   template <int dim> bool MovingModel<dim>::is_usable() const

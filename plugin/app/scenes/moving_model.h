@@ -37,7 +37,7 @@ namespace abut::app
     const la::Matrix &tangent(const la::Vector &u) override;
     bool next_solve(const la::Vector &u) override;
     void end_solve() override;
-    std::string commit() override;
+    Message commit() override;
     bool is_usable() const override;
     double energy(const la::Vector &u) const override;
     void prepare_contact(ContactAssembler<dim> &contact) override;

@@ -10,6 +10,16 @@
 
 namespace abut::app
 {
+  /** The error with the parameter to blame. */
+  template <int dim>
+  InputError input_error(const ContactModel<dim> &model,
+                         const MessageError &error)
+  {
+    Message message = error.message();
+    message.text = dealii_message(error);
+    return InputError(model.parameter_of(message), message);
+  }
+
   /** Do what may find that contact cannot be, and say by which parameter. */
   template <int dim>
   void name_parameter(const ContactModel<dim> &model,
@@ -21,11 +31,11 @@ namespace abut::app
     }
     catch (const ContactError &error)
     {
-      throw InputError(model.parameter_of(error.what()), dealii_message(error));
+      throw input_error(model, error);
     }
     catch (const ObstacleError &error)
     {
-      throw InputError(model.parameter_of(error.what()), dealii_message(error));
+      throw input_error(model, error);
     }
   }
 } // namespace abut::app

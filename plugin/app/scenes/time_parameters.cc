@@ -40,9 +40,9 @@ namespace abut::app
     }
   } // namespace
 
-  std::string text_of_loss(const abut_time_scheme &scheme,
-                           const abut_time_balance &balance, const double begin,
-                           const double end, const bool stops)
+  Message text_of_loss(const abut_time_scheme &scheme,
+                       const abut_time_balance &balance, const double begin,
+                       const double end, const bool stops)
   {
     const auto percent = [](const double part)
     { return short_number(100. * part, 3) + " %"; };
@@ -67,11 +67,11 @@ namespace abut::app
                            + other + "."));
   }
 
-  std::string text_of_lost_motion(const abut_time_scheme &scheme,
-                                  const abut_time_balance &before,
-                                  const abut_time_balance &after,
-                                  const double force, const double way,
-                                  const double begin, const double end)
+  Message text_of_lost_motion(const abut_time_scheme &scheme,
+                              const abut_time_balance &before,
+                              const abut_time_balance &after,
+                              const double force, const double way,
+                              const double begin, const double end)
   {
     // A load that is there at once loses half of its work where it is only
     // damped; and a scheme may take the contact's force at either end.

@@ -2,6 +2,7 @@
 #ifndef ABUT_APP_TIME_PARAMETERS_H
 #define ABUT_APP_TIME_PARAMETERS_H
 
+#include <abut/dealii/coded.h>
 #include <abut/dealii/load_steps.h>
 #include <abut/time.h>
 
@@ -18,9 +19,9 @@ namespace abut::app
   /** What to say of a balance that has lost energy, at the end of a motion.
    * @param begin,end the step in which it fell most
    * @param stops what touches has mass on any mesh, and loses its velocity */
-  std::string text_of_loss(const abut_time_scheme &scheme,
-                           const abut_time_balance &balance, double begin,
-                           double end, bool stops = false);
+  Message text_of_loss(const abut_time_scheme &scheme,
+                       const abut_time_balance &balance, double begin,
+                       double end, bool stops = false);
 
   /** What to say of a step from time @p begin to @p end that has taken most of
    * the energy although contact, by this largest @p force over this
@@ -28,10 +29,10 @@ namespace abut::app
    * oscillation, and there is no motion left. Empty of others, and of schemes
    * with impulses.
    * @param before,after the balance at the ends of the step */
-  std::string text_of_lost_motion(const abut_time_scheme &scheme,
-                                  const abut_time_balance &before,
-                                  const abut_time_balance &after, double force,
-                                  double way, double begin, double end);
+  Message text_of_lost_motion(const abut_time_scheme &scheme,
+                              const abut_time_balance &before,
+                              const abut_time_balance &after, double force,
+                              double way, double begin, double end);
 
   /** Section `Time`: motion by a scheme of the core. */
   struct TimeParameters

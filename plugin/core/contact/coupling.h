@@ -22,6 +22,7 @@
  * entries from a detection. Directions of mortar that moves, and how its forces
  * change, are coupling_direction.c's and coupling_block.c's. */
 
+#include "contact/kinematics.h"
 #include "geometry/surface.h"
 
 #include <abut/coupling.h>
@@ -238,6 +239,7 @@ struct abut_coupling
 
   /* Of the points of this build. */
   const abut_coupling_target *target;
+  const abut_kinematics_info *kinematics;           /* of the target */
   abut_array point_node, point_facet, point_number; /* int32_t */
   abut_array point_full, point_position;            /* double */
   abut_array point_least;                           /* double */
@@ -255,26 +257,29 @@ struct abut_coupling
 /* Whether the rows are weighted means over facets. */
 bool abut_coupling_is_mortar(const abut_coupling *c);
 
-/* Whether the points of this build are at the nearest point, or a distance,
- * wherever that is. */
+/* Whether the points of this build are at the nearest point, or a distance, in
+ * the current configuration. */
 static inline bool
 abut_coupling_moves(const abut_coupling *c)
 {
-  return c->target->reference != NULL && !abut_coupling_is_mortar(c);
+  return c->kinematics->points == ABUT_CONFIGURATION_CURRENT
+         && !abut_coupling_is_mortar(c);
 }
 
-/* Whether those of mortar meet what is opposite where the surfaces are. */
+/* Whether those of mortar meet what is opposite there. */
 static inline bool
 abut_coupling_follows(const abut_coupling *c)
 {
-  return c->target->reference != NULL && abut_coupling_is_mortar(c);
+  return c->kinematics->points == ABUT_CONFIGURATION_CURRENT
+         && abut_coupling_is_mortar(c);
 }
 
-/* Whether they do, or have their directions and gaps of there. */
+/* Whether rows of mortar have derivatives. */
 static inline bool
 abut_coupling_turns(const abut_coupling *c)
 {
-  return abut_coupling_follows(c) || c->target->present != NULL;
+  return c->kinematics->directions == ABUT_CONFIGURATION_CURRENT
+         && abut_coupling_is_mortar(c);
 }
 
 /* Where the nodes of a side (0: secondary) are. */
@@ -282,8 +287,8 @@ static inline const double *
 abut_coupling_place(const abut_coupling *c, int side)
 {
   const abut_coupling_target *t = c->target;
-  if (t->present != NULL)
-    return side == 0 ? t->present : t->present_primary;
+  if (t->current != NULL)
+    return side == 0 ? t->current : t->current_primary;
   return side == 0 ? c->secondary->view.position : c->primary->view.position;
 }
 

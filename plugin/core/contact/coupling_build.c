@@ -209,20 +209,22 @@ has_radii(const abut_surface *s, const double *reference)
 static const char *
 fault_of_places(const abut_coupling *c, const abut_coupling_target *t)
 {
-  const bool turns = t->present != NULL || t->present_primary != NULL;
-  if ((t->reference != NULL) + (t->areas != NULL) + turns > 1)
-    return "points move, stand where the surfaces are, or turn with them: only "
-           "one of these";
-  if (t->reference == NULL && !turns)
-    return NULL;
-  if (t->tie_axes != 0)
-    return "ties do not move";
-  if (turns && (t->present == NULL || t->present_primary == NULL))
-    return "present places are those of both surfaces";
-  if (turns && !abut_coupling_is_mortar(c))
-    return "only points of mortar turn while their partners stay";
-  if (abut_coupling_is_mortar(c) && c->primary == NULL)
-    return "mortar against an obstacle does not move";
+  const abut_kinematics_info *k = abut_kinematics_get(t->kinematics);
+  if (k == NULL)
+    return "there is no such kinematics";
+  const bool is_displaced = k->points != ABUT_CONFIGURATION_REFERENCE;
+  const bool turns = k->directions != k->points;
+  if ((t->reference != NULL) != is_displaced)
+    return "reference positions are given where the surfaces stand elsewhere";
+  if ((t->current != NULL) != turns || (t->current_primary != NULL) != turns)
+    return "current positions are given, of both surfaces, where kinematics is "
+           "corotational";
+  if (t->tie_axes != 0 && k->directions != ABUT_CONFIGURATION_REFERENCE)
+    return "ties have the reference kinematics";
+  if (k->bodies_only && (c->primary == NULL || !abut_coupling_is_mortar(c)))
+    return "this kinematics is for mortar between surfaces";
+  if (!k->weighted_obstacle && c->primary == NULL && abut_coupling_is_mortar(c))
+    return "mortar against an obstacle does not have this kinematics";
   return NULL;
 }
 
@@ -260,8 +262,7 @@ abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
   if (fault == NULL && !(motion >= 0 && motion <= ABUT_FACET_LIMIT))
     fault = "motion is negative or not finite";
   if (fault == NULL && c->options.axisymmetric
-      && !has_radii(c->secondary,
-                    place.reference != NULL ? place.reference : place.areas))
+      && !has_radii(c->secondary, place.reference))
     fault = "axisymmetric: a node of the secondary surface has a negative "
             "radius x";
   if (fault != NULL)
@@ -269,6 +270,7 @@ abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
   const abut_coupling_statistics none = {0};
   c->nodes = &chosen;
   c->target = &place;
+  c->kinematics = abut_kinematics_get(place.kinematics);
   c->statistics = none;
   c->view.first = abut_points_n(place.points);
   c->view.n_points = 0;

@@ -94,17 +94,15 @@ abut_coupling_node_normal(const abut_coupling *c,
 static const double *
 weighing_positions(const abut_coupling *c)
 {
-  const abut_coupling_target *t = c->target;
-  return t->reference != NULL ? t->reference
-         : t->areas != NULL   ? t->areas
-                              : c->secondary->view.position;
+  const double *reference = c->target->reference;
+  return reference != NULL ? reference : c->secondary->view.position;
 }
 
 double
 abut_coupling_area_ratio(const abut_coupling *c,
                          const abut_coupling_facet *facet, const double *local)
 {
-  if (c->target->areas == NULL && c->target->reference == NULL)
+  if (c->target->reference == NULL)
     return 1.;
   const bool in_plane = c->secondary->view.dimension == 2;
   const double *nodes[2] = {facet->reference, facet->x};

@@ -122,13 +122,11 @@ int32_t
 abut_coupling_guide(const abut_coupling *c, const abut_coupling_share *share,
                     const double *normal, double *guide)
 {
-  const abut_coupling_target *target = c->target;
   int32_t facet = -1;
   memset(guide, 0, 3 * sizeof(*guide));
   if (c->secondary->view.dimension == 2)
     return -1;
-  if (target->reference != NULL || target->areas != NULL
-      || target->present != NULL)
+  if (c->kinematics->directions != ABUT_CONFIGURATION_REFERENCE)
     facet = share->node >= 0 ? guide_of_node(c, share->node, normal, guide)
             : take_guide(c, share->facet, normal, guide) ? share->facet
                                                          : -1;

@@ -552,7 +552,7 @@ namespace abut::app
     return dealii::Utilities::MPI::sum(work, run.communicator);
   }
 
-  template <int dim> std::string MembraneModel<dim>::commit()
+  template <int dim> Message MembraneModel<dim>::commit()
   {
     before = present_heights;
     return MovingModel<dim>::commit();

@@ -33,7 +33,7 @@ namespace abut::app
     void set_time(double time) override;
     void assemble() override;
     void end_solve() override;
-    std::string commit() override;
+    Message commit() override;
     DiscreteProblem<dim> &problem() override
     {
       return membrane;
@@ -47,10 +47,9 @@ namespace abut::app
       return "contact rows and start";
     }
     void set_contact(ContactAssembler<dim> &contact, double time) override;
-    std::string parameter_of(const std::string &message) const override
+    std::string parameter_of(const Message &message) const override
     {
-      const std::string upper = "The upper obstacle";
-      if (message.compare(0, upper.size(), upper) == 0)
+      if (message.field == PairField::upper_obstacle)
         return "Contact/Upper obstacle";
       return parameters.obstacle.empty() && !parameters.height_map.file.empty()
                  ? "Contact/Height map"

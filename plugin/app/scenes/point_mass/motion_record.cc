@@ -67,7 +67,7 @@ namespace abut::app
     if (!lost && entries.size() > 1)
     {
       const Entry &last = entries.end()[-2];
-      const std::string text = text_of_lost_motion(
+      const Message text = text_of_lost_motion(
           scheme, before, balance,
           std::max(std::abs(now.force), std::abs(last.force)), way, last.time,
           time);

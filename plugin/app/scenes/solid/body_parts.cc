@@ -48,14 +48,14 @@ namespace abut::app
   }
 
   template <int dim>
-  std::string with_names(const std::vector<BodyPart<dim>> &parts,
-                         const std::string &message)
+  Message with_names(const std::vector<BodyPart<dim>> &parts, Message message)
   {
+    const std::string text = message.text;
     static const std::regex counted("body ([0-9]+) can ");
     std::string result;
-    auto from = message.begin();
+    auto from = text.begin();
     std::smatch found;
-    for (; std::regex_search(from, message.end(), found, counted);
+    for (; std::regex_search(from, text.end(), found, counted);
          from = found[0].second)
     {
       const std::size_t number = std::stoul(found[1]);
@@ -64,7 +64,8 @@ namespace abut::app
                     ? parts[number - 1].name() + " can "
                     : found[0].str();
     }
-    return result.append(from, message.end());
+    message.text = result.append(from, text.end());
+    return message;
   }
 
   template struct BodyPart<2>;
@@ -73,8 +74,6 @@ namespace abut::app
   find_parts(const dealii::Triangulation<2> &);
   template std::vector<BodyPart<3>>
   find_parts(const dealii::Triangulation<3> &);
-  template std::string with_names(const std::vector<BodyPart<2>> &,
-                                  const std::string &);
-  template std::string with_names(const std::vector<BodyPart<3>> &,
-                                  const std::string &);
+  template Message with_names(const std::vector<BodyPart<2>> &, Message);
+  template Message with_names(const std::vector<BodyPart<3>> &, Message);
 } // namespace abut::app

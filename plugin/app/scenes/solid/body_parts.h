@@ -7,6 +7,8 @@
  * those of a mesh file. What holds one of them does not hold the others.
  */
 
+#include <abut/dealii/coded.h>
+
 #include <deal.II/grid/tria.h>
 
 #include <set>
@@ -38,8 +40,7 @@ namespace abut::app
   /** A message of a solver, which counts parts, with the bodies of the scene.
    */
   template <int dim>
-  std::string with_names(const std::vector<BodyPart<dim>> &parts,
-                         const std::string &message);
+  Message with_names(const std::vector<BodyPart<dim>> &parts, Message message);
 } // namespace abut::app
 
 #endif

@@ -552,7 +552,7 @@ namespace abut::app
   }
 
   template <int dim>
-  std::string
+  Message
   DrivenObstacles<dim>::explanation(const ForceBalance::Answer answer) const
   {
     const double depth = largest_force * softness;

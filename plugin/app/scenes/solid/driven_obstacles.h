@@ -90,7 +90,7 @@ namespace abut::app
     ForceBalance::Answer refuse();
 
     /** Why there is no balance, after `loose` or `stuck`. */
-    std::string explanation(ForceBalance::Answer answer) const;
+    Message explanation(ForceBalance::Answer answer) const;
 
     /** The step in work is accepted. */
     void commit();

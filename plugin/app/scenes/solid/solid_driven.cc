@@ -67,7 +67,7 @@ namespace abut::app
     motion->add_rigid(driven.kinetic_energy(), driven.work());
   }
 
-  template <int dim> std::string SolidModel<dim>::commit()
+  template <int dim> Message SolidModel<dim>::commit()
   {
     driven.commit();
     return MovingModel<dim>::commit();
@@ -139,7 +139,7 @@ namespace abut::app
 
   template <int dim>
   typename ContactModel<dim>::Placing
-  SolidModel<dim>::place_obstacles(const bool solved, std::string &why)
+  SolidModel<dim>::place_obstacles(const bool solved, Message &why)
   {
     using Placing = typename ContactModel<dim>::Placing;
     using Answer = ForceBalance::Answer;
@@ -180,8 +180,8 @@ namespace abut::app
   template bool SolidModel<3>::next_solve(const la::Vector &);
   template void SolidModel<2>::end_solve();
   template void SolidModel<3>::end_solve();
-  template std::string SolidModel<2>::commit();
-  template std::string SolidModel<3>::commit();
+  template Message SolidModel<2>::commit();
+  template Message SolidModel<3>::commit();
   template double SolidModel<2>::energy(const la::Vector &) const;
   template double SolidModel<3>::energy(const la::Vector &) const;
   template std::vector<dealii::Tensor<1, 2>>
@@ -194,8 +194,8 @@ namespace abut::app
                                            const dealii::Tensor<1, 3> &) const;
   template void SolidModel<2>::begin_places(double);
   template void SolidModel<3>::begin_places(double);
-  template ContactModel<2>::Placing
-  SolidModel<2>::place_obstacles(bool, std::string &);
-  template ContactModel<3>::Placing
-  SolidModel<3>::place_obstacles(bool, std::string &);
+  template ContactModel<2>::Placing SolidModel<2>::place_obstacles(bool,
+                                                                   Message &);
+  template ContactModel<3>::Placing SolidModel<3>::place_obstacles(bool,
+                                                                   Message &);
 } // namespace abut::app

@@ -279,12 +279,11 @@ namespace abut::app
   }
 
   template <int dim>
-  std::string SolidModel<dim>::support_of(const std::string &message) const
+  std::string SolidModel<dim>::support_of(const Message &message) const
   {
-    for (const BodyPart<dim> &part : parts)
-      if (message.find(part.name() + " can") != std::string::npos)
-        return bodies[part.body].parameter("Support");
-    return "";
+    return message.body < 0
+               ? ""
+               : bodies[parts.at(message.body).body].parameter("Support");
   }
 
   template <int dim> void SolidModel<dim>::look_at_rows(const bool is_last)
@@ -293,7 +292,7 @@ namespace abut::app
       return;
     has_warned = true;
     for (const PairCheck &check : run.contact.pair_checks())
-      for (const std::string &warning : check.warnings)
+      for (const Message &warning : check.warnings)
         run.report.warn(about(check.name, warning));
   }
 
@@ -316,7 +315,7 @@ namespace abut::app
     return held;
   }
 
-  template <int dim> std::string SolidModel<dim>::refuse() const
+  template <int dim> Message SolidModel<dim>::refuse() const
   {
     if (motion && has_large_strain()
         && !std::isfinite(elasticity.stored_energy(run.u)))

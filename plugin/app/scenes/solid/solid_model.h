@@ -45,14 +45,14 @@ namespace abut::app
     bool begin_solve(la::Vector &u) override;
     bool next_solve(const la::Vector &u) override;
     void end_solve() override;
-    std::string commit() override;
+    Message commit() override;
     bool places_obstacles() const override
     {
       return !driven.empty();
     }
     void begin_places(double tolerance) override;
-    typename ContactModel<dim>::Placing
-    place_obstacles(bool solved, std::string &why) override;
+    typename ContactModel<dim>::Placing place_obstacles(bool solved,
+                                                        Message &why) override;
     double energy(const la::Vector &u) const override;
     NewtonParameters newton_parameters() const override;
     DiscreteProblem<dim> &problem() override
@@ -73,18 +73,18 @@ namespace abut::app
     }
     void set_contact(ContactAssembler<dim> &contact, double time) override;
     void prepare_contact(ContactAssembler<dim> &contact) override;
-    std::string parameter_of(const std::string &message) const override
+    std::string parameter_of(const Message &message) const override
     {
       return pairs->parameter_of(message);
     }
-    std::string support_of(const std::string &message) const override;
-    std::string with_names(const std::string &message) const override
+    std::string support_of(const Message &message) const override;
+    Message with_names(const Message &message) const override
     {
       return app::with_names(parts, message);
     }
     void look_at_rows(bool is_last) override;
     /** Names a body that nothing holds. */
-    std::string refuse() const override;
+    Message refuse() const override;
 
     double estimate(dealii::Vector<float> &squared) const override;
     double stiffness_of(
@@ -196,7 +196,7 @@ namespace abut::app
                      const dealii::Tensor<1, dim> &displacement) const;
     /** Why the solve of this time step leaves the places that its points were
      * made at; empty: it does not. Collective. */
-    std::string leaves_points() const;
+    Message leaves_points() const;
     /** Errors of Newton's method are parts of the displacement, and a body
      * that flies has come far beside what it is deformed by: the part of the
      * tolerance that is asked for then. Collective. */

@@ -52,7 +52,7 @@ namespace abut::app
     return actions;
   }
 
-  template <int dim> std::string SolidModel<dim>::leaves_points() const
+  template <int dim> Message SolidModel<dim>::leaves_points() const
   {
     const std::vector<StepMotion> motions = run.contact.step_motion(run.u);
     for (std::size_t p = 0; p < motions.size(); ++p)
@@ -97,6 +97,6 @@ namespace abut::app
   template MotionWords SolidModel<3>::motion_words() const;
   template std::vector<ContactAction> SolidModel<2>::contact_actions() const;
   template std::vector<ContactAction> SolidModel<3>::contact_actions() const;
-  template std::string SolidModel<2>::leaves_points() const;
-  template std::string SolidModel<3>::leaves_points() const;
+  template Message SolidModel<2>::leaves_points() const;
+  template Message SolidModel<3>::leaves_points() const;
 } // namespace abut::app

@@ -356,23 +356,27 @@ namespace abut::app
   }
 
   template <int dim>
-  std::string SolidPairs<dim>::parameter_of(const std::string &message) const
+  std::string SolidPairs<dim>::parameter_of(const Message &message) const
   {
     std::size_t found = 0;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (message.find(all[i].name) != std::string::npos)
+      if (message.pair == all[i].name)
         found = i;
     const PairParameters &pair = parameters.pairs[found];
-    // only formulas are found wrong after an obstacle has been made
-    if (pair.obstacle > 0 && message.find("its obstacle") != std::string::npos)
+    switch (message.field)
+    {
+    case PairField::obstacle:
+      // Only formulas are found wrong after an obstacle has been made.
       return parameters.obstacles[pair.obstacle - 1].parameter("Expression");
-    if (message.find("its largest traction") != std::string::npos)
+    case PairField::largest_friction:
       return pair.parameter("Largest friction");
-    if (message.find("its gap of") != std::string::npos)
+    case PairField::gap:
       return pair.parameter("Initial gap");
-    return pair.parameter(message.find("friction") != std::string::npos
-                              ? "Friction"
-                              : "Secondary");
+    case PairField::friction:
+      return pair.parameter("Friction");
+    default:
+      return pair.parameter("Secondary");
+    }
   }
 
   template bool is_frictional<2>(const PairParameters &);

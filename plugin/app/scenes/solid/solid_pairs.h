@@ -125,7 +125,7 @@ namespace abut::app
 
     /** The parameter that a message about a pair belongs to: the pair's that
      * the message names, or the first's. */
-    std::string parameter_of(const std::string &message) const;
+    std::string parameter_of(const Message &message) const;
 
   private:
     std::shared_ptr<const Friction<dim>>

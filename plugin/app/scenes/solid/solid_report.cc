@@ -10,6 +10,8 @@
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
 
+#include <abut/dealii/pair_measures.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -43,6 +45,22 @@ namespace abut::app
                                          const MPI_Comm communicator)
     {
       return {MPI::min(value, communicator), MPI::max(value, communicator)};
+    }
+
+    template <int dim>
+    void set(Report &report, const std::string &key,
+             const PairMeasure<dim> &measure, const PairResult<dim> &pair)
+    {
+      std::visit(
+          [&](const auto member)
+          {
+            const auto &value = pair.*member;
+            if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>)
+              report.set(key, value);
+            else
+              report.set(key, components(value));
+          },
+          measure.value);
     }
   } // namespace
 
@@ -151,8 +169,8 @@ namespace abut::app
       // A run moves bodies without supports across clearances.
       const ContactPair<dim> &pair = pairs.pairs().at(number - 1);
       const bool may_come = pair.holds_body && pair.obstacle;
-      for (const std::string &warning : check.warnings)
-        if (may_come && failure_of(warning) == ABUT_FAILURE_NO_PARTNER)
+      for (const Message &warning : check.warnings)
+        if (may_come && warning.failure == ABUT_FAILURE_NO_PARTNER)
           report.progress(check.name
                           + ": not within reach of the obstacle; a run "
                             "moves the body, which has no supports that way, "
@@ -238,43 +256,27 @@ namespace abut::app
     for (const PairResult<dim> &pair : contact.pair_results())
     {
       const std::string key = "pair_" + std::to_string(++number);
-      report.set(key + "_rows", pair.n_rows);
-      report.set(key + "_active", pair.n_active);
-      report.set(key + "_covered_area", pair.covered_area);
-      report.set(key + "_contact_area", pair.contact_area);
-      report.set(key + "_force", components(pair.secondary_force));
+      const bool has_friction =
+          pairs.pairs().at(number - 1).friction != nullptr;
+      for (const PairMeasure<dim> &measure : pair_measures<dim>())
+        if (measure.reported == ReportedOf::all_pairs
+            || (measure.reported == ReportedOf::friction && has_friction))
+          set(report, key + "_" + measure.name, measure, pair);
       report.set(key + "_moment", components(is_large ? pair.present_moment
                                                       : pair.secondary_moment));
-      report.set(key + "_primary_force", components(pair.primary_force));
-      report.set(key + "_initial_gap_work", pair.initial_gap_work);
-      report.set(key + "_pressure", pair.pressure);
-      report.set(key + "_least_pressure", pair.least_pressure);
-      report.set(key + "_largest_tension", pair.largest_tension);
-      report.set(key + "_penetration", pair.penetration);
       const double facet = checks.at(number - 1).facet_size;
       if (facet > 0.)
         report.set(key + "_penetration_by_facet", pair.penetration / facet);
-      report.set(key + "_between_rows", pair.between_rows);
-      report.set(key + "_held_inside", pair.held_inside);
-      report.set(key + "_slip", pair.slip);
-      report.set(key + "_gap_error", pair.gap_error);
-      report.set(key + "_turn", pair.turn);
       report.set(key + "_turned_force",
                  components(dealii::Tensor<1, dim>(pair.secondary_force
                                                    + pair.turned_force)));
-      if (pairs.pairs().at(number - 1).friction != nullptr)
+      if (has_friction)
       {
-        report.set(key + "_slipping", pair.n_slipping);
         report_exceptions(key, pair);
-        report.set(key + "_normal_force", pair.normal_force);
-        report.set(key + "_friction_force", pair.friction_force);
-        report.set(key + "_friction", components(pair.secondary_friction));
         report.set(key + "_friction_ratio",
                    pair.normal_force > 0.
                        ? pair.secondary_friction.norm() / pair.normal_force
                        : 0.);
-        report.set(key + "_traction", pair.traction);
-        report.set(key + "_dissipation", pair.dissipation);
       }
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance =
@@ -301,7 +303,6 @@ namespace abut::app
     const double whole = pair.normal_force + on_nodes;
     const auto part = [whole](const double force)
     { return whole > 0. ? force / whole : 0.; };
-    report.set(key + "_prescribed_nodes", pair.n_prescribed);
     report.set(key + "_prescribed_share", part(on_nodes));
     report.set(key + "_shared_stick_share", part(pair.shared_stick_force));
   }

@@ -16,7 +16,8 @@ namespace abut::app
   {
     /** Whether points can move in this way in all pairs that may slide. */
     template <int dim>
-    bool can_move(const Sliding sliding, const MethodParameters &method,
+    bool can_move(const abut_kinematics kinematics,
+                  const MethodParameters &method,
                   const std::vector<PairParameters> &pairs)
     {
       return std::all_of(
@@ -30,29 +31,29 @@ namespace abut::app
                     pair.obstacle > 0 ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
                                       : ABUT_DISCRETISATION_DUAL_MORTAR);
             return pair.tied
-                   || sliding_refusal(sliding, *method.options.law,
-                                      discretisation,
-                                      {pair.obstacle > 0, pair.mesh_gap})
+                   || kinematics_refusal(kinematics, *method.options.law,
+                                         discretisation,
+                                         {pair.obstacle > 0, pair.mesh_gap})
                           .empty();
           });
     }
 
-    /** The ways that suit bodies, the better ones first, where the parameter
-     * file says @p given; the last one can always be. */
-    std::vector<Sliding> suitable(const Sliding given,
-                                  const bool has_large_strain,
-                                  const bool in_time)
+    /** The kinematics that suit bodies, the better ones first, where the
+     * parameter file says @p given; the last one is always possible. */
+    std::vector<abut_kinematics>
+    suitable(const std::optional<abut_kinematics> given,
+             const bool has_large_strain, const bool in_time)
     {
-      const bool is_free = given == Sliding::automatic;
-      std::vector<Sliding> ways;
-      if (is_free && has_large_strain)
-        ways.push_back(Sliding::large);
-      if (is_free && in_time)
-        ways.push_back(Sliding::step);
-      if ((is_free || given == Sliding::small) && has_large_strain)
-        ways.push_back(Sliding::turn);
-      ways.push_back(given);
-      return ways;
+      std::vector<abut_kinematics> result;
+      if (!given && has_large_strain)
+        result.push_back(ABUT_KINEMATICS_CURRENT);
+      if (!given && in_time)
+        result.push_back(ABUT_KINEMATICS_UPDATED);
+      if (has_large_strain
+          && kinematics_info(given).directions == ABUT_CONFIGURATION_REFERENCE)
+        result.push_back(ABUT_KINEMATICS_COROTATIONAL);
+      result.push_back(given.value_or(ABUT_KINEMATICS_REFERENCE));
+      return result;
     }
 
     template <int dim> class SolidScene : public ContactScene<dim>
@@ -84,14 +85,13 @@ namespace abut::app
                            "nitsche takes the stress for linear in the "
                            "displacement, and Body 1/Material is for large "
                            "strain: use lagrange or augmented lagrangian.");
-        const std::vector<Sliding> ways =
-            suitable(this->method.sliding, parameters.has_large_strain(),
+        const std::vector<abut_kinematics> possible =
+            suitable(this->method.kinematics, parameters.has_large_strain(),
                      parameters.time.is_on);
-        const auto way = std::find_if(
-            ways.begin(), ways.end() - 1,
-            [&](const Sliding each)
+        this->method.kinematics = *std::find_if(
+            possible.begin(), possible.end() - 1,
+            [&](const abut_kinematics each)
             { return can_move<dim>(each, this->method, parameters.pairs); });
-        this->method.sliding = *way;
         this->method.solve_known_failures = parameters.solve_known_failures;
       }
 
