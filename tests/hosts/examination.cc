@@ -84,7 +84,7 @@ namespace
       else
         expect(result.reason == NewtonReason::unbalanced
                    && result.explanation.failure == ABUT_FAILURE_UNBALANCED
-                   && result.explanation.find("sign") != std::string::npos,
+                   && result.explanation.text.find("sign") != std::string::npos,
                "the wrong sign: " + result.explanation);
       // The same for those with a loop of their own.
       la::Vector residual(u);

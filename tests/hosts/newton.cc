@@ -251,7 +251,7 @@ namespace
                          NewtonParameters(), events)
             .solve(blocks.u);
     expect(result.reason == NewtonReason::refused
-               && result.explanation == "not this one, of search 1",
+               && result.explanation.text == "not this one, of search 1",
            "an answer that is refused: " + result.explanation);
     expect(phases == "dsce", "phases: " + phases);
     expect(n_stepped == result.n_systems && n_stepped > 1, "events of systems");
@@ -380,7 +380,7 @@ namespace
     result = ContactSolver<2>(floating.contact, floating.constraints, pulled)
                  .solve(floating.u);
     expect(result.reason == NewtonReason::linear_solve
-               && result.explanation.find("holds") != std::string::npos,
+               && result.explanation.text.find("holds") != std::string::npos,
            "a body that nothing holds: " + result.explanation);
   }
 } // namespace

@@ -68,7 +68,7 @@ namespace
     expect(std::abs(force / exact - 1.) <= 1e-5, "beyond the peak: force");
     expect(result.residual <= 1e-5 * force, "beyond the peak: balance");
     expect(result.n_negative_steps > 0
-               && result.explanation.find("unstable") != std::string::npos,
+               && result.explanation.text.find("unstable") != std::string::npos,
            "beyond the peak: a word on stability");
   }
 
@@ -98,10 +98,10 @@ namespace
     if (hosts::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << "beyond the limit load: " << result.n_steps
                 << " linearisations, " << result.n_negative_steps
-                << " of them not positive: " << result.explanation << std::endl;
+                << " of them not positive: " << result.explanation.text << std::endl;
     expect(!result.converged(), "an answer beyond the limit load");
     expect(result.n_negative_steps == 0
-               || result.explanation.find("d . K d") != std::string::npos,
+               || result.explanation.text.find("d . K d") != std::string::npos,
            "beyond the limit load: a word on the tangent");
   }
 } // namespace

@@ -224,8 +224,8 @@ private:
   {
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       for (const abut::PairCheck &check : contact.pair_checks())
-        for (const std::string &warning : check.warnings)
-          std::cerr << warning << std::endl;
+        for (const abut::Message &warning : check.warnings)
+          std::cerr << warning.text << std::endl;
   }
 
   void refine()

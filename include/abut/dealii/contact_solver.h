@@ -665,8 +665,7 @@ namespace abut
         return false;
       watch_.left = 0;
       result_.reason = NewtonReason::converged;
-      result_.explanation.clear();
-      result_.failure = ABUT_FAILURE_NONE;
+      result_.explanation = Message();
       u = watch_.start;
       find_residual(u);
       return true;
