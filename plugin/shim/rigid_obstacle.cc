@@ -424,7 +424,7 @@ namespace abut
   template <int dim>
   double RigidObstacle<dim>::width(const Tensor<1, dim> &normal) const
   {
-    return abut_obstacle_width(handle(), normal.begin_raw());
+    return abut_obstacle_width(handle(), &normal[0]);
   }
 
   template <int dim> double RigidObstacle<dim>::depth() const
