@@ -23,69 +23,70 @@ enum
 static int
 list_arrays(abut_coupling *c, array_size *list)
 {
-  const array_size all[] = {{&c->facet_order, sizeof(int32_t)},
-                            {&c->node_rank, sizeof(int32_t)},
-                            {&c->node_order, sizeof(int32_t)},
-                            {&c->primary_facet_rank, sizeof(int32_t)},
-                            {&c->primary_node_rank, sizeof(int32_t)},
-                            {&c->keyed, sizeof(abut_keyed)},
-                            {&c->hanging, sizeof(int32_t)},
-                            {&c->given, sizeof(uint8_t)},
-                            {&c->dropped, sizeof(uint8_t)},
-                            {&c->purpose, sizeof(uint8_t)},
-                            {&c->full, sizeof(double)},
-                            {&c->covered, sizeof(double)},
-                            {&c->hat, sizeof(double)},
-                            {&c->covered_hat, sizeof(double)},
-                            {&c->row_reach, sizeof(double)},
-                            {&c->lone, sizeof(uint8_t)},
-                            {&c->node_flag, sizeof(uint8_t)},
-                            {&c->corner, sizeof(uint8_t)},
-                            {&c->bend, sizeof(double)},
-                            {&c->candidates, sizeof(int32_t)},
-                            {&c->segments, 0},
-                            {&c->points, sizeof(abut_coupling_point)},
-                            {&c->values, sizeof(double)},
-                            {&c->asked, sizeof(double)},
-                            {&c->distance, sizeof(double)},
-                            {&c->gradient, sizeof(double)},
-                            {&c->hessian, sizeof(double)},
-                            {&c->asked_normal, sizeof(double)},
-                            {&c->asked_size, sizeof(double)},
-                            {&c->walkers, sizeof(char)},
-                            {&c->walk, sizeof(double)},
-                            {&c->shares, sizeof(abut_coupling_share)},
-                            {&c->entries, sizeof(abut_coupling_entry)},
-                            {&c->rates, sizeof(double)},
-                            {&c->blocks, sizeof(abut_coupling_block)},
-                            {&c->block_values, sizeof(double)},
-                            {&c->directions, sizeof(abut_coupling_direction)},
-                            {&c->direction_node, sizeof(int32_t)},
-                            {&c->direction_change, sizeof(double)},
-                            {&c->line_place, sizeof(int32_t)},
-                            {&c->column_place, sizeof(int32_t)},
-                            {&c->share_start, sizeof(int64_t)},
-                            {&c->share_list, sizeof(int64_t)},
-                            {&c->sum[0], sizeof(double)},
-                            {&c->sum[1], sizeof(double)},
-                            {&c->seen[0], sizeof(uint8_t)},
-                            {&c->seen[1], sizeof(uint8_t)},
-                            {&c->touched, sizeof(int32_t)},
-                            {&c->point_node, sizeof(int32_t)},
-                            {&c->point_facet, sizeof(int32_t)},
-                            {&c->point_number, sizeof(int32_t)},
-                            {&c->point_full, sizeof(double)},
-                            {&c->point_position, sizeof(double)},
-                            {&c->point_least, sizeof(double)},
-                            {&c->point_primary, sizeof(int32_t)},
-                            {&c->point_hessian_start, sizeof(int64_t)},
-                            {&c->point_hessian, sizeof(double)},
-                            {&c->point_line_start, sizeof(int64_t)},
-                            {&c->point_column_start, sizeof(int64_t)},
-                            {&c->point_line, sizeof(int32_t)},
-                            {&c->point_column, sizeof(int32_t)},
-                            {&c->stencil_node, sizeof(int32_t)},
-                            {&c->stencil_coefficient, sizeof(double)}};
+  const array_size all[] = {
+      {&c->order.facet, sizeof(int32_t)},
+      {&c->order.node_rank, sizeof(int32_t)},
+      {&c->order.node, sizeof(int32_t)},
+      {&c->order.primary_facet_rank, sizeof(int32_t)},
+      {&c->order.primary_node_rank, sizeof(int32_t)},
+      {&c->order.keyed, sizeof(abut_keyed)},
+      {&c->of_node.hanging, sizeof(int32_t)},
+      {&c->of_node.dropped_as_given, sizeof(uint8_t)},
+      {&c->of_node.dropped, sizeof(uint8_t)},
+      {&c->of_node.purpose, sizeof(uint8_t)},
+      {&c->of_node.full, sizeof(double)},
+      {&c->of_node.covered, sizeof(double)},
+      {&c->of_node.hat, sizeof(double)},
+      {&c->of_node.covered_hat, sizeof(double)},
+      {&c->of_node.reach, sizeof(double)},
+      {&c->of_node.lone, sizeof(uint8_t)},
+      {&c->of_node.flag, sizeof(uint8_t)},
+      {&c->of_node.corner, sizeof(uint8_t)},
+      {&c->of_node.bend, sizeof(double)},
+      {&c->work.candidates, sizeof(int32_t)},
+      {&c->work.segments, 0},
+      {&c->work.points, sizeof(abut_coupling_point)},
+      {&c->work.values, sizeof(double)},
+      {&c->answer.asked, sizeof(double)},
+      {&c->answer.distance, sizeof(double)},
+      {&c->answer.gradient, sizeof(double)},
+      {&c->answer.hessian, sizeof(double)},
+      {&c->answer.asked_normal, sizeof(double)},
+      {&c->answer.asked_size, sizeof(double)},
+      {&c->answer.walkers, sizeof(char)},
+      {&c->answer.walk, sizeof(double)},
+      {&c->sum.shares, sizeof(abut_coupling_share)},
+      {&c->sum.entries, sizeof(abut_coupling_entry)},
+      {&c->change.rates, sizeof(double)},
+      {&c->change.blocks, sizeof(abut_coupling_block)},
+      {&c->change.block_values, sizeof(double)},
+      {&c->change.directions, sizeof(abut_coupling_direction)},
+      {&c->change.direction_node, sizeof(int32_t)},
+      {&c->change.direction_change, sizeof(double)},
+      {&c->change.line_place, sizeof(int32_t)},
+      {&c->change.column_place, sizeof(int32_t)},
+      {&c->sum.share_start, sizeof(int64_t)},
+      {&c->sum.share_list, sizeof(int64_t)},
+      {&c->sum.of_node[0], sizeof(double)},
+      {&c->sum.of_node[1], sizeof(double)},
+      {&c->sum.seen[0], sizeof(uint8_t)},
+      {&c->sum.seen[1], sizeof(uint8_t)},
+      {&c->sum.touched, sizeof(int32_t)},
+      {&c->made.node, sizeof(int32_t)},
+      {&c->made.facet, sizeof(int32_t)},
+      {&c->made.number, sizeof(int32_t)},
+      {&c->made.full, sizeof(double)},
+      {&c->made.position, sizeof(double)},
+      {&c->made.least, sizeof(double)},
+      {&c->made.primary, sizeof(int32_t)},
+      {&c->made.hessian_start, sizeof(int64_t)},
+      {&c->made.hessian, sizeof(double)},
+      {&c->made.line_start, sizeof(int64_t)},
+      {&c->made.column_start, sizeof(int64_t)},
+      {&c->made.line, sizeof(int32_t)},
+      {&c->made.column, sizeof(int32_t)},
+      {&c->made.stencil_node, sizeof(int32_t)},
+      {&c->made.stencil_coefficient, sizeof(double)}};
   const int n = (int)(sizeof(all) / sizeof(all[0]));
   memcpy(list, all, sizeof(all));
   return n;
@@ -132,14 +133,14 @@ sort_numbers(abut_coupling *c, int32_t n, const int64_t *id, abut_array *order,
              abut_array *rank)
 {
   abut_status status =
-      abut_array_reserve(c->context, &c->keyed, 0, 2 * (int64_t)n + 1);
+      abut_array_reserve(c->context, &c->order.keyed, 0, 2 * (int64_t)n + 1);
   if (status == ABUT_SUCCESS && order != NULL)
     status = abut_array_reserve(c->context, order, 0, (int64_t)n + 1);
   if (status == ABUT_SUCCESS && rank != NULL)
     status = abut_array_reserve(c->context, rank, 0, (int64_t)n + 1);
   if (status != ABUT_SUCCESS)
     return status;
-  abut_keyed *items = c->keyed.data;
+  abut_keyed *items = c->order.keyed.data;
   for (int32_t i = 0; i < n; ++i)
   {
     const int64_t number = id != NULL ? id[i] : i;
@@ -163,18 +164,18 @@ sort_surfaces(abut_coupling *c)
 {
   const abut_surface_view *s = &c->secondary->view;
   abut_status status =
-      sort_numbers(c, s->n_facets, s->facet_id, &c->facet_order, NULL);
+      sort_numbers(c, s->n_facets, s->facet_id, &c->order.facet, NULL);
   if (status == ABUT_SUCCESS)
-    status =
-        sort_numbers(c, s->n_nodes, s->node_id, &c->node_order, &c->node_rank);
+    status = sort_numbers(c, s->n_nodes, s->node_id, &c->order.node,
+                          &c->order.node_rank);
   if (c->primary == NULL || status != ABUT_SUCCESS)
     return status;
   const abut_surface_view *m = &c->primary->view;
-  status =
-      sort_numbers(c, m->n_facets, m->facet_id, NULL, &c->primary_facet_rank);
+  status = sort_numbers(c, m->n_facets, m->facet_id, NULL,
+                        &c->order.primary_facet_rank);
   if (status == ABUT_SUCCESS)
-    status =
-        sort_numbers(c, m->n_nodes, m->node_id, NULL, &c->primary_node_rank);
+    status = sort_numbers(c, m->n_nodes, m->node_id, NULL,
+                          &c->order.primary_node_rank);
   return status;
 }
 

@@ -152,6 +152,116 @@ enum
 
 typedef struct abut_discretisation_methods abut_discretisation_methods;
 
+/* Orders by the caller's numbers; fixed. */
+typedef struct abut_coupling_order
+{
+  abut_array facet;              /* int32_t, secondary facets */
+  abut_array node_rank;          /* int32_t, of secondary nodes */
+  abut_array node;               /* int32_t, its inverse */
+  abut_array primary_facet_rank; /* int32_t */
+  abut_array primary_node_rank;  /* int32_t */
+  abut_array keyed;              /* abut_keyed */
+} abut_coupling_order;
+
+/* Of the nodes and facets of this build. */
+typedef struct abut_coupling_node_state
+{
+  const abut_coupling_nodes *given;
+  const double *normal;
+  abut_array hanging;          /* int32_t, [n_nodes] number h or -1 */
+  abut_array dropped_as_given; /* uint8_t, [n_nodes] dropped as given */
+  abut_array dropped;          /* uint8_t, [n_nodes] and weak nodes */
+  abut_array purpose;          /* uint8_t, [n_facets] */
+  abut_array full;        /* double, [n_nodes] integral of chi, whole facets */
+  abut_array covered;     /* double, [n_nodes] integral of chi, covered part */
+  abut_array hat;         /* double, [n_nodes] integral of hats, whole facets */
+  abut_array covered_hat; /* double, [n_nodes] the same, covered part */
+  abut_array reach;       /* double, [n_nodes] obstacles */
+  abut_array lone;        /* uint8_t, [n_nodes] they alone face the obstacle */
+  abut_array corner;      /* uint8_t, [n_nodes] 1: at a feature, 2: and kept */
+  abut_array bend;        /* double, [3 n_nodes] integral of hat n, covered */
+  bool drops;             /* nodes are looked for to be dropped */
+  abut_array flag;        /* uint8_t, [n_nodes] */
+} abut_coupling_node_state;
+
+/* Of the facet in work. */
+typedef struct abut_coupling_work
+{
+  abut_array candidates; /* int32_t, primary facets in order */
+  abut_array segments;   /* of coupling_segment2.c or _segment3.c */
+  abut_array points;     /* abut_coupling_point */
+  abut_array values;     /* double, psi times weight at the points */
+  int32_t n_points;
+} abut_coupling_work;
+
+/* Obstacles: points asked for, in the order in which the answers are taken. */
+typedef struct abut_coupling_answers
+{
+  abut_array asked;        /* double */
+  abut_array distance;     /* double */
+  abut_array gradient;     /* double */
+  abut_array hessian;      /* double, of points that move, one after the
+                                    other, obstacles: [n_asked * dimension^2] */
+  abut_array asked_normal; /* double, [n_asked * dimension] of the surface */
+  abut_array asked_size;   /* double, [n_asked] of its facets */
+  abut_array walkers;      /* of coupling_far_side.c */
+  abut_array walk;         /* of coupling_far_side.c */
+  int64_t n_asked;
+  int64_t n_answered;
+  int64_t n_hessian; /* numbers in the Hessians against surfaces */
+} abut_coupling_answers;
+
+/* Derivatives of mortar rows. */
+typedef struct abut_coupling_changes
+{
+  abut_array rates;            /* double, of the points in work */
+  abut_array blocks;           /* abut_coupling_block */
+  abut_array block_values;     /* double */
+  abut_array directions;       /* abut_coupling_direction, [n_nodes] averaged */
+  abut_array direction_node;   /* int32_t */
+  abut_array direction_change; /* double */
+  abut_array line_place;       /* int32_t, [n_nodes of both sides] */
+  abut_array column_place;     /* int32_t, [n_nodes of both sides] */
+  int64_t n_rates;
+  int64_t n_blocks;
+  int64_t n_block_values;
+  int64_t n_directions;
+} abut_coupling_changes;
+
+/* Shares of facets, and their sums by row. */
+typedef struct abut_coupling_sums
+{
+  abut_array shares;  /* abut_coupling_share */
+  abut_array entries; /* abut_coupling_entry */
+  int64_t n_shares;
+  int64_t n_entries;
+  abut_array share_start; /* int64_t, [n_nodes + 1] */
+  abut_array share_list;  /* int64_t */
+  abut_array of_node[2];  /* double, [nodes of the side] */
+  abut_array seen[2];     /* uint8_t, [nodes of the side] */
+  abut_array touched;     /* int32_t */
+} abut_coupling_sums;
+
+/* The points of this build. */
+typedef struct abut_coupling_made
+{
+  abut_array node;                /* int32_t */
+  abut_array facet;               /* int32_t */
+  abut_array number;              /* int32_t */
+  abut_array full;                /* double */
+  abut_array position;            /* double */
+  abut_array least;               /* double */
+  abut_array primary;             /* int32_t */
+  abut_array hessian_start;       /* int64_t */
+  abut_array hessian;             /* double */
+  abut_array line_start;          /* int64_t */
+  abut_array column_start;        /* int64_t */
+  abut_array line;                /* int32_t */
+  abut_array column;              /* int32_t */
+  abut_array stencil_node;        /* int32_t, of one point */
+  abut_array stencil_coefficient; /* double */
+} abut_coupling_made;
+
 struct abut_coupling
 {
   abut_context *context;
@@ -170,86 +280,16 @@ struct abut_coupling
   /* Of the last search: what it was made for, if it was. */
   bool has_searched;
   double searched_motion;
-  uint64_t searched_revision[2]; /* of the secondary and the primary */
-
-  /* Orders by the caller's numbers; fixed. */
-  abut_array facet_order;        /* int32_t, secondary facets */
-  abut_array node_rank;          /* int32_t, of secondary nodes */
-  abut_array node_order;         /* int32_t, its inverse */
-  abut_array primary_facet_rank; /* int32_t */
-  abut_array primary_node_rank;  /* int32_t */
-  abut_array keyed;              /* abut_keyed */
-
-  /* Of the nodes of this build. */
-  const abut_coupling_nodes *nodes;
-  const double *normals;
-  abut_array hanging;     /* int32_t, [n_nodes] number h or -1 */
-  abut_array given;       /* uint8_t, [n_nodes] dropped as given */
-  abut_array dropped;     /* uint8_t, [n_nodes] and weak nodes */
-  abut_array purpose;     /* uint8_t, [n_facets] */
-  abut_array full;        /* double, [n_nodes] integral of chi, whole facets */
-  abut_array covered;     /* double, [n_nodes] integral of chi, covered part */
-  abut_array hat;         /* double, [n_nodes] integral of hats, whole facets */
-  abut_array covered_hat; /* double, [n_nodes] the same, covered part */
-  abut_array row_reach;   /* double, [n_nodes] obstacles */
-  abut_array lone;        /* uint8_t, [n_nodes] they alone face the obstacle */
-  abut_array corner;      /* uint8_t, [n_nodes] 1: at a feature; 2: and kept */
-  abut_array bend;        /* double, [3 n_nodes] integral of hat n, covered */
-  bool drops;             /* nodes are looked for to be dropped */
-  abut_array node_flag;   /* uint8_t, [n_nodes] */
-
-  /* Of the facet in work. */
-  abut_array candidates; /* int32_t, primary facets in order */
-  abut_array segments;   /* of coupling_segment2.c or _segment3.c */
-  abut_array points;     /* abut_coupling_point */
-  abut_array values;     /* double, psi times weight at the points */
-  int32_t n_points;
-
-  /* Obstacles: points asked for, in the order in which the answers are taken.
-   */
-  abut_array asked, distance, gradient; /* double */
-  abut_array hessian;       /* double, of points that move, one after the
-                               other; obstacles: [n_asked * dimension^2] */
-  abut_array asked_normal;  /* double, [n_asked * dimension] of the surface */
-  abut_array asked_size;    /* double, [n_asked] of its facets */
-  abut_array walkers, walk; /* of coupling_far_side.c */
-  int64_t n_asked, n_answered;
-  int64_t n_hessian; /* numbers in the Hessians against surfaces */
-
-  abut_array shares;  /* abut_coupling_share */
-  abut_array entries; /* abut_coupling_entry */
-  int64_t n_shares, n_entries;
-
-  /* Mortar that moves. */
-  abut_array rates;            /* double, of the points in work */
-  abut_array blocks;           /* abut_coupling_block */
-  abut_array block_values;     /* double */
-  abut_array directions;       /* abut_coupling_direction, [n_nodes] averaged */
-  abut_array direction_node;   /* int32_t */
-  abut_array direction_change; /* double */
-  abut_array line_place, column_place; /* int32_t, [n_nodes of both sides] */
-  int64_t n_rates, n_blocks, n_block_values, n_directions;
-
-  /* Adding up. */
-  abut_array share_start; /* int64_t, [n_nodes + 1] */
-  abut_array share_list;  /* int64_t */
-  abut_array sum[2];      /* double, [nodes of the side] */
-  abut_array seen[2];     /* uint8_t, [nodes of the side] */
-  abut_array touched;     /* int32_t */
-
-  /* Of the points of this build. */
-  const abut_coupling_target *target;
-  const abut_kinematics_info *kinematics;           /* of the target */
-  abut_array point_node, point_facet, point_number; /* int32_t */
-  abut_array point_full, point_position;            /* double */
-  abut_array point_least;                           /* double */
-  abut_array point_primary;                         /* int32_t */
-  abut_array point_hessian_start;                   /* int64_t */
-  abut_array point_hessian;                         /* double */
-  abut_array point_line_start, point_column_start;  /* int64_t */
-  abut_array point_line, point_column;              /* int32_t */
-  abut_array stencil_node;                          /* int32_t, of one point */
-  abut_array stencil_coefficient;                   /* double */
+  uint64_t searched_revision[2];          /* of the secondary and the primary */
+  const abut_coupling_target *target;     /* of this build */
+  const abut_kinematics_info *kinematics; /* of the target */
+  abut_coupling_order order;
+  abut_coupling_node_state of_node;
+  abut_coupling_work work;
+  abut_coupling_answers answer;
+  abut_coupling_changes change;
+  abut_coupling_sums sum;
+  abut_coupling_made made;
   abut_coupling_view view;
   abut_coupling_statistics statistics;
 };
@@ -314,13 +354,13 @@ int abut_coupling_degree(const abut_coupling *c, abut_facet_kind secondary,
                          abut_facet_kind primary, bool products);
 
 /* Rule of the whole facet: points, with weights and shape functions of the
- * secondary only, in c->points. */
+ * secondary only, in c->work.points. */
 abut_status abut_coupling_whole(abut_coupling *c,
                                 const abut_coupling_facet *facet);
 
 /* Points on the covered part, in the order of the primary facets' numbers, in
- * c->points; final: for the rows, with statistics, not only for the covered
- * part of the secondary's functions. */
+ * c->work.points; final: for the rows, with statistics, not only for the
+ * covered part of the secondary's functions. */
 abut_status abut_coupling_make_points(abut_coupling *c,
                                       const abut_coupling_facet *facet,
                                       bool final);
@@ -496,7 +536,7 @@ void abut_coupling_interpolate(const abut_coupling *c,
                                abut_coupling_share *share);
 
 /* Candidates of a facet: the *n primary facets within reach of its box that
- * share no node with it, in c->candidates. */
+ * share no node with it, in c->work.candidates. */
 abut_status abut_coupling_find_candidates(abut_coupling *c, int32_t facet,
                                           int32_t *n);
 
@@ -579,7 +619,7 @@ void abut_coupling_add_axis(const abut_coupling *c,
  * of the detection, or against the obstacle. */
 abut_status abut_coupling_add_nodal(abut_coupling *c);
 
-/* Mark corners in c->corner; returns whether there are any. */
+/* Mark corners in c->of_node.corner; returns whether there are any. */
 bool abut_coupling_find_corners(abut_coupling *c);
 
 /* Drop weak nodes, and corners that are covered on both sides. */

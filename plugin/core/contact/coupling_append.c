@@ -26,19 +26,20 @@ bucket(abut_coupling *c)
 {
   const int32_t n = c->secondary->view.n_nodes;
   abut_status status =
-      abut_array_reserve(c->context, &c->share_start, 0, (int64_t)n + 2);
+      abut_array_reserve(c->context, &c->sum.share_start, 0, (int64_t)n + 2);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(c->context, &c->share_list, 0, c->n_shares);
+    status =
+        abut_array_reserve(c->context, &c->sum.share_list, 0, c->sum.n_shares);
   if (status != ABUT_SUCCESS)
     return status;
-  const abut_coupling_share *s = c->shares.data;
-  int64_t *start = c->share_start.data, *list = c->share_list.data;
+  const abut_coupling_share *s = c->sum.shares.data;
+  int64_t *start = c->sum.share_start.data, *list = c->sum.share_list.data;
   memset(start, 0, sizeof(*start) * ((size_t)n + 2));
-  for (int64_t i = 0; i < c->n_shares; ++i)
+  for (int64_t i = 0; i < c->sum.n_shares; ++i)
     ++start[s[i].node + 2];
   for (int32_t i = 0; i < n; ++i)
     start[i + 2] += start[i + 1];
-  for (int64_t i = 0; i < c->n_shares; ++i)
+  for (int64_t i = 0; i < c->sum.n_shares; ++i)
     list[start[s[i].node + 1]++] = i;
   return ABUT_SUCCESS;
 }
@@ -49,13 +50,13 @@ static abut_status
 scatter(abut_coupling *c, int side, const abut_coupling_entry *e, int32_t n,
         int32_t *n_touched)
 {
-  double *sum = c->sum[side].data;
-  uint8_t *seen = c->seen[side].data;
+  double *sum = c->sum.of_node[side].data;
+  uint8_t *seen = c->sum.seen[side].data;
   const abut_status status = abut_array_reserve(
-      c->context, &c->touched, *n_touched, (int64_t)*n_touched + n);
+      c->context, &c->sum.touched, *n_touched, (int64_t)*n_touched + n);
   if (status != ABUT_SUCCESS)
     return status;
-  int32_t *touched = c->touched.data;
+  int32_t *touched = c->sum.touched.data;
   for (int32_t i = 0; i < n; ++i)
   {
     const int32_t node = e[i].node;
@@ -90,21 +91,22 @@ static abut_status
 gather(abut_coupling *c, int side, int32_t n_touched, int32_t *n)
 {
   double weight = 0.;
-  int32_t *touched = c->touched.data;
-  uint8_t *seen = c->seen[side].data;
-  const double *sum = c->sum[side].data;
+  int32_t *touched = c->sum.touched.data;
+  uint8_t *seen = c->sum.seen[side].data;
+  const double *sum = c->sum.of_node[side].data;
   const int32_t first = *n;
-  abut_status status = abut_array_reserve(c->context, &c->stencil_node, first,
-                                          (int64_t)first + n_touched);
+  abut_status status = abut_array_reserve(c->context, &c->made.stencil_node,
+                                          first, (int64_t)first + n_touched);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(c->context, &c->stencil_coefficient, first,
+    status = abut_array_reserve(c->context, &c->made.stencil_coefficient, first,
                                 (int64_t)first + n_touched);
   if (status != ABUT_SUCCESS)
     return status;
   sort_by_rank(touched, n_touched,
-               side == 0 ? c->node_rank.data : c->primary_node_rank.data);
-  int32_t *stencil = c->stencil_node.data;
-  double *coefficient = c->stencil_coefficient.data;
+               side == 0 ? c->order.node_rank.data
+                         : c->order.primary_node_rank.data);
+  int32_t *stencil = c->made.stencil_node.data;
+  double *coefficient = c->made.stencil_coefficient.data;
   for (int32_t i = 0; i < n_touched; ++i)
     weight += sum[touched[i]];
   const double least = smallest_coefficient * fabs(weight);
@@ -128,8 +130,8 @@ static abut_status
 add_entries(abut_coupling *c, int side, const int64_t *list, int64_t n,
             int32_t *n_stencil)
 {
-  const abut_coupling_share *shares = c->shares.data;
-  const abut_coupling_entry *entries = c->entries.data;
+  const abut_coupling_share *shares = c->sum.shares.data;
+  const abut_coupling_entry *entries = c->sum.entries.data;
   int32_t n_touched = 0;
   for (int64_t i = 0; i < n; ++i)
   {
@@ -165,7 +167,7 @@ normal_of(abut_coupling *c, const abut_coupling_share *total, double *n)
     return;
   double average[3] = {0., 0., 0.};
   for (int32_t d = 0; d < dim; ++d)
-    average[d] = c->normals[(int64_t)dim * total->node + d];
+    average[d] = c->of_node.normal[(int64_t)dim * total->node + d];
   c->statistics.n_bent += length < limit * total->weight;
   if (dot3(average, mean) >= limit)
     memcpy(n, average, sizeof(average));
@@ -181,24 +183,25 @@ note_hessian(abut_coupling *c, const abut_coupling_share *total)
   const int32_t dim = c->secondary->view.dimension,
                 n_nodes = total->primary < 0 ? 0 : total->n_primary,
                 n = dim * (1 + n_nodes);
-  abut_status status = abut_array_reserve(c->context, &c->point_hessian_start,
+  abut_status status = abut_array_reserve(c->context, &c->made.hessian_start,
                                           i > 0 ? i + 1 : 0, i + 2);
   if (status != ABUT_SUCCESS)
     return status;
-  int64_t *start = c->point_hessian_start.data;
+  int64_t *start = c->made.hessian_start.data;
   start[0] = 0;
   start[i + 1] = start[i] + (int64_t)n * n * (c->target->tangents ? dim : 1);
   status =
-      abut_array_reserve(c->context, &c->point_hessian, start[i], start[i + 1]);
+      abut_array_reserve(c->context, &c->made.hessian, start[i], start[i + 1]);
   if (status != ABUT_SUCCESS)
     return status;
-  double *hessian = (double *)c->point_hessian.data + start[i];
-  memcpy(hessian, (const double *)c->hessian.data + total->hessian,
+  double *hessian = (double *)c->made.hessian.data + start[i];
+  memcpy(hessian, (const double *)c->answer.hessian.data + total->hessian,
          sizeof(double) * (size_t)(n * n));
   if (!c->target->tangents)
     return ABUT_SUCCESS;
-  const abut_coupling_entry *e = (const abut_coupling_entry *)c->entries.data
-                                 + total->first + total->n_secondary;
+  const abut_coupling_entry *e =
+      (const abut_coupling_entry *)c->sum.entries.data + total->first
+      + total->n_secondary;
   double shape[ABUT_FACET_MAX_NODES], normal[3], unit[3], guide[3];
   for (int32_t a = 0; a < n_nodes; ++a)
     shape[a] = e[a].value / total->weight;
@@ -219,10 +222,10 @@ note_point(abut_coupling *c, const abut_coupling_share *total, double full)
   {
     abut_array *array;
     int64_t each;
-  } const list[] = {{&c->point_node, 1},      {&c->point_facet, 1},
-                    {&c->point_number, 1},    {&c->point_full, 1},
-                    {&c->point_least, 1},     {&c->point_primary, 1},
-                    {&c->point_position, dim}};
+  } const list[] = {{&c->made.node, 1},      {&c->made.facet, 1},
+                    {&c->made.number, 1},    {&c->made.full, 1},
+                    {&c->made.least, 1},     {&c->made.primary, 1},
+                    {&c->made.position, dim}};
   for (size_t k = 0; k < sizeof(list) / sizeof(list[0]); ++k)
   {
     const abut_status status = abut_array_reserve(
@@ -233,14 +236,14 @@ note_point(abut_coupling *c, const abut_coupling_share *total, double full)
   const double *position = total->node >= 0
                                ? c->secondary->view.position + dim * total->node
                                : total->position;
-  ((int32_t *)c->point_node.data)[i] = total->node;
-  ((int32_t *)c->point_facet.data)[i] =
+  ((int32_t *)c->made.node.data)[i] = total->node;
+  ((int32_t *)c->made.facet.data)[i] =
       abut_coupling_is_mortar(c) ? -1 : total->facet;
-  ((int32_t *)c->point_number.data)[i] = total->point;
-  ((int32_t *)c->point_primary.data)[i] = total->primary;
-  ((double *)c->point_full.data)[i] = full;
-  ((double *)c->point_least.data)[i] = total->least;
-  memcpy((double *)c->point_position.data + i * dim, position,
+  ((int32_t *)c->made.number.data)[i] = total->point;
+  ((int32_t *)c->made.primary.data)[i] = total->primary;
+  ((double *)c->made.full.data)[i] = full;
+  ((double *)c->made.least.data)[i] = total->least;
+  memcpy((double *)c->made.position.data + i * dim, position,
          sizeof(double) * (size_t)dim);
   return abut_coupling_moves(c) ? note_hessian(c, total) : ABUT_SUCCESS;
 }
@@ -382,8 +385,8 @@ add_point(abut_coupling *c, const int64_t *list, int64_t n,
   point.n_secondary = point.n_nodes;
   if (status == ABUT_SUCCESS)
     status = add_entries(c, 1, list, n, &point.n_nodes);
-  point.node = c->stencil_node.data;
-  point.coefficient = c->stencil_coefficient.data;
+  point.node = c->made.stencil_node.data;
+  point.coefficient = c->made.stencil_coefficient.data;
   if (status == ABUT_SUCCESS)
     status = abut_points_append(c->target->points, &point);
   if (status != ABUT_SUCCESS)
@@ -397,7 +400,7 @@ static void
 add_up(const abut_coupling *c, const int64_t *list, int64_t n,
        abut_coupling_share *total)
 {
-  const abut_coupling_share *shares = c->shares.data;
+  const abut_coupling_share *shares = c->sum.shares.data;
   *total = shares[list[0]];
   for (int64_t i = 1; i < n; ++i)
   {
@@ -418,9 +421,10 @@ add_up(const abut_coupling *c, const int64_t *list, int64_t n,
 static abut_status
 node_points(abut_coupling *c)
 {
-  const int64_t *start = c->share_start.data, *list = c->share_list.data;
-  const int32_t *order = c->node_order.data;
-  const double *full = c->full.data, *reach = c->row_reach.data;
+  const int64_t *start = c->sum.share_start.data,
+                *list = c->sum.share_list.data;
+  const int32_t *order = c->order.node.data;
+  const double *full = c->of_node.full.data, *reach = c->of_node.reach.data;
   const double smallest = abut_coupling_follows(c) && !abut_coupling_has_weak(c)
                               ? smallest_share
                               : smallest_weight;
@@ -451,8 +455,8 @@ node_points(abut_coupling *c)
 static abut_status
 quadrature_points(abut_coupling *c)
 {
-  const abut_coupling_share *shares = c->shares.data;
-  for (int64_t i = 0; i < c->n_shares; ++i)
+  const abut_coupling_share *shares = c->sum.shares.data;
+  for (int64_t i = 0; i < c->sum.n_shares; ++i)
   {
     if (!(shares[i].weight > 0.))
       continue;
@@ -472,12 +476,12 @@ reserve_sums(abut_coupling *c)
     const abut_surface *s = side == 0 ? c->secondary : c->primary;
     const int64_t n = s != NULL ? s->view.n_nodes : 0;
     abut_status status =
-        abut_array_reserve(c->context, &c->sum[side], 0, n + 1);
+        abut_array_reserve(c->context, &c->sum.of_node[side], 0, n + 1);
     if (status == ABUT_SUCCESS)
-      status = abut_array_reserve(c->context, &c->seen[side], 0, n + 1);
+      status = abut_array_reserve(c->context, &c->sum.seen[side], 0, n + 1);
     if (status != ABUT_SUCCESS)
       return status;
-    memset(c->seen[side].data, 0, (size_t)n);
+    memset(c->sum.seen[side].data, 0, (size_t)n);
   }
   return ABUT_SUCCESS;
 }
@@ -497,20 +501,20 @@ abut_coupling_append(abut_coupling *c)
   if (status != ABUT_SUCCESS)
     return status;
   abut_coupling_view *v = &c->view;
-  v->node = c->point_node.data;
-  v->facet = c->point_facet.data;
-  v->point = c->point_number.data;
-  v->full_weight = c->point_full.data;
-  v->position = c->point_position.data;
+  v->node = c->made.node.data;
+  v->facet = c->made.facet.data;
+  v->point = c->made.number.data;
+  v->full_weight = c->made.full.data;
+  v->position = c->made.position.data;
   const bool turns = abut_coupling_turns(c),
              moves = turns || abut_coupling_moves(c);
-  v->hessian = moves ? c->point_hessian.data : NULL;
-  v->hessian_start = moves ? c->point_hessian_start.data : NULL;
-  v->line_start = turns ? c->point_line_start.data : NULL;
-  v->line = turns ? c->point_line.data : NULL;
-  v->column_start = turns ? c->point_column_start.data : NULL;
-  v->column = turns ? c->point_column.data : NULL;
-  v->primary = c->point_primary.data;
-  v->least = abut_coupling_follows(c) ? c->point_least.data : NULL;
+  v->hessian = moves ? c->made.hessian.data : NULL;
+  v->hessian_start = moves ? c->made.hessian_start.data : NULL;
+  v->line_start = turns ? c->made.line_start.data : NULL;
+  v->line = turns ? c->made.line.data : NULL;
+  v->column_start = turns ? c->made.column_start.data : NULL;
+  v->column = turns ? c->made.column.data : NULL;
+  v->primary = c->made.primary.data;
+  v->least = abut_coupling_follows(c) ? c->made.least.data : NULL;
   return ABUT_SUCCESS;
 }

@@ -82,7 +82,7 @@ at(const matrix *m, int32_t line, int d, int32_t column)
 static const abut_coupling_share *
 share_at(const abut_coupling *c, int64_t i)
 {
-  return (const abut_coupling_share *)c->shares.data + i;
+  return (const abut_coupling_share *)c->sum.shares.data + i;
 }
 
 static const int32_t *
@@ -98,11 +98,10 @@ enter_direction(matrix *m, const abut_coupling_direction *direction)
 {
   bool done = true;
   for (int32_t k = 0; k < direction->n && done; ++k)
-    done =
-        enter(
-            &m->columns, 0,
-            ((const int32_t *)m->c->direction_node.data)[direction->first + k])
-        >= 0;
+    done = enter(&m->columns, 0,
+                 ((const int32_t *)
+                      m->c->change.direction_node.data)[direction->first + k])
+           >= 0;
   return done ? ABUT_SUCCESS : ABUT_OUT_OF_MEMORY;
 }
 
@@ -153,13 +152,14 @@ enter_shares(matrix *m, const int64_t *list, int64_t n)
   {
     const abut_coupling_share s = *share_at(m->c, list[i]);
     const abut_coupling_entry *e =
-        (const abut_coupling_entry *)m->c->entries.data + s.first;
+        (const abut_coupling_entry *)m->c->sum.entries.data + s.first;
     for (int32_t k = 0; k < s.n_secondary + s.n_primary; ++k)
       if (enter(&m->lines, k >= s.n_secondary, e[k].node) < 0)
         return ABUT_OUT_OF_MEMORY;
     for (int32_t k = 0; k < s.n_blocks && status == ABUT_SUCCESS; ++k)
-      status = enter_block(m, (const abut_coupling_block *)m->c->blocks.data
-                                  + s.first_block + k);
+      status =
+          enter_block(m, (const abut_coupling_block *)m->c->change.blocks.data
+                             + s.first_block + k);
   }
   return status;
 }
@@ -171,9 +171,9 @@ add_direction(const matrix *m, const abut_coupling_direction *direction,
               int32_t line, double factor)
 {
   const int32_t *node =
-      (const int32_t *)m->c->direction_node.data + direction->first;
+      (const int32_t *)m->c->change.direction_node.data + direction->first;
   const double *change =
-      (const double *)m->c->direction_change.data + 9 * direction->first;
+      (const double *)m->c->change.direction_change.data + 9 * direction->first;
   for (int32_t k = 0; k < direction->n; ++k)
     for (int d = 0; d < m->dim; ++d)
       for (int e = 0; e < m->dim; ++e)
@@ -196,9 +196,10 @@ static void
 add_by_normal(const matrix *m, const double *normal, int32_t line,
               const abut_coupling_direction *of, const double *change)
 {
-  const int32_t *node = (const int32_t *)m->c->direction_node.data + of->first;
+  const int32_t *node =
+      (const int32_t *)m->c->change.direction_node.data + of->first;
   const double *by =
-      (const double *)m->c->direction_change.data + 9 * of->first;
+      (const double *)m->c->change.direction_change.data + 9 * of->first;
   for (int32_t k = 0; k < of->n; ++k, by += 9)
   {
     double sum[3] = {0., 0., 0.};
@@ -221,7 +222,7 @@ add_block(matrix *m, const abut_coupling_block *b, const double *normal,
                 *p = nodes_of(c->primary, b->primary, &n_m);
   const int32_t n_columns = abut_coupling_columns(c, n_s, n_m), dim = m->dim;
   const int32_t behind = c->secondary->view.n_nodes;
-  const double *value = (const double *)c->block_values.data + b->first;
+  const double *value = (const double *)c->change.block_values.data + b->first;
   for (int32_t k = 0; k * dim < n_columns; ++k)
   {
     abut_coupling_direction of;
@@ -258,7 +259,7 @@ fill(matrix *m, const int64_t *list, int64_t n,
   {
     const abut_coupling_share s = *share_at(m->c, list[i]);
     const abut_coupling_entry *e =
-        (const abut_coupling_entry *)m->c->entries.data + s.first;
+        (const abut_coupling_entry *)m->c->sum.entries.data + s.first;
     for (int32_t k = 0; k < s.n_secondary + s.n_primary; ++k)
     {
       const bool opposite = k >= s.n_secondary;
@@ -267,9 +268,10 @@ fill(matrix *m, const int64_t *list, int64_t n,
                     (opposite ? -1. : 1.) * e[k].value / total->weight);
     }
     for (int32_t k = 0; k < s.n_blocks && status == ABUT_SUCCESS; ++k)
-      status = add_block(
-          m, (const abut_coupling_block *)m->c->blocks.data + s.first_block + k,
-          direction->normal, total->weight);
+      status = add_block(m,
+                         (const abut_coupling_block *)m->c->change.blocks.data
+                             + s.first_block + k,
+                         direction->normal, total->weight);
   }
   return status;
 }
@@ -289,7 +291,7 @@ add_spin(matrix *m, const int64_t *list, int64_t n,
   {
     const abut_coupling_share *s = share_at(m->c, list[i]);
     const abut_coupling_entry *e =
-        (const abut_coupling_entry *)m->c->entries.data + s->first;
+        (const abut_coupling_entry *)m->c->sum.entries.data + s->first;
     for (int32_t k = 0; k < s->n_secondary + s->n_primary; ++k)
     {
       const bool opposite = k >= s->n_secondary;
@@ -367,14 +369,15 @@ abut_coupling_note_block(abut_coupling *c, const int64_t *list, int64_t n,
                          const abut_coupling_direction *direction)
 {
   matrix m = {.c = c, .dim = c->view.dimension};
-  m.lines = (node_list){c, c->line_place.data, &c->point_line, 0, 0};
-  m.columns = (node_list){c, c->column_place.data, &c->point_column, 0, 0};
+  m.lines = (node_list){c, c->change.line_place.data, &c->made.line, 0, 0};
+  m.columns =
+      (node_list){c, c->change.column_place.data, &c->made.column, 0, 0};
   int64_t first = 0;
-  abut_status status = begin_at(c, &c->point_line_start, &m.lines.first);
+  abut_status status = begin_at(c, &c->made.line_start, &m.lines.first);
   if (status == ABUT_SUCCESS)
-    status = begin_at(c, &c->point_column_start, &m.columns.first);
+    status = begin_at(c, &c->made.column_start, &m.columns.first);
   if (status == ABUT_SUCCESS)
-    status = begin_at(c, &c->point_hessian_start, &first);
+    status = begin_at(c, &c->made.hessian_start, &first);
   if (status == ABUT_SUCCESS)
     status = enter_direction(&m, direction);
   if (status == ABUT_SUCCESS)
@@ -390,10 +393,10 @@ abut_coupling_note_block(abut_coupling *c, const int64_t *list, int64_t n,
                 all = c->target->tangents ? m.dim * size : size;
   if (status == ABUT_SUCCESS)
     status =
-        abut_array_reserve(c->context, &c->point_hessian, first, first + all);
+        abut_array_reserve(c->context, &c->made.hessian, first, first + all);
   if (status == ABUT_SUCCESS)
   {
-    m.value = (double *)c->point_hessian.data + first;
+    m.value = (double *)c->made.hessian.data + first;
     memset(m.value, 0, sizeof(double) * (size_t)size);
     status = fill(&m, list, n, total, direction);
     if (c->target->tangents)
@@ -403,9 +406,9 @@ abut_coupling_note_block(abut_coupling *c, const int64_t *list, int64_t n,
   finish(&m.columns);
   if (status != ABUT_SUCCESS)
     return status;
-  end_at(c, &c->point_line_start, m.lines.n);
-  end_at(c, &c->point_column_start, m.columns.n);
-  end_at(c, &c->point_hessian_start, all);
+  end_at(c, &c->made.line_start, m.lines.n);
+  end_at(c, &c->made.column_start, m.columns.n);
+  end_at(c, &c->made.hessian_start, all);
   return ABUT_SUCCESS;
 }
 
@@ -426,7 +429,7 @@ abut_coupling_gap(const abut_coupling *c, const int64_t *list, int64_t n,
   {
     const abut_coupling_share *s = share_at(c, list[i]);
     const abut_coupling_entry *e =
-        (const abut_coupling_entry *)c->entries.data + s->first;
+        (const abut_coupling_entry *)c->sum.entries.data + s->first;
     for (int32_t k = 0; k < s->n_secondary + s->n_primary; ++k)
     {
       const int side = k >= s->n_secondary;

@@ -72,9 +72,9 @@ double
 abut_coupling_add_integrals(abut_coupling *c, const abut_coupling_facet *facet,
                             const abut_coupling_functions *f, double *sum)
 {
-  const abut_coupling_point *p = c->points.data;
+  const abut_coupling_point *p = c->work.points.data;
   double area = 0.;
-  for (int32_t q = 0; q < c->n_points; ++q)
+  for (int32_t q = 0; q < c->work.n_points; ++q)
   {
     double base[ABUT_FACET_MAX_NODES];
     abut_coupling_base(c, facet->kind, p + q, base);
@@ -102,20 +102,22 @@ take_facet(abut_coupling *c, int32_t index)
   ++c->statistics.n_facets;
   c->statistics.largest_warping =
       max2(c->statistics.largest_warping, facet.warping);
-  abut_status status =
-      abut_coupling_make_functions(c, &facet, c->given.data, &f);
+  abut_status status = abut_coupling_make_functions(
+      c, &facet, c->of_node.dropped_as_given.data, &f);
   if (status == ABUT_SUCCESS)
     status = abut_coupling_whole(c, &facet);
   if (status != ABUT_SUCCESS)
     return status;
-  const double whole = abut_coupling_add_integrals(c, &facet, &f, c->full.data);
+  const double whole =
+      abut_coupling_add_integrals(c, &facet, &f, c->of_node.full.data);
   if (c->detection != NULL)
     return ABUT_SUCCESS;
-  if (c->drops)
-    status = abut_coupling_make_functions(c, &facet, c->dropped.data, &f);
+  if (c->of_node.drops)
+    status =
+        abut_coupling_make_functions(c, &facet, c->of_node.dropped.data, &f);
   if (status == ABUT_SUCCESS)
     status = abut_coupling_make_points(c, &facet, true);
-  if (status != ABUT_SUCCESS || c->n_points == 0)
+  if (status != ABUT_SUCCESS || c->work.n_points == 0)
     return status;
   ++c->statistics.n_covered;
   return c->method->take_facet(c, &facet, &f, whole);
@@ -124,8 +126,8 @@ take_facet(abut_coupling *c, int32_t index)
 static abut_status
 add_full_area(abut_coupling *c)
 {
-  const double *full = c->full.data;
-  const uint8_t *wanted = c->nodes->wanted;
+  const double *full = c->of_node.full.data;
+  const uint8_t *wanted = c->of_node.given->wanted;
   for (int32_t n = 0; n < c->secondary->view.n_nodes; ++n)
     if (wanted == NULL || wanted[n])
       c->statistics.full_area += full[n];
@@ -147,28 +149,32 @@ begin_turning(abut_coupling *c)
 {
   const int64_t n = c->secondary->view.n_nodes,
                 n_all = n + c->primary->view.n_nodes;
-  c->n_rates = c->n_blocks = c->n_block_values = c->n_directions = 0;
-  abut_status status = abut_array_reserve(c->context, &c->directions, 0, n + 1);
+  c->change.n_rates = c->change.n_blocks = c->change.n_block_values =
+      c->change.n_directions = 0;
+  abut_status status =
+      abut_array_reserve(c->context, &c->change.directions, 0, n + 1);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(c->context, &c->line_place, 0, n_all + 1);
+    status =
+        abut_array_reserve(c->context, &c->change.line_place, 0, n_all + 1);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(c->context, &c->column_place, 0, n_all + 1);
+    status =
+        abut_array_reserve(c->context, &c->change.column_place, 0, n_all + 1);
   if (status != ABUT_SUCCESS)
     return status;
   for (int64_t i = 0; i < n; ++i)
-    ((abut_coupling_direction *)c->directions.data)[i].n = -1;
-  memset(c->line_place.data, 0, sizeof(int32_t) * (size_t)n_all);
-  memset(c->column_place.data, 0, sizeof(int32_t) * (size_t)n_all);
+    ((abut_coupling_direction *)c->change.directions.data)[i].n = -1;
+  memset(c->change.line_place.data, 0, sizeof(int32_t) * (size_t)n_all);
+  memset(c->change.column_place.data, 0, sizeof(int32_t) * (size_t)n_all);
   return ABUT_SUCCESS;
 }
 
 static abut_status
 build(abut_coupling *c, double motion)
 {
-  const int32_t *order = c->facet_order.data;
+  const int32_t *order = c->order.facet.data;
   abut_status status = abut_coupling_read_nodes(c);
   if (status == ABUT_SUCCESS)
-    status = abut_surface_normals(c->secondary, &c->normals);
+    status = abut_surface_normals(c->secondary, &c->of_node.normal);
   if (status == ABUT_SUCCESS)
   {
     abut_coupling_set_purpose(c);
@@ -176,9 +182,9 @@ build(abut_coupling *c, double motion)
   }
   if (status == ABUT_SUCCESS && abut_coupling_turns(c))
     status = begin_turning(c);
-  if (status == ABUT_SUCCESS && c->drops)
+  if (status == ABUT_SUCCESS && c->of_node.drops)
     status = abut_coupling_drop(c);
-  const uint8_t *purpose = c->purpose.data;
+  const uint8_t *purpose = c->of_node.purpose.data;
   for (int32_t i = 0; i < c->secondary->view.n_facets && status == ABUT_SUCCESS;
        ++i)
     if (purpose[order[i]] & ABUT_COUPLING_FOR_ROWS)
@@ -268,15 +274,15 @@ abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
   if (fault != NULL)
     return abut_fail(c->context, ABUT_INVALID_ARGUMENT, call, fault);
   const abut_coupling_statistics none = {0};
-  c->nodes = &chosen;
+  c->of_node.given = &chosen;
   c->target = &place;
   c->kinematics = abut_kinematics_get(place.kinematics);
   c->statistics = none;
   c->view.first = abut_points_n(place.points);
   c->view.n_points = 0;
-  c->n_shares = c->n_entries = c->n_hessian = 0;
+  c->sum.n_shares = c->sum.n_entries = c->answer.n_hessian = 0;
   status = build(c, motion);
-  c->nodes = NULL;
+  c->of_node.given = NULL;
   c->target = NULL;
   if (status != ABUT_SUCCESS)
   {

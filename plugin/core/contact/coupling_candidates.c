@@ -20,13 +20,13 @@ abut_coupling_find_candidates(abut_coupling *c, int32_t facet, int32_t *n)
 {
   const int64_t from = c->pairs_view.start[facet],
                 to = c->pairs_view.start[facet + 1];
-  const int32_t *rank = c->primary_facet_rank.data;
+  const int32_t *rank = c->order.primary_facet_rank.data;
   const abut_status status =
-      abut_array_reserve(c->context, &c->candidates, 0, to - from);
+      abut_array_reserve(c->context, &c->work.candidates, 0, to - from);
   *n = 0;
   if (status != ABUT_SUCCESS)
     return status;
-  int32_t *list = c->candidates.data;
+  int32_t *list = c->work.candidates.data;
   for (int64_t k = from; k < to; ++k)
   {
     const int32_t m = c->pairs_view.facet[k];

@@ -30,15 +30,15 @@ static void
 begin(const abut_coupling *c, abut_coupling_direction *sum)
 {
   memset(sum, 0, sizeof(*sum));
-  sum->first = c->n_directions;
+  sum->first = c->change.n_directions;
 }
 
 /* Derivatives by the place of a node, which is entered if it is new. */
 static double *
 change_of(abut_coupling *c, abut_coupling_direction *sum, int32_t node)
 {
-  int32_t *list = (int32_t *)c->direction_node.data + sum->first;
-  double *change = (double *)c->direction_change.data + 9 * sum->first;
+  int32_t *list = (int32_t *)c->change.direction_node.data + sum->first;
+  double *change = (double *)c->change.direction_change.data + 9 * sum->first;
   int32_t k = 0;
   while (k < sum->n && list[k] != node)
     ++k;
@@ -64,10 +64,10 @@ add_facet(abut_coupling *c, int32_t f, int a, double weight, bool unit,
   double x[3 * ABUT_FACET_MAX_NODES], normal[3],
       change[3][3 * ABUT_FACET_MAX_NODES];
   abut_status status =
-      abut_array_reserve(c->context, &c->direction_node, used, used + n);
+      abut_array_reserve(c->context, &c->change.direction_node, used, used + n);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(c->context, &c->direction_change, 9 * used,
-                                9 * (used + n));
+    status = abut_array_reserve(c->context, &c->change.direction_change,
+                                9 * used, 9 * (used + n));
   if (status != ABUT_SUCCESS)
     return status;
   gather(c, f, x);
@@ -91,7 +91,7 @@ static void
 finish(abut_coupling *c, abut_coupling_direction *sum)
 {
   const double length = unit3(sum->normal, ABUT_TINY);
-  double *change = (double *)c->direction_change.data + 9 * sum->first;
+  double *change = (double *)c->change.direction_change.data + 9 * sum->first;
   for (int32_t k = 0; k < sum->n; ++k, change += 9)
     for (int e = 0; e < 3; ++e)
     {
@@ -103,7 +103,7 @@ finish(abut_coupling *c, abut_coupling_direction *sum)
             length > 0. ? (change[3 * d + e] - along * sum->normal[d]) / length
                         : 0.;
     }
-  c->n_directions += sum->n;
+  c->change.n_directions += sum->n;
 }
 
 /* Sum over the facets of a node, by area or by angle. */
@@ -137,7 +137,7 @@ abut_coupling_average(abut_coupling *c, int32_t node,
                       abut_coupling_direction *direction)
 {
   abut_coupling_direction *kept =
-      (abut_coupling_direction *)c->directions.data + node;
+      (abut_coupling_direction *)c->change.directions.data + node;
   if (kept->n < 0)
   {
     abut_coupling_direction sum;
@@ -178,7 +178,7 @@ add_covered(abut_coupling *c, const int64_t *list, int64_t n,
   for (int64_t i = 0; i < n && status == ABUT_SUCCESS; ++i)
   {
     const abut_coupling_share *s =
-        (const abut_coupling_share *)c->shares.data + list[i];
+        (const abut_coupling_share *)c->sum.shares.data + list[i];
     status = add_facet(c, s->facet, -1, s->weight, true, sum, &area);
   }
   return status;

@@ -78,11 +78,11 @@ mark_corners(abut_coupling *c, int32_t f, double limit)
     double own[3], average[3] = {0., 0., 0.};
     abut_coupling_normal(kind, x, abut_facet_node_local(kind, a), own);
     for (int32_t d = 0; d < v->dimension; ++d)
-      average[d] = c->normals[(int64_t)v->dimension * node[a] + d];
+      average[d] = c->of_node.normal[(int64_t)v->dimension * node[a] + d];
     if (dot3(own, average) >= limit)
       continue;
     any = true;
-    ((uint8_t *)c->corner.data)[node[a]] = 1;
+    ((uint8_t *)c->of_node.corner.data)[node[a]] = 1;
   }
   return any;
 }
@@ -108,9 +108,9 @@ static void
 integrate(const abut_coupling *c, const abut_coupling_facet *facet,
           const abut_coupling_functions *f, integrals *sum)
 {
-  const abut_coupling_point *p = c->points.data;
+  const abut_coupling_point *p = c->work.points.data;
   memset(sum, 0, sizeof(*sum));
-  for (int32_t q = 0; q < c->n_points; ++q)
+  for (int32_t q = 0; q < c->work.n_points; ++q)
   {
     double h[ABUT_FACET_MAX_NODES];
     hats_of(facet->kind, p + q, h);
@@ -147,7 +147,7 @@ best_covered(const abut_coupling_functions *f, const integrals *whole,
 static void
 protect(abut_coupling *c, const abut_coupling_functions *f)
 {
-  uint8_t *corner = c->corner.data;
+  uint8_t *corner = c->of_node.corner.data;
   for (int32_t l = 0; l < f->n; ++l)
     if (!f->dropped[l] && corner[f->node[l]] == 0)
       return;
@@ -162,8 +162,8 @@ measure(abut_coupling *c, int32_t index)
   abut_coupling_functions f;
   integrals whole, covered;
   abut_coupling_load(c, index, &facet);
-  abut_status status =
-      abut_coupling_make_functions(c, &facet, c->given.data, &f);
+  abut_status status = abut_coupling_make_functions(
+      c, &facet, c->of_node.dropped_as_given.data, &f);
   if (status == ABUT_SUCCESS)
     status = abut_coupling_whole(c, &facet);
   if (status != ABUT_SUCCESS)
@@ -177,49 +177,51 @@ measure(abut_coupling *c, int32_t index)
   integrate(c, &facet, &f, &covered);
   for (int32_t l = 0; l < f.n; ++l)
   {
-    ((double *)c->hat.data)[f.node[l]] += whole.hat[l];
-    ((double *)c->covered_hat.data)[f.node[l]] += covered.hat[l];
-    ((double *)c->covered.data)[f.node[l]] += covered.shape[l];
+    ((double *)c->of_node.hat.data)[f.node[l]] += whole.hat[l];
+    ((double *)c->of_node.covered_hat.data)[f.node[l]] += covered.hat[l];
+    ((double *)c->of_node.covered.data)[f.node[l]] += covered.shape[l];
     for (int d = 0; d < 3; ++d)
-      ((double *)c->bend.data)[3 * (int64_t)f.node[l] + d] +=
+      ((double *)c->of_node.bend.data)[3 * (int64_t)f.node[l] + d] +=
           covered.hat[l] * facet.normal[d];
   }
-  if (c->n_points > 0)
+  if (c->work.n_points > 0)
     protect(c, &f);
   const int32_t best = best_covered(&f, &whole, &covered);
   if (best >= 0)
-    ((uint8_t *)c->node_flag.data)[best] = 1;
+    ((uint8_t *)c->of_node.flag.data)[best] = 1;
   return ABUT_SUCCESS;
 }
 
 static bool
 is_weak(const abut_coupling *c, int32_t n)
 {
-  const double hat = ((const double *)c->hat.data)[n],
-               h = ((const double *)c->covered_hat.data)[n],
-               d = ((const double *)c->covered.data)[n];
+  const double hat = ((const double *)c->of_node.hat.data)[n],
+               h = ((const double *)c->of_node.covered_hat.data)[n],
+               d = ((const double *)c->of_node.covered.data)[n];
   return abut_coupling_has_weak(c) && hat != 0.
-         && !((const uint8_t *)c->node_flag.data)[n]
+         && !((const uint8_t *)c->of_node.flag.data)[n]
          && (h < smallest_coverage * hat || d < smallest_weight * h);
 }
 
 static bool
 is_bent(const abut_coupling *c, int32_t n)
 {
-  const double h = ((const double *)c->covered_hat.data)[n];
-  return ((const uint8_t *)c->corner.data)[n] == 1 && h > 0.
-         && norm3((const double *)c->bend.data + 3 * (int64_t)n)
+  const double h = ((const double *)c->of_node.covered_hat.data)[n];
+  return ((const uint8_t *)c->of_node.corner.data)[n] == 1 && h > 0.
+         && norm3((const double *)c->of_node.bend.data + 3 * (int64_t)n)
                 < cos(0.5 * c->secondary->feature_angle) * h;
 }
 
 abut_status
 abut_coupling_drop(abut_coupling *c)
 {
-  const int32_t *order = c->facet_order.data, *hanging = c->hanging.data;
-  const uint8_t *purpose = c->purpose.data, *wanted = c->nodes->wanted;
+  const int32_t *order = c->order.facet.data,
+                *hanging = c->of_node.hanging.data;
+  const uint8_t *purpose = c->of_node.purpose.data,
+                *wanted = c->of_node.given->wanted;
   const int32_t n_nodes = c->secondary->view.n_nodes;
   if (n_nodes > 0)
-    memset(c->node_flag.data, 0, (size_t)n_nodes);
+    memset(c->of_node.flag.data, 0, (size_t)n_nodes);
   for (int32_t i = 0; i < c->secondary->view.n_facets; ++i)
     if (purpose[order[i]] & ABUT_COUPLING_FOR_DROPPING)
     {
@@ -227,7 +229,7 @@ abut_coupling_drop(abut_coupling *c)
       if (status != ABUT_SUCCESS)
         return status;
     }
-  uint8_t *dropped = c->dropped.data;
+  uint8_t *dropped = c->of_node.dropped.data;
   for (int32_t n = 0; n < n_nodes; ++n)
   {
     const bool bent = is_bent(c, n), weak = is_weak(c, n);
@@ -237,7 +239,8 @@ abut_coupling_drop(abut_coupling *c)
     if (wanted != NULL && !wanted[n])
       continue;
     c->statistics.n_corners += bent;
-    c->statistics.n_weak += !bent && ((const double *)c->covered.data)[n] != 0.;
+    c->statistics.n_weak +=
+        !bent && ((const double *)c->of_node.covered.data)[n] != 0.;
   }
   return ABUT_SUCCESS;
 }

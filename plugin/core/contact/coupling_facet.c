@@ -66,7 +66,7 @@ set_node_normals(const abut_coupling *c, abut_coupling_facet *facet)
                          abut_facet_node_local(facet->kind, a), own);
     n[2] = 0.;
     for (int32_t d = 0; d < v->dimension; ++d)
-      n[d] = c->normals[(int64_t)v->dimension * node[a] + d];
+      n[d] = c->of_node.normal[(int64_t)v->dimension * node[a] + d];
     if (dot3(n, own) >= limit)
       continue;
     memcpy(n, own, sizeof(own));
@@ -83,7 +83,7 @@ abut_coupling_node_normal(const abut_coupling *c,
   const int32_t *own = v->connectivity + v->facet_start[facet->index];
   normal[2] = 0.;
   for (int32_t d = 0; d < v->dimension; ++d)
-    normal[d] = c->normals[(int64_t)v->dimension * node + d];
+    normal[d] = c->of_node.normal[(int64_t)v->dimension * node + d];
   for (int32_t a = 0; a < facet->n; ++a)
     if (own[a] == node)
       memcpy(normal, facet->node_normal + 3 * a, 3 * sizeof(double));
@@ -153,12 +153,13 @@ abut_coupling_load(const abut_coupling *c, int32_t f,
 abut_coupling_point *
 abut_coupling_new_point(abut_coupling *c)
 {
-  if (abut_array_reserve(c->context, &c->points, c->n_points,
-                         (int64_t)c->n_points + 1)
+  if (abut_array_reserve(c->context, &c->work.points, c->work.n_points,
+                         (int64_t)c->work.n_points + 1)
       != ABUT_SUCCESS)
     return NULL;
-  abut_coupling_point *p = (abut_coupling_point *)c->points.data + c->n_points;
-  ++c->n_points;
+  abut_coupling_point *p =
+      (abut_coupling_point *)c->work.points.data + c->work.n_points;
+  ++c->work.n_points;
   memset(p, 0, sizeof(*p));
   p->primary = -1;
   return p;
@@ -248,7 +249,7 @@ abut_coupling_whole(abut_coupling *c, const abut_coupling_facet *facet)
 {
   abut_rule rule;
   abut_rule_facet(facet->kind, whole_degree(c, facet->kind), &rule);
-  c->n_points = 0;
+  c->work.n_points = 0;
   for (int q = 0; q < rule.n; ++q)
   {
     abut_coupling_point *p = abut_coupling_new_point(c);

@@ -39,12 +39,12 @@ static double
 extent_of(const abut_coupling *c)
 {
   const int dim = c->view.dimension;
-  const double *x = c->asked.data;
+  const double *x = c->answer.asked.data;
   double square = 0.;
   for (int d = 0; d < dim; ++d)
   {
     double low = INFINITY, high = -INFINITY;
-    for (int64_t i = 0; i < c->n_asked; ++i)
+    for (int64_t i = 0; i < c->answer.n_asked; ++i)
     {
       low = fmin(low, x[i * dim + d]);
       high = fmax(high, x[i * dim + d]);
@@ -54,15 +54,16 @@ extent_of(const abut_coupling *c)
   return sqrt(square);
 }
 
-/* Those that are to walk, in c->walkers. */
+/* Those that are to walk, in c->answer.walkers. */
 static abut_status
 collect(abut_coupling *c, int64_t *n)
 {
   const int dim = c->view.dimension;
-  const double *x = c->asked.data, *normal = c->asked_normal.data,
-               *distance = c->distance.data, *gradient = c->gradient.data;
+  const double *x = c->answer.asked.data, *normal = c->answer.asked_normal.data,
+               *distance = c->answer.distance.data,
+               *gradient = c->answer.gradient.data;
   *n = 0;
-  for (int64_t i = 0; i < c->n_asked; ++i)
+  for (int64_t i = 0; i < c->answer.n_asked; ++i)
   {
     double cosine = 0.;
     for (int d = 0; d < dim; ++d)
@@ -70,11 +71,11 @@ collect(abut_coupling *c, int64_t *n)
     if (!(distance[i] < 0. && cosine > same_way))
       continue;
     const abut_status status = abut_array_reserve(
-        c->context, &c->walkers, *n * (int64_t)sizeof(walker),
+        c->context, &c->answer.walkers, *n * (int64_t)sizeof(walker),
         (*n + 1) * (int64_t)sizeof(walker));
     if (status != ABUT_SUCCESS)
       return status;
-    walker *w = (walker *)c->walkers.data + (*n)++;
+    walker *w = (walker *)c->answer.walkers.data + (*n)++;
     memset(w, 0, sizeof(*w));
     w->point = i;
     memcpy(w->x, x + i * dim, sizeof(double) * (size_t)dim);
@@ -94,11 +95,11 @@ arrive(abut_coupling *c, const walker *w, double distance,
     cosine += gradient[d] * w->normal[d];
   if (!(cosine <= c->options.normal_cosine))
     return;
-  ((double *)c->distance.data)[w->point] = distance + w->way * cosine;
-  memcpy((double *)c->gradient.data + w->point * dim, gradient,
+  ((double *)c->answer.distance.data)[w->point] = distance + w->way * cosine;
+  memcpy((double *)c->answer.gradient.data + w->point * dim, gradient,
          sizeof(double) * (size_t)dim);
   if (abut_coupling_moves(c))
-    memset((double *)c->hessian.data + w->point * dim * dim, 0,
+    memset((double *)c->answer.hessian.data + w->point * dim * dim, 0,
            sizeof(double) * (size_t)(dim * dim));
 }
 
@@ -107,12 +108,13 @@ static abut_status
 step(abut_coupling *c, double limit, double tolerance, int64_t *n)
 {
   const int dim = c->view.dimension;
-  walker *w = c->walkers.data;
+  walker *w = c->answer.walkers.data;
   abut_status status =
-      abut_array_reserve(c->context, &c->walk, 0, *n * (2 * dim + 1));
+      abut_array_reserve(c->context, &c->answer.walk, 0, *n * (2 * dim + 1));
   if (status != ABUT_SUCCESS)
     return status;
-  double *x = c->walk.data, *distance = x + *n * dim, *gradient = distance + *n;
+  double *x = c->answer.walk.data, *distance = x + *n * dim,
+         *gradient = distance + *n;
   for (int64_t i = 0; i < *n; ++i)
     memcpy(x + i * dim, w[i].x, sizeof(double) * (size_t)dim);
   status = abut_obstacle_distance(c->obstacle, (int32_t)*n, x, distance,

@@ -54,8 +54,8 @@ resolve(const abut_coupling *c, const abut_coupling_facet *facet,
 {
   const abut_surface_view *v = &c->secondary->view;
   const int32_t *node = v->connectivity + v->facet_start[facet->index];
-  const int32_t *hanging = c->hanging.data;
-  const abut_coupling_nodes *nodes = c->nodes;
+  const int32_t *hanging = c->of_node.hanging.data;
+  const abut_coupling_nodes *nodes = c->of_node.given;
   f->n = 0;
   for (int32_t a = 0; a < facet->n; ++a)
   {
@@ -143,12 +143,12 @@ static double
 integrate(const abut_coupling *c, const abut_coupling_functions *f, int32_t n,
           double *g, double *d)
 {
-  const abut_coupling_point *points = c->points.data;
+  const abut_coupling_point *points = c->work.points.data;
   const int32_t k = f->n_kept;
   double area = 0.;
   memset(g, 0, sizeof(double) * (size_t)(k * k));
   memset(d, 0, sizeof(double) * (size_t)k);
-  for (int32_t q = 0; q < c->n_points; ++q)
+  for (int32_t q = 0; q < c->work.n_points; ++q)
   {
     const abut_coupling_point *p = points + q;
     double phi[ABUT_COUPLING_MAX_FREE], chi[ABUT_COUPLING_MAX_FREE];

@@ -52,7 +52,7 @@ abut_coupling_find_node_gaps(abut_coupling *c, const abut_coupling_facet *facet,
     gaps->found[l] = c->obstacle != NULL;
     if (c->obstacle != NULL)
     {
-      gaps->gap[l][0] = ((const double *)c->distance.data)[node];
+      gaps->gap[l][0] = ((const double *)c->answer.distance.data)[node];
       continue;
     }
     abut_coupling_node_normal(c, facet, node, normal);
@@ -67,9 +67,9 @@ static double
 bounded_gap(const abut_coupling *c, const abut_coupling_facet *facet,
             const abut_coupling_share *s)
 {
-  const abut_coupling_point *p = c->points.data;
+  const abut_coupling_point *p = c->work.points.data;
   double least = INFINITY;
-  for (int32_t q = 0; q < c->n_points; ++q)
+  for (int32_t q = 0; q < c->work.n_points; ++q)
     least = fmin(least, dot3(facet->normal, p[q].gap));
   return fmax(least, dot3(facet->normal, s->gap) / s->weight);
 }
@@ -82,7 +82,7 @@ integrate(const abut_coupling *c, const abut_coupling_functions *f,
           double *sum)
 {
   const abut_coupling_entry *e =
-      (const abut_coupling_entry *)c->entries.data + s->first;
+      (const abut_coupling_entry *)c->sum.entries.data + s->first;
   sum[0] = sum[1] = sum[2] = 0.;
   for (int32_t k = 0; k < s->n_secondary; ++k)
   {

@@ -174,12 +174,14 @@ abut_coupling_follow(abut_coupling *c, int32_t primary, const double *x,
   if (abut_beyond_border(c->primary, primary, &p)
       && !continue_facet(c->primary, primary, nodes, x, &p))
     return ABUT_SUCCESS;
-  abut_status status = abut_array_reserve(c->context, &c->hessian, c->n_hessian,
-                                          c->n_hessian + n * n);
+  abut_status status =
+      abut_array_reserve(c->context, &c->answer.hessian, c->answer.n_hessian,
+                         c->answer.n_hessian + n * n);
   if (status != ABUT_SUCCESS)
     return status;
-  status = differentiate(c, primary, nodes, x, &p, gradient,
-                         (double *)c->hessian.data + c->n_hessian);
+  status =
+      differentiate(c, primary, nodes, x, &p, gradient,
+                    (double *)c->answer.hessian.data + c->answer.n_hessian);
   if (status == ABUT_UNSUPPORTED) /* at a centre of curvature, no normal */
     return ABUT_SUCCESS;
   if (status != ABUT_SUCCESS)
@@ -187,11 +189,11 @@ abut_coupling_follow(abut_coupling *c, int32_t primary, const double *x,
                      "the nearest point of a facet is not finite");
   memset(opposite, 0, sizeof(*opposite));
   opposite->gap = p.gap;
-  opposite->hessian = c->n_hessian;
+  opposite->hessian = c->answer.n_hessian;
   abut_coupling_shape(kind, nodes, p.local, opposite->shape, NULL);
   for (int d = 0; d < dim; ++d)
     opposite->normal[d] = -gradient[d];
-  c->n_hessian += n * n;
+  c->answer.n_hessian += n * n;
   *found = true;
   return ABUT_SUCCESS;
 }
@@ -248,7 +250,7 @@ static void
 scan(const abut_coupling *c, const abut_coupling_facet *facet,
      int32_t n_candidates, const double *x, nearest *found)
 {
-  const int32_t *candidate = c->candidates.data;
+  const int32_t *candidate = c->work.candidates.data;
   found->least = INFINITY;
   found->facet = -1;
   for (int32_t k = 0; k < n_candidates; ++k)
@@ -315,14 +317,14 @@ abut_coupling_near(abut_coupling *c, const abut_coupling_facet *facet,
       abut_coupling_find_candidates(c, facet->index, &n_candidates);
   if (status == ABUT_SUCCESS)
     status = abut_coupling_whole(c, facet);
-  abut_coupling_point *points = c->points.data;
-  for (int32_t q = 0; q < c->n_points && status == ABUT_SUCCESS; ++q)
+  abut_coupling_point *points = c->work.points.data;
+  for (int32_t q = 0; q < c->work.n_points && status == ABUT_SUCCESS; ++q)
   {
     status = follow_point(c, facet, n_candidates, points + q);
     if (points[q].primary >= 0)
       points[n++] = points[q];
   }
-  c->n_points = n;
+  c->work.n_points = n;
   c->statistics.n_pairs += final ? n : 0;
   return status;
 }

@@ -28,7 +28,7 @@ new_share(abut_coupling *c, int32_t node, int32_t f)
     return NULL;
   s->node = node;
   s->facet = f;
-  s->weight = ((const double *)c->full.data)[node];
+  s->weight = ((const double *)c->of_node.full.data)[node];
   return s;
 }
 
@@ -109,9 +109,11 @@ abut_coupling_add_axis(const abut_coupling *c, const abut_coupling_facet *facet,
 abut_status
 abut_coupling_add_nodal(abut_coupling *c)
 {
-  const int32_t *hanging = c->hanging.data, *order = c->node_order.data;
-  const uint8_t *dropped = c->dropped.data, *wanted = c->nodes->wanted;
-  const double *weight = c->obstacle != NULL ? c->covered.data : c->full.data;
+  const int32_t *hanging = c->of_node.hanging.data, *order = c->order.node.data;
+  const uint8_t *dropped = c->of_node.dropped.data,
+                *wanted = c->of_node.given->wanted;
+  const double *weight =
+      c->obstacle != NULL ? c->of_node.covered.data : c->of_node.full.data;
   abut_detection_view view = {0};
   abut_status status = c->obstacle == NULL
                            ? abut_detection_get(c->detection, &view)

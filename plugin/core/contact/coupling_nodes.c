@@ -21,7 +21,7 @@ fail_at(abut_coupling *c, abut_status status, const char *what, int64_t number)
 static abut_status
 check_ranges(abut_coupling *c)
 {
-  const abut_coupling_nodes *n = c->nodes;
+  const abut_coupling_nodes *n = c->of_node.given;
   const int32_t n_nodes = c->secondary->view.n_nodes;
   if (n->n_hanging < 0)
     return fail_at(c, ABUT_INVALID_ARGUMENT, "n_hanging is ", n->n_hanging);
@@ -50,12 +50,12 @@ check_ranges(abut_coupling *c)
   return ABUT_SUCCESS;
 }
 
-/* Weights add up to one, and no parent hangs. Also sets c->hanging. */
+/* Weights add up to one, and no parent hangs. Also sets c->of_node.hanging. */
 static abut_status
 check_hanging(abut_coupling *c)
 {
-  const abut_coupling_nodes *n = c->nodes;
-  int32_t *hanging = c->hanging.data;
+  const abut_coupling_nodes *n = c->of_node.given;
+  int32_t *hanging = c->of_node.hanging.data;
   for (int32_t i = 0; i < c->secondary->view.n_nodes; ++i)
     hanging[i] = -1;
   for (int32_t h = 0; h < n->n_hanging; ++h)
@@ -95,7 +95,7 @@ visit_free(const abut_coupling *c, int32_t f,
            int (*visit)(const abut_coupling *c, int32_t node))
 {
   const abut_surface_view *v = &c->secondary->view;
-  const int32_t *hanging = c->hanging.data;
+  const int32_t *hanging = c->of_node.hanging.data;
   for (int32_t e = v->facet_start[f]; e < v->facet_start[f + 1]; ++e)
   {
     const int32_t node = v->connectivity[e], h = hanging[node];
@@ -105,9 +105,9 @@ visit_free(const abut_coupling *c, int32_t f,
         return 1;
       continue;
     }
-    for (int32_t k = c->nodes->hanging_start[h];
-         k < c->nodes->hanging_start[h + 1]; ++k)
-      if (visit(c, c->nodes->hanging_parent[k]))
+    for (int32_t k = c->of_node.given->hanging_start[h];
+         k < c->of_node.given->hanging_start[h + 1]; ++k)
+      if (visit(c, c->of_node.given->hanging_parent[k]))
         return 1;
   }
   return 0;
@@ -116,20 +116,20 @@ visit_free(const abut_coupling *c, int32_t f,
 static int
 is_wanted(const abut_coupling *c, int32_t node)
 {
-  return c->nodes->wanted == NULL || c->nodes->wanted[node];
+  return c->of_node.given->wanted == NULL || c->of_node.given->wanted[node];
 }
 
 static int
 mark(const abut_coupling *c, int32_t node)
 {
-  ((uint8_t *)c->node_flag.data)[node] = 1;
+  ((uint8_t *)c->of_node.flag.data)[node] = 1;
   return 0;
 }
 
 static int
 is_marked(const abut_coupling *c, int32_t node)
 {
-  return ((const uint8_t *)c->node_flag.data)[node];
+  return ((const uint8_t *)c->of_node.flag.data)[node];
 }
 
 bool
@@ -143,15 +143,15 @@ abut_coupling_has_weak(const abut_coupling *c)
 static int
 is_marked_corner(const abut_coupling *c, int32_t node)
 {
-  return is_marked(c, node) && ((const uint8_t *)c->corner.data)[node];
+  return is_marked(c, node) && ((const uint8_t *)c->of_node.corner.data)[node];
 }
 
 void
 abut_coupling_set_purpose(abut_coupling *c)
 {
   const int32_t n = c->secondary->view.n_facets;
-  const uint8_t *wanted_facet = c->nodes->wanted_facet;
-  uint8_t *purpose = c->purpose.data;
+  const uint8_t *wanted_facet = c->of_node.given->wanted_facet;
+  uint8_t *purpose = c->of_node.purpose.data;
   const bool points = c->method->info.row_per_point;
   const bool weak = abut_coupling_has_weak(c),
              drop = weak
@@ -168,7 +168,7 @@ abut_coupling_set_purpose(abut_coupling *c)
   for (int32_t f = 0; f < n && drop; ++f)
     if (visit_free(c, f, weak ? is_marked : is_marked_corner))
       purpose[f] |= ABUT_COUPLING_FOR_DROPPING;
-  c->drops = drop;
+  c->of_node.drops = drop;
 }
 
 abut_status
@@ -179,19 +179,19 @@ abut_coupling_read_nodes(abut_coupling *c)
   {
     abut_array *array;
     int64_t n;
-  } const list[] = {{&c->hanging, n},
-                    {&c->given, n},
-                    {&c->dropped, n},
-                    {&c->full, n},
-                    {&c->covered, n},
-                    {&c->hat, n},
-                    {&c->covered_hat, n},
-                    {&c->row_reach, n},
-                    {&c->lone, n},
-                    {&c->node_flag, n},
-                    {&c->corner, n},
-                    {&c->bend, 3 * n},
-                    {&c->purpose, c->secondary->view.n_facets}};
+  } const list[] = {{&c->of_node.hanging, n},
+                    {&c->of_node.dropped_as_given, n},
+                    {&c->of_node.dropped, n},
+                    {&c->of_node.full, n},
+                    {&c->of_node.covered, n},
+                    {&c->of_node.hat, n},
+                    {&c->of_node.covered_hat, n},
+                    {&c->of_node.reach, n},
+                    {&c->of_node.lone, n},
+                    {&c->of_node.flag, n},
+                    {&c->of_node.corner, n},
+                    {&c->of_node.bend, 3 * n},
+                    {&c->of_node.purpose, c->secondary->view.n_facets}};
   abut_status status = check_ranges(c);
   for (size_t i = 0;
        i < sizeof(list) / sizeof(list[0]) && status == ABUT_SUCCESS; ++i)
@@ -205,8 +205,8 @@ abut_coupling_read_nodes(abut_coupling *c)
     status = check_hanging(c);
   if (status != ABUT_SUCCESS)
     return status;
-  for (int64_t i = 0; c->nodes->dropped != NULL && i < n; ++i)
-    ((uint8_t *)c->given.data)[i] = ((uint8_t *)c->dropped.data)[i] =
-        c->nodes->dropped[i];
+  for (int64_t i = 0; c->of_node.given->dropped != NULL && i < n; ++i)
+    ((uint8_t *)c->of_node.dropped_as_given.data)[i] =
+        ((uint8_t *)c->of_node.dropped.data)[i] = c->of_node.given->dropped[i];
   return ABUT_SUCCESS;
 }

@@ -15,21 +15,22 @@
 static abut_status
 ask(abut_coupling *c, const double *x, const double *normal, double size)
 {
-  const int64_t dim = c->view.dimension, n = c->n_asked;
+  const int64_t dim = c->view.dimension, n = c->answer.n_asked;
   abut_status status =
-      abut_array_reserve(c->context, &c->asked, n * dim, (n + 1) * dim);
+      abut_array_reserve(c->context, &c->answer.asked, n * dim, (n + 1) * dim);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(c->context, &c->asked_normal, n * dim,
+    status = abut_array_reserve(c->context, &c->answer.asked_normal, n * dim,
                                 (n + 1) * dim);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(c->context, &c->asked_size, n, n + 1);
+    status = abut_array_reserve(c->context, &c->answer.asked_size, n, n + 1);
   if (status != ABUT_SUCCESS)
     return status;
-  memcpy((double *)c->asked.data + n * dim, x, sizeof(double) * (size_t)dim);
-  memcpy((double *)c->asked_normal.data + n * dim, normal,
+  memcpy((double *)c->answer.asked.data + n * dim, x,
          sizeof(double) * (size_t)dim);
-  ((double *)c->asked_size.data)[n] = size;
-  ++c->n_asked;
+  memcpy((double *)c->answer.asked_normal.data + n * dim, normal,
+         sizeof(double) * (size_t)dim);
+  ((double *)c->answer.asked_size.data)[n] = size;
+  ++c->answer.n_asked;
   return ABUT_SUCCESS;
 }
 
@@ -41,10 +42,10 @@ ask_facet(abut_coupling *c, int32_t f)
   double mean[3] = {0., 0., 0.};
   abut_coupling_load(c, f, &facet);
   abut_status status = abut_coupling_whole(c, &facet);
-  const abut_coupling_point *points = c->points.data;
-  for (int32_t q = 0; q < c->n_points && status == ABUT_SUCCESS; ++q)
+  const abut_coupling_point *points = c->work.points.data;
+  for (int32_t q = 0; q < c->work.n_points && status == ABUT_SUCCESS; ++q)
   {
-    axpy3(mean, 1. / c->n_points, points[q].position, mean);
+    axpy3(mean, 1. / c->work.n_points, points[q].position, mean);
     status = ask(c, points[q].position, facet.normal, facet.size);
   }
   return status == ABUT_SUCCESS ? ask(c, mean, facet.normal, 0.) : status;
@@ -55,7 +56,7 @@ static void
 set_sizes_of_nodes(abut_coupling *c)
 {
   const abut_surface_view *v = &c->secondary->view;
-  double *size = c->asked_size.data;
+  double *size = c->answer.asked_size.data;
   for (int32_t f = 0; f < v->n_facets && abut_obstacle_has_edges(c->obstacle);
        ++f)
   {
@@ -74,8 +75,8 @@ static void
 answer(const abut_coupling *c, int64_t i, double *distance, double *normal)
 {
   const int dim = c->view.dimension;
-  const double *gradient = (const double *)c->gradient.data + i * dim;
-  *distance = ((const double *)c->distance.data)[i];
+  const double *gradient = (const double *)c->answer.gradient.data + i * dim;
+  *distance = ((const double *)c->answer.distance.data)[i];
   for (int d = 0; d < 3; ++d)
     normal[d] = d < dim ? -gradient[d] : 0.;
 }
@@ -97,7 +98,8 @@ node_faces(const abut_coupling *c, int32_t node, double size)
 {
   static const double beyond_doubt = 0.5;
   const int dim = c->view.dimension;
-  const double *outward = (const double *)c->asked_normal.data + node * dim;
+  const double *outward =
+      (const double *)c->answer.asked_normal.data + node * dim;
   double distance, normal[3], cosine = 0.;
   answer(c, node, &distance, normal);
   unit3(normal, 0.);
@@ -112,9 +114,11 @@ static abut_status
 find_lone_nodes(abut_coupling *c)
 {
   const abut_surface_view *v = &c->secondary->view;
-  const int32_t *order = c->facet_order.data, *hanging = c->hanging.data;
-  const uint8_t *purpose = c->purpose.data, *wanted = c->nodes->wanted;
-  uint8_t *lone = c->lone.data;
+  const int32_t *order = c->order.facet.data,
+                *hanging = c->of_node.hanging.data;
+  const uint8_t *purpose = c->of_node.purpose.data,
+                *wanted = c->of_node.given->wanted;
+  uint8_t *lone = c->of_node.lone.data;
   abut_status status = ABUT_SUCCESS;
   for (int pass = 0; pass < 2 && c->method->detects_nodes; ++pass)
   {
@@ -127,7 +131,7 @@ find_lone_nodes(abut_coupling *c)
         continue;
       abut_coupling_load(c, f, &facet);
       status = abut_coupling_whole(c, &facet);
-      next += c->n_points + 1;
+      next += c->work.n_points + 1;
       const bool faces =
           status == ABUT_SUCCESS && middle_faces(c, &facet, next - 1);
       for (int32_t e = v->facet_start[f]; e < v->facet_start[f + 1]; ++e)
@@ -148,7 +152,7 @@ static bool
 has_lone_node(const abut_coupling *c, const abut_coupling_facet *facet)
 {
   const abut_surface_view *v = &c->secondary->view;
-  const uint8_t *lone = c->lone.data;
+  const uint8_t *lone = c->of_node.lone.data;
   for (int32_t e = v->facet_start[facet->index];
        e < v->facet_start[facet->index + 1]; ++e)
     if (lone[v->connectivity[e]])
@@ -165,46 +169,50 @@ correct(abut_coupling *c)
   return status != ABUT_SUCCESS
              ? status
              : abut_obstacle_face(
-                 c->obstacle, moves, (int32_t)c->n_asked, c->asked.data,
-                 c->asked_normal.data, c->asked_size.data, c->distance.data,
-                 c->gradient.data, moves ? c->hessian.data : NULL);
+                 c->obstacle, moves, (int32_t)c->answer.n_asked,
+                 c->answer.asked.data, c->answer.asked_normal.data,
+                 c->answer.asked_size.data, c->answer.distance.data,
+                 c->answer.gradient.data,
+                 moves ? c->answer.hessian.data : NULL);
 }
 
 abut_status
 abut_coupling_measure_obstacle(abut_coupling *c)
 {
-  const int32_t dim = c->view.dimension, *order = c->facet_order.data;
-  const uint8_t *purpose = c->purpose.data;
+  const int32_t dim = c->view.dimension, *order = c->order.facet.data;
+  const uint8_t *purpose = c->of_node.purpose.data;
   const abut_surface_view *v = &c->secondary->view;
   const double *normal = NULL;
   abut_status status = abut_surface_normals(c->secondary, &normal);
-  c->n_asked = c->n_answered = 0;
+  c->answer.n_asked = c->answer.n_answered = 0;
   if (c->method->detects_nodes || c->method->dual)
     for (int64_t i = 0; i < v->n_nodes && status == ABUT_SUCCESS; ++i)
       status = ask(c, v->position + dim * i, normal + dim * i, 0.);
-  if (c->n_asked > 0 && status == ABUT_SUCCESS)
+  if (c->answer.n_asked > 0 && status == ABUT_SUCCESS)
     set_sizes_of_nodes(c);
-  c->n_answered = c->n_asked;
+  c->answer.n_answered = c->answer.n_asked;
   for (int32_t i = 0; i < v->n_facets && status == ABUT_SUCCESS; ++i)
     if (purpose[order[i]] & ABUT_COUPLING_FOR_ROWS)
       status = ask_facet(c, order[i]);
   if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(c->context, &c->distance, 0, c->n_asked + 1);
+    status = abut_array_reserve(c->context, &c->answer.distance, 0,
+                                c->answer.n_asked + 1);
   if (status == ABUT_SUCCESS)
-    status =
-        abut_array_reserve(c->context, &c->gradient, 0, c->n_asked * dim + 1);
+    status = abut_array_reserve(c->context, &c->answer.gradient, 0,
+                                c->answer.n_asked * dim + 1);
   if (status == ABUT_SUCCESS && abut_coupling_moves(c))
-    status = abut_array_reserve(c->context, &c->hessian, 0,
-                                c->n_asked * dim * dim + 1);
-  if (status != ABUT_SUCCESS || c->n_asked == 0)
+    status = abut_array_reserve(c->context, &c->answer.hessian, 0,
+                                c->answer.n_asked * dim * dim + 1);
+  if (status != ABUT_SUCCESS || c->answer.n_asked == 0)
     return status;
-  status = abut_coupling_moves(c)
-               ? abut_obstacle_gap(c->obstacle, (int32_t)c->n_asked,
-                                   c->asked.data, c->distance.data,
-                                   c->gradient.data, c->hessian.data)
-               : abut_obstacle_distance(c->obstacle, (int32_t)c->n_asked,
-                                        c->asked.data, c->distance.data,
-                                        c->gradient.data, NULL);
+  status =
+      abut_coupling_moves(c)
+          ? abut_obstacle_gap(c->obstacle, (int32_t)c->answer.n_asked,
+                              c->answer.asked.data, c->answer.distance.data,
+                              c->answer.gradient.data, c->answer.hessian.data)
+          : abut_obstacle_distance(
+              c->obstacle, (int32_t)c->answer.n_asked, c->answer.asked.data,
+              c->answer.distance.data, c->answer.gradient.data, NULL);
   if (status == ABUT_SUCCESS)
     status = correct(c);
   return status == ABUT_SUCCESS ? find_lone_nodes(c) : status;
@@ -215,8 +223,8 @@ static void
 set_reach(abut_coupling *c, const abut_coupling_facet *facet)
 {
   const abut_surface_view *v = &c->secondary->view;
-  const int32_t *hanging = c->hanging.data;
-  double *reach = c->row_reach.data;
+  const int32_t *hanging = c->of_node.hanging.data;
+  double *reach = c->of_node.reach.data;
   const double own =
       max2(c->reach, c->options.search.relative_reach * facet->size);
   for (int32_t e = v->facet_start[facet->index];
@@ -225,10 +233,10 @@ set_reach(abut_coupling *c, const abut_coupling_facet *facet)
     const int32_t node = v->connectivity[e], h = hanging[node];
     if (h < 0)
       reach[node] = max2(reach[node], own);
-    for (int32_t k = h < 0 ? 0 : c->nodes->hanging_start[h];
-         h >= 0 && k < c->nodes->hanging_start[h + 1]; ++k)
+    for (int32_t k = h < 0 ? 0 : c->of_node.given->hanging_start[h];
+         h >= 0 && k < c->of_node.given->hanging_start[h + 1]; ++k)
     {
-      const int32_t parent = c->nodes->hanging_parent[k];
+      const int32_t parent = c->of_node.given->hanging_parent[k];
       reach[parent] = max2(reach[parent], own);
     }
   }
@@ -253,10 +261,10 @@ abut_coupling_face_obstacle(abut_coupling *c, const abut_coupling_facet *facet,
   const abut_status status = abut_coupling_whole(c, facet);
   if (status != ABUT_SUCCESS)
     return status;
-  const int64_t first = c->n_answered, n_points = c->n_points;
-  abut_coupling_point *p = c->points.data;
-  c->n_answered += n_points + 1;
-  c->n_points = 0;
+  const int64_t first = c->answer.n_answered, n_points = c->work.n_points;
+  abut_coupling_point *p = c->work.points.data;
+  c->answer.n_answered += n_points + 1;
+  c->work.n_points = 0;
   if (!middle_faces(c, facet, first + n_points) && !has_lone_node(c, facet))
     return ABUT_SUCCESS;
   for (int64_t q = 0; q < n_points; ++q)
@@ -266,7 +274,7 @@ abut_coupling_face_obstacle(abut_coupling *c, const abut_coupling_facet *facet,
     if (is_kept(c, facet, p + q))
       p[n++] = p[q];
   }
-  c->n_points = n;
+  c->work.n_points = n;
   set_reach(c, facet);
   c->statistics.n_pairs += final;
   return ABUT_SUCCESS;
@@ -275,7 +283,7 @@ abut_coupling_face_obstacle(abut_coupling *c, const abut_coupling_facet *facet,
 abut_status
 abut_coupling_add_node_obstacle(abut_coupling *c, int32_t node)
 {
-  const double weight = ((const double *)c->covered.data)[node];
+  const double weight = ((const double *)c->of_node.covered.data)[node];
   double normal[3], distance;
   answer(c, node, &distance, normal);
   abut_coupling_share *s = abut_coupling_new_share(c);

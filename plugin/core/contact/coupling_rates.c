@@ -33,13 +33,14 @@ new_rate(abut_coupling *c, abut_coupling_point *p, int32_t n_nodes,
          int32_t n_columns)
 {
   const int64_t n = (int64_t)n_nodes * n_columns;
-  if (abut_array_reserve(c->context, &c->rates, c->n_rates, c->n_rates + n)
+  if (abut_array_reserve(c->context, &c->change.rates, c->change.n_rates,
+                         c->change.n_rates + n)
       != ABUT_SUCCESS)
     return NULL;
-  double *rate = (double *)c->rates.data + c->n_rates;
+  double *rate = (double *)c->change.rates.data + c->change.n_rates;
   memset(rate, 0, sizeof(double) * (size_t)n);
-  p->rate = c->n_rates;
-  c->n_rates += n;
+  p->rate = c->change.n_rates;
+  c->change.n_rates += n;
   return rate;
 }
 
@@ -260,22 +261,26 @@ static double *
 new_block(abut_coupling *c, const abut_coupling_facet *facet, int32_t primary,
           int64_t n)
 {
-  if (abut_array_reserve(c->context, &c->blocks, c->n_blocks, c->n_blocks + 1)
+  if (abut_array_reserve(c->context, &c->change.blocks, c->change.n_blocks,
+                         c->change.n_blocks + 1)
           != ABUT_SUCCESS
-      || abut_array_reserve(c->context, &c->block_values, c->n_block_values,
-                            c->n_block_values + n)
+      || abut_array_reserve(c->context, &c->change.block_values,
+                            c->change.n_block_values,
+                            c->change.n_block_values + n)
              != ABUT_SUCCESS)
     return NULL;
-  abut_coupling_block *b = (abut_coupling_block *)c->blocks.data + c->n_blocks;
-  b->first = c->n_block_values;
+  abut_coupling_block *b =
+      (abut_coupling_block *)c->change.blocks.data + c->change.n_blocks;
+  b->first = c->change.n_block_values;
   b->facet = facet->index;
   b->primary = primary;
   b->own_normals = facet->own_normals;
   b->unused = 0;
-  double *value = (double *)c->block_values.data + c->n_block_values;
+  double *value =
+      (double *)c->change.block_values.data + c->change.n_block_values;
   memset(value, 0, sizeof(double) * (size_t)n);
-  ++c->n_blocks;
-  c->n_block_values += n;
+  ++c->change.n_blocks;
+  c->change.n_block_values += n;
   return value;
 }
 
@@ -283,10 +288,10 @@ abut_status
 abut_coupling_add_blocks(abut_coupling *c, const abut_coupling_facet *facet,
                          abut_coupling_share *share)
 {
-  const abut_coupling_point *p = c->points.data;
-  const double *weight = c->values.data;
-  share->first_block = c->n_blocks;
-  for (int32_t q = 0, end; q < c->n_points; q = end)
+  const abut_coupling_point *p = c->work.points.data;
+  const double *weight = c->work.values.data;
+  share->first_block = c->change.n_blocks;
+  for (int32_t q = 0, end; q < c->work.n_points; q = end)
   {
     const int32_t primary = p[q].primary,
                   n_m = abut_facet_n_nodes(
@@ -295,9 +300,9 @@ abut_coupling_add_blocks(abut_coupling *c, const abut_coupling_facet *facet,
     double *value = new_block(c, facet, primary, n);
     if (value == NULL)
       return ABUT_OUT_OF_MEMORY;
-    for (end = q; end < c->n_points && p[end].primary == primary; ++end)
+    for (end = q; end < c->work.n_points && p[end].primary == primary; ++end)
     {
-      const double *rate = (const double *)c->rates.data + p[end].rate;
+      const double *rate = (const double *)c->change.rates.data + p[end].rate;
       for (int64_t k = 0; k < n; ++k)
         value[k] += weight[end] * rate[k];
     }

@@ -47,7 +47,7 @@ static void
 find_opposite(const abut_coupling *c, const double *direction, double (*e)[3],
               int32_t n_candidates, abut_coupling_point *p)
 {
-  const int32_t *candidate = c->candidates.data;
+  const int32_t *candidate = c->work.candidates.data;
   double least = INFINITY;
   for (int32_t k = 0; k < n_candidates; ++k)
   {
@@ -89,9 +89,9 @@ void
 abut_coupling_aim(abut_coupling *c, const abut_coupling_facet *facet)
 {
   double e[2][3];
-  abut_coupling_point *p = c->points.data;
+  abut_coupling_point *p = c->work.points.data;
   abut_plane_basis(c->view.dimension, facet->normal, e);
-  for (int32_t q = 0; q < c->n_points; ++q)
+  for (int32_t q = 0; q < c->work.n_points; ++q)
   {
     double nodes[3 * ABUT_FACET_MAX_NODES], local[2], gap;
     const abut_facet_kind kind =
@@ -120,15 +120,15 @@ abut_coupling_rays(abut_coupling *c, const abut_coupling_facet *facet,
     status = abut_coupling_whole(c, facet);
   if (status != ABUT_SUCCESS)
     return status;
-  abut_coupling_point *points = c->points.data;
+  abut_coupling_point *points = c->work.points.data;
   abut_plane_basis(c->view.dimension, facet->normal, e);
-  for (int32_t q = 0; q < c->n_points; ++q)
+  for (int32_t q = 0; q < c->work.n_points; ++q)
   {
     find_opposite(c, facet->normal, e, n_candidates, points + q);
     if (points[q].primary >= 0)
       points[n++] = points[q];
   }
-  c->n_points = n;
+  c->work.n_points = n;
   c->statistics.n_pairs += final ? n : 0;
   return ABUT_SUCCESS;
 }

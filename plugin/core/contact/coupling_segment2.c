@@ -167,9 +167,9 @@ static abut_status
 append(abut_coupling *c, int32_t *n, const segment *g)
 {
   const abut_status status =
-      abut_array_reserve(c->context, &c->segments, *n, (int64_t)*n + 1);
+      abut_array_reserve(c->context, &c->work.segments, *n, (int64_t)*n + 1);
   if (status == ABUT_SUCCESS)
-    ((segment *)c->segments.data)[(*n)++] = *g;
+    ((segment *)c->work.segments.data)[(*n)++] = *g;
   return status;
 }
 
@@ -177,7 +177,7 @@ append(abut_coupling *c, int32_t *n, const segment *g)
 static abut_status
 collect(abut_coupling *c, const base *b, int32_t n_candidates, int32_t *n)
 {
-  const int32_t *candidate = c->candidates.data;
+  const int32_t *candidate = c->work.candidates.data;
   abut_status status = ABUT_SUCCESS;
   *n = 0;
   for (int32_t k = 0; k < n_candidates && status == ABUT_SUCCESS; ++k)
@@ -271,7 +271,7 @@ static abut_status
 integrate(abut_coupling *c, const abut_coupling_facet *facet, const base *b,
           int32_t n, int32_t k, bool *cut)
 {
-  const segment *list = c->segments.data;
+  const segment *list = c->work.segments.data;
   const double tolerance = 2. * ABUT_CLIP_SMALLEST;
   double from = list[k].from, s = from;
   abut_status status = ABUT_SUCCESS;
@@ -297,9 +297,9 @@ abut_coupling_segments2(abut_coupling *c, const abut_coupling_facet *facet,
                         bool final)
 {
   int32_t n_candidates, n;
-  c->n_points = 0;
-  c->n_rates = 0;
-  c->segments.element = sizeof(segment);
+  c->work.n_points = 0;
+  c->change.n_rates = 0;
+  c->work.segments.element = sizeof(segment);
   abut_status status =
       abut_coupling_find_candidates(c, facet->index, &n_candidates);
   for (int part = 0;

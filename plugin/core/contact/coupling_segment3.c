@@ -75,10 +75,10 @@ keep(work *w, const segment *g, double size)
   if (!gap_at(w, g, g->polygon.centroid, &gap)
       || !abut_coupling_in_reach(w->c, gap, size))
     return ABUT_SUCCESS;
-  const abut_status status = abut_array_reserve(w->c->context, &w->c->segments,
-                                                w->n, (int64_t)w->n + 1);
+  const abut_status status = abut_array_reserve(
+      w->c->context, &w->c->work.segments, w->n, (int64_t)w->n + 1);
   if (status == ABUT_SUCCESS)
-    ((segment *)w->c->segments.data)[w->n++] = *g;
+    ((segment *)w->c->work.segments.data)[w->n++] = *g;
   return status;
 }
 
@@ -126,7 +126,7 @@ intersect(work *w, const abut_linear_patch *s, const abut_linear_patch *m,
 static abut_status
 collect(work *w, const abut_linear_patch *s, int32_t n_candidates)
 {
-  const int32_t *candidate = w->c->candidates.data;
+  const int32_t *candidate = w->c->work.candidates.data;
   w->n = 0;
   for (int32_t k = 0; k < n_candidates; ++k)
   {
@@ -191,7 +191,7 @@ share_node(const abut_surface_view *v, int32_t f, int32_t g)
 static bool
 is_before(const work *w, int32_t j, int32_t i)
 {
-  const segment *list = w->c->segments.data;
+  const segment *list = w->c->work.segments.data;
   abut_clip3 common;
   double gap_i, gap_j;
   if (list[i].primary == list[j].primary
@@ -210,7 +210,7 @@ is_before(const work *w, int32_t j, int32_t i)
 static int
 cut_back(const work *w, int32_t i, abut_clip3 *fragments)
 {
-  const segment *list = w->c->segments.data;
+  const segment *list = w->c->work.segments.data;
   int n = 1;
   fragments[0] = list[i].polygon;
   for (int32_t j = 0; j < w->n && n > 0; ++j)
@@ -290,7 +290,7 @@ integrate_all(work *w, bool final)
   abut_rule rule;
   for (int32_t i = 0; i < w->n; ++i)
   {
-    const segment *g = (const segment *)w->c->segments.data + i;
+    const segment *g = (const segment *)w->c->work.segments.data + i;
     abut_clip3 fragments[MAX_FRAGMENTS];
     const int n = cut_back(w, i, fragments);
     const int wanted = abut_coupling_degree(
@@ -319,9 +319,9 @@ abut_coupling_segments3(abut_coupling *c, const abut_coupling_facet *facet,
   int32_t n_candidates;
   abut_linear_patch s[ABUT_MAX_LINEAR_PATCHES];
   work w = {.c = c, .facet = facet};
-  c->n_points = 0;
-  c->n_rates = 0;
-  c->segments.element = sizeof(segment);
+  c->work.n_points = 0;
+  c->change.n_rates = 0;
+  c->work.segments.element = sizeof(segment);
   abut_status status =
       abut_coupling_find_candidates(c, facet->index, &n_candidates);
   const bool split =

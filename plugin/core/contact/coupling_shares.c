@@ -16,14 +16,15 @@
 abut_coupling_share *
 abut_coupling_new_share(abut_coupling *c)
 {
-  if (abut_array_reserve(c->context, &c->shares, c->n_shares, c->n_shares + 1)
+  if (abut_array_reserve(c->context, &c->sum.shares, c->sum.n_shares,
+                         c->sum.n_shares + 1)
       != ABUT_SUCCESS)
     return NULL;
   abut_coupling_share *s =
-      (abut_coupling_share *)c->shares.data + c->n_shares++;
+      (abut_coupling_share *)c->sum.shares.data + c->sum.n_shares++;
   memset(s, 0, sizeof(*s));
   s->primary = -1;
-  s->first = c->n_entries;
+  s->first = c->sum.n_entries;
   return s;
 }
 
@@ -31,12 +32,12 @@ abut_status
 abut_coupling_new_entry(abut_coupling *c, int32_t *count, int32_t node,
                         double value)
 {
-  const abut_status status = abut_array_reserve(c->context, &c->entries,
-                                                c->n_entries, c->n_entries + 1);
+  const abut_status status = abut_array_reserve(
+      c->context, &c->sum.entries, c->sum.n_entries, c->sum.n_entries + 1);
   if (status != ABUT_SUCCESS)
     return status;
   abut_coupling_entry *e =
-      (abut_coupling_entry *)c->entries.data + c->n_entries++;
+      (abut_coupling_entry *)c->sum.entries.data + c->sum.n_entries++;
   e->value = value;
   e->node = node;
   e->unused = 0;
@@ -50,12 +51,12 @@ evaluate(abut_coupling *c, const abut_coupling_facet *facet,
          const abut_coupling_functions *f, int32_t j)
 {
   const abut_status status =
-      abut_array_reserve(c->context, &c->values, 0, c->n_points);
+      abut_array_reserve(c->context, &c->work.values, 0, c->work.n_points);
   if (status != ABUT_SUCCESS)
     return status;
-  const abut_coupling_point *p = c->points.data;
-  double *value = c->values.data;
-  for (int32_t q = 0; q < c->n_points; ++q)
+  const abut_coupling_point *p = c->work.points.data;
+  double *value = c->work.values.data;
+  for (int32_t q = 0; q < c->work.n_points; ++q)
   {
     double base[ABUT_FACET_MAX_NODES];
     abut_coupling_base(c, facet->kind, p + q, base);
@@ -72,10 +73,10 @@ static double
 secondary_integral(const abut_coupling *c, const abut_coupling_functions *f,
                    int32_t n, int32_t l)
 {
-  const abut_coupling_point *p = c->points.data;
-  const double *value = c->values.data;
+  const abut_coupling_point *p = c->work.points.data;
+  const double *value = c->work.values.data;
   double sum = 0.;
-  for (int32_t q = 0; q < c->n_points; ++q)
+  for (int32_t q = 0; q < c->work.n_points; ++q)
   {
     double phi = 0.;
     for (int32_t a = 0; a < n; ++a)
@@ -110,14 +111,14 @@ add_secondary(abut_coupling *c, const abut_coupling_facet *facet,
 static abut_status
 add_primary(abut_coupling *c, abut_coupling_share *share)
 {
-  const abut_coupling_point *p = c->points.data;
-  const double *value = c->values.data;
+  const abut_coupling_point *p = c->work.points.data;
+  const double *value = c->work.values.data;
   int32_t n = 0;
-  for (int32_t q = 0, end; q < c->n_points; q = end)
+  for (int32_t q = 0, end; q < c->work.n_points; q = end)
   {
     double sum[ABUT_FACET_MAX_NODES] = {0.};
     const int32_t facet = p[q].primary;
-    for (end = q; end < c->n_points && p[end].primary == facet; ++end)
+    for (end = q; end < c->work.n_points && p[end].primary == facet; ++end)
       for (int32_t a = 0; a < ABUT_FACET_MAX_NODES; ++a)
         sum[a] += value[end] * p[end].opposite[a];
     if (facet < 0)
@@ -139,10 +140,10 @@ static void
 add_gap(const abut_coupling *c, const abut_coupling_facet *facet,
         abut_coupling_share *share)
 {
-  const abut_coupling_point *p = c->points.data;
-  const double *value = c->values.data;
+  const abut_coupling_point *p = c->work.points.data;
+  const double *value = c->work.values.data;
   share->least = INFINITY;
-  for (int32_t q = 0; q < c->n_points; ++q)
+  for (int32_t q = 0; q < c->work.n_points; ++q)
   {
     share->least = fmin(share->least, dot3(facet->normal, p[q].gap));
     share->weight += value[q];
@@ -159,7 +160,7 @@ abut_status
 abut_coupling_add_shares(abut_coupling *c, const abut_coupling_facet *facet,
                          const abut_coupling_functions *f)
 {
-  const uint8_t *wanted = c->nodes->wanted;
+  const uint8_t *wanted = c->of_node.given->wanted;
   const bool interpolates = abut_coupling_interpolates(c) && !f->lumped;
   abut_coupling_node_gaps gaps;
   abut_status status = interpolates
@@ -193,8 +194,8 @@ abut_status
 abut_coupling_add_points(abut_coupling *c, const abut_coupling_facet *facet,
                          const abut_coupling_functions *f)
 {
-  const abut_coupling_point *points = c->points.data;
-  for (int32_t q = 0; q < c->n_points; ++q)
+  const abut_coupling_point *points = c->work.points.data;
+  for (int32_t q = 0; q < c->work.n_points; ++q)
   {
     const abut_coupling_point *p = points + q;
     abut_status status = ABUT_SUCCESS;

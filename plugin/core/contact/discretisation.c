@@ -9,7 +9,7 @@ take_nodes(abut_coupling *c, const abut_coupling_facet *facet,
            abut_coupling_functions *f, double whole)
 {
   (void)whole;
-  (void)abut_coupling_add_integrals(c, facet, f, c->covered.data);
+  (void)abut_coupling_add_integrals(c, facet, f, c->of_node.covered.data);
   return ABUT_SUCCESS;
 }
 
