@@ -307,7 +307,7 @@ extern "C"
     abut_kinematics kinematics;
     /** Updated and current: [n_nodes * dimension] positions of the secondary's
      * nodes in the reference configuration, which weights are measured in;
-     * else NULL (default). */
+     * else, and where there are no nodes, NULL (default). */
     const double *reference;
     /** Corotational: [n_nodes * dimension] current positions of the nodes of
      * the secondary and of the primary; else NULL (default). */

@@ -212,6 +212,15 @@ has_radii(const abut_surface *s, const double *reference)
   return least >= -1e-12 * largest;
 }
 
+/* Whether positions are missing, or given without being asked for. */
+static bool
+does_not_fit(const double *position, bool is_asked_for,
+             const abut_surface *surface)
+{
+  const bool is_empty = surface == NULL || surface->view.n_nodes == 0;
+  return position == NULL ? is_asked_for && !is_empty : !is_asked_for;
+}
+
 static const char *
 fault_of_places(const abut_coupling *c, const abut_coupling_target *t)
 {
@@ -220,9 +229,10 @@ fault_of_places(const abut_coupling *c, const abut_coupling_target *t)
     return "there is no such kinematics";
   const bool is_displaced = k->points != ABUT_CONFIGURATION_REFERENCE;
   const bool turns = k->directions != k->points;
-  if ((t->reference != NULL) != is_displaced)
+  if (does_not_fit(t->reference, is_displaced, c->secondary))
     return "reference positions are given where the surfaces stand elsewhere";
-  if ((t->current != NULL) != turns || (t->current_primary != NULL) != turns)
+  if (does_not_fit(t->current, turns, c->secondary)
+      || does_not_fit(t->current_primary, turns, c->primary))
     return "current positions are given, of both surfaces, where kinematics is "
            "corotational";
   if (t->tie_axes != 0 && k->directions != ABUT_CONFIGURATION_REFERENCE)
