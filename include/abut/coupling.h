@@ -310,9 +310,9 @@ extern "C"
      * else, and where there are no nodes, NULL (default). */
     const double *reference;
     /** Corotational: [n_nodes * dimension] current positions of the nodes of
-     * the secondary and of the primary; else NULL (default). */
+     * the secondary; else NULL (default). */
     const double *current;
-    const double *current_primary;
+    const double *current_primary; /**< those of the primary's nodes */
   } abut_coupling_target;
 
   enum

@@ -98,7 +98,8 @@ namespace
     if (hosts::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << "beyond the limit load: " << result.n_steps
                 << " linearisations, " << result.n_negative_steps
-                << " of them not positive: " << result.explanation.text << std::endl;
+                << " of them not positive: " << result.explanation.text
+                << std::endl;
     expect(!result.converged(), "an answer beyond the limit load");
     expect(result.n_negative_steps == 0
                || result.explanation.text.find("d . K d") != std::string::npos,

@@ -13,10 +13,10 @@ namespace abut
   /** Data of a pair that a message is about. */
   enum class PairField
   {
-    surfaces,
-    obstacle,
-    upper_obstacle, /**< of nodal obstacles */
-    gap,
+    surfaces,        /**< its boundary ids, or the pair as a whole */
+    obstacle,        /**< the rigid obstacle */
+    upper_obstacle,  /**< of nodal obstacles */
+    gap,             /**< added to the gap of the geometry */
     friction,        /**< the coefficient, or friction as such */
     largest_friction /**< the largest traction */
   };
@@ -26,29 +26,31 @@ namespace abut
    * the text. */
   struct Message
   {
-    abut_failure failure = ABUT_FAILURE_NONE;
+    abut_failure failure = ABUT_FAILURE_NONE; /**< NONE: no known one */
     std::string text; /**< begins with the code of coded() */
     std::string pair; /**< name; empty: none */
-    PairField field = PairField::surfaces;
+    PairField field = PairField::surfaces; /**< of the pair */
     int body = -1; /**< number from 0 of a body without support */
 
     Message() = default;
 
-    Message(std::string words) // NOLINT(google-explicit-constructor)
-        : text(std::move(words))
+    /** A text without data. */
+    Message(std::string words) : text(std::move(words))
     {
     }
 
-    Message(const char *words) // NOLINT(google-explicit-constructor)
-        : text(words)
+    /** A text without data. */
+    Message(const char *words) : text(words)
     {
     }
 
-    operator std::string() const // NOLINT(google-explicit-constructor)
+    /** The text. */
+    operator std::string() const
     {
       return text;
     }
 
+    /** Whether there is no text. */
     bool empty() const
     {
       return text.empty();
@@ -61,18 +63,21 @@ namespace abut
       return message;
     }
 
+    /** The same data with more text. */
     friend Message operator+(Message message, const char *more)
     {
       message.text += more;
       return message;
     }
 
+    /** The same data with text in front. */
     friend Message operator+(const std::string &before, Message message)
     {
       message.text = before + message.text;
       return message;
     }
 
+    /** For ranks that exchange messages. */
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
       archive &failure &text &pair &field &body;
@@ -131,18 +136,19 @@ namespace abut
   class MessageError : public std::runtime_error
   {
   public:
-    MessageError(Message message) // NOLINT(google-explicit-constructor)
+    /** With the data of the message. */
+    MessageError(Message message)
         : std::runtime_error(message.text), message_(std::move(message))
     {
     }
 
-    MessageError(const std::string &text) // NOLINT(google-explicit-constructor)
-        : MessageError(Message(text))
+    /** With a text alone. */
+    MessageError(const std::string &text) : MessageError(Message(text))
     {
     }
 
-    MessageError(const char *text) // NOLINT(google-explicit-constructor)
-        : MessageError(Message(text))
+    /** With a text alone. */
+    MessageError(const char *text) : MessageError(Message(text))
     {
     }
 
