@@ -246,4 +246,34 @@ for number, clearance in enumerate((0., 1e-12, 1e-6, 1e-3, 0.1, 0.3) * 2):
     for value, of_body in zip(point, summary["body_1_moved"]):
         p.expect(abs(value - of_body) < 1e-2 * (clearance + size),
                  f"{what}: {value}, {of_body}")
+
+# In an elastic ring nested iteration begins with a square in a dodecagon, on
+# which it need not find an answer.
+for friction, size in ((0, 1.), (0.3, 1.), (0.1, 0.5)):
+    angle = random.uniform(0, 2 * math.pi)
+    unit = (math.cos(angle), math.sin(angle))
+    radius = 0.999
+    scene = p.write("ring.prm", "\n".join([
+        "set Scene = solid", "set Dimension = 2",
+        section("Solid", "Bodies = 2", "Pairs = 1"),
+        section("Body 1", section("Mesh", "Generator = hyper_ball",
+                                  f"Arguments = 0, 0 : {radius} : true"),
+                "Young modulus = 1e3", "Poisson ratio = 0.3",
+                "Body force = " + ", ".join(f"({size * u!r})*t"
+                                            for u in unit)),
+        section("Body 2", section("Mesh", "Generator = hyper_shell",
+                                  "Arguments = 0, 0 : 1 : 1.5 : 12 : true"),
+                "Young modulus = 1e4", "Poisson ratio = 0.3",
+                "Support = 1: 0, 0"),
+        section("Pair 1", "Secondary = 2: 0", "Primary = 1: 0",
+                f"Friction = {friction}"),
+        section("Refinement", "Level = 3")]) + "\n")
+    result = run(scene, "Method/Sliding=large")
+    what = f"disc in a ring, friction {friction}, load {size}"
+    p.expect(result.returncode == 0, f"{what}: {result.stderr}")
+    if result.returncode != 0:
+        continue
+    load = 16 * math.sin(math.pi / 16) * radius**2 * size
+    for value, u in zip(p.results()[0]["pair_1_force"], unit):
+        p.expect(abs(value - load * u) < 1e-5 * load, f"{what}: {value}")
 p.finish()

@@ -519,10 +519,47 @@ namespace abut::app
     return true;
   }
 
+  template <int dim> bool ContactRun<dim>::can_pass_over() const
+  {
+    constexpr abut_failure of_iterations[] = {
+        ABUT_FAILURE_CYCLE,      ABUT_FAILURE_LINEAR_SOLVER,
+        ABUT_FAILURE_STEP_LIMIT, ABUT_FAILURE_STICK_SLIP,
+        ABUT_FAILURE_NEWTON,     ABUT_FAILURE_PARTNERS};
+    const RefinementParameters &levels = state.settings.refinement;
+    return model.has_contact() && !model.reports_failures()
+           && !state.settings.all_levels && !state.control.is_on()
+           && !state.is_last_mesh() && !levels.is_adaptive(state.mesh_number)
+           && std::find(std::begin(of_iterations), std::end(of_iterations),
+                        failure.failure)
+                  != std::end(of_iterations);
+  }
+
+  template <int dim> void ContactRun<dim>::begin_anew()
+  {
+    state.u = model.start();
+    contact_is_ready = false;
+    pressure.reset();
+    solve_start();
+  }
+
   template <int dim> bool ContactRun<dim>::solve_on_hierarchy()
   {
-    while (solve())
+    for (;;)
     {
+      const bool is_solved = solve();
+      if (!is_solved)
+      {
+        if (!can_pass_over())
+          return false;
+        report.progress("mesh " + std::to_string(state.mesh_number + 1)
+                        + " has no answer, which the next one only starts "
+                          "from: "
+                        + failure.text);
+        set_refine_flags();
+        refine();
+        begin_anew();
+        continue;
+      }
       const std::optional<bool> met =
           state.control.is_on() ? follow_target() : std::optional<bool>();
       if (met)
@@ -547,7 +584,6 @@ namespace abut::app
       refine();
       pass();
     }
-    return false;
   }
 
   template <int dim> void ContactRun<dim>::set_refine_flags()
@@ -669,10 +705,7 @@ namespace abut::app
     if (is_first)
     {
       // Nothing was committed: begin again, on the mesh that there is now.
-      state.u = model.start();
-      contact_is_ready = false;
-      pressure.reset();
-      solve_start();
+      begin_anew();
       return goes_on;
     }
     state.u = before;

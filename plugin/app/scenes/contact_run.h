@@ -88,6 +88,11 @@ namespace abut::app
 
     // Meshes and load steps
     bool solve_on_hierarchy();
+    /** Whether the mesh without an answer was there for the start of the next
+     * one alone, and a finer one may have an answer. */
+    bool can_pass_over() const;
+    /** Begin from the start of the problem, on the mesh that there is. */
+    void begin_anew();
     /** Whether the last solve succeeded, which meets the target or gives it
      * up; no answer: another mesh is needed. */
     std::optional<bool> follow_target();
