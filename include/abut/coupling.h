@@ -283,13 +283,12 @@ extern "C"
     bool flush; /**< surfaces count as touching: leave out their distance */
     /** Points of contact have their tangents, too, with slips of zero: in the
      * plane t = (-n2, n1); in space t1 is the axis that is most tangential, in
-     * the tangent plane, and t2 = n x t1. In other kinematics
-     * than reference they turn with the secondary instead: t1 is, in the
-     * tangent plane, half way between a facet's first local direction and its
-     * second one turned by a right angle; at a node it is the facet with the
-     * smallest number there, but for those that are 60 degrees off. Their
-     * numbers follow that of the normal: numbers of points that are given must
-     * leave room. */
+     * the tangent plane, and t2 = n x t1. In other kinematics than reference
+     * they rotate with the secondary instead: t1 is, in the tangent plane, half
+     * way between a facet's first local direction and its second one rotated by
+     * a right angle; at a node it is the facet with the smallest number there,
+     * but for those that are 60 degrees off. Their numbers follow that of the
+     * normal: numbers of points that are given must leave room. */
     bool tangents;
     /** Default: reference. Ties have no other. Updated and current: the
      * surfaces stand at that configuration. Current: gaps against an obstacle

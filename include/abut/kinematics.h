@@ -14,9 +14,7 @@
  */
 
 #include <abut/export.h>
-#include <abut/status.h>
 #include <stdbool.h>
-#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C"
@@ -51,8 +49,7 @@ extern "C"
   /** Properties of a kinematics. */
   typedef struct abut_kinematics_info
   {
-    size_t struct_size; /**< sizeof(abut_kinematics_info) */
-    const char *name;   /**< "reference" */
+    const char *name; /**< "reference" */
     /** Where the surfaces stand when points are made: partners and stencils
      * are found there. Weights are those of the reference configuration. */
     abut_configuration points;
@@ -65,18 +62,9 @@ extern "C"
     bool stress_laws;       /**< Nitsche, too */
   } abut_kinematics_info;
 
-  /** Describe a kinematics; INVALID_ARGUMENT if there is no such one. */
-  ABUT_API abut_status abut_kinematics_describe_sized(
-      abut_kinematics kinematics, abut_kinematics_info *info);
-
-  /** The same, with the size of the caller's struct filled in. */
-  static inline abut_status abut_kinematics_describe(abut_kinematics kinematics,
-                                                     abut_kinematics_info *info)
-  {
-    if (info != NULL)
-      info->struct_size = sizeof(*info);
-    return abut_kinematics_describe_sized(kinematics, info);
-  }
+  /** Properties of a kinematics; NULL if there is no such one. */
+  ABUT_API const abut_kinematics_info *
+  abut_kinematics_get(abut_kinematics kinematics);
 
 #ifdef __cplusplus
 }

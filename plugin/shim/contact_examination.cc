@@ -85,9 +85,10 @@ namespace abut
                const std::string &text, const double between_nodes = 0.,
                const std::size_t pair = 0)
       {
-        result_.findings.push_back({failure, is_error,
-                                    coded(failure, text).text, between_nodes,
-                                    pair});
+        ContactFinding finding(coded(failure, text), is_error);
+        finding.between_nodes = between_nodes;
+        finding.pair_number = pair;
+        result_.findings.push_back(finding);
       }
 
     private:
@@ -581,7 +582,7 @@ namespace abut
       if (!is_obstacle)
         judge_corners(pairs[p], checks[p], i.surfaces->held_in_the_mean(p),
                       scale, findings);
-      for (const ContactFinding &refused : i.surfaces->refused(p))
+      for (const Message &refused : i.surfaces->refused(p))
         findings.add(refused.failure, true,
                      pairs[p].name
                          + " would be refused; what was found is there to be "

@@ -742,13 +742,6 @@ namespace abut
     take_matrix(of_host);
     const solve::Stiffness matrix =
         solver_has_matrix ? with_geometry(of_host.matrix()) : of_host;
-    if (is_renewed)
-    {
-      if (moves())
-        solver->set_bodies(of_host);
-      solver->renew(matrix, coefficients, row_stiffness);
-      return;
-    }
     if (solver == nullptr)
     {
       if (is_nitsche())
@@ -761,6 +754,11 @@ namespace abut
     }
     if (moves())
       solver->set_bodies(of_host);
+    if (is_renewed)
+    {
+      solver->renew(matrix, coefficients, row_stiffness);
+      return;
+    }
     solver->reinit(matrix, coefficients, row_stiffness);
     restore_preconditioner();
   }

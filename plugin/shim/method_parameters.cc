@@ -367,15 +367,14 @@ namespace abut
     }
   } // namespace
 
-  abut_kinematics_info
+  const abut_kinematics_info &
   kinematics_info(const std::optional<abut_kinematics> kinematics)
   {
-    abut_kinematics_info info = {};
-    if (abut_kinematics_describe(kinematics.value_or(ABUT_KINEMATICS_REFERENCE),
-                                 &info)
-        != ABUT_SUCCESS)
+    const abut_kinematics_info *found =
+        abut_kinematics_get(kinematics.value_or(ABUT_KINEMATICS_REFERENCE));
+    if (found == nullptr)
       throw std::invalid_argument("there is no such kinematics");
-    return info;
+    return *found;
   }
 
   std::string kinematics_refusal(const abut_kinematics kinematics,
@@ -384,7 +383,7 @@ namespace abut
                                  const KinematicsPair &pair)
   {
     const bool is_weighted = discretisation_info(discretisation).is_weighted;
-    const abut_kinematics_info info = kinematics_info(kinematics);
+    const abut_kinematics_info &info = kinematics_info(kinematics);
     const std::string why = sliding_text(kinematics);
     if (info.points != ABUT_CONFIGURATION_REFERENCE && !pair.has_geometric_gap)
       return why

@@ -336,7 +336,6 @@ namespace abut::shim
             "make steps shorter (Time/Step), or let it move more slowly (its "
             "Motion, its velocity, the forces on it).";
     Message message = coded(ABUT_FAILURE_NO_PARTNER, text.str());
-    message.pair = pair.name;
     message.field = PairField::obstacle;
     return message;
   }

@@ -74,7 +74,7 @@ namespace abut::shim
 
     void set_kinematics(const abut_kinematics chosen)
     {
-      const abut_kinematics_info info = kinematics_info(chosen);
+      const abut_kinematics_info &info = kinematics_info(chosen);
       kinematics = chosen;
       points = info.points;
       directions = info.directions;
@@ -135,7 +135,7 @@ namespace abut::shim
     /** Of the thinner body; 0: was not needed. */
     double least_extent = 0.;
     /** Known failures that it was made with all the same. */
-    std::vector<ContactFinding> refused;
+    std::vector<Message> refused;
     dealii::Point<dim> gap_error_place;
     DirectionTurn<dim> turn;
     ObstacleWidth narrow;

@@ -20,7 +20,7 @@ namespace abut::shim
     template <int dim>
     double value_of(const std::function<double(const dealii::Point<dim> &)> &f,
                     const dealii::Point<dim> &place, const char *const what,
-                    std::string &message)
+                    const PairField field, Message &message)
     {
       const double value = f(place);
       if (value >= 0. && !std::isnan(value))
@@ -29,6 +29,7 @@ namespace abut::shim
       text << "its " << what << " is " << value << " at " << place
            << ": it must not be negative.";
       message = text.str();
+      message.field = field;
       return 0.;
     }
 
@@ -210,27 +211,25 @@ namespace abut::shim
       if (view_.kind[i] == ABUT_POINT_TIE || n == 1)
         continue;
       const Friction<dim> &friction = *pair.data.friction;
-      std::string wrong, wrong_cap;
+      Message wrong;
       dealii::Point<dim> place = places_[i].position;
       if (pair.has_current_points()) // back on the undeformed body
         for_each_secondary(i, [&](const Node node, const double c)
                            { place -= c * made_at(node); });
       result.first.push_back(first);
       result.n_tangents.push_back(static_cast<std::uint8_t>(n - 1));
-      const double coefficient = value_of<dim>(
-          friction.coefficient, place, "coefficient of friction", wrong);
+      const double coefficient =
+          value_of<dim>(friction.coefficient, place, "coefficient of friction",
+                        PairField::friction, wrong);
       result.coefficient.push_back(coefficient);
       for (const abut_tangent kind : tangent_kinds(i))
         result.tangent.push_back(static_cast<std::uint8_t>(kind));
-      result.cap.push_back(friction.cap
-                               ? value_of<dim>(friction.cap, place,
-                                               "largest traction", wrong_cap)
-                               : std::numeric_limits<double>::infinity());
+      result.cap.push_back(
+          friction.cap ? value_of<dim>(friction.cap, place, "largest traction",
+                                       PairField::largest_friction, wrong)
+                       : std::numeric_limits<double>::infinity());
       if (!wrong.empty())
-        message = about_pair(pair.data.name, wrong, PairField::friction);
-      if (!wrong_cap.empty())
-        message =
-            about_pair(pair.data.name, wrong_cap, PairField::largest_friction);
+        message = about_pair(pair.data.name, wrong);
     }
     throw_everywhere<ContactError>(communicator_, message);
     if (result.any)

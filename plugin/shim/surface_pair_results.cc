@@ -287,11 +287,11 @@ namespace abut::shim
     if (result.n_rows == 0 && !pair.data.obstacle)
       refuse(pairs_[number], result.warnings.back());
     std::vector<Message> &said = checks_.back().warnings;
-    for (const ContactFinding &refused : pair.refused)
+    for (const Message &refused : pair.refused)
       if (std::none_of(said.begin(), said.end(),
                        [&](const Message &warning)
                        { return warning.failure == refused.failure; }))
-        said.push_back(refused.message());
+        said.push_back(refused);
   }
 
   template <int dim>

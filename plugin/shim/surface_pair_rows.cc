@@ -169,21 +169,21 @@ namespace abut::shim
                       kinematics, law, pair.discretisation,
                       {data.obstacle != nullptr, data.geometric_gap});
     if (!fixed.empty())
-      throw ContactError(about_pair(data.name, fixed));
+      throw ContactError(about_pair(data.name, fixed, PairField::kinematics));
     pairs_.push_back(std::move(pair));
   }
 
   template <int dim>
   void SurfacePairRows<dim>::refuse(Pair &pair, const Message &message) const
   {
-    const abut_failure failure = message.failure;
-    if (!settings_.method.solve_known_failures || failure == ABUT_FAILURE_NONE)
+    if (!settings_.method.solve_known_failures
+        || message.failure == ABUT_FAILURE_NONE)
       throw ContactError(about_pair(pair.data.name, message));
-    const bool is_noted = std::any_of(pair.refused.begin(), pair.refused.end(),
-                                      [&](const ContactFinding &each)
-                                      { return each.failure == failure; });
+    const bool is_noted = std::any_of(
+        pair.refused.begin(), pair.refused.end(),
+        [&](const Message &each) { return each.failure == message.failure; });
     if (!is_noted)
-      pair.refused.push_back({failure, true, message.text});
+      pair.refused.push_back(message);
   }
 
   template <int dim>

@@ -201,7 +201,7 @@ namespace abut::shim
 
     /** Why a pair would be refused but for
      * MethodParameters::solve_known_failures. */
-    const std::vector<ContactFinding> &refused(std::size_t pair) const
+    const std::vector<Message> &refused(std::size_t pair) const
     {
       return pairs_[pair].refused;
     }

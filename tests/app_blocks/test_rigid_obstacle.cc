@@ -273,7 +273,7 @@ namespace
     refuse2({{"Kind", "sphere"}, {"Radius", "0"}}, "Radius", {"'0'"});
     refuse2({{"Kind", "sphere"}, {"Radius", "nan"}}, "Radius", {"finite"});
     refuse2({{"Kind", "sphere"}, {"Radius", ""}}, "Radius", {"positive"});
-    refuse2({{"Kind", "cylinder"}}, "Kind", {"3D only"});
+    refuse2({{"Kind", "cylinder"}}, "Kind", {"3 dimensions"});
     refuse2({{"Kind", "box"}, {"Size", "1, 0"}}, "Size", {"positive"});
     refuse3({{"Kind", "box"}, {"Size", "1, 2"}}, "Size", {"3"});
     refuse3({{"Kind", "cone"}, {"Angle", "90"}}, "Angle", {"0 and 90"});

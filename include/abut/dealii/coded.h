@@ -17,6 +17,7 @@ namespace abut
     obstacle,        /**< the rigid obstacle */
     upper_obstacle,  /**< of nodal obstacles */
     gap,             /**< added to the gap of the geometry */
+    kinematics,      /**< MethodParameters::kinematics */
     friction,        /**< the coefficient, or friction as such */
     largest_friction /**< the largest traction */
   };

@@ -395,8 +395,7 @@ namespace abut
      */
     virtual double complementarity_error() const;
 
-    /** With updated kinematics: how far closed rows go in the step that leads
-     * to
+    /** With updated kinematics: how far closed rows go in the step to
      * @p displacement, by pair. A host halves steps in which surfaces slide by
      * more than half a facet, or turn by more than 5 degrees: points are those
      * of its beginning. To be called after the solve and before commit(). Where

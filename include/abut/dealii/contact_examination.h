@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace abut
@@ -25,14 +26,19 @@ namespace abut
   };
 
   /** Something that was found about an answer. */
-  struct ContactFinding
+  struct ContactFinding : Message
   {
-    abut_failure failure = ABUT_FAILURE_NONE; /**< what it is a sign of */
+    ContactFinding() = default;
+
+    /** What was measured, and what to do. */
+    ContactFinding(Message message, const bool is_error)
+        : Message(std::move(message)), is_error(is_error)
+    {
+    }
+
     /** The answer contradicts itself, or what it was computed with, by so much
      * that it should not be used. If not, it is a warning. */
     bool is_error = false;
-    std::string text; /**< with the code in front: what was measured, and what
-                           to do */
     /** Where the other side comes between nodes by less than a twentieth of a
      * facet, and of the obstacle: that depth, length, which is too much beside
      * what bodies are deformed by; else 0. It is what a surface that is fine
@@ -40,15 +46,7 @@ namespace abut
      * load or time steps it is the largest deformation of the pair's contact
      * that tells whether it matters. */
     double between_nodes = 0.;
-    std::size_t pair = 0; /**< its number, from 0 */
-
-    /** As a message. */
-    Message message() const
-    {
-      Message result(text);
-      result.failure = failure;
-      return result;
-    }
+    std::size_t pair_number = 0; /**< from 0 */
   };
 
   /** The rigid part of the displacement of a body without sufficient supports,

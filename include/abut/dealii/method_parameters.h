@@ -43,7 +43,7 @@ namespace abut
                   System system, bool tied);
 
   /** Properties of a kinematics; of reference if there is none. */
-  abut_kinematics_info
+  const abut_kinematics_info &
   kinematics_info(std::optional<abut_kinematics> kinematics);
 
   struct MethodParameters;

@@ -443,8 +443,8 @@ namespace abut::app
       catch (const dealii::ExceptionBase &error)
       {
         throw InputError(parameters.parameter("Kind"),
-                         "there is no such " + parameters.kind + ": "
-                             + dealii_message(error));
+                         "'" + parameters.kind
+                             + "' cannot be made: " + dealii_message(error));
       }
     }
   } // namespace

@@ -4,6 +4,8 @@
 #include "app/input/effect_rules.h"
 #include "app/input/input_error.h"
 
+#include <abut/dealii/pair_measures.h>
+
 #include <ostream>
 
 namespace abut::app
@@ -152,5 +154,15 @@ namespace abut::app
           << kind.description << "\n\n";
       write_parameters(out, prm, kind.name);
     }
+    out << "\n## Pairs in `summary.json`\n\n"
+           "Keys of pair `N` begin with `pair_N_`.\n\n"
+           "| key | unit | quantity |\n|---|---|---|\n";
+    for (const PairMeasure<3> &measure : pair_measures<3>())
+      if (measure.reported != ReportedOf::none)
+        out << "| `" << measure.name << "` | " << measure.unit << " | "
+            << measure.text
+            << (measure.reported == ReportedOf::friction ? ", with friction"
+                                                         : "")
+            << " |\n";
   }
 } // namespace abut::app

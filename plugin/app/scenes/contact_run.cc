@@ -546,8 +546,7 @@ namespace abut::app
   {
     for (;;)
     {
-      const bool is_solved = solve();
-      if (!is_solved)
+      if (!solve())
       {
         if (!can_pass_over())
           return false;
@@ -775,7 +774,7 @@ namespace abut::app
     for (const BodyMotion &motion : examination.motions)
       report.progress(motion.text);
     for (const ContactFinding &finding : examination.findings)
-      report.warn(finding.message());
+      report.warn(finding);
     for (const std::string &lost : model.written_numbers().lost())
       report.warn(lost);
     converged =

@@ -141,7 +141,7 @@ namespace abut::app
     std::vector<ContactFinding> &findings = examination.findings;
     for (ContactFinding &finding : findings)
     {
-      finding.text = model.with_names(finding.text).text;
+      finding.text = model.with_names(finding).text;
       if (model.has_inertia() && finding.failure == ABUT_FAILURE_FLOATING_BODY)
       {
         finding.text = coded(ABUT_FAILURE_FLOATING_BODY, inertia_vanishes).text;

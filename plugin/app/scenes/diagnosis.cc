@@ -160,11 +160,8 @@ namespace abut::app
       return {};
     const bool is_law = std::abs(works.open_gaps) > std::abs(unbalanced);
     const bool is_soft = is_law && works.open_gaps < 0. && penalty > 0.;
-    ContactFinding finding;
-    finding.failure = is_soft ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_UNBALANCED;
-    finding.is_error = part > useless_work;
-    finding.text = coded(
-        finding.failure,
+    const Message text = coded(
+        is_soft ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_UNBALANCED,
         "Twice the energy, " + short_number(works.stored, 4)
             + ", is not the work of loads, supports and contact on its initial "
               "gaps: it is off by "
@@ -179,7 +176,7 @@ namespace abut::app
                    : "Contact lets bodies penetrate: use a larger "
                      "Method/Penalty or a smaller Gap tolerance, or the "
                      "method lagrange."));
-    return finding;
+    return ContactFinding(text, part > useless_work);
   }
 
   void diagnose_order(Report &report, const std::vector<double> &energies)

@@ -14,7 +14,7 @@ namespace abut::app
 
   bool LightTouches::is_small(const ContactFinding &finding) const
   {
-    return finding.between_nodes <= bearable * deformation[finding.pair];
+    return finding.between_nodes <= bearable * deformation[finding.pair_number];
   }
 
   void LightTouches::note(const ContactExamination &step)
@@ -37,7 +37,7 @@ namespace abut::app
         return false;
       if (!finding.is_error || is_small(finding))
         return true;
-      Held &worst = held[{static_cast<unsigned int>(finding.pair),
+      Held &worst = held[{static_cast<unsigned int>(finding.pair_number),
                           static_cast<int>(finding.failure)}];
       if (finding.between_nodes > worst.depth)
         worst = {finding.between_nodes, finding.text};
@@ -53,19 +53,19 @@ namespace abut::app
     for (const auto &[key, worst] : held)
     {
       ContactFinding finding;
-      finding.pair = key.first;
+      finding.pair_number = key.first;
       finding.failure = static_cast<abut_failure>(key.second);
       finding.between_nodes = worst.depth;
       const auto is_same = [&](const ContactFinding &found)
       {
         return found.is_error && found.failure == finding.failure
-               && found.pair == finding.pair;
+               && found.pair_number == finding.pair_number;
       };
       if (is_small(finding)
           || std::any_of(step.findings.begin(), step.findings.end(), is_same))
         continue;
       // A run may end in the step in which they meet.
-      const bool has_begun = n_steps[finding.pair] == 1;
+      const bool has_begun = n_steps[finding.pair_number] == 1;
       finding.is_error = !has_begun;
       finding.text =
           worst.text

@@ -22,7 +22,6 @@
  * entries from a detection. Directions of mortar that moves, and how its forces
  * change, are coupling_direction.c's and coupling_block.c's. */
 
-#include "contact/kinematics.h"
 #include "geometry/surface.h"
 
 #include <abut/coupling.h>

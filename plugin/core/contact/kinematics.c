@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* The table of kinematics. */
-#include "contact/kinematics.h"
+#include <abut/kinematics.h>
 
-#include "base/context.h"
+#include <stddef.h>
 
 static const abut_kinematics_info table[ABUT_KINEMATICS_N] = {
     [ABUT_KINEMATICS_REFERENCE] = {.name = "reference",
@@ -30,15 +30,4 @@ abut_kinematics_get(abut_kinematics kinematics)
 {
   const int i = (int)kinematics;
   return i >= 0 && i < ABUT_KINEMATICS_N ? &table[i] : NULL;
-}
-
-abut_status
-abut_kinematics_describe_sized(abut_kinematics kinematics,
-                               abut_kinematics_info *info)
-{
-  const abut_kinematics_info *found = abut_kinematics_get(kinematics);
-  if (found == NULL || info == NULL)
-    return ABUT_INVALID_ARGUMENT;
-  return abut_give(NULL, "abut_kinematics_describe", info, sizeof(*found),
-                   found);
 }

@@ -80,8 +80,8 @@ static const shape_entry shapes[ABUT_OBSTACLE_N_KINDS] = {
                                     | ABUT_SHAPE_LENGTH,
                                 abut_turned_distance, prepare_cylinder,
                                 cylinder_extents, false,
-                                "a cylinder exists in 3D only; its section in "
-                                "2D is a sphere or a box"},
+                                "a cylinder exists in 3 dimensions only; in 2, "
+                                "its section is a sphere or a box"},
     [ABUT_OBSTACLE_BOX] = {ABUT_SHAPE_SIZE, abut_box_distance, NULL,
                            box_extents, false, NULL},
     [ABUT_OBSTACLE_CONE] = {

@@ -44,31 +44,31 @@ namespace abut::app
     run.report.set("least_volume", seen.least_volume);
     std::vector<ContactFinding> findings;
     if (seen.least_at_corners <= 0.)
-      findings.push_back(
-          {ABUT_FAILURE_LARGE_STRAIN, false,
-           coded(ABUT_FAILURE_LARGE_STRAIN,
-                 "A cell is turned inside out at a corner, to "
-                     + short_number(seen.least_at_corners, 3)
-                     + " of its volume there, which the points of quadrature "
-                       "do not see: the bodies may be folded into an "
-                       "equilibrium that no path leads to. Use smaller load "
-                       "steps, or refine the mesh there.")});
+      findings.emplace_back(
+          coded(ABUT_FAILURE_LARGE_STRAIN,
+                "A cell is turned inside out at a corner, to "
+                    + short_number(seen.least_at_corners, 3)
+                    + " of its volume there, which the points of quadrature "
+                      "do not see: the bodies may be folded into an "
+                      "equilibrium that no path leads to. Use smaller load "
+                      "steps, or refine the mesh there."),
+          false);
     if (seen.excess <= 0.)
       return findings;
     const MaterialKind &material = *bodies[seen.where].material;
     const auto percent = [](const double part)
     { return short_number(100. * part, 3) + " %"; };
-    findings.push_back(
-        {ABUT_FAILURE_LARGE_STRAIN, true,
-         coded(ABUT_FAILURE_LARGE_STRAIN,
-               "Body " + std::to_string(seen.where + 1) + " is compressed to "
-                   + percent(seen.allowed - seen.excess)
-                   + " of its length where " + material.word
-                   + " is of use down to " + percent(seen.allowed)
-                   + ": beyond, " + material.below_least_stretch + ". Set "
-                   + bodies[seen.where].parameter("Material") + " = "
-                   + material.instead
-                   + ", or look at the units of loads and stiffness.")});
+    findings.emplace_back(
+        coded(ABUT_FAILURE_LARGE_STRAIN,
+              "Body " + std::to_string(seen.where + 1) + " is compressed to "
+                  + percent(seen.allowed - seen.excess)
+                  + " of its length where " + material.word
+                  + " is of use down to " + percent(seen.allowed) + ": beyond, "
+                  + material.below_least_stretch + ". Set "
+                  + bodies[seen.where].parameter("Material") + " = "
+                  + material.instead
+                  + ", or look at the units of loads and stiffness."),
+        true);
     return findings;
   }
 

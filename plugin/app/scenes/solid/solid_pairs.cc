@@ -374,6 +374,8 @@ namespace abut::app
       return pair.parameter("Initial gap");
     case PairField::friction:
       return pair.parameter("Friction");
+    case PairField::kinematics:
+      return "Method/Sliding";
     default:
       return pair.parameter("Secondary");
     }
