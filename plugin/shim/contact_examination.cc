@@ -309,8 +309,8 @@ namespace abut
     template <int dim>
     void judge_between(const PairResult<dim> &pair, const std::size_t place,
                        const bool is_obstacle, const double peak,
-                       const double size, const Scale &scale,
-                       Findings &findings)
+                       const double size, const double size_ratio,
+                       const Scale &scale, Findings &findings)
     {
       // Rows that are soft are told of by themselves.
       const double between = pair.between_rows - std::max(0., pair.penetration);
@@ -325,8 +325,10 @@ namespace abut
                            + ": nodes of the primary surface are inside the "
                              "secondary, between its constraints, by up to "
                            + scale.compared(pair.between_rows)
-                           + ": exchange the two sides, or refine the "
-                             "secondary.",
+                           + (size_ratio > 1.
+                                  ? ": exchange the two sides, or refine the "
+                                    "secondary."
+                                  : ": refine the secondary."),
                        if_flat(between), place);
         return;
       }
@@ -566,9 +568,10 @@ namespace abut
       judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
                    findings);
       const auto &narrow = i.surfaces->narrow(p);
-      judge_between(
-          pairs[p], p, is_obstacle, Deepest(unseen, p, i.communicator).peak,
-          std::min(checks[p].facet_size, narrow.width), scale, findings);
+      judge_between(pairs[p], p, is_obstacle,
+                    Deepest(unseen, p, i.communicator).peak,
+                    std::min(checks[p].facet_size, narrow.width),
+                    checks[p].size_ratio, scale, findings);
       result.touches.push_back(pairs[p].secondary_force.norm() > 0.
                                || pairs[p].between_rows > 0.);
       judge_apart(pairs[p].name, apart[p], follows, scale, findings);

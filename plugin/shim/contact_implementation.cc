@@ -659,7 +659,7 @@ namespace abut
                     [](const double p) { return p > 0.; });
     result.turns = moves() && method.turning_terms
                    && !MPI::logical_or(is_pressed, communicator);
-    result.load = largest_load;
+    result.load = std::max(present_load, committed_load);
     result.linear_tolerance = method.options.final_linear_tolerance;
     return result;
   }

@@ -342,7 +342,9 @@ namespace abut
      * of surface. */
     std::vector<double> row_stiffness, stiffness;
     double smallest_residual = 0.;
-    double largest_load = 0.; ///< sum of magnitudes at nodes, of all solves
+    /** Sums of magnitudes at nodes: of the present solve, and the largest of
+     * those that ended in a committed state. */
+    double present_load = 0., committed_load = 0.;
     /** Rigid motions that the last iteration has left undetermined. */
     std::vector<solve::FreeMotion> undetermined;
     /** Rigid motions of bodies where points were last taken to. */

@@ -35,7 +35,8 @@ namespace abut
       weight += coefficients.weights()[i];
     weight = MPI::sum(weight, communicator);
     const double load = std::max(residual.l1_norm(), internal.l1_norm());
-    largest_load = std::max(largest_load, load);
+    // The stiffness of a body that has turned says nothing of its displacement.
+    present_load = moves() ? residual.l1_norm() : load;
     abut_strategy_options &options = method.options;
     options.pressure_scale =
         load > least_scale && weight > 0. ? load / weight : 1.;

@@ -168,6 +168,7 @@ namespace abut
         i.take("commit()", "displacement", given_displacement);
     i.record_present();
     i.history.commit();
+    i.committed_load = std::max(i.committed_load, i.present_load);
     i.approach.clear();
     if (i.surfaces != nullptr && i.has_rows)
       i.elements.commit(i.surfaces->contact_elements(), i.communicator);

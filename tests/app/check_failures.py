@@ -22,13 +22,18 @@ def numbers(page):
     return result
 
 
-def same(one, other):
+# What depends on the multigrid of the Trilinos stack, too.
+OF_MULTIGRID = {"condition", "linear_iterations"}
+
+
+def same(name, one, other):
     """Three digits are printed, and small numbers are round-off."""
     try:
         a, b = float(one), float(other)
     except ValueError:
         return one == other
-    return math.isclose(a, b, rel_tol=0.02) or max(abs(a), abs(b)) < 1e-8
+    return (math.isclose(a, b, rel_tol=0.1 if name in OF_MULTIGRID else 0.02)
+            or max(abs(a), abs(b)) < 1e-8)
 
 
 # What is not determined is decided by round-off, and so by the processor: only
@@ -48,7 +53,8 @@ for name in names[p.part - 1::3 * (2 if p.short else 1)]:
     p.expect(found, f"{name}: no numbers on its page")
     for key, values in found.items():
         first = 1 if key[0].startswith(UNDETERMINED) else 0
-        p.expect(all(map(same, values[first:],
+        p.expect(all(same(key[1], *pair) for pair in
+                     zip(values[first:],
                          written.get(key, ["", ""])[first:])),
                  f"doc/failures.md: {key}: {written.get(key)} is {values}: "
                  "write it by abut atlas")
