@@ -96,7 +96,9 @@ namespace
     void repartition(const unsigned int weight)
     {
       contact().detect(displacement);
-      displacement = blocks_.repartition(displacement, weight);
+      // Tpetra's vectors have no move assignment: they keep the partition.
+      la::Vector moved = blocks_.repartition(displacement, weight);
+      displacement.swap(moved);
     }
 
     la::Vector displacement;

@@ -8,6 +8,8 @@
  * exists.
  */
 
+#include <abut/dealii/solution_transfer.h>
+
 #include <deal.II/base/config.h>
 #include <deal.II/base/index_set.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -16,12 +18,6 @@
 
 #include <map>
 #include <vector>
-
-#if DEAL_II_VERSION_GTE(9, 7, 0)
-#include <deal.II/numerics/solution_transfer.h>
-#else
-#include <deal.II/distributed/solution_transfer.h>
-#endif
 
 /** What depends on the version of deal.II. */
 namespace abut::versions
@@ -76,16 +72,6 @@ namespace abut::versions
     return result;
 #endif
   }
-
-  /** Transfer of fields to a refined distributed mesh. */
-#if DEAL_II_VERSION_GTE(9, 7, 0)
-  template <int dim, typename VectorType>
-  using SolutionTransfer = dealii::SolutionTransfer<dim, VectorType>;
-#else
-  template <int dim, typename VectorType>
-  using SolutionTransfer =
-      dealii::parallel::distributed::SolutionTransfer<dim, VectorType>;
-#endif
 } // namespace abut::versions
 
 #endif
