@@ -20,6 +20,7 @@
 #include <abut/history.h>
 #include <abut/law.h>
 #include <abut/limits.h>
+#include <abut/missed_contact.h>
 #include <abut/multigrid.h>
 #include <abut/obstacle.h>
 #include <abut/obstacle_edge.h>

@@ -490,41 +490,7 @@ namespace abut::shim
     void drop_covered(std::vector<std::uint8_t> &keep) const;
     /** Note where contacts share a node of the secondary. */
     void find_rivals(FrictionalPoints &points) const;
-    void check_obstacle(Pair &pair, const std::uint8_t *held,
-                        const std::vector<dealii::Point<dim>> &present,
-                        double tolerance,
-                        std::vector<Penetration<dim>> &missed) const;
-    void check_surfaces(Pair &pair, const std::uint8_t *held,
-                        const std::vector<dealii::Point<dim>> &present,
-                        double reach, double tolerance,
-                        std::vector<Penetration<dim>> &missed);
-    /** Of a surface that touches itself: parts on the same of its two sides,
-     * as far as this rank knows them. */
-    void check_same_sides(Pair &pair,
-                          const std::vector<dealii::Point<dim>> &present,
-                          double reach, double tolerance,
-                          std::vector<Penetration<dim>> &missed);
-    /** Look for what has come through the other side of pair @p p since points
-     * were made, and is not inside of it any more: of bodies (where the sides
-     * are at @p present) or of the obstacle. */
-    void check_passage(std::size_t p, const std::uint8_t *held,
-                       const std::vector<dealii::Point<dim>> &committed,
-                       const std::vector<dealii::Point<dim>> &present,
-                       double motion, double tolerance,
-                       std::vector<Penetration<dim>> &missed) const;
-    /** The same for an obstacle whose formula changes in time: it is looked at
-     * in between. */
-    void
-    check_passage_of_formula(std::size_t p, const std::uint8_t *held,
-                             const std::vector<dealii::Point<dim>> &present,
-                             double tolerance,
-                             std::vector<Penetration<dim>> &missed) const;
-    void
-    check_passage_of_obstacle(std::size_t p, const std::uint8_t *held,
-                              const std::vector<dealii::Point<dim>> &begin,
-                              const std::vector<dealii::Point<dim>> &present,
-                              double tolerance,
-                              std::vector<Penetration<dim>> &missed) const;
+    class MissedCheck;
 
     /** [pairs][nodes of the whole surface] nonzero: the node has a closed row
      * of the pair, or none that could be. Collective. */
