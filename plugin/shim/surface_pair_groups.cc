@@ -13,18 +13,21 @@ namespace abut::shim
 {
   namespace MPI = dealii::Utilities::MPI;
 
-  template <int dim> bool SurfacePairRows<dim>::have_common_nodes() const
+  template <int dim>
+  std::vector<unsigned int> SurfacePairRows<dim>::share_nodes() const
   {
-    std::vector<std::uint8_t> seen(surface_.nodes.size(), 0);
-    bool common = false;
-    for (const Pair &pair : pairs_)
-      if (is_group(pair))
-        for (const Node node : pair.secondary.node)
+    std::vector<std::size_t> first(surface_.nodes.size(), pairs_.size());
+    std::vector<unsigned int> share(pairs_.size(), 0);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (is_group(pairs_[p]))
+        for (const Node node : pairs_[p].secondary.node)
         {
-          common = common || seen[node] != 0;
-          seen[node] = 1;
+          if (first[node] < pairs_.size())
+            share[p] = share[first[node]] = 1;
+          first[node] = p;
         }
-    return MPI::logical_or(common, communicator_);
+    MPI::max(share, communicator_, share);
+    return share;
   }
 
   template <int dim>
@@ -49,20 +52,20 @@ namespace abut::shim
 
   template <int dim>
   std::vector<std::vector<std::uint8_t>>
-  SurfacePairRows<dim>::nodes_of_nearer_pairs(const std::vector<double> &moved)
+  SurfacePairRows<dim>::nodes_of_nearer_pairs(const std::vector<double> &moved,
+                                              std::vector<Displaced> &displaced)
   {
     const std::size_t n_nodes = surface_.nodes.size();
     std::vector<std::vector<std::uint8_t>> nearer(
         pairs_.size(), std::vector<std::uint8_t>(n_nodes, 0));
-    if (!have_common_nodes())
+    const std::vector<unsigned int> share = share_nodes();
+    if (std::find(share.begin(), share.end(), 1u) == share.end())
       return nearer;
-    // What each pair would have if it were alone.
+    // What each of them would have if it were alone.
+    const std::vector<std::uint8_t> taken(n_nodes, 0);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if (is_group(pairs_[p]))
-      {
-        std::vector<std::uint8_t> taken(n_nodes, 0);
-        find_pair(p, moved[p], taken);
-      }
+      if (share[p] != 0)
+        make_points(p, moved[p], taken, displaced[p]);
     // Equal distances are those of the first pair, round-off or not.
     constexpr double nearly = 1. - 1e-8;
     std::vector<double> least(n_nodes, std::numeric_limits<double>::infinity());
@@ -86,22 +89,22 @@ namespace abut::shim
     exchange_->merge_marks(surface_, marks);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       for (std::size_t q = 0; q < pairs_.size(); ++q)
-        for (std::size_t n = 0; n < n_nodes && q != p && is_group(pairs_[p]);
-             ++n)
+        for (std::size_t n = 0; n < n_nodes && q != p && share[p] != 0; ++n)
           if (marks[q * n_nodes + n] != 0)
             nearer[p][n] = 1;
     places_.clear();
-    checks_.clear();
     check(context_, abut_points_clear(points_));
     return nearer;
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template bool SurfacePairRows<dim>::have_common_nodes() const;               \
+  template std::vector<unsigned int> SurfacePairRows<dim>::share_nodes()       \
+      const;                                                                   \
   template double SurfacePairRows<dim>::distance_where_made(std::size_t)       \
       const;                                                                   \
   template std::vector<std::vector<std::uint8_t>>                              \
-  SurfacePairRows<dim>::nodes_of_nearer_pairs(const std::vector<double> &);
+  SurfacePairRows<dim>::nodes_of_nearer_pairs(const std::vector<double> &,     \
+                                              std::vector<Displaced> &);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

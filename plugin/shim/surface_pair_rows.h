@@ -663,8 +663,17 @@ namespace abut::shim
     void append(std::size_t pair, const std::vector<std::uint8_t> &dropped,
                 double motion, std::uint32_t tie_axes, int shift);
     bool has_lasting_numbers(const Pair &pair) const;
+    /** The sides of a pair while they stand where points are made. */
+    using Displaced = std::optional<DisplacedSides<dim>>;
+    /** Search, and append the points of a pair at nodes that are not taken.
+     * The sides stay displaced. Returns the number of nodes without a
+     * multiplier on all ranks. Collective. */
+    unsigned int make_points(std::size_t pair, double motion,
+                             const std::vector<std::uint8_t> &taken,
+                             Displaced &displaced);
+    /** The same, with what is said of the pair; marks the nodes as taken. */
     void find_pair(std::size_t pair, double motion,
-                   std::vector<std::uint8_t> &taken);
+                   std::vector<std::uint8_t> &taken, Displaced &displaced);
     /** The points of all pairs. Collective. */
     void find_pairs(const std::vector<double> &moved);
     /** Throw where the gap of a pair leaves nothing of an obstacle or a body.
@@ -678,14 +687,17 @@ namespace abut::shim
     {
       return !pair.data.obstacle && !pair.data.tied;
     }
-    /** Whether a node is in the secondary of several. Collective. */
-    bool have_common_nodes() const;
+    /** [pairs] nonzero: a group with a node that is in the secondary of another
+     * one, too. Collective. */
+    std::vector<unsigned int> share_nodes() const;
     /** Signed, of the surfaces at a point that was just made. */
     double distance_where_made(std::size_t point) const;
     /** [pairs][nodes] nonzero: another group is nearer to the node. Takes the
-     * points away that it makes to find out. Collective. */
+     * points away that it makes to find out; sides stay displaced. Collective.
+     */
     std::vector<std::vector<std::uint8_t>>
-    nodes_of_nearer_pairs(const std::vector<double> &moved);
+    nodes_of_nearer_pairs(const std::vector<double> &moved,
+                          std::vector<Displaced> &displaced);
     std::vector<Origin> origins(const std::vector<Direction> &u) const;
     solve::NodeMap append_stress(const SurfaceTraction<dim> &traction,
                                  abut_points *stress) const;
