@@ -8,6 +8,7 @@
  */
 
 #include <abut/condense.h>
+#include <abut/contact_motion.h>
 #include <abut/context.h>
 #include <abut/coupling.h>
 #include <abut/coupling_search.h>

@@ -368,16 +368,6 @@ namespace abut::shim
 
     using Direction = dealii::Tensor<1, dim>;
 
-    using Turn = DirectionTurn<dim>;
-
-    /** A point that carries a force. */
-    struct Pressed
-    {
-      std::size_t point;
-      double force;                ///< its magnitude
-      dealii::Point<dim> position; ///< where the point was made
-    };
-
     using Pair = SurfacePair<dim>;
 
     using Origin = PointsOrigin;
@@ -505,13 +495,7 @@ namespace abut::shim
     dealii::Point<dim> place_before(std::size_t pair,
                                     const dealii::Point<dim> &place) const;
     void find_narrow(Pair &pair, const std::vector<Direction> &u) const;
-    std::vector<Pressed> pressed_points(std::size_t pair,
-                                        const double *row_pressure,
-                                        const std::uint8_t *row_state) const;
-    Turn turn_at_obstacle(const Pair &pair, const std::vector<Pressed> &pressed,
-                          const std::vector<Direction> &u) const;
-    Turn turn_of_bodies(Pair &pair, const std::vector<Pressed> &pressed,
-                        const std::vector<Direction> &u) const;
+    class PressedPoints;
     /** Measure what directions have turned by since rows were made.
      * Collective. */
     void find_turns(const std::vector<Direction> &u, const double *row_pressure,
@@ -621,10 +605,6 @@ namespace abut::shim
     difference(std::vector<Direction> u, const std::vector<Direction> &from);
     /** The way since the points were made. */
     std::vector<Direction> way_since(const std::vector<Direction> &u) const;
-    /** How far the facets of a side with marked nodes turn on this way. */
-    double largest_turn_of(const SurfaceSide<dim> &side,
-                           const std::vector<std::uint8_t> &marked,
-                           const std::vector<Direction> &way) const;
     void take_hessians(const Pair &pair, const abut_coupling_view &view);
     /** What the Hessian of a point is with respect to, by unknowns:
      * [components][terms]. */
