@@ -31,26 +31,6 @@ namespace abut::shim
   }
 
   template <int dim>
-  double SurfacePairRows<dim>::distance_where_made(const std::size_t i) const
-  {
-    const Pair &pair = pairs_[places_[i].pair];
-    const std::int32_t row = view_.component_start[i];
-    double gap = view_.gap[row] - pair.data.gap;
-    if (!pair.is_displaced())
-      return gap;
-    // Gaps are those of displacement 0.
-    const auto add = [&](const Node node, const double c)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        gap += abut_point_sign(view_.kind[i], 0) * c * made_at(node)[d]
-               * view_.frame[row * std::size_t(dim) + d];
-    };
-    for_each_secondary(i, add);
-    for_each_primary(i, add);
-    return gap;
-  }
-
-  template <int dim>
   std::vector<std::vector<std::uint8_t>>
   SurfacePairRows<dim>::nodes_of_nearer_pairs(const std::vector<double> &moved,
                                               std::vector<Displaced> &displaced)
@@ -66,6 +46,10 @@ namespace abut::shim
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       if (share[p] != 0)
         make_points(p, moved[p], taken, displaced[p]);
+    std::vector<double> made(present_displacement_), gap(view_.n_components);
+    made.resize(dim * n_nodes, 0.);
+    check(context_, abut_points_gap(points_, static_cast<std::int32_t>(n_nodes),
+                                    made.data(), gap.data()));
     // Equal distances are those of the first pair, round-off or not.
     constexpr double nearly = 1. - 1e-8;
     std::vector<double> least(n_nodes, std::numeric_limits<double>::infinity());
@@ -75,7 +59,11 @@ namespace abut::shim
       const Node node = places_[i].node;
       if (node < 0)
         continue;
-      const double distance = std::abs(distance_where_made(i));
+      const Pair &pair = pairs_[places_[i].pair];
+      const std::int32_t row = view_.component_start[i];
+      // Gaps are those of displacement 0.
+      const double distance = std::abs(
+          (pair.is_displaced() ? gap[row] : view_.gap[row]) - pair.data.gap);
       if (distance < nearly * least[node])
       {
         least[node] = distance;
@@ -99,8 +87,6 @@ namespace abut::shim
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template std::vector<unsigned int> SurfacePairRows<dim>::share_nodes()       \
-      const;                                                                   \
-  template double SurfacePairRows<dim>::distance_where_made(std::size_t)       \
       const;                                                                   \
   template std::vector<std::vector<std::uint8_t>>                              \
   SurfacePairRows<dim>::nodes_of_nearer_pairs(const std::vector<double> &,     \

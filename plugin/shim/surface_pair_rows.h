@@ -670,8 +670,6 @@ namespace abut::shim
     /** [pairs] nonzero: a group with a node that is in the secondary of another
      * one, too. Collective. */
     std::vector<unsigned int> share_nodes() const;
-    /** Signed, of the surfaces at a point that was just made. */
-    double distance_where_made(std::size_t point) const;
     /** [pairs][nodes] nonzero: another group is nearer to the node. Takes the
      * points away that it makes to find out; sides stay displaced. Collective.
      */
