@@ -606,10 +606,6 @@ namespace abut::shim
     /** The way since the points were made. */
     std::vector<Direction> way_since(const std::vector<Direction> &u) const;
     void take_hessians(const Pair &pair, const abut_coupling_view &view);
-    /** What the Hessian of a point is with respect to, by unknowns:
-     * [components][terms]. */
-    using Terms = std::vector<
-        std::vector<std::pair<dealii::types::global_dof_index, double>>>;
     /** From the place that is opposite a point of mortar to its own, if nodes
      * are displaced by @p u. */
     Direction apart(std::size_t point, const std::vector<Direction> &u) const;
@@ -617,21 +613,10 @@ namespace abut::shim
      * were paired, or since the step began. */
     Direction way_of_partners(const Component &row,
                               const std::vector<Direction> &u) const;
-    void add_terms(Node node, double factor, std::size_t block,
-                   Terms &terms) const;
-    Terms places_by_unknowns(std::size_t point) const;
-    Terms nodes_by_unknowns(const std::vector<Node> &nodes) const;
     /** [nodes of the side * dim] */
     static std::vector<double>
     places_of(const std::vector<Node> &nodes,
               const std::vector<dealii::Point<dim>> &place);
-    /** The derivative of a point's force, of pressures and tractions as in
-     * geometric_lines(), by these; empty: 0. */
-    std::vector<double> turning(std::size_t point,
-                                const double *row_pressure) const;
-    /** Add what the gap of a point of mortar changes by because directions and
-     * coefficients do. */
-    void add_gap_change(std::size_t point, solve::GapLine &line) const;
     using TieGroup = TiedAxes;
     std::vector<TieGroup>
     tie_groups(const Pair &pair, const std::vector<std::uint8_t> &taken) const;
