@@ -8,6 +8,7 @@
  */
 
 #include <abut/condense.h>
+#include <abut/contact_motion.h>
 #include <abut/context.h>
 #include <abut/coupling.h>
 #include <abut/coupling_search.h>
@@ -20,6 +21,7 @@
 #include <abut/history.h>
 #include <abut/law.h>
 #include <abut/limits.h>
+#include <abut/missed_contact.h>
 #include <abut/multigrid.h>
 #include <abut/obstacle.h>
 #include <abut/obstacle_edge.h>

@@ -189,20 +189,12 @@ namespace abut
     result.points = shim::create_points(context.get(), points_dimension);
     surfaces->bring_in_reach(displacement);
     const auto kept = surfaces->keep();
-    const auto make_rows = [&]
-    {
-      abut_points_view there = {};
-      check(abut_points_get(result.points.get(), &there));
-      result.rows = solve::PointOperator(dof_handler->locally_owned_dofs(),
-                                         there, source->nodes(), communicator);
-    };
     try
     {
       surfaces->find(displacement, result.points.get());
-      make_rows();
       // Tangents have their numbers by those of their point that stay.
-      if (drop_needless(result.rows))
-        make_rows();
+      abut_points_view there = {};
+      result.rows = make_operator(result.points.get(), there);
       if (has_friction)
         result.slip_reference = surfaces->slip_reference(committed);
       note_changes(kept);

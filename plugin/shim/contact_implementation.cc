@@ -272,11 +272,24 @@ namespace abut
     source_is_outdated = true;
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::make_operator()
+  template <int dim>
+  solve::PointOperator
+  ContactAssembler<dim>::Implementation::make_operator(abut_points *const made,
+                                                       abut_points_view &result)
   {
-    check(abut_points_get(points.get(), &view));
-    coefficients = solve::PointOperator(dof_handler->locally_owned_dofs(), view,
-                                        source->nodes(), communicator);
+    check(abut_points_get(made, &result));
+    // Rows between nodes that cannot move say nothing.
+    std::vector<std::uint8_t> keep =
+        solve::rows_with_columns(result, source->nodes());
+    source->drop_needless(keep);
+    if (MPI::logical_or(std::count(keep.begin(), keep.end(), 0) > 0,
+                        communicator))
+    {
+      source->filter(keep);
+      check(abut_points_get(made, &result));
+    }
+    return solve::PointOperator(dof_handler->locally_owned_dofs(), result,
+                                source->nodes(), communicator);
   }
 
   template <int dim>
@@ -310,25 +323,9 @@ namespace abut
     }
   }
 
-  template <int dim>
-  bool ContactAssembler<dim>::Implementation::drop_needless(
-      const solve::PointOperator &rows)
-  {
-    // Rows between nodes that cannot move say nothing.
-    std::vector<std::uint8_t> keep = rows.rows_with_columns();
-    source->drop_needless(keep);
-    const bool any = MPI::logical_or(
-        std::count(keep.begin(), keep.end(), 0) > 0, communicator);
-    if (any)
-      source->filter(keep);
-    return any;
-  }
-
   template <int dim> void ContactAssembler<dim>::Implementation::take_points()
   {
-    make_operator();
-    if (drop_needless(coefficients))
-      make_operator();
+    coefficients = make_operator(points.get(), view);
     n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
                       communicator);
     // A solver is kept as long as it would be made of the same rows: of the

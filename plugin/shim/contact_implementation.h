@@ -60,11 +60,10 @@ namespace abut
     shim::RowSource::Change find_points(const la::Vector &displacement);
     /** Make all that belongs to new points. Collective. */
     void take_points();
-    /** Leave the rows out of the source's points that need none; whether
-     * there were such. Collective. */
-    bool drop_needless(const solve::PointOperator &rows);
-    /** Make the operator of the points. Collective. */
-    void make_operator();
+    /** Take out the rows of the source's points, just made, that need none, and
+     * make the operator of the others. Collective. */
+    solve::PointOperator make_operator(abut_points *made,
+                                       abut_points_view &result);
     /** Make what has been reached the trial version of the history. */
     void record_present();
     /** Find the pressures that the next solve starts from. */

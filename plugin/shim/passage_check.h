@@ -2,10 +2,11 @@
 #ifndef ABUT_SHIM_PASSAGE_CHECK_H
 #define ABUT_SHIM_PASSAGE_CHECK_H
 
-#include "surface_side.h"
-
 #include <abut/dealii/contact_pair.h>
+
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace abut
 {
@@ -15,49 +16,6 @@ namespace abut
 
 namespace abut::shim
 {
-  /** A node that has come through a facet. */
-  struct Passage
-  {
-    int node, facet; ///< of the two sides
-    double depth;    ///< behind the plane of the facet at the end
-  };
-
-  /** Nodes of @p nodes that go through a facet of @p facets, from outside to
-   * deeper than @p depth behind it, on the way of the bodies from @p start
-   * [nodes of the whole] by @p way: what is thin may be on the far side at the
-   * end, where no search for penetrations looks. Only facets count that the
-   * surface at the node faces. Nodes go on straight lines past each facet as it
-   * is at the start, by their way relative to the mean of its corners: exact
-   * for facets that do not turn. Each node once, with the facet it is farthest
-   * behind. O((n + m) log m) where ways are as short as facets. Not collective.
-   */
-  template <int dim>
-  std::vector<Passage>
-  passing_nodes(abut_context *context, const ContactSurface<dim> &whole,
-                const SurfaceSide<dim> &nodes, const SurfaceSide<dim> &facets,
-                const std::vector<dealii::Point<dim>> &start,
-                const std::vector<dealii::Tensor<1, dim>> &way, double depth);
-
-  /** What a straight way past an obstacle meets. */
-  struct OnTheWay
-  {
-    double depth = 0.; ///< in the obstacle at the most, length >= 0
-    /** Whether it enters the obstacle and leaves it on another side, more than
-     * a right angle away. */
-    bool through = false;
-  };
-
-  /** What points meet on straight ways past an obstacle as it stands, [points].
-   * Ways are sampled as far apart as the distance from its surface is, and by a
-   * quarter of its half thickness or 1/64 of the way at least, whichever is
-   * less. @p end are distances at the ends; ways that are shorter are not
-   * looked at. */
-  template <int dim>
-  std::vector<OnTheWay> on_the_way(const RigidObstacle<dim> &obstacle,
-                                   const std::vector<dealii::Point<dim>> &from,
-                                   const std::vector<dealii::Point<dim>> &to,
-                                   const std::vector<double> &end);
-
   /** Why a step in which the obstacle of @p pair moves by @p way, seen from the
    * body, has no answer: what comes of it is the end of a sentence. */
   template <int dim>

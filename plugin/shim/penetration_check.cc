@@ -7,6 +7,7 @@
 #include "stopwatch.h"
 
 #include <abut/dealii/rigid_obstacle.h>
+#include <abut/missed_contact.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,39 +18,6 @@ namespace abut::shim
 
   namespace
   {
-    /** A node inside the other surface. */
-    struct Inside
-    {
-      int node, facet; ///< of the two sides
-      double depth;
-    };
-
-    /** Nodes of @p nodes deeper than @p tolerance in @p facets, but not than
-     * half of the @p thickness (0: not known) of the body of these, which would
-     * be its other skin. Only reads. */
-    template <int dim>
-    std::vector<Inside>
-    penetrating_nodes(abut_context *context, const SurfaceSide<dim> &nodes,
-                      const SurfaceSide<dim> &facets,
-                      const SearchParameters &search, const double reach,
-                      const double tolerance, const double thickness)
-    {
-      abut_detection_options options = search.detection;
-      options.search.reach = std::max(options.search.reach, reach);
-      options.extension = 0.;
-      const auto detection = create_detection(context, nodes.surface.get(),
-                                              facets.surface.get(), options);
-      check(context, abut_detection_run(detection.get(), 0.));
-      abut_detection_view view;
-      check(context, abut_detection_get(detection.get(), &view));
-      std::vector<Inside> found;
-      for (std::int32_t n = 0; n < view.n_nodes; ++n)
-        if (view.contact[n].facet >= 0 && view.contact[n].gap < -tolerance
-            && !(thickness > 0. && view.contact[n].gap < -0.5 * thickness))
-          found.push_back({n, view.contact[n].facet, -view.contact[n].gap});
-      return found;
-    }
-
     /** The lists of all ranks. Collective. */
     template <int dim>
     std::vector<Penetration<dim>>
@@ -96,12 +64,33 @@ namespace abut::shim
       return result;
     }
 
-    /** Whether a support keeps node @p n of the secondary of @p pair from
-     * having a row. */
-    template <typename Pair>
-    bool is_supported(const Pair &pair, const std::size_t n)
+    /** [points * dim] */
+    template <int dim>
+    std::vector<double>
+    coordinates_of(const std::vector<dealii::Point<dim>> &points)
     {
-      return n < pair.dropped.size() && pair.dropped[n] == of_supports;
+      std::vector<double> result;
+      for (const dealii::Point<dim> &point : points)
+        for (unsigned int d = 0; d < dim; ++d)
+          result.push_back(point[d]);
+      return result;
+    }
+
+    /** What points meet on straight paths past an obstacle. */
+    template <int dim>
+    std::vector<abut_obstacle_path>
+    follow_past(const RigidObstacle<dim> &obstacle,
+                const std::vector<dealii::Point<dim>> &from,
+                const std::vector<dealii::Point<dim>> &to)
+    {
+      std::vector<abut_obstacle_path> result(from.size());
+      if (abut_obstacle_follow(obstacle.handle(),
+                               static_cast<std::int32_t>(from.size()),
+                               coordinates_of(from).data(),
+                               coordinates_of(to).data(), result.data())
+          != ABUT_SUCCESS)
+        throw ContactError(obstacle.failure());
+      return result;
     }
   } // namespace
 
@@ -137,260 +126,294 @@ namespace abut::shim
     return held;
   }
 
-  template <int dim>
-  void SurfacePairRows<dim>::check_obstacle(
-      Pair &pair, const std::uint8_t *held,
-      const std::vector<dealii::Point<dim>> &present, const double tolerance,
-      std::vector<Penetration<dim>> &missed) const
+  /** Search for missed contact at one displacement. */
+  template <int dim> class SurfacePairRows<dim>::MissedCheck
   {
-    const double *normal = nullptr;
-    check(context_,
-          abut_surface_normals(pair.secondary.surface.get(), &normal));
-    std::vector<dealii::Point<dim>> points;
-    std::vector<Direction> outward;
-    std::vector<bool> supported;
-    for (std::size_t n = 0; n < pair.secondary.node.size(); ++n)
-    {
-      const Node node = pair.secondary.node[n];
-      const bool support = is_supported(pair, n);
-      if (!is_owned(node) || (held[node] != 0 && !support))
-        continue;
-      points.push_back(present[node]);
-      supported.push_back(support);
-      outward.emplace_back();
-      for (unsigned int d = 0; d < dim; ++d)
-        outward.back()[d] = normal[n * dim + d];
-    }
-    std::vector<double> distance;
-    std::vector<Direction> gradient;
-    pair.data.obstacle->distance(points, distance, &gradient);
-    for (std::size_t n = 0; n < points.size(); ++n)
-    {
-      const double depth = -distance[n] - pair.data.gap;
-      if (supported[n])
-        pair.measured.held_inside = std::max(pair.measured.held_inside, depth);
-      else if (depth > tolerance)
-        missed.push_back({pair.data.name, points[n], depth, false,
-                          outward[n] * gradient[n] > 0.});
-    }
-  }
+  public:
+    using Points = std::vector<dealii::Point<dim>>;
 
-  template <int dim>
-  void SurfacePairRows<dim>::check_surfaces(
-      Pair &pair, const std::uint8_t *held,
-      const std::vector<dealii::Point<dim>> &present, const double reach,
-      const double tolerance, std::vector<Penetration<dim>> &missed)
-  {
-    const double depth = tolerance + pair.data.gap;
-    for (const Inside &inside :
-         penetrating_nodes(context_, pair.secondary, pair.primary,
-                           settings_.search, reach, depth, pair.thickness))
+    /** Positions of all nodes, which must outlive this object, as the rows
+     * must: undeformed, at the last commit(), and now. Collective. */
+    MissedCheck(SurfacePairRows &rows, const Points &reference,
+                const Points &committed, const Points &present,
+                const double tolerance)
+        : rows_(rows),
+          reference_(reference),
+          committed_(committed),
+          present_(present),
+          tolerance_(tolerance),
+          held_(rows.held_nodes())
     {
-      const Node node = pair.secondary.node[inside.node];
-      const double found = inside.depth - pair.data.gap;
-      if (is_supported(pair, inside.node) && is_owned(node))
-        pair.measured.held_inside = std::max(pair.measured.held_inside, found);
-      else if (held[node] == 0 && is_owned(node))
-        missed.push_back({pair.data.name, present[node], found, false, false});
-      else if (is_owned(node))
-        pair.held_in_the_mean = std::max(pair.held_in_the_mean, found);
     }
-    for (const Inside &inside : penetrating_nodes(
-             context_, pair.primary, pair.secondary, settings_.search, reach,
-             pair.data.gap, pair.own_thickness))
-    {
-      const Node node = pair.primary.node[inside.node];
-      if (!is_owned(node))
-        continue;
-      // Inside the secondary between its rows, or where it has none.
-      const auto &facet = surface_.facets[pair.secondary.facet[inside.facet]];
-      const auto kind = discretisation_info(pair.discretisation);
-      bool between = !kind.is_weighted && !kind.row_per_point;
-      for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)
-        between = between || held[facet.node[a]] != 0;
-      const double found = inside.depth - pair.data.gap;
-      if (between)
-        pair.measured.between_rows =
-            std::max(pair.measured.between_rows, found);
-      else if (found > tolerance)
-        missed.push_back({pair.data.name, present[node], found, true, false});
-    }
-  }
 
-  template <int dim>
-  void SurfacePairRows<dim>::check_same_sides(
-      Pair &pair, const std::vector<dealii::Point<dim>> &present,
-      const double reach, const double tolerance,
-      std::vector<Penetration<dim>> &missed)
-  {
-    // An interference is between flanks that are opposite to each other.
-    const double allowed = std::max(0., pair.data.gap);
-    for (const SurfaceSide<dim> *side : {&pair.secondary, &pair.primary})
+    /** Check a pair that has moved so far since its points were made. */
+    void check_pair(const std::size_t p, const double moved, const double reach)
     {
-      // Another skin of the body is deeper.
-      const double thickness =
-          pair.thickness > 0. ? pair.thickness : 2. * side->everywhere.largest;
-      for (const Inside &inside :
-           penetrating_nodes(context_, *side, *side, settings_.search, reach,
-                             tolerance + allowed, thickness))
-        if (is_owned(side->node[inside.node]))
-          missed.push_back({pair.data.name, present[side->node[inside.node]],
-                            inside.depth - allowed, false, false, true});
-    }
-  }
-
-  template <int dim>
-  void SurfacePairRows<dim>::check_passage_of_obstacle(
-      const std::size_t p, const std::uint8_t *held,
-      const std::vector<dealii::Point<dim>> &begin,
-      const std::vector<dealii::Point<dim>> &present, const double tolerance,
-      std::vector<Penetration<dim>> &missed) const
-  {
-    const Pair &pair = pairs_[p];
-    const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
-    const RigidPose<dim> now = obstacle.pose();
-    const RigidPose<dim> then = poses_before(poses(), true)[p];
-    std::vector<dealii::Point<dim>> from, to;
-    std::vector<bool> is_free;
-    const auto add = [&](const dealii::Point<dim> &start,
-                         const dealii::Point<dim> &end, const bool free)
-    {
-      // Where it was, seen from the obstacle.
-      const Direction own =
-          transpose(then.rotation) * (start - then.translation);
-      from.emplace_back(now.rotation * own + now.translation);
-      to.push_back(end);
-      is_free.push_back(free);
-    };
-    for (const Node node : pair.secondary.node)
-      if (is_owned(node))
-        add(begin[node], present[node], held[node] == 0);
-    // What is smaller than facets goes by between nodes.
-    const auto me = MPI::this_mpi_process(communicator_);
-    for (const std::int32_t f : pair.secondary.facet)
-      if (surface_.facets[f].owner == me)
-        for (const std::vector<double> &weight : samples_of_facet<dim>(
-                 surface_.nodes_per_facet(),
-                 pair.secondary.everywhere.largest / obstacle.depth()))
-        {
-          dealii::Point<dim> start, end;
-          for (std::size_t a = 0; a < weight.size(); ++a)
-          {
-            const Node node = surface_.facets[f].node[a];
-            start += weight[a] * begin[node];
-            end += weight[a] * present[node];
-          }
-          add(start, end, false);
-        }
-    std::vector<double> end;
-    obstacle.distance(to, end);
-    const std::vector<OnTheWay> met = on_the_way(obstacle, from, to, end);
-    double way = 0.;
-    for (std::size_t i = 0; i < to.size(); ++i)
-    {
-      const double depth = met[i].depth - pair.data.gap;
-      if (met[i].through)
-        way = std::max(way, (to[i] - from[i]).norm());
-      else if (pair.has_committed_points() && is_free[i] && depth > tolerance)
-        missed.push_back({pair.data.name, to[i], depth, false, false});
-    }
-    // What is apart again no search finds, and rows are of the far side.
-    if (way > 0.)
-      throw ContactError(too_long_a_step(
-          pair.data, way,
-          "passes through it: they are apart again at the end, and nothing "
-          "resists."));
-  }
-
-  template <int dim>
-  void SurfacePairRows<dim>::check_passage_of_formula(
-      const std::size_t p, const std::uint8_t *held,
-      const std::vector<dealii::Point<dim>> &present, const double tolerance,
-      std::vector<Penetration<dim>> &missed) const
-  {
-    // What has a row is kept out at the end of the step: between, the rest is
-    // that of a step in time, unless it is seen beside a facet.
-    constexpr double visible = 0.05;
-    const Pair &pair = pairs_[p];
-    const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
-    if (obstacle.view().kind != ABUT_OBSTACLE_FUNCTION
-        || p >= committed_times_.size()
-        || committed_times_[p] == obstacle.time())
-      return;
-    std::vector<dealii::Point<dim>> from, to;
-    std::vector<double> bearable;
-    for (const Node node : pair.secondary.node)
-      if (is_owned(node))
+      Pair &pair = rows_.pairs_[p];
+      pair.measured.between_rows = pair.measured.held_inside = 0.;
+      pair.held_in_the_mean = 0.;
+      if (pair.data.tied || !pair.data.geometric_gap)
+        return;
+      held_of_pair_ = held_.data() + p * present_.size();
+      if (!pair.data.obstacle)
       {
-        from.push_back(present_[node]);
-        to.push_back(present[node]);
-        bearable.push_back(held[node] == 0
-                               ? tolerance
-                               : visible * pair.secondary.everywhere.median);
+        check_surfaces(pair, moved, reach);
+        return;
       }
-    const std::vector<double> depth = deepest_between(
-        pair.data.obstacle, committed_times_[p], committed_poses_[p], from, to);
-    for (std::size_t i = 0; i < to.size(); ++i)
-      if (depth[i] - pair.data.gap > bearable[i])
-        missed.push_back(
-            {pair.data.name, to[i], depth[i] - pair.data.gap, false, false});
-  }
+      const std::size_t before = missed.size();
+      check_obstacle(pair);
+      if (missed.size() > before)
+        return;
+      // Where points do not step, those on straight ways round a corner are no
+      // failure: only what comes out on the far side is.
+      if (!pair.has_committed_points() && pair.data.may_be_apart)
+        check_path_past_obstacle(p, committed_);
+      if (!pair.has_committed_points() || rows_.present_.empty())
+        return;
+      check_path_past_obstacle(p, rows_.present_);
+      check_changing_obstacle(p);
+    }
 
-  template <int dim>
-  void SurfacePairRows<dim>::check_passage(
-      const std::size_t p, const std::uint8_t *held,
-      const std::vector<dealii::Point<dim>> &committed,
-      const std::vector<dealii::Point<dim>> &present, const double motion,
-      const double tolerance, std::vector<Penetration<dim>> &missed) const
-  {
-    const Pair &pair = pairs_[p];
-    // Where points do not step, those on straight ways round a corner are no
-    // failure: only what comes out on the far side is.
-    if (!pair.has_committed_points() && pair.data.may_be_apart
-        && pair.data.obstacle)
-      check_passage_of_obstacle(p, held, committed, present, tolerance, missed);
-    if (!pair.has_committed_points() || present_.empty())
-      return;
-    if (pair.data.obstacle)
+    std::vector<Penetration<dim>> missed;
+
+  private:
+    void add(const Pair &pair, const dealii::Point<dim> &point,
+             const double depth)
     {
-      check_passage_of_obstacle(p, held, present_, present, tolerance, missed);
-      check_passage_of_formula(p, held, present, tolerance, missed);
-      return;
+      missed.push_back({pair.data.name, point, depth, false, false});
     }
-    // What goes no farther than this had a row from the start.
-    const abut_search_options &search = settings_.search.detection.search;
-    const double smallest = std::min(pair.secondary.everywhere.smallest,
-                                     pair.primary.everywhere.smallest);
-    if (motion <= std::max(
-            {search.reach, pair.data.reach, search.relative_reach * smallest}))
-      return;
-    std::vector<Direction> way(present.size());
-    for (std::size_t n = 0; n < way.size(); ++n)
-      way[n] = present[n] - present_[n];
-    const double depth = tolerance + pair.data.gap;
-    for (const Passage &found :
-         passing_nodes(context_, surface_, pair.secondary, pair.primary,
-                       present_, way, depth))
+
+    bool is_held(const Node node) const
     {
-      const Node node = pair.secondary.node[found.node];
-      if (is_owned(node) && held[node] == 0)
-        missed.push_back({pair.data.name, present[node],
-                          found.depth - pair.data.gap, false, false});
+      return held_of_pair_[node] != 0;
     }
-    for (const Passage &found :
-         passing_nodes(context_, surface_, pair.primary, pair.secondary,
-                       present_, way, depth))
+
+    /** Whether a support keeps node @p n of the secondary from having a row. */
+    static bool is_supported(const Pair &pair, const std::size_t n)
     {
-      const Node node = pair.primary.node[found.node];
-      const auto &facet = surface_.facets[pair.secondary.facet[found.facet]];
-      bool between = false;
-      for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)
-        between = between || held[facet.node[a]] != 0;
-      if (is_owned(node) && !between)
-        missed.push_back({pair.data.name, present[node],
-                          found.depth - pair.data.gap, true, false});
+      return n < pair.dropped.size() && pair.dropped[n] == of_supports;
     }
-  }
+
+    void check_obstacle(Pair &pair)
+    {
+      const double *normal = nullptr;
+      check(rows_.context_,
+            abut_surface_normals(pair.secondary.surface.get(), &normal));
+      Points points;
+      std::vector<Direction> outward;
+      std::vector<bool> supported;
+      for (std::size_t n = 0; n < pair.secondary.node.size(); ++n)
+      {
+        const Node node = pair.secondary.node[n];
+        const bool support = is_supported(pair, n);
+        if (!rows_.is_owned(node) || (is_held(node) && !support))
+          continue;
+        points.push_back(present_[node]);
+        supported.push_back(support);
+        outward.emplace_back();
+        for (unsigned int d = 0; d < dim; ++d)
+          outward.back()[d] = normal[n * dim + d];
+      }
+      std::vector<double> distance;
+      std::vector<Direction> gradient;
+      pair.data.obstacle->distance(points, distance, &gradient);
+      for (std::size_t n = 0; n < points.size(); ++n)
+      {
+        const double depth = -distance[n] - pair.data.gap;
+        if (supported[n])
+          pair.measured.held_inside =
+              std::max(pair.measured.held_inside, depth);
+        else if (depth > tolerance_)
+          missed.push_back({pair.data.name, points[n], depth, false,
+                            outward[n] * gradient[n] > 0.});
+      }
+    }
+
+    /** Marks of abut_missed_contact(). */
+    std::vector<std::uint8_t> marks_of(const Pair &pair,
+                                       const SurfaceSide<dim> &side) const
+    {
+      std::vector<std::uint8_t> marks(side.n_nodes(), 0);
+      for (std::size_t n = 0; n < marks.size(); ++n)
+      {
+        if (rows_.is_owned(side.node[n]))
+          marks[n] |= ABUT_NODE_OWNED;
+        if (is_held(side.node[n]))
+          marks[n] |= ABUT_NODE_HELD;
+        if (&side == &pair.secondary && is_supported(pair, n))
+          marks[n] |= ABUT_NODE_PRESCRIBED;
+      }
+      return marks;
+    }
+
+    abut_missed_options options_of(const Pair &pair, const double reach) const
+    {
+      abut_missed_options options = abut_missed_defaults();
+      options.detection = rows_.settings_.search.detection;
+      options.detection.search.reach =
+          std::max(options.detection.search.reach, reach);
+      options.gap = pair.data.gap;
+      options.tolerance = tolerance_;
+      options.primary_thickness = pair.thickness;
+      options.secondary_thickness = pair.own_thickness;
+      const auto kind = discretisation_info(pair.discretisation);
+      options.covers_facets = kind.is_weighted || kind.row_per_point;
+      if (SelfContact<dim>::is_split(pair.data))
+        for (const bool primary : {false, true})
+          // Another skin of the body is deeper.
+          options.side_thickness[primary] =
+              pair.thickness > 0.
+                  ? pair.thickness
+                  : 2.
+                        * (primary ? pair.primary : pair.secondary)
+                              .everywhere.largest;
+      return options;
+    }
+
+    /** Whether it goes farther than what had a row from the start. */
+    bool goes_far(const Pair &pair, const double moved) const
+    {
+      const abut_search_options &search =
+          rows_.settings_.search.detection.search;
+      const double smallest = std::min(pair.secondary.everywhere.smallest,
+                                       pair.primary.everywhere.smallest);
+      return pair.has_committed_points() && !rows_.present_.empty()
+             && moved > std::max({search.reach, pair.data.reach,
+                                  search.relative_reach * smallest});
+    }
+
+    void check_surfaces(Pair &pair, const double moved, const double reach)
+    {
+      const DisplacedSides<dim> sides(rows_.context_, pair.secondary,
+                                      pair.primary, reference_, present_);
+      abut_missed_options options = options_of(pair, reach);
+      std::vector<double> start, primary_start;
+      if (goes_far(pair, moved))
+      {
+        start = places_of(pair.secondary.node, rows_.present_);
+        primary_start = places_of(pair.primary.node, rows_.present_);
+        options.secondary_start = start.data();
+        options.primary_start = primary_start.data();
+      }
+      std::vector<abut_missed_node> found(
+          2 * (pair.secondary.node.size() + pair.primary.node.size()));
+      abut_missed_report report;
+      check(rows_.context_,
+            abut_missed_contact(rows_.context_, pair.secondary.surface.get(),
+                                pair.primary.surface.get(),
+                                marks_of(pair, pair.secondary).data(),
+                                marks_of(pair, pair.primary).data(), &options,
+                                found.data(), &report));
+      pair.measured.held_inside = report.prescribed;
+      pair.measured.between_rows = report.between_points;
+      pair.held_in_the_mean = report.held_in_mean;
+      for (std::int32_t k = 0; k < report.n; ++k)
+      {
+        const bool of_primary = found[k].on_primary != 0;
+        const auto &side = of_primary ? pair.primary : pair.secondary;
+        // On the side itself it is of no other surface.
+        const bool same_side = found[k].same_side != 0;
+        missed.push_back({pair.data.name, present_[side.node[found[k].node]],
+                          found[k].depth, of_primary && !same_side, false,
+                          same_side});
+      }
+    }
+
+    /** From the positions @p begin at the beginning of the step. */
+    void check_path_past_obstacle(const std::size_t p, const Points &begin)
+    {
+      const Pair &pair = rows_.pairs_[p];
+      const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
+      const RigidPose<dim> now = obstacle.pose();
+      const RigidPose<dim> then = rows_.poses_before(rows_.poses(), true)[p];
+      Points from, to;
+      std::vector<bool> is_free;
+      const auto add_path = [&](const dealii::Point<dim> &start,
+                                const dealii::Point<dim> &end, const bool free)
+      {
+        // Where it was, seen from the obstacle.
+        const Direction own =
+            transpose(then.rotation) * (start - then.translation);
+        from.emplace_back(now.rotation * own + now.translation);
+        to.push_back(end);
+        is_free.push_back(free);
+      };
+      for (const Node node : pair.secondary.node)
+        if (rows_.is_owned(node))
+          add_path(begin[node], present_[node], !is_held(node));
+      // What is smaller than facets goes by between nodes.
+      const auto me = MPI::this_mpi_process(rows_.communicator_);
+      for (const std::int32_t f : pair.secondary.facet)
+        if (rows_.surface_.facets[f].owner == me)
+          for (const std::vector<double> &weight : samples_of_facet<dim>(
+                   rows_.surface_.nodes_per_facet(),
+                   pair.secondary.everywhere.largest / obstacle.depth()))
+          {
+            dealii::Point<dim> start, end;
+            for (std::size_t a = 0; a < weight.size(); ++a)
+            {
+              const Node node = rows_.surface_.facets[f].node[a];
+              start += weight[a] * begin[node];
+              end += weight[a] * present_[node];
+            }
+            add_path(start, end, false);
+          }
+      const std::vector<abut_obstacle_path> met =
+          follow_past(obstacle, from, to);
+      double way = 0.;
+      for (std::size_t i = 0; i < to.size(); ++i)
+      {
+        const double depth = met[i].depth - pair.data.gap;
+        if (met[i].through != 0)
+          way = std::max(way, (to[i] - from[i]).norm());
+        else if (pair.has_committed_points() && is_free[i]
+                 && depth > tolerance_)
+          add(pair, to[i], depth);
+      }
+      // What is apart again no search finds, and rows are of the far side.
+      if (way > 0.)
+        throw ContactError(too_long_a_step(
+            pair.data, way,
+            "passes through it: they are apart again at the end, and nothing "
+            "resists."));
+    }
+
+    /** Of an obstacle that is a function of time. */
+    void check_changing_obstacle(const std::size_t p)
+    {
+      // What has a row is kept out at the end of the step: between, the rest is
+      // that of a step in time, unless it is seen beside a facet.
+      constexpr double visible = 0.05;
+      const Pair &pair = rows_.pairs_[p];
+      const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
+      const std::vector<double> &times = rows_.committed_times_;
+      if (obstacle.view().kind != ABUT_OBSTACLE_FUNCTION || p >= times.size()
+          || times[p] == obstacle.time())
+        return;
+      Points from, to;
+      std::vector<double> bearable;
+      for (const Node node : pair.secondary.node)
+        if (rows_.is_owned(node))
+        {
+          from.push_back(rows_.present_[node]);
+          to.push_back(present_[node]);
+          bearable.push_back(is_held(node)
+                                 ? visible * pair.secondary.everywhere.median
+                                 : tolerance_);
+        }
+      const std::vector<double> depth = deepest_between(
+          pair.data.obstacle, times[p], rows_.committed_poses_[p], from, to);
+      for (std::size_t i = 0; i < to.size(); ++i)
+        if (depth[i] - pair.data.gap > bearable[i])
+          add(pair, to[i], depth[i] - pair.data.gap);
+    }
+
+    SurfacePairRows &rows_;
+    const Points &reference_, &committed_, &present_;
+    const double tolerance_;
+    const std::vector<std::uint8_t> held_; ///< [pairs][nodes]
+    const std::uint8_t *held_of_pair_ = nullptr;
+  };
 
   template <int dim>
   std::vector<Penetration<dim>>
@@ -414,41 +437,20 @@ namespace abut::shim
       for (std::size_t n = 0; n < present.size(); ++n)
         committed[n] += then[n];
     }
-    const std::vector<std::uint8_t> held = held_nodes();
     const std::vector<double> moved = motions(has_steps() ? way_since(u) : u);
 
-    std::vector<Penetration<dim>> missed;
+    MissedCheck missed(*this, reference, committed, present, tolerance);
     Message message;
     for (std::size_t p = 0; p < pairs_.size() && message.empty(); ++p)
       try
       {
-        Pair &pair = pairs_[p];
-        pair.measured.between_rows = pair.measured.held_inside = 0.;
-        pair.held_in_the_mean = 0.;
-        if (pair.data.tied || !pair.data.geometric_gap)
-          continue;
-        const std::uint8_t *marks = held.data() + p * surface_.nodes.size();
-        const std::size_t before = missed.size();
-        if (pair.data.obstacle)
-        {
-          check_obstacle(pair, marks, present, tolerance, missed);
-          if (missed.size() == before)
-            check_passage(p, marks, committed, present, moved[p], tolerance,
-                          missed);
-          continue;
-        }
-        const DisplacedSides<dim> sides(context_, pair.secondary, pair.primary,
-                                        reference, present);
         // What was missed earlier may be deeper than the last step went.
-        const double all = std::min(1.5 * motion(pair, u), pair.reach);
-        const double reach = std::max({pair.data.reach, 1.5 * moved[p],
-                                       pair.has_current_points() ? all : 0.});
-        check_surfaces(pair, marks, present, reach, tolerance, missed);
-        if (SelfContact<dim>::is_split(pair.data))
-          check_same_sides(pair, present, reach, tolerance, missed);
-        if (missed.size() == before)
-          check_passage(p, marks, committed, present, moved[p], tolerance,
-                        missed);
+        const Pair &pair = pairs_[p];
+        const double all = pair.has_current_points()
+                               ? std::min(1.5 * motion(pair, u), pair.reach)
+                               : 0.;
+        missed.check_pair(p, moved[p],
+                          std::max({pair.data.reach, 1.5 * moved[p], all}));
       }
       catch (const std::exception &error)
       {
@@ -457,44 +459,18 @@ namespace abut::shim
     throw_everywhere<ContactError>(communicator_, message);
     for (Pair &pair : pairs_)
       pair.held_in_the_mean = MPI::max(pair.held_in_the_mean, communicator_);
-    missed = everywhere(missed, communicator_);
+    const auto result = everywhere(missed.missed, communicator_);
     // The next find() splits a surface again where one of its sides has met
     // itself.
-    if (std::any_of(missed.begin(), missed.end(),
+    if (std::any_of(result.begin(), result.end(),
                     [](const Penetration<dim> &node)
                     { return node.same_side; }))
       look_at_sides(displacement);
-    return missed;
+    return result;
   }
 
-#define ABUT_INSTANTIATE(dim)                                                  \
-  template std::vector<std::uint8_t> SurfacePairRows<dim>::held_nodes();       \
-  template void SurfacePairRows<dim>::check_obstacle(                          \
-      Pair &, const std::uint8_t *, const std::vector<dealii::Point<dim>> &,   \
-      double, std::vector<Penetration<dim>> &) const;                          \
-  template void SurfacePairRows<dim>::check_surfaces(                          \
-      Pair &, const std::uint8_t *, const std::vector<dealii::Point<dim>> &,   \
-      double, double, std::vector<Penetration<dim>> &);                        \
-  template void SurfacePairRows<dim>::check_same_sides(                        \
-      Pair &, const std::vector<dealii::Point<dim>> &, double, double,         \
-      std::vector<Penetration<dim>> &);                                        \
-  template void SurfacePairRows<dim>::check_passage_of_obstacle(               \
-      std::size_t, const std::uint8_t *,                                       \
-      const std::vector<dealii::Point<dim>> &,                                 \
-      const std::vector<dealii::Point<dim>> &, double,                         \
-      std::vector<Penetration<dim>> &) const;                                  \
-  template void SurfacePairRows<dim>::check_passage_of_formula(                \
-      std::size_t, const std::uint8_t *,                                       \
-      const std::vector<dealii::Point<dim>> &, double,                         \
-      std::vector<Penetration<dim>> &) const;                                  \
-  template void SurfacePairRows<dim>::check_passage(                           \
-      std::size_t, const std::uint8_t *,                                       \
-      const std::vector<dealii::Point<dim>> &,                                 \
-      const std::vector<dealii::Point<dim>> &, double, double,                 \
-      std::vector<Penetration<dim>> &) const;                                  \
-  template std::vector<Penetration<dim>> SurfacePairRows<dim>::penetrations(   \
-      const la::Vector &, double);
-
-  ABUT_INSTANTIATE(2)
-  ABUT_INSTANTIATE(3)
+  template std::vector<Penetration<2>>
+  SurfacePairRows<2>::penetrations(const la::Vector &, double);
+  template std::vector<Penetration<3>>
+  SurfacePairRows<3>::penetrations(const la::Vector &, double);
 } // namespace abut::shim

@@ -8,6 +8,7 @@
 #include "handles.h"
 #include "surface_side.h"
 
+#include <abut/contact_motion.h>
 #include <abut/dealii/contact_examination.h>
 #include <abut/dealii/contact_pair.h>
 #include <abut/dealii/method_parameters.h>
@@ -34,29 +35,6 @@ namespace abut::shim
 
     /** Its width, the facet's size and the remedy. */
     std::string text() const;
-  };
-
-  /** What the directions of the forces of a pair have turned by. */
-  template <int dim> struct DirectionTurn
-  {
-    using Direction = dealii::Tensor<1, dim>;
-
-    double force = 0.;   ///< sum of the magnitudes
-    double sum = 0.;     ///< of force by angle (radian)
-    double largest = 0.; ///< angle
-    Direction change;    ///< what the secondary's resultant would change by
-
-    /** A force whose direction, of unit length, was @p before. */
-    void add(const double magnitude, const Direction &before,
-             const Direction &after)
-    {
-      const double chord = std::min(2., (after - before).norm());
-      const double angle = 2. * std::asin(0.5 * chord);
-      force += magnitude;
-      sum += magnitude * angle;
-      largest = std::max(largest, angle);
-      change += magnitude * (after - before);
-    }
   };
 
   /** SurfacePair::dropped of a node that supports hold. */
@@ -137,7 +115,8 @@ namespace abut::shim
     /** Known failures that it was made with all the same. */
     std::vector<Message> refused;
     dealii::Point<dim> gap_error_place;
-    DirectionTurn<dim> turn;
+    /** Of the directions of its forces since points were made. */
+    abut_direction_change turn = {};
     ObstacleWidth narrow;
   };
 

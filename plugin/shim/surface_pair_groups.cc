@@ -13,56 +13,43 @@ namespace abut::shim
 {
   namespace MPI = dealii::Utilities::MPI;
 
-  template <int dim> bool SurfacePairRows<dim>::have_common_nodes() const
-  {
-    std::vector<std::uint8_t> seen(surface_.nodes.size(), 0);
-    bool common = false;
-    for (const Pair &pair : pairs_)
-      if (is_group(pair))
-        for (const Node node : pair.secondary.node)
-        {
-          common = common || seen[node] != 0;
-          seen[node] = 1;
-        }
-    return MPI::logical_or(common, communicator_);
-  }
-
   template <int dim>
-  double SurfacePairRows<dim>::distance_where_made(const std::size_t i) const
+  std::vector<unsigned int> SurfacePairRows<dim>::share_nodes() const
   {
-    const Pair &pair = pairs_[places_[i].pair];
-    const std::int32_t row = view_.component_start[i];
-    double gap = view_.gap[row] - pair.data.gap;
-    if (!pair.is_displaced())
-      return gap;
-    // Gaps are those of displacement 0.
-    const auto add = [&](const Node node, const double c)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        gap += abut_point_sign(view_.kind[i], 0) * c * made_at(node)[d]
-               * view_.frame[row * std::size_t(dim) + d];
-    };
-    for_each_secondary(i, add);
-    for_each_primary(i, add);
-    return gap;
+    std::vector<std::size_t> first(surface_.nodes.size(), pairs_.size());
+    std::vector<unsigned int> share(pairs_.size(), 0);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (is_group(pairs_[p]))
+        for (const Node node : pairs_[p].secondary.node)
+        {
+          if (first[node] < pairs_.size())
+            share[p] = share[first[node]] = 1;
+          first[node] = p;
+        }
+    MPI::max(share, communicator_, share);
+    return share;
   }
 
   template <int dim>
   std::vector<std::vector<std::uint8_t>>
-  SurfacePairRows<dim>::nodes_of_nearer_pairs(const std::vector<double> &moved)
+  SurfacePairRows<dim>::nodes_of_nearer_pairs(const std::vector<double> &moved,
+                                              std::vector<Displaced> &displaced)
   {
     const std::size_t n_nodes = surface_.nodes.size();
     std::vector<std::vector<std::uint8_t>> nearer(
         pairs_.size(), std::vector<std::uint8_t>(n_nodes, 0));
-    if (!have_common_nodes())
+    const std::vector<unsigned int> share = share_nodes();
+    if (std::find(share.begin(), share.end(), 1u) == share.end())
       return nearer;
-    // What each pair would have if it were alone.
+    // What each of them would have if it were alone.
+    const std::vector<std::uint8_t> taken(n_nodes, 0);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if (is_group(pairs_[p]))
-      {
-        std::vector<std::uint8_t> taken(n_nodes, 0);
-        find_pair(p, moved[p], taken);
-      }
+      if (share[p] != 0)
+        make_points(p, moved[p], taken, displaced[p]);
+    std::vector<double> made(present_displacement_), gap(view_.n_components);
+    made.resize(dim * n_nodes, 0.);
+    check(context_, abut_points_gap(points_, static_cast<std::int32_t>(n_nodes),
+                                    made.data(), gap.data()));
     // Equal distances are those of the first pair, round-off or not.
     constexpr double nearly = 1. - 1e-8;
     std::vector<double> least(n_nodes, std::numeric_limits<double>::infinity());
@@ -72,7 +59,11 @@ namespace abut::shim
       const Node node = places_[i].node;
       if (node < 0)
         continue;
-      const double distance = std::abs(distance_where_made(i));
+      const Pair &pair = pairs_[places_[i].pair];
+      const std::int32_t row = view_.component_start[i];
+      // Gaps are those of displacement 0.
+      const double distance = std::abs(
+          (pair.is_displaced() ? gap[row] : view_.gap[row]) - pair.data.gap);
       if (distance < nearly * least[node])
       {
         least[node] = distance;
@@ -86,22 +77,20 @@ namespace abut::shim
     exchange_->merge_marks(surface_, marks);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       for (std::size_t q = 0; q < pairs_.size(); ++q)
-        for (std::size_t n = 0; n < n_nodes && q != p && is_group(pairs_[p]);
-             ++n)
+        for (std::size_t n = 0; n < n_nodes && q != p && share[p] != 0; ++n)
           if (marks[q * n_nodes + n] != 0)
             nearer[p][n] = 1;
     places_.clear();
-    checks_.clear();
     check(context_, abut_points_clear(points_));
     return nearer;
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template bool SurfacePairRows<dim>::have_common_nodes() const;               \
-  template double SurfacePairRows<dim>::distance_where_made(std::size_t)       \
+  template std::vector<unsigned int> SurfacePairRows<dim>::share_nodes()       \
       const;                                                                   \
   template std::vector<std::vector<std::uint8_t>>                              \
-  SurfacePairRows<dim>::nodes_of_nearer_pairs(const std::vector<double> &);
+  SurfacePairRows<dim>::nodes_of_nearer_pairs(const std::vector<double> &,     \
+                                              std::vector<Displaced> &);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

@@ -11,6 +11,90 @@ namespace abut::shim
   namespace MPI = dealii::Utilities::MPI;
   using dealii::types::global_dof_index;
 
+  namespace
+  {
+    /** What the Hessian of a point is with respect to, by unknowns:
+     * [components][terms]. */
+    using Terms = std::vector<std::vector<std::pair<global_dof_index, double>>>;
+
+    /** Add a factor times the unknowns of a node to a block of components. */
+    void add_terms(const solve::NodeMap &map, const std::int32_t node,
+                   const double factor, const std::size_t block, Terms &terms)
+    {
+      const unsigned int dim = map.dimension();
+      for (unsigned int d = 0; d < dim; ++d)
+        map.for_each_term(
+            node, d,
+            [&](const global_dof_index unknown, const double each)
+            { terms[block * dim + d].emplace_back(unknown, factor * each); });
+    }
+
+    Terms nodes_by_unknowns(const solve::NodeMap &map,
+                            const std::vector<std::int32_t> &nodes)
+    {
+      Terms terms(map.dimension() * nodes.size());
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        add_terms(map, nodes[a], 1., a, terms);
+      return terms;
+    }
+
+    /** The derivative of a point's force, of pressures and tractions as in
+     * geometric_lines(), by these; empty: 0. */
+    template <int dim>
+    std::vector<double> derivative_of_force(const abut_points_view &view,
+                                            const std::size_t point,
+                                            const PointPlace<dim> &place,
+                                            const double *row_pressure)
+    {
+      if (place.hessian.empty())
+        return {};
+      // One matrix for each component.
+      const std::size_t n = dim * (1 + place.opposite.size());
+      const std::size_t size =
+          place.lines.empty()
+              ? n * n
+              : dim * place.lines.size() * dim * place.columns.size();
+      std::vector<double> sum(size, 0.);
+      double force = 0.;
+      for (std::int32_t row = view.component_start[point], k = 0;
+           row < view.component_start[point + 1]; ++row, ++k)
+      {
+        const double each = row_pressure == nullptr
+                                ? 1.
+                                : view.weight[point] * row_pressure[row];
+        for (std::size_t e = 0; e < size; ++e)
+          sum[e] += each * place.hessian[k * size + e];
+        force += std::abs(each);
+      }
+      return force > 0. ? sum : std::vector<double>();
+    }
+
+    /** Add what the gap of a point of mortar changes by because directions and
+     * coefficients do: - sum_l d(n c_l) . x_l, wherever the origin is. */
+    template <int dim>
+    void add_gap_change(const solve::NodeMap &map, const PointPlace<dim> &place,
+                        const std::vector<dealii::Point<dim>> &present,
+                        solve::GapLine &line)
+    {
+      const std::size_t n = dim * place.columns.size();
+      std::vector<double> change(n, 0.);
+      for (std::size_t l = 0; l < place.lines.size(); ++l)
+      {
+        const auto way = present[place.lines[l]] - present[place.node];
+        for (unsigned int d = 0; d < dim; ++d)
+          for (std::size_t b = 0; b < n; ++b)
+            change[b] += way[d] * place.hessian[(l * dim + d) * n + b];
+      }
+      const Terms columns = nodes_by_unknowns(map, place.columns);
+      for (std::size_t b = 0; b < n; ++b)
+        for (const auto &[unknown, factor] : columns[b])
+        {
+          line.column.push_back(unknown);
+          line.value.push_back(change[b] * factor);
+        }
+    }
+  } // namespace
+
   template <int dim> bool SurfacePairRows<dim>::moves() const
   {
     for (const Pair &pair : pairs_)
@@ -117,85 +201,29 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::add_terms(const Node node, const double factor,
-                                       const std::size_t block,
-                                       Terms &terms) const
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      surface_.map.for_each_term(
-          node, d,
-          [&](const global_dof_index unknown, const double each)
-          { terms[block * dim + d].emplace_back(unknown, factor * each); });
-  }
-
-  template <int dim>
-  typename SurfacePairRows<dim>::Terms
-  SurfacePairRows<dim>::places_by_unknowns(const std::size_t point) const
-  {
-    const std::vector<Node> &opposite = places_[point].opposite;
-    Terms terms(dim * (1 + opposite.size()));
-    for_each_secondary(point, [&](const Node node, const double c)
-                       { add_terms(node, c, 0, terms); });
-    for (std::size_t a = 0; a < opposite.size(); ++a)
-      add_terms(opposite[a], 1., 1 + a, terms);
-    return terms;
-  }
-
-  template <int dim>
-  typename SurfacePairRows<dim>::Terms
-  SurfacePairRows<dim>::nodes_by_unknowns(const std::vector<Node> &nodes) const
-  {
-    Terms terms(dim * nodes.size());
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      add_terms(nodes[a], 1., a, terms);
-    return terms;
-  }
-
-  template <int dim>
-  std::vector<double>
-  SurfacePairRows<dim>::turning(const std::size_t point,
-                                const double *row_pressure) const
-  {
-    const Place &place = places_[point];
-    if (place.hessian.empty())
-      return {};
-    // One matrix for each component.
-    const std::size_t n = dim * (1 + place.opposite.size());
-    const std::size_t size =
-        place.lines.empty()
-            ? n * n
-            : dim * place.lines.size() * dim * place.columns.size();
-    std::vector<double> sum(size, 0.);
-    double force = 0.;
-    for (std::int32_t row = view_.component_start[point], k = 0;
-         row < view_.component_start[point + 1]; ++row, ++k)
-    {
-      const double each = row_pressure == nullptr
-                              ? 1.
-                              : view_.weight[point] * row_pressure[row];
-      for (std::size_t e = 0; e < size; ++e)
-        sum[e] += each * place.hessian[k * size + e];
-      force += std::abs(each);
-    }
-    return force > 0. ? sum : std::vector<double>();
-  }
-
-  template <int dim>
   std::vector<MatrixLine>
   SurfacePairRows<dim>::geometric_lines(const double *row_pressure) const
   {
     std::vector<MatrixLine> lines;
     for (std::size_t i = 0; i < places_.size(); ++i)
     {
-      const std::vector<double> hessian = turning(i, row_pressure);
+      const Place &place = places_[i];
+      const std::vector<double> hessian =
+          derivative_of_force(view_, i, place, row_pressure);
       if (hessian.empty())
         continue;
-      const Place &place = places_[i];
       const bool is_square = place.lines.empty();
-      const Terms terms =
-          is_square ? places_by_unknowns(i) : nodes_by_unknowns(place.lines);
+      Terms terms = nodes_by_unknowns(surface_.map,
+                                      is_square ? place.opposite : place.lines);
+      if (is_square)
+      {
+        Terms position(dim);
+        for_each_secondary(i, [&](const Node node, const double c)
+                           { add_terms(surface_.map, node, c, 0, position); });
+        terms.insert(terms.begin(), position.begin(), position.end());
+      }
       const Terms columns =
-          is_square ? terms : nodes_by_unknowns(place.columns);
+          is_square ? terms : nodes_by_unknowns(surface_.map, place.columns);
       const std::size_t n = columns.size();
       for (std::size_t a = 0; a < terms.size(); ++a)
         for (const auto &row : terms[a])
@@ -216,30 +244,6 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::add_gap_change(const std::size_t point,
-                                            solve::GapLine &line) const
-  {
-    // d(gap) = - sum_l d(n c_l) . x_l, wherever the origin is.
-    const Place &place = places_[point];
-    const std::size_t n = dim * place.columns.size();
-    std::vector<double> change(n, 0.);
-    for (std::size_t l = 0; l < place.lines.size(); ++l)
-    {
-      const Direction way = present_[place.lines[l]] - present_[place.node];
-      for (unsigned int d = 0; d < dim; ++d)
-        for (std::size_t b = 0; b < n; ++b)
-          change[b] += way[d] * place.hessian[(l * dim + d) * n + b];
-    }
-    const Terms columns = nodes_by_unknowns(place.columns);
-    for (std::size_t b = 0; b < n; ++b)
-      for (const auto &[unknown, factor] : columns[b])
-      {
-        line.column.push_back(unknown);
-        line.value.push_back(change[b] * factor);
-      }
-  }
-
-  template <int dim>
   std::vector<solve::GapLine>
   SurfacePairRows<dim>::gap_lines(const std::vector<std::uint8_t> &wanted) const
   {
@@ -253,8 +257,9 @@ namespace abut::shim
           line.row = static_cast<int>(row.row);
           // Gaps at nearest points have all their derivatives.
           if (!row.place.lines.empty() && wanted[row.row] != 0)
-            add_gap_change(row.point, line);
-          for (const auto &component : nodes_by_unknowns({row.place.node}))
+            add_gap_change(surface_.map, row.place, present_, line);
+          for (const auto &component :
+               nodes_by_unknowns(surface_.map, {row.place.node}))
             for (const auto &[unknown, factor] : component)
               line.own.push_back(unknown);
           lines.push_back(std::move(line));
@@ -320,18 +325,8 @@ namespace abut::shim
       const std::vector<Node> &, const std::vector<dealii::Point<dim>> &);     \
   template dealii::Tensor<1, dim> SurfacePairRows<dim>::apart(                 \
       std::size_t, const std::vector<Direction> &) const;                      \
-  template void SurfacePairRows<dim>::add_terms(Node, double, std::size_t,     \
-                                                Terms &) const;                \
-  template typename SurfacePairRows<dim>::Terms                                \
-      SurfacePairRows<dim>::places_by_unknowns(std::size_t) const;             \
-  template typename SurfacePairRows<dim>::Terms                                \
-  SurfacePairRows<dim>::nodes_by_unknowns(const std::vector<Node> &) const;    \
-  template std::vector<double> SurfacePairRows<dim>::turning(                  \
-      std::size_t, const double *) const;                                      \
   template std::vector<MatrixLine> SurfacePairRows<dim>::geometric_lines(      \
       const double *) const;                                                   \
-  template void SurfacePairRows<dim>::add_gap_change(std::size_t,              \
-                                                     solve::GapLine &) const;  \
   template std::vector<solve::GapLine> SurfacePairRows<dim>::gap_lines(        \
       const std::vector<std::uint8_t> &) const;                                \
   template void SurfacePairRows<dim>::make_isotropic(la::Vector &) const;      \

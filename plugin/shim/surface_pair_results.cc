@@ -307,10 +307,11 @@ namespace abut::shim
       results[p] = pairs_[p].measured;
       results[p].name = pairs_[p].data.name;
       results[p].least_pressure = none;
-      const Turn &turn = pairs_[p].turn;
+      const abut_direction_change &turn = pairs_[p].turn;
       results[p].turn = turn.force > 0. ? turn.sum / turn.force : 0.;
       results[p].largest_turn = turn.largest;
-      results[p].turned_force = turn.change;
+      for (unsigned int d = 0; d < dim; ++d)
+        results[p].turned_force[d] = turn.change[d];
     }
     for_each_component(
         [&](const Component &row)

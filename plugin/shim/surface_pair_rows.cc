@@ -514,16 +514,14 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::find_pair(const std::size_t number,
-                                       const double motion,
-                                       std::vector<std::uint8_t> &taken)
+  unsigned int SurfacePairRows<dim>::make_points(
+      const std::size_t number, const double motion,
+      const std::vector<std::uint8_t> &taken, Displaced &displaced)
   {
     Pair &pair = pairs_[number];
-    const std::size_t first = places_.size();
     unsigned int n_dropped = 0;
     int shift = 0;
-    std::optional<DisplacedSides<dim>> displaced;
-    if (pair.has_displaced_sides())
+    if (pair.has_displaced_sides() && !displaced)
       displaced.emplace(context_, pair.secondary, pair.primary, reference_,
                         present_);
     if (!pair.data.obstacle)
@@ -543,12 +541,23 @@ namespace abut::shim
       for (unsigned int d = 0; d < dim; ++d)
         shift += group.axes >> d & 1;
     }
+    return n_dropped;
+  }
 
+  template <int dim>
+  void SurfacePairRows<dim>::find_pair(const std::size_t number,
+                                       const double motion,
+                                       std::vector<std::uint8_t> &taken,
+                                       Displaced &displaced)
+  {
+    const std::size_t first = places_.size();
+    const unsigned int n_dropped =
+        make_points(number, motion, taken, displaced);
     displaced.reset();
 
     // A node has points of one pair only: two would constrain it twice. Several
     // obstacles may hold one node in a corner.
-    if (!pair.data.obstacle)
+    if (!pairs_[number].data.obstacle)
       for (std::size_t i = first; i < places_.size(); ++i)
         if (places_[i].node >= 0)
           taken[places_[i].node] = 1;
@@ -559,8 +568,9 @@ namespace abut::shim
   template <int dim>
   void SurfacePairRows<dim>::find_pairs(const std::vector<double> &moved)
   {
+    std::vector<Displaced> displaced(pairs_.size());
     const std::vector<std::vector<std::uint8_t>> nearer =
-        nodes_of_nearer_pairs(moved);
+        nodes_of_nearer_pairs(moved, displaced);
     // Obstacles hold nodes that bodies touch, too, whichever pair comes first.
     std::vector<std::uint8_t> taken(surface_.nodes.size(), 0), tied(taken);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
@@ -569,7 +579,7 @@ namespace abut::shim
       for (std::size_t n = 0; n < others.size(); ++n)
         others[n] = others[n] != 0 || nearer[p][n] != 0;
       const std::vector<std::uint8_t> before(others);
-      find_pair(p, moved[p], others);
+      find_pair(p, moved[p], others, displaced[p]);
       for (std::size_t n = 0; n < others.size(); ++n)
         if (others[n] != before[n])
         {

@@ -368,16 +368,6 @@ namespace abut::shim
 
     using Direction = dealii::Tensor<1, dim>;
 
-    using Turn = DirectionTurn<dim>;
-
-    /** A point that carries a force. */
-    struct Pressed
-    {
-      std::size_t point;
-      double force;                ///< its magnitude
-      dealii::Point<dim> position; ///< where the point was made
-    };
-
     using Pair = SurfacePair<dim>;
 
     using Origin = PointsOrigin;
@@ -490,41 +480,7 @@ namespace abut::shim
     void drop_covered(std::vector<std::uint8_t> &keep) const;
     /** Note where contacts share a node of the secondary. */
     void find_rivals(FrictionalPoints &points) const;
-    void check_obstacle(Pair &pair, const std::uint8_t *held,
-                        const std::vector<dealii::Point<dim>> &present,
-                        double tolerance,
-                        std::vector<Penetration<dim>> &missed) const;
-    void check_surfaces(Pair &pair, const std::uint8_t *held,
-                        const std::vector<dealii::Point<dim>> &present,
-                        double reach, double tolerance,
-                        std::vector<Penetration<dim>> &missed);
-    /** Of a surface that touches itself: parts on the same of its two sides,
-     * as far as this rank knows them. */
-    void check_same_sides(Pair &pair,
-                          const std::vector<dealii::Point<dim>> &present,
-                          double reach, double tolerance,
-                          std::vector<Penetration<dim>> &missed);
-    /** Look for what has come through the other side of pair @p p since points
-     * were made, and is not inside of it any more: of bodies (where the sides
-     * are at @p present) or of the obstacle. */
-    void check_passage(std::size_t p, const std::uint8_t *held,
-                       const std::vector<dealii::Point<dim>> &committed,
-                       const std::vector<dealii::Point<dim>> &present,
-                       double motion, double tolerance,
-                       std::vector<Penetration<dim>> &missed) const;
-    /** The same for an obstacle whose formula changes in time: it is looked at
-     * in between. */
-    void
-    check_passage_of_formula(std::size_t p, const std::uint8_t *held,
-                             const std::vector<dealii::Point<dim>> &present,
-                             double tolerance,
-                             std::vector<Penetration<dim>> &missed) const;
-    void
-    check_passage_of_obstacle(std::size_t p, const std::uint8_t *held,
-                              const std::vector<dealii::Point<dim>> &begin,
-                              const std::vector<dealii::Point<dim>> &present,
-                              double tolerance,
-                              std::vector<Penetration<dim>> &missed) const;
+    class MissedCheck;
 
     /** [pairs][nodes of the whole surface] nonzero: the node has a closed row
      * of the pair, or none that could be. Collective. */
@@ -539,13 +495,7 @@ namespace abut::shim
     dealii::Point<dim> place_before(std::size_t pair,
                                     const dealii::Point<dim> &place) const;
     void find_narrow(Pair &pair, const std::vector<Direction> &u) const;
-    std::vector<Pressed> pressed_points(std::size_t pair,
-                                        const double *row_pressure,
-                                        const std::uint8_t *row_state) const;
-    Turn turn_at_obstacle(const Pair &pair, const std::vector<Pressed> &pressed,
-                          const std::vector<Direction> &u) const;
-    Turn turn_of_bodies(Pair &pair, const std::vector<Pressed> &pressed,
-                        const std::vector<Direction> &u) const;
+    class PressedPoints;
     /** Measure what directions have turned by since rows were made.
      * Collective. */
     void find_turns(const std::vector<Direction> &u, const double *row_pressure,
@@ -655,15 +605,7 @@ namespace abut::shim
     difference(std::vector<Direction> u, const std::vector<Direction> &from);
     /** The way since the points were made. */
     std::vector<Direction> way_since(const std::vector<Direction> &u) const;
-    /** How far the facets of a side with marked nodes turn on this way. */
-    double largest_turn_of(const SurfaceSide<dim> &side,
-                           const std::vector<std::uint8_t> &marked,
-                           const std::vector<Direction> &way) const;
     void take_hessians(const Pair &pair, const abut_coupling_view &view);
-    /** What the Hessian of a point is with respect to, by unknowns:
-     * [components][terms]. */
-    using Terms = std::vector<
-        std::vector<std::pair<dealii::types::global_dof_index, double>>>;
     /** From the place that is opposite a point of mortar to its own, if nodes
      * are displaced by @p u. */
     Direction apart(std::size_t point, const std::vector<Direction> &u) const;
@@ -671,21 +613,10 @@ namespace abut::shim
      * were paired, or since the step began. */
     Direction way_of_partners(const Component &row,
                               const std::vector<Direction> &u) const;
-    void add_terms(Node node, double factor, std::size_t block,
-                   Terms &terms) const;
-    Terms places_by_unknowns(std::size_t point) const;
-    Terms nodes_by_unknowns(const std::vector<Node> &nodes) const;
     /** [nodes of the side * dim] */
     static std::vector<double>
     places_of(const std::vector<Node> &nodes,
               const std::vector<dealii::Point<dim>> &place);
-    /** The derivative of a point's force, of pressures and tractions as in
-     * geometric_lines(), by these; empty: 0. */
-    std::vector<double> turning(std::size_t point,
-                                const double *row_pressure) const;
-    /** Add what the gap of a point of mortar changes by because directions and
-     * coefficients do. */
-    void add_gap_change(std::size_t point, solve::GapLine &line) const;
     using TieGroup = TiedAxes;
     std::vector<TieGroup>
     tie_groups(const Pair &pair, const std::vector<std::uint8_t> &taken) const;
@@ -697,8 +628,17 @@ namespace abut::shim
     void append(std::size_t pair, const std::vector<std::uint8_t> &dropped,
                 double motion, std::uint32_t tie_axes, int shift);
     bool has_lasting_numbers(const Pair &pair) const;
+    /** The sides of a pair while they stand where points are made. */
+    using Displaced = std::optional<DisplacedSides<dim>>;
+    /** Search, and append the points of a pair at nodes that are not taken.
+     * The sides stay displaced. Returns the number of nodes without a
+     * multiplier on all ranks. Collective. */
+    unsigned int make_points(std::size_t pair, double motion,
+                             const std::vector<std::uint8_t> &taken,
+                             Displaced &displaced);
+    /** The same, with what is said of the pair; marks the nodes as taken. */
     void find_pair(std::size_t pair, double motion,
-                   std::vector<std::uint8_t> &taken);
+                   std::vector<std::uint8_t> &taken, Displaced &displaced);
     /** The points of all pairs. Collective. */
     void find_pairs(const std::vector<double> &moved);
     /** Throw where the gap of a pair leaves nothing of an obstacle or a body.
@@ -712,14 +652,15 @@ namespace abut::shim
     {
       return !pair.data.obstacle && !pair.data.tied;
     }
-    /** Whether a node is in the secondary of several. Collective. */
-    bool have_common_nodes() const;
-    /** Signed, of the surfaces at a point that was just made. */
-    double distance_where_made(std::size_t point) const;
+    /** [pairs] nonzero: a group with a node that is in the secondary of another
+     * one, too. Collective. */
+    std::vector<unsigned int> share_nodes() const;
     /** [pairs][nodes] nonzero: another group is nearer to the node. Takes the
-     * points away that it makes to find out. Collective. */
+     * points away that it makes to find out; sides stay displaced. Collective.
+     */
     std::vector<std::vector<std::uint8_t>>
-    nodes_of_nearer_pairs(const std::vector<double> &moved);
+    nodes_of_nearer_pairs(const std::vector<double> &moved,
+                          std::vector<Displaced> &displaced);
     std::vector<Origin> origins(const std::vector<Direction> &u) const;
     solve::NodeMap append_stress(const SurfaceTraction<dim> &traction,
                                  abut_points *stress) const;

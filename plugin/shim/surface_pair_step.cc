@@ -29,18 +29,6 @@ namespace abut::shim
       const double size = a.norm() * b.norm();
       return size > 0. ? std::acos(std::clamp(a * b / size, -1., 1.)) : 0.;
     }
-
-    /** Normal of a facet by its first corners, of any length and either sign.
-     */
-    dealii::Tensor<1, 2> normal_by(const std::vector<dealii::Point<2>> &node)
-    {
-      return dealii::cross_product_2d(node[1] - node[0]);
-    }
-
-    dealii::Tensor<1, 3> normal_by(const std::vector<dealii::Point<3>> &node)
-    {
-      return dealii::cross_product_3d(node[1] - node[0], node[2] - node[0]);
-    }
   } // namespace
 
   template <int dim> bool SurfacePairRows<dim>::has_steps() const
@@ -97,32 +85,6 @@ namespace abut::shim
   }
 
   template <int dim>
-  double
-  SurfacePairRows<dim>::largest_turn_of(const SurfaceSide<dim> &side,
-                                        const std::vector<std::uint8_t> &marked,
-                                        const std::vector<Direction> &way) const
-  {
-    const unsigned int n_nodes = surface_.nodes_per_facet();
-    double turn = 0.;
-    for (const std::int32_t f : side.facet)
-    {
-      const auto &facet = surface_.facets[f];
-      std::vector<dealii::Point<dim>> then, now;
-      bool touches = false;
-      for (unsigned int a = 0; a < n_nodes; ++a)
-      {
-        const Node node = facet.node[a];
-        touches = touches || marked[node] != 0;
-        then.push_back(present_[node]);
-        now.push_back(present_[node] + way[node]);
-      }
-      if (touches)
-        turn = std::max(turn, angle<dim>(normal_by(then), normal_by(now)));
-    }
-    return turn;
-  }
-
-  template <int dim>
   dealii::Tensor<1, dim>
   SurfacePairRows<dim>::way_of_partners(const Component &row,
                                         const std::vector<Direction> &u) const
@@ -158,7 +120,9 @@ namespace abut::shim
     if (!has_steps() && std::none_of(pairs_.begin(), pairs_.end(), stays))
       return result;
     const std::vector<Direction> u = displacements_in_reach(displacement);
-    const std::vector<Direction> way = way_since(u);
+    std::vector<dealii::Point<dim>> now;
+    for (std::size_t n = 0; n < present_.size(); ++n)
+      now.push_back(present_[n] + (u[n] - made_at(static_cast<Node>(n))));
     std::vector<std::vector<std::uint8_t>> marked(
         pairs_.size(), std::vector<std::uint8_t>(surface_.nodes.size(), 0));
     std::vector<std::vector<dealii::Point<dim>>> places(pairs_.size());
@@ -195,10 +159,20 @@ namespace abut::shim
             {
               motion.facet = std::min(pair.secondary.everywhere.median,
                                       pair.primary.everywhere.median);
-              if (pair.has_committed_points())
-                for (const auto *side : {&pair.secondary, &pair.primary})
-                  motion.turn = std::max(
-                      motion.turn, largest_turn_of(*side, marked[p], way));
+              for (const auto *side : {&pair.secondary, &pair.primary})
+              {
+                std::vector<std::uint8_t> marks;
+                for (const Node node : side->node)
+                  marks.push_back(marked[p][node]);
+                double turn = 0.;
+                if (pair.has_committed_points())
+                  check(context_,
+                        abut_surface_rotation(
+                            side->surface.get(), marks.data(),
+                            places_of(side->node, present_).data(),
+                            places_of(side->node, now).data(), &turn));
+                motion.turn = std::max(motion.turn, turn);
+              }
               continue;
             }
             if (places[p].empty())
@@ -227,9 +201,6 @@ namespace abut::shim
   template std::vector<dealii::Tensor<1, dim>>                                 \
   SurfacePairRows<dim>::way_since(const std::vector<Direction> &) const;       \
   template bool SurfacePairRows<dim>::is_where_made(                           \
-      const std::vector<Direction> &) const;                                   \
-  template double SurfacePairRows<dim>::largest_turn_of(                       \
-      const SurfaceSide<dim> &, const std::vector<std::uint8_t> &,             \
       const std::vector<Direction> &) const;                                   \
   template dealii::Tensor<1, dim> SurfacePairRows<dim>::way_of_partners(       \
       const Component &, const std::vector<Direction> &) const;                \

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace abut::shim
 {
@@ -17,175 +19,171 @@ namespace abut::shim
 
   namespace
   {
+    /** Inward normals of a side's nodes, [nodes of the whole * dim]: where the
+     * forces on the other side go. */
     template <int dim>
-    dealii::Tensor<1, dim> unit(const dealii::Tensor<1, dim> &vector)
-    {
-      const double length = vector.norm();
-      return length > 0. ? vector / length : vector;
-    }
-
-    /** Outward normals of a side's nodes. */
-    template <int dim>
-    std::vector<dealii::Tensor<1, dim>> normals_of(const abut_context *context,
-                                                   const SurfaceSide<dim> &side)
+    std::vector<double> inward_normals(const abut_context *context,
+                                       const SurfaceSide<dim> &side,
+                                       const std::size_t n_nodes)
     {
       const double *normal = nullptr;
       check(context, abut_surface_normals(side.surface.get(), &normal));
-      std::vector<dealii::Tensor<1, dim>> result(side.n_nodes());
+      std::vector<double> result(n_nodes * dim, 0.);
       for (int n = 0; n < side.n_nodes(); ++n)
         for (unsigned int d = 0; d < dim; ++d)
-          result[n][d] = normal[n * dim + d];
+          result[side.node[n] * std::size_t(dim) + d] = -normal[n * dim + d];
       return result;
     }
 
-    /** Directions out of an obstacle at points of a body; at its edges the
-     * body's, which are those of the rows' first frame vectors @p into. */
+    /** Directions out of an obstacle at points of a body, [points * dim]; at
+     * its edges the body's, which are those of the rows' first frame vectors @p
+     * into. */
     template <int dim>
-    std::vector<dealii::Tensor<1, dim>>
+    std::vector<double>
     directions_at(const RigidObstacle<dim> &obstacle,
                   const std::vector<dealii::Point<dim>> &points,
                   const std::vector<double> &into,
                   const std::vector<double> &size)
     {
-      std::vector<double> distance, place, gradient;
-      std::vector<dealii::Tensor<1, dim>> result;
-      obstacle.distance(points, distance, &result);
+      std::vector<double> distance, place, result;
+      std::vector<dealii::Tensor<1, dim>> gradient;
+      obstacle.distance(points, distance, &gradient);
       for (std::size_t i = 0; i < points.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
         {
           place.push_back(points[i][d]);
-          gradient.push_back(result[i][d]);
+          result.push_back(gradient[i][d]);
         }
       if (abut_obstacle_face(obstacle.handle(), false,
                              static_cast<std::int32_t>(points.size()),
                              place.data(), into.data(), size.data(),
-                             distance.data(), gradient.data(), nullptr)
+                             distance.data(), result.data(), nullptr)
           != ABUT_SUCCESS)
         throw ContactError(obstacle.failure());
-      for (std::size_t i = 0; i < points.size(); ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          result[i][d] = gradient[dim * i + d];
       return result;
     }
   } // namespace
 
-  template <int dim>
-  std::vector<typename SurfacePairRows<dim>::Pressed>
-  SurfacePairRows<dim>::pressed_points(const std::size_t pair,
-                                       const double *row_pressure,
-                                       const std::uint8_t *row_state) const
+  /** The points of a pair that carry a force. */
+  template <int dim> class SurfacePairRows<dim>::PressedPoints
   {
-    std::vector<Pressed> result;
-    for_each_component(
-        [&](const Component &row)
-        {
-          const double force =
-              view_.weight[row.point] * std::abs(row_pressure[row.row]);
-          if (row.place.pair == pair && force > 0. && row_state != nullptr
-              && row_state[row.row] != ABUT_STATE_OPEN)
-            result.push_back({row.point, force, row.place.position});
-        });
-    return result;
-  }
-
-  template <int dim>
-  typename SurfacePairRows<dim>::Turn
-  SurfacePairRows<dim>::turn_at_obstacle(const Pair &pair,
-                                         const std::vector<Pressed> &pressed,
-                                         const std::vector<Direction> &u) const
-  {
-    std::vector<dealii::Point<dim>> made, now;
-    for (const Pressed &point : pressed)
+  public:
+    PressedPoints(const SurfacePairRows &rows, const std::size_t pair,
+                  const double *row_pressure, const std::uint8_t *row_state)
+        : rows_(rows)
     {
-      Direction since;
-      for_each_secondary(
-          point.point,
-          [&](const Node node, const double c)
+      rows.for_each_component(
+          [&](const Component &row)
           {
-            since += c
-                     * (u[node]
-                        - (pair.is_displaced() ? made_at(node) : Direction()));
+            const double force =
+                rows.view_.weight[row.point] * std::abs(row_pressure[row.row]);
+            if (row.place.pair != pair || !(force > 0.) || row_state == nullptr
+                || row_state[row.row] == ABUT_STATE_OPEN)
+              return;
+            point_.push_back(static_cast<std::int32_t>(row.point));
+            force_.push_back(force);
+            position_.push_back(row.place.position);
           });
-      made.push_back(point.position);
-      now.push_back(point.position + since);
     }
-    // Of a height along an axis, too, whose force is along the axis by choice:
-    // what its slope has changed by is beside that.
-    std::vector<double> into, size;
-    for (const Pressed &point : pressed)
-    {
-      const double *frame =
-          view_.frame + view_.component_start[point.point] * dim;
-      into.insert(into.end(), frame, frame + dim);
-      size.push_back(std::pow(view_.weight[point.point], 1. / (dim - 1)));
-    }
-    const std::vector<Direction> before =
-        directions_at(*pair.data.obstacle, made, into, size);
-    const std::vector<Direction> after =
-        directions_at(*pair.data.obstacle, now, into, size);
-    Turn turn;
-    for (std::size_t i = 0; i < pressed.size(); ++i)
-    {
-      // Rows in a thin obstacle go back the way they came, not through it: the
-      // frame's first vector is into the material.
-      double cosine = 0.;
-      for (unsigned int d = 0; d < dim; ++d)
-        cosine += into[i * dim + d] * before[i][d];
-      const double way = cosine > 0. ? -1. : 1.;
-      turn.add(pressed[i].force, way * unit(before[i]), unit(after[i]));
-    }
-    return turn;
-  }
 
-  template <int dim>
-  typename SurfacePairRows<dim>::Turn
-  SurfacePairRows<dim>::turn_of_bodies(Pair &pair,
-                                       const std::vector<Pressed> &pressed,
-                                       const std::vector<Direction> &u) const
-  {
-    std::vector<dealii::Point<dim>> undeformed(surface_.nodes.size());
-    std::vector<dealii::Point<dim>> now(undeformed);
-    for (std::size_t n = 0; n < now.size(); ++n)
+    /** Where nodes are displaced by @p u. */
+    abut_direction_change
+    turn_at_obstacle(const Pair &pair, const std::vector<Direction> &u) const
     {
-      undeformed[n] = surface_.nodes[n].point;
-      now[n] = undeformed[n] + u[n];
-    }
-    // Nearest points have the direction of the primary's facets, all others
-    // that of the secondary, see abut/coupling.h.
-    const abut_discretisation_info kind =
-        discretisation_info(pair.discretisation);
-    const bool of_primary = !kind.is_weighted && !kind.row_per_point;
-    const SurfaceSide<dim> &side = of_primary ? pair.primary : pair.secondary;
-    const auto normals_at = [&](const std::vector<dealii::Point<dim>> &place)
-    {
-      const DisplacedSides<dim> displaced(context_, pair.secondary,
-                                          pair.primary, undeformed, place);
-      return normals_of(context_, side);
-    };
-    const std::vector<Direction> before =
-        pair.is_displaced() ? normals_at(present_) : normals_of(context_, side);
-    const std::vector<Direction> after = normals_at(now);
-    Turn turn;
-    for (const Pressed &point : pressed)
-    {
-      Direction mean_before, mean_after;
-      const auto add = [&](const Node node, const double c)
+      const std::size_t n_nodes = rows_.surface_.nodes.size();
+      std::vector<double> way, into, size;
+      for (std::size_t n = 0; n < n_nodes; ++n)
       {
-        const int n = side.local_node(node);
-        mean_before += c * before[n];
-        mean_after += c * after[n];
-      };
-      // Outward normals of the other side are the way of the force.
-      if (of_primary)
-        for_each_primary(point.point, [&](const Node node, const double c)
-                         { add(node, -c); });
-      else
-        for_each_secondary(point.point, [&](const Node node, const double c)
-                           { add(node, -c); });
-      turn.add(point.force, unit(mean_before), unit(mean_after));
+        const Direction since = pair.is_displaced()
+                                    ? u[n] - rows_.made_at(static_cast<Node>(n))
+                                    : u[n];
+        way.insert(way.end(), since.begin_raw(), since.end_raw());
+      }
+      const std::vector<double> since = sums(ABUT_SIDE_SECONDARY, way);
+      std::vector<dealii::Point<dim>> now(position_);
+      // Of a height along an axis, too, whose force is along the axis by
+      // choice: what its slope has changed by is beside that.
+      for (std::size_t i = 0; i < now.size(); ++i)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          now[i][d] += since[i * dim + d];
+        const double *frame =
+            rows_.view_.frame + rows_.view_.component_start[point_[i]] * dim;
+        into.insert(into.end(), frame, frame + dim);
+        size.push_back(std::pow(rows_.view_.weight[point_[i]], 1. / (dim - 1)));
+      }
+      std::vector<double> before =
+          directions_at(*pair.data.obstacle, position_, into, size);
+      for (std::size_t i = 0; i < before.size(); i += dim)
+        // Rows in a thin obstacle go back the way they came, not through it:
+        // the frame's first vector is into the material.
+        if (std::inner_product(&before[i], &before[i] + dim, &into[i], 0.) > 0.)
+          std::transform(&before[i], &before[i] + dim, &before[i],
+                         std::negate<double>());
+      return change(before,
+                    directions_at(*pair.data.obstacle, now, into, size));
     }
-    return turn;
-  }
+
+    abut_direction_change turn_of_bodies(Pair &pair,
+                                         const std::vector<Direction> &u) const
+    {
+      const std::size_t n_nodes = rows_.surface_.nodes.size();
+      std::vector<dealii::Point<dim>> undeformed(n_nodes), now(n_nodes);
+      for (std::size_t n = 0; n < n_nodes; ++n)
+      {
+        undeformed[n] = rows_.surface_.nodes[n].point;
+        now[n] = undeformed[n] + u[n];
+      }
+      // Nearest points have the direction of the primary's facets, all others
+      // that of the secondary, see abut/coupling.h.
+      const auto kind = discretisation_info(pair.discretisation);
+      const bool of_primary = !kind.is_weighted && !kind.row_per_point;
+      const SurfaceSide<dim> &side = of_primary ? pair.primary : pair.secondary;
+      const auto directions_of = [&](const auto &place)
+      {
+        const DisplacedSides<dim> displaced(rows_.context_, pair.secondary,
+                                            pair.primary, undeformed, place);
+        return sums(of_primary ? ABUT_SIDE_PRIMARY : ABUT_SIDE_SECONDARY,
+                    inward_normals(rows_.context_, side, n_nodes));
+      };
+      return change(
+          directions_of(pair.is_displaced() ? rows_.present_ : undeformed),
+          directions_of(now));
+    }
+
+  private:
+    std::int32_t n_points() const
+    {
+      return static_cast<std::int32_t>(point_.size());
+    }
+
+    /** abut_points_sum() of values [nodes of the whole * dim]. */
+    std::vector<double> sums(const abut_point_sides sides,
+                             const std::vector<double> &value) const
+    {
+      std::vector<double> result(point_.size() * dim);
+      check(rows_.context_,
+            abut_points_sum(rows_.points_, sides, n_points(), point_.data(),
+                            static_cast<std::int32_t>(value.size() / dim),
+                            value.data(), result.data()));
+      return result;
+    }
+
+    abut_direction_change change(const std::vector<double> &before,
+                                 const std::vector<double> &after) const
+    {
+      abut_direction_change result = {};
+      check(rows_.context_,
+            abut_direction_change_add(dim, n_points(), force_.data(),
+                                      before.data(), after.data(), &result));
+      return result;
+    }
+
+    const SurfacePairRows &rows_;
+    std::vector<std::int32_t> point_;
+    std::vector<double> force_; ///< magnitude
+    std::vector<dealii::Point<dim>> position_;
+  };
 
   template <int dim>
   void SurfacePairRows<dim>::find_turns(const std::vector<Direction> &u,
@@ -199,23 +197,22 @@ namespace abut::shim
           for (std::size_t p = 0; p < pairs_.size(); ++p)
           {
             Pair &pair = pairs_[p];
-            pair.turn = Turn();
+            pair.turn = {};
             // A tie's force has any direction.
             if (pair.data.tied)
               continue;
-            const std::vector<Pressed> pressed =
-                pressed_points(p, row_pressure, row_state);
-            pair.turn = pair.data.obstacle ? turn_at_obstacle(pair, pressed, u)
-                                           : turn_of_bodies(pair, pressed, u);
+            const PressedPoints pressed(*this, p, row_pressure, row_state);
+            pair.turn = pair.data.obstacle ? pressed.turn_at_obstacle(pair, u)
+                                           : pressed.turn_of_bodies(pair, u);
           }
         });
     for (Pair &pair : pairs_)
     {
-      Turn &turn = pair.turn;
-      turn.force = MPI::sum(turn.force, communicator_);
-      turn.sum = MPI::sum(turn.sum, communicator_);
+      abut_direction_change &turn = pair.turn;
+      for (double *value : {&turn.force, &turn.sum, turn.change,
+                            turn.change + 1, turn.change + 2})
+        *value = MPI::sum(*value, communicator_);
       turn.largest = MPI::max(turn.largest, communicator_);
-      turn.change = MPI::sum(turn.change, communicator_);
     }
   }
 

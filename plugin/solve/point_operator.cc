@@ -57,6 +57,28 @@ namespace abut::solve
         }
       }
 
+      /** Whether write() would append anything. */
+      bool has_columns() const
+      {
+        const auto largest =
+            std::max_element(terms_.begin(), terms_.end(),
+                             [](const auto &a, const auto &b) {
+                               return std::abs(a.second) < std::abs(b.second);
+                             });
+        if (largest == terms_.end())
+          return false;
+        if (largest->second != 0.
+            && std::count_if(terms_.begin(), terms_.end(),
+                             [&](const auto &term)
+                             { return term.first == largest->first; })
+                   == 1)
+          return true;
+        std::vector<global_dof_index> column;
+        std::vector<double> coefficient;
+        Line(*this).write(column, coefficient);
+        return !column.empty();
+      }
+
     private:
       static void write_sum(const global_dof_index unknown, const double sum,
                             std::vector<global_dof_index> &column,
@@ -70,6 +92,29 @@ namespace abut::solve
 
       std::vector<std::pair<global_dof_index, double>> terms_;
     };
+
+    /** Gather the terms of a row of a point. */
+    void gather(const abut_points_view &points, const int point, const int row,
+                const NodeMap &nodes, Line &line)
+    {
+      const int dim = points.dimension;
+      const double sign = abut_point_sign(points.kind[point],
+                                          row - points.component_start[point]);
+      line.clear();
+      for (auto e = points.start[point]; e < points.start[point + 1]; ++e)
+        for (int d = 0; d < dim; ++d)
+        {
+          const double factor = sign * points.frame[row * std::size_t(dim) + d]
+                                * points.coefficient[e];
+          if (factor == 0.)
+            continue;
+          const auto node = static_cast<std::size_t>(points.node[e]);
+          nodes.for_each_term(
+              node, d,
+              [&](const global_dof_index unknown, const double term)
+              { line.add(unknown, factor * term); });
+        }
+    }
   } // namespace
 
   std::vector<global_dof_index> PointOperator::expand(const NodeMap &nodes)
@@ -88,23 +133,7 @@ namespace abut::solve
       for (int row = points_.component_start[i];
            row < points_.component_start[i + 1]; ++row)
       {
-        const double sign =
-            abut_point_sign(points_.kind[i], row - points_.component_start[i]);
-        line.clear();
-        for (auto e = points_.start[i]; e < points_.start[i + 1]; ++e)
-          for (int d = 0; d < dim; ++d)
-          {
-            const double factor = sign
-                                  * points_.frame[row * std::size_t(dim) + d]
-                                  * points_.coefficient[e];
-            if (factor == 0.)
-              continue;
-            const auto node = static_cast<std::size_t>(points_.node[e]);
-            nodes.for_each_term(
-                node, d,
-                [&](const global_dof_index unknown, const double term)
-                { line.add(unknown, factor * term); });
-          }
+        gather(points_, i, row, nodes, line);
         line.write(columns, coefficient_);
         initial_gap_.push_back(initial_gap(i, row, nodes));
         start_.push_back(static_cast<std::int64_t>(columns.size()));
@@ -200,14 +229,6 @@ namespace abut::solve
     columns.clear();
     for (auto e = begin(row); e < end(row); ++e)
       columns.push_back(global_column(column(e)));
-  }
-
-  std::vector<std::uint8_t> PointOperator::rows_with_columns() const
-  {
-    std::vector<std::uint8_t> result(n_rows());
-    for (int i = 0; i < n_rows(); ++i)
-      result[i] = end(i) > begin(i);
-    return result;
   }
 
   const double *PointOperator::import(const la::Vector &vector) const
@@ -355,6 +376,21 @@ namespace abut::solve
     for (int i = 0; i < n_rows(); ++i)
       for (std::int64_t e = begin(i); e < end(i); ++e)
         result[i] += b[e] * b[e] * values[column(e)];
+    return result;
+  }
+
+  std::vector<std::uint8_t> rows_with_columns(const abut_points_view &points,
+                                              const NodeMap &nodes)
+  {
+    std::vector<std::uint8_t> result(points.n_components);
+    Line line;
+    for (int i = 0; i < points.n_points; ++i)
+      for (int row = points.component_start[i];
+           row < points.component_start[i + 1]; ++row)
+      {
+        gather(points, i, row, nodes, line);
+        result[row] = line.has_columns();
+      }
     return result;
   }
 } // namespace abut::solve

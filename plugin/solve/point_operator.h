@@ -85,9 +85,6 @@ namespace abut::solve
     get_columns(int row,
                 std::vector<dealii::types::global_dof_index> &columns) const;
 
-    /** [rows] nonzero: the row has a column. */
-    std::vector<std::uint8_t> rows_with_columns() const;
-
     /** [rows] global numbers. */
     const std::int64_t *ids() const
     {
@@ -231,6 +228,11 @@ namespace abut::solve
     mutable std::vector<double> values_; ///< [n_columns] with other ranks
     mutable std::vector<double> buffer_; ///< values on their way
   };
+
+  /** [rows] nonzero: the operator of these points has a column in the row. Not
+   * collective. */
+  std::vector<std::uint8_t> rows_with_columns(const abut_points_view &points,
+                                              const NodeMap &nodes);
 } // namespace abut::solve
 
 #endif

@@ -13,6 +13,7 @@
 #include "scenes.h"
 
 #include <abut/coupling_search.h>
+#include <abut/missed_contact.h>
 
 #include <string.h>
 
@@ -220,6 +221,30 @@ searches(world *w)
   return ABUT_SUCCESS;
 }
 
+/* Nodes that are missed where the surfaces stand and on their way there, all in
+ * the other surface by a gap. */
+static abut_status
+missed_contact(world *w)
+{
+  uint8_t marks[64];
+  abut_missed_node missed[256];
+  abut_missed_options options = abut_missed_defaults();
+  abut_missed_report report;
+  memset(marks, ABUT_NODE_OWNED, sizeof(marks));
+  for (int paths = 0; paths < 2; ++paths)
+  {
+    options.gap = paths ? 0. : -0.2;
+    options.secondary_start = paths ? w->mesh_a.position : NULL;
+    options.primary_start = paths ? w->mesh_b.position : NULL;
+    TRY(abut_missed_contact(w->context, w->a, w->b, marks, marks, &options,
+                            missed, &report));
+    note(w, report.n);
+    for (int32_t i = 0; i < report.n; ++i)
+      note(w, missed[i].depth);
+  }
+  return ABUT_SUCCESS;
+}
+
 static abut_status
 detections(world *w)
 {
@@ -241,7 +266,7 @@ detections(world *w)
   note(w, report.n_paired);
   for (int32_t i = 0; i < view.n_nodes; ++i)
     note(w, view.contact[i].gap);
-  return ABUT_SUCCESS;
+  return missed_contact(w);
 }
 
 /* Points of a coupling, and what is known of them. */
@@ -353,6 +378,10 @@ obstacles(world *w)
                              distance, NULL, NULL));
   TRY(abut_obstacle_gap(w->obstacle, w->mesh_a.n_nodes, w->mesh_a.position,
                         distance, gradient, hessian));
+  abut_obstacle_path path[64];
+  TRY(abut_obstacle_follow(w->obstacle, w->mesh_a.n_nodes, w->mesh_a.position,
+                           w->mesh_b.position, path));
+  note(w, path[0].depth);
   double normal[192], size[64];
   for (int32_t i = 0; i < 3 * w->mesh_a.n_nodes; ++i)
     normal[i] = -gradient[i];

@@ -23,6 +23,8 @@ ROOMS = [
     ("core/history", "core/base"),
     ("core/contact", "core/base core/geometry core/search core/law "
                      "core/constraint"),
+    ("core/interface", "core/base core/geometry core/search core/law "
+                       "core/constraint core/contact"),
     ("core/strategy", "core/base core/law core/constraint core/contact"),
     ("core/model", "core/base core/constraint core/strategy"),
     ("solve", ""),
