@@ -144,11 +144,27 @@ namespace
         && good;
   }
 
+  /** The patch test on the first two of three ranks. */
+  template <class Mesh>
+  void run_on_two(const hosts::Case &one, const std::string &name)
+  {
+    const unsigned int rank = hosts::MPI::this_mpi_process(MPI_COMM_WORLD);
+    MPI_Comm part;
+    MPI_Comm_split(MPI_COMM_WORLD, rank < 2 ? 0 : 1, rank, &part);
+    const hosts::Errors errors = hosts::TwoBlocks<3, Mesh>(one, part).solve();
+    MPI_Comm_free(&part);
+    good = hosts::is_at_most(errors.stress, 1e-11, name + ": stress")
+           && hosts::is_at_most(errors.imbalance, 1e-11, name + ": balance")
+           && good;
+  }
+
   template <class Mesh2, class Mesh3> void run_parallel(const std::string &mesh)
   {
     run_mesh<Mesh2, Mesh3>(mesh);
     for (const unsigned int degree : {1, 2})
       slide<Mesh3>(degree, mesh);
+    run_on_two<Mesh3>(make(true, 2, {{1, 2}}), mesh + ", two ranks");
+    run_on_two<Mesh3>(make(false, 1, {{2, 3}}), mesh + ", two ranks");
     read_elsewhere<Mesh3>(true, mesh);
     read_elsewhere<Mesh3>(false, mesh);
   }
