@@ -3,9 +3,12 @@
 
 #include <abut/dealii/versions.h>
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/fe/fe.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
@@ -40,6 +43,55 @@ namespace abut::shim
                        static_cast<unsigned int>(number.size()))
               .first->second;
     n_bodies_ = static_cast<unsigned int>(number.size());
+    if (dynamic_cast<
+            const dealii::parallel::fullydistributed::Triangulation<dim> *>(
+            &triangulation)
+        != nullptr)
+      unite_ranks(triangulation);
+  }
+
+  template <int dim>
+  void
+  BodyNumbers<dim>::unite_ranks(const dealii::Triangulation<dim> &triangulation)
+  {
+    // A body is named by the least of its coarse cells, which ranks tell each
+    // other over ghost cells until no name changes.
+    using Name = dealii::types::coarse_cell_id;
+    const MPI_Comm communicator = versions::communicator(triangulation);
+    std::vector<Name> name(n_bodies_, dealii::numbers::invalid_coarse_cell_id);
+    for (const auto &cell : triangulation.cell_iterators_on_level(0))
+      name[of(cell)] =
+          std::min(name[of(cell)], cell->id().get_coarse_cell_id());
+    bool has_changed = true;
+    while (has_changed)
+    {
+      has_changed = false;
+      dealii::GridTools::exchange_cell_data_to_ghosts<
+          Name, dealii::Triangulation<dim>>(
+          triangulation, [&](const auto &cell) { return name[of(cell)]; },
+          [&](const auto &cell, const Name &other)
+          {
+            has_changed = has_changed || other < name[of(cell)];
+            name[of(cell)] = std::min(name[of(cell)], other);
+          });
+      has_changed =
+          dealii::Utilities::MPI::logical_or(has_changed, communicator);
+    }
+    // Parts of artificial cells alone may have names that are no one's.
+    std::set<Name> own, all;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        own.insert(name[of(cell)]);
+    for (const auto &some : dealii::Utilities::MPI::all_gather(
+             communicator, std::vector<Name>(own.begin(), own.end())))
+      all.insert(some.begin(), some.end());
+    const std::vector<Name> names(all.begin(), all.end());
+    for (unsigned int &body : body_)
+    {
+      const auto it = std::lower_bound(names.begin(), names.end(), name[body]);
+      body = it == names.end() ? 0 : it - names.begin();
+    }
+    n_bodies_ = static_cast<unsigned int>(names.size());
   }
 
   template <int dim> unsigned int BodyNumbers<dim>::of(Cell cell) const

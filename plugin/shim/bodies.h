@@ -12,13 +12,14 @@
 
 namespace abut::shim
 {
-  /** The connected parts of a mesh, in the order of its coarse cells, of which
-   * all ranks know all. */
+  /** The connected parts of a mesh, in the order of its coarse cells; the same
+   * on all ranks. */
   template <int dim> class BodyNumbers
   {
   public:
     using Cell = typename dealii::Triangulation<dim>::cell_iterator;
 
+    /** Collective for meshes of which ranks know some coarse cells only. */
     explicit BodyNumbers(const dealii::Triangulation<dim> &triangulation);
 
     unsigned int n_bodies() const
@@ -30,6 +31,9 @@ namespace abut::shim
     unsigned int of(Cell cell) const;
 
   private:
+    /** From parts of the coarse cells of this rank to those of all. */
+    void unite_ranks(const dealii::Triangulation<dim> &triangulation);
+
     std::vector<unsigned int> body_; ///< by index of the coarse cell
     unsigned int n_bodies_ = 0;
   };

@@ -2,6 +2,7 @@
 #include "bodies_overlap.h"
 
 #include "bodies.h"
+#include "reference_faces.h"
 
 #include <abut/dealii/versions.h>
 
@@ -73,11 +74,11 @@ namespace abut::shim
     /** As of deepest_inside(). */
     template <int dim>
     double depth_in(const dealii::Mapping<dim> &mapping,
+                    const ReferenceFaces<dim> &faces,
                     const typename dealii::DoFHandler<dim>::cell_iterator &cell,
                     const std::vector<bool> &at_surface,
                     const dealii::Point<dim> &place)
     {
-      using Unit = dealii::GeometryInfo<dim>;
       dealii::Point<dim> unit;
       try
       {
@@ -87,15 +88,15 @@ namespace abut::shim
       {
         return 0.;
       }
-      if (Unit::distance_to_unit_cell(unit) > 0.)
+      if (!faces.is_inside(unit))
         return 0.;
       double part = 1.;
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary())
-          part = std::min(part, f % 2 == 0 ? unit[f / 2] : 1. - unit[f / 2]);
+          part = std::min(part, faces.height(f, unit));
       for (const unsigned int v : cell->vertex_indices())
         if (at_surface[cell->vertex_index(v)])
-          part = std::min(part, unit.distance(Unit::unit_cell_vertex(v)));
+          part = std::min(part, unit.distance(faces.vertex(v)));
       return part < near_surface ? 0. : part * cell->minimum_vertex_distance();
     }
 
@@ -111,6 +112,7 @@ namespace abut::shim
                    const std::set<dealii::types::boundary_id> &ids)
     {
       const std::vector<int> has_facets = bodies_with(dof_handler, bodies, ids);
+      const ReferenceFaces<dim> faces(dof_handler.get_fe().base_element(0));
       PlacedNode<dim> low;
       NodeInside<dim> deepest;
       for (const auto &cell : dof_handler.active_cell_iterators())
@@ -127,7 +129,7 @@ namespace abut::shim
           if (corner->body != body && box.point_inside(corner->place))
           {
             const double depth =
-                depth_in<dim>(mapping, cell, at_surface, corner->place);
+                depth_in<dim>(mapping, faces, cell, at_surface, corner->place);
             if (depth > deepest.depth)
               deepest = {depth, corner->place};
           }

@@ -5,6 +5,7 @@
 #include <abut/dealii/versions.h>
 
 #include "contact_implementation.h"
+#include "host_cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,6 +157,9 @@ namespace abut
     AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(),
                 ExcMessage("The unknowns of a rank must be numbered "
                            "consecutively."));
+    const Message reason = shim::cell_refusal(dof_handler);
+    if (!reason.empty())
+      throw ContactError(reason);
     i.record_present();
     i.history.leave_ranks();
     i.elements.forget();

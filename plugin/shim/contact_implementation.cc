@@ -5,6 +5,7 @@
 #include "agree.h"
 #include "deformation.h"
 #include "fnv_hash.h"
+#include "host_cells.h"
 #include "nodal_obstacle_rows.h"
 #include "solve/floating_bodies.h"
 #include "solve/make_row_solver.h"
@@ -245,6 +246,10 @@ namespace abut
           ExcMessage("Obstacles need a scalar field: the finite element has "
                      + std::to_string(dof_handler->get_fe().n_components())
                      + " components."));
+      const Message reason = shim::obstacle_refusal(
+          dof_handler->get_fe(), !obstacle.boundary_ids.empty());
+      if (!reason.empty())
+        throw ObstacleError(reason);
       source = std::make_unique<shim::NodalObstacleRows<dim>>(
           *mapping, *dof_handler, *constraints, obstacle);
     }

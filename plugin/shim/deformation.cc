@@ -2,11 +2,11 @@
 #include "deformation.h"
 
 #include "principal_values.h"
+#include "reference_faces.h"
 
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe.h>
@@ -45,8 +45,8 @@ namespace abut::shim
     public:
       CellMotion(const dealii::Mapping<dim> &mapping,
                  const dealii::FiniteElement<dim> &fe, const bool values)
-          : points(mapping, fe.get_sub_fe(0, 1),
-                   dealii::QGauss<dim>(fe.degree + 1), flags(values)),
+          : points(mapping, fe.get_sub_fe(0, 1), gauss(fe, fe.degree + 1),
+                   flags(values)),
             node_(fe.get_sub_fe(0, 1).n_dofs_per_cell()),
             dofs_(fe.n_dofs_per_cell()),
             place_(dofs_.size(), {dim, 0})

@@ -396,7 +396,11 @@ namespace abut
              + "follows nodes and quadrature points against an obstacle, not "
                "Method/Discretisation = "
              + abut_discretisation_name(discretisation)
-             + ". Use node to segment or quadrature point.";
+             + (pair.has_nodal_weights
+                    ? ". Use node to segment or quadrature point."
+                    : ". Nodes of quadratic triangles have no weight: use "
+                      "quadrature point with penalty, quadratic penalty or "
+                      "augmented lagrangian, linear elements, or small.");
     if (abut_law_needs_stress(&law) && !info.stress_laws)
       return why
              + "does not go with Method/Enforcement = " + std::string(law.name)

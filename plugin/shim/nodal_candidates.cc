@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "nodal_candidates.h"
 
+#include "reference_faces.h"
 #include "shifted_cells.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/versions.h>
 
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe.h>
 #include <deal.II/fe/fe_values.h>
@@ -63,7 +63,7 @@ namespace abut::shim
     dealii::Quadrature<dim>
     support_quadrature(const dealii::FiniteElement<dim> &fe)
     {
-      const dealii::QGauss<dim> exact(fe.degree + 1);
+      const dealii::Quadrature<dim> exact = gauss(fe, fe.degree + 1);
       std::vector<double> weights(fe.n_dofs_per_cell(), 0.);
       for (unsigned int i = 0; i < weights.size(); ++i)
         for (unsigned int q = 0; q < exact.size(); ++q)
@@ -111,6 +111,19 @@ namespace abut::shim
         }
     }
 
+    /** A rule whose points are the support points on a face. It integrates
+     * shape functions exactly on parallelograms and linear triangles. */
+    template <int dim>
+    dealii::Quadrature<dim - 1> node_rule(const dealii::FiniteElement<dim> &fe)
+    {
+      if (dim == 2 || !is_simplex(fe))
+        return dealii::QGaussLobatto<dim - 1>(fe.degree + 1);
+      std::vector<dealii::Point<dim - 1>> corners(dim);
+      for (unsigned int d = 0; d + 1 < dim; ++d)
+        corners[d + 1][d] = 1.;
+      return {corners, std::vector<double>(dim, 1. / 6.)};
+    }
+
     template <int dim>
     void collect_on_boundary(const dealii::Mapping<dim> &mapping,
                              const dealii::DoFHandler<dim> &dof_handler,
@@ -118,9 +131,7 @@ namespace abut::shim
                              Collection<dim> &collection)
     {
       const auto &fe = dof_handler.get_fe();
-      // The points of this rule are the support points on a face, and it
-      // integrates shape functions exactly on parallelograms.
-      const dealii::QGaussLobatto<dim - 1> quadrature(fe.degree + 1);
+      const dealii::Quadrature<dim - 1> quadrature = node_rule(fe);
       dealii::FEFaceValues<dim> values(mapping, fe, quadrature,
                                        dealii::update_values
                                            | dealii::update_JxW_values

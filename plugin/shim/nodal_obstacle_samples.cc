@@ -3,6 +3,7 @@
 #include "nodal_obstacle_rows.h"
 
 #include "agree.h"
+#include "reference_faces.h"
 #include "sampling.h"
 
 #include <abut/dealii/versions.h>
@@ -22,8 +23,11 @@ namespace abut::shim
   {
     /** A regular grid of points in the unit cell or face. */
     template <int dim>
-    dealii::Quadrature<dim> regular_points(const unsigned int per_direction)
+    dealii::Quadrature<dim> regular_points(const unsigned int per_direction,
+                                           const bool of_simplex)
     {
+      if (of_simplex)
+        return dealii::Quadrature<dim>(simplex_points<dim>(per_direction));
       std::vector<dealii::Point<1>> line;
       for (unsigned int k = 0; k < per_direction; ++k)
         line.emplace_back((k + 0.5) / per_direction);
@@ -130,9 +134,11 @@ namespace abut::shim
     std::optional<dealii::FEValues<dim>> in_cell;
     std::optional<dealii::FEFaceValues<dim>> on_face;
     if (on_faces)
-      on_face.emplace(mapping_, fe, regular_points<dim - 1>(n), flags);
+      on_face.emplace(mapping_, fe, regular_points<dim - 1>(n, is_simplex(fe)),
+                      flags);
     else
-      in_cell.emplace(mapping_, fe, regular_points<dim>(n), flags);
+      in_cell.emplace(mapping_, fe, regular_points<dim>(n, is_simplex(fe)),
+                      flags);
     dealii::FEValues<dim> at_nodes(
         mapping_, fe, dealii::Quadrature<dim>(fe.get_unit_support_points()),
         dealii::update_quadrature_points);

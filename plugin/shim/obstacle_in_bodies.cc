@@ -6,6 +6,7 @@
 
 #include "agree.h"
 #include "bodies.h"
+#include "reference_faces.h"
 #include "sampling.h"
 
 #include <abut/dealii/rigid_obstacle.h>
@@ -25,7 +26,7 @@ namespace abut::shim
   namespace
   {
     /** Points of a grid with @p n spaces in each direction of a box, its ends
-     * in it, as far as they are in the unit cell. */
+     * in it, as far as they are in the unit cube. */
     template <int dim>
     std::vector<dealii::Point<dim>> grid_about(const dealii::Point<dim> &centre,
                                                const double half_width,
@@ -64,6 +65,7 @@ namespace abut::shim
                 const la::Vector &displacement, const ContactPair<dim> &pair)
           : mapping_(mapping),
             fe_(dof_handler.get_fe()),
+            faces_(fe_.base_element(0)),
             pair_(pair),
             corners_(mapping, fe_, of(grid_about(middle(), 0.5, 1)), flags())
       {
@@ -122,9 +124,11 @@ namespace abut::shim
         return point;
       }
 
-      static dealii::Quadrature<dim>
-      of(const std::vector<dealii::Point<dim>> &points)
+      /** Points of the unit cube, those that are not in the cell on a face. */
+      dealii::Quadrature<dim> of(std::vector<dealii::Point<dim>> points) const
       {
+        for (dealii::Point<dim> &point : points)
+          point = faces_.inside(point);
         return dealii::Quadrature<dim>(points);
       }
 
@@ -159,8 +163,8 @@ namespace abut::shim
       {
         constexpr double on_it = 1e-10;
         for (const unsigned int f : cell->face_indices())
-          if (std::abs(unit[f / 2] - f % 2) < on_it
-              && cell->face(f)->at_boundary()
+          if (cell->face(f)->at_boundary()
+              && std::abs(faces_.height(f, unit)) < on_it
               && pair_.secondary.count(cell->face(f)->boundary_id()) > 0)
             return true;
         return false;
@@ -192,6 +196,7 @@ namespace abut::shim
 
       const dealii::Mapping<dim> &mapping_;
       const dealii::FiniteElement<dim> &fe_;
+      const ReferenceFaces<dim> faces_;
       const ContactPair<dim> &pair_;
       dealii::FEValues<dim> corners_;
       unsigned int n_ = 1;

@@ -2,8 +2,11 @@
 #ifndef ABUT_SHIM_SAMPLING_H
 #define ABUT_SHIM_SAMPLING_H
 
+#include <deal.II/base/point.h>
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace abut::shim
 {
@@ -15,6 +18,27 @@ namespace abut::shim
     constexpr double most_in_all = 2e5, most = 400.;
     const double n = std::pow(most_in_all / std::max(1., n_cells), 1. / dim);
     return static_cast<unsigned int>(std::clamp(n, 1., most));
+  }
+
+  /** A regular grid of points in the unit line, triangle or tetrahedron, @p n
+   * along each edge: the middle for one. */
+  template <int dim>
+  std::vector<dealii::Point<dim>> simplex_points(const unsigned int n)
+  {
+    std::vector<dealii::Point<dim>> points;
+    unsigned int n_in_cube = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      n_in_cube *= n;
+    for (unsigned int i = 0; i < n_in_cube; ++i)
+    {
+      dealii::Point<dim> point;
+      double sum = 0.;
+      for (unsigned int d = 0, k = i; d < dim; ++d, k /= n)
+        sum += point[d] = (k % n + 1. / (dim + 1)) / n;
+      if (sum < 1.)
+        points.push_back(point);
+    }
+    return points;
   }
 } // namespace abut::shim
 

@@ -2,14 +2,13 @@
 #include "self_contact.h"
 
 #include "agree.h"
-#include "outward_order.h"
 #include "point_to_point.h"
+#include "reference_faces.h"
 #include "saved_words.h"
 #include "surface_side.h"
 
 #include <abut/dealii/versions.h>
 
-#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -74,24 +73,31 @@ namespace abut::shim
   template <int dim> struct SelfContact<dim>::Facets
   {
     using Word = typename Cell::value_type;
-    static constexpr unsigned int n_corners = 1u << (dim - 1);
+    static constexpr unsigned int max_corners = 1u << (dim - 1);
 
     struct Facet
     {
       Cell cell;
       unsigned int face;
       BoundaryId id;
-      std::array<std::int64_t, n_corners> node;
-      std::array<double, n_corners * dim> point;
+      std::array<std::int64_t, max_corners> node;
+      std::array<double, max_corners * dim> point;
     };
 
+    abut_facet_kind kind;
+    unsigned int n_corners;
     std::vector<Facet> all; ///< in the order of their cells
 
     /** Corners displaced by @p displacement (owned; null: 0). */
     Facets(const dealii::Mapping<dim> &mapping,
            const dealii::DoFHandler<dim> &dof_handler,
            const std::set<BoundaryId> &ids, const la::Vector *displacement)
+        : kind(dim == 2                           ? ABUT_FACET_LINE2
+               : is_simplex(dof_handler.get_fe()) ? ABUT_FACET_TRI3
+                                                  : ABUT_FACET_QUAD4),
+          n_corners(abut_facet_n_nodes(kind))
     {
+      const ReferenceFaces<dim> faces(dof_handler.get_fe().base_element(0));
       std::vector<Word> words;
       std::vector<std::int64_t> nodes;
       std::vector<double> points;
@@ -106,15 +112,12 @@ namespace abut::shim
                 words.push_back(word);
               words.push_back(face);
               words.push_back(cell->face(face)->boundary_id());
-              for (const unsigned int corner : outward_order<dim>(
-                       dim == 2 ? ABUT_FACET_LINE2 : ABUT_FACET_QUAD4, face))
+              for (const unsigned int corner : faces.outward_order(kind, face))
               {
-                const unsigned int vertex =
-                    dealii::GeometryInfo<dim>::face_to_cell_vertices(face,
-                                                                     corner);
+                const unsigned int vertex = faces.vertices(face)[corner];
                 nodes.push_back(cell->vertex_dof_index(vertex, 0));
                 const auto point = mapping.transform_unit_to_real_cell(
-                    cell, dealii::GeometryInfo<dim>::unit_cell_vertex(vertex));
+                    cell, faces.vertex(vertex));
                 for (unsigned int d = 0; d < dim; ++d)
                 {
                   points.push_back(point[d]);
@@ -181,7 +184,7 @@ namespace abut::shim
         if (pair.secondary.count(each.id) == 0)
           continue;
         facet.push_back(&each);
-        for (unsigned int a = 0; a < Facets::n_corners; ++a)
+        for (unsigned int a = 0; a < facets.n_corners; ++a)
         {
           const auto [it, is_new] =
               place.emplace(each.node[a], static_cast<int>(place.size()));
@@ -198,7 +201,7 @@ namespace abut::shim
                            "id of the surface.");
       abut_surface_data data = abut_surface_data_defaults();
       data.dimension = dim;
-      data.kind = dim == 2 ? ABUT_FACET_LINE2 : ABUT_FACET_QUAD4;
+      data.kind = facets.kind;
       data.n_nodes = static_cast<std::int32_t>(node_id.size());
       data.n_facets = static_cast<std::int32_t>(facet.size());
       data.connectivity = connectivity.data();

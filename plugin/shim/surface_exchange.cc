@@ -2,12 +2,11 @@
 // Facets of the own cells, and the rings of facets around the own nodes.
 #include "surface_exchange.h"
 
-#include "outward_order.h"
+#include "reference_faces.h"
 
-#include <abut/dealii/contact_pair.h>
 #include <abut/dealii/versions.h>
 
-#include <deal.II/base/geometry_info.h>
+#include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe.h>
 #include <deal.II/grid/cell_id.h>
@@ -31,6 +30,17 @@ namespace abut::shim
       dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging);
       hanging.close();
       return hanging;
+    }
+
+    template <int dim>
+    abut_facet_kind facet_kind(const dealii::FiniteElement<dim> &fe,
+                               const unsigned int degree)
+    {
+      if (dim == 2)
+        return degree == 1 ? ABUT_FACET_LINE2 : ABUT_FACET_LINE3;
+      if (is_simplex(fe))
+        return degree == 1 ? ABUT_FACET_TRI3 : ABUT_FACET_TRI6;
+      return degree == 1 ? ABUT_FACET_QUAD4 : ABUT_FACET_QUAD9;
     }
 
     template <typename Number> void sort_once(std::vector<Number> &list)
@@ -108,29 +118,14 @@ namespace abut::shim
   template <int dim> void SurfaceExchange<dim>::tabulate()
   {
     const auto &fe = dof_handler_.get_fe();
-    const unsigned int degree = fe.base_element(0).degree;
-    const bool is_usable =
-        fe.n_components() >= dim && fe.base_element(0).has_support_points()
-        && fe.base_element(0).n_components() == 1
-        && fe.element_multiplicity(0) >= dim && (degree == 1 || degree == 2)
-        && fe.base_element(0).n_dofs_per_vertex() == 1
-        && fe.reference_cell() == dealii::ReferenceCells::get_hypercube<dim>();
-    if (!is_usable)
-      throw ContactError(
-          "Contact between bodies needs a displacement in the first "
-          + std::to_string(dim)
-          + " components of the finite element, made of FE_Q of degree 1 or 2 "
-            "(FESystem(FE_Q(degree), "
-          + std::to_string(dim) + ")), not " + fe.get_name() + ".");
-    kind_ = dim == 2 ? (degree == 1 ? ABUT_FACET_LINE2 : ABUT_FACET_LINE3)
-                     : (degree == 1 ? ABUT_FACET_QUAD4 : ABUT_FACET_QUAD9);
-
+    const ReferenceFaces<dim> faces(fe.base_element(0));
+    kind_ = facet_kind(fe, fe.base_element(0).degree);
     const unsigned int n_nodes = abut_facet_n_nodes(kind_);
-    cell_dof_.assign(dealii::GeometryInfo<dim>::faces_per_cell,
+    cell_dof_.assign(fe.reference_cell().n_faces(),
                      std::vector<std::array<unsigned int, dim>>(n_nodes));
     for (unsigned int face = 0; face < cell_dof_.size(); ++face)
     {
-      const auto order = outward_order<dim>(kind_, face);
+      const auto order = faces.outward_order(kind_, face);
       std::vector<unsigned int> place(n_nodes);
       for (unsigned int a = 0; a < n_nodes; ++a)
         place[order[a]] = a;
@@ -179,25 +174,54 @@ namespace abut::shim
 
   template <int dim> void SurfaceExchange<dim>::number_own()
   {
-    // Ranks have consecutive parts of the curve, so that numbers along it do
-    // not depend on where it is cut. CellIds are in the order of the curve:
-    // that of a coarse cell is its place there, not its index.
-    const auto key = [&](const FacetRecord &record)
-    {
-      return std::make_pair(dealii::CellId(record.facet.cell),
-                            record.facet.face);
-    };
+    using Key = std::pair<dealii::CellId, std::uint32_t>;
+    const auto key = [](const FacetRecord &record)
+    { return Key(record.facet.cell, record.facet.face); };
     std::sort(own_.begin(), own_.end(),
               [&](const FacetRecord &a, const FacetRecord &b)
               { return key(a) < key(b); });
     const std::int64_t n_own = own_.size();
-    std::int64_t number = 0;
-    MPI_Exscan(&n_own, &number, 1, MPI_INT64_T, MPI_SUM, post_.communicator());
-    if (MPI::this_mpi_process(post_.communicator()) == 0)
-      number = 0;
-    for (FacetRecord &record : own_)
-      record.facet.number = number++;
     n_facets_everywhere_ = MPI::sum(n_own, post_.communicator());
+    std::int64_t number = 0;
+    if (dynamic_cast<const dealii::parallel::distributed::Triangulation<dim> *>(
+            &dof_handler_.get_triangulation())
+        != nullptr)
+    {
+      // Ranks have consecutive parts of the curve, so that numbers along it do
+      // not depend on where it is cut. CellIds are in the order of the curve:
+      // that of a coarse cell is its place there, not its index.
+      MPI_Exscan(&n_own, &number, 1, MPI_INT64_T, MPI_SUM,
+                 post_.communicator());
+      if (MPI::this_mpi_process(post_.communicator()) == 0)
+        number = 0;
+      for (FacetRecord &record : own_)
+        record.facet.number = number++;
+      return;
+    }
+    // Ranks of other meshes have any cells: only all CellIds have an order.
+    std::vector<typename dealii::CellId::binary_type::value_type> words;
+    for (const FacetRecord &record : own_)
+    {
+      words.insert(words.end(), record.facet.cell.begin(),
+                   record.facet.cell.end());
+      words.push_back(record.facet.face);
+    }
+    std::vector<Key> keys;
+    for (const auto &some : MPI::all_gather(post_.communicator(), words))
+      for (auto word = some.begin(); word != some.end(); ++word)
+      {
+        dealii::CellId::binary_type cell;
+        std::copy_n(word, cell.size(), cell.begin());
+        word += cell.size();
+        keys.emplace_back(cell, *word);
+      }
+    std::sort(keys.begin(), keys.end());
+    for (FacetRecord &record : own_)
+    {
+      while (keys[number] != key(record))
+        ++number;
+      record.facet.number = number;
+    }
   }
 
   template <int dim>

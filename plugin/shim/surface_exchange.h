@@ -57,9 +57,9 @@ namespace abut::shim
     static constexpr double relative_margin = 0.25;
 
     /** Find the facets with these boundary ids and the rings around them. All
-     * references must outlive this object. Throws if the displacement is not
-     * continuous and of degree 1 or 2 on lines and quadrilaterals. A pass over
-     * the cells. Collective. */
+     * references must outlive this object, and cell_refusal() and
+     * displacement_refusal() must have found nothing. A pass over the cells.
+     * Collective. */
     SurfaceExchange(const dealii::Mapping<dim> &mapping,
                     const dealii::DoFHandler<dim> &dof_handler,
                     const dealii::AffineConstraints<double> &constraints,
@@ -69,6 +69,11 @@ namespace abut::shim
     const std::set<dealii::types::boundary_id> &boundary_ids() const
     {
       return boundary_ids_;
+    }
+
+    abut_facet_kind kind() const
+    {
+      return kind_;
     }
 
     /** Which facets are on the primary side of their own surface. */

@@ -4,6 +4,7 @@
 #include "surface_pair_rows.h"
 
 #include <deal.II/grid/cell_id.h>
+#include <deal.II/grid/manifold.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
@@ -13,6 +14,21 @@ namespace abut::shim
 {
   namespace
   {
+    /** The place on its manifold of the middle of a face. */
+    template <int dim, typename Face>
+    dealii::Point<dim> middle_on_manifold(const Face &face)
+    {
+      // Face->center(true) takes more corners than triangles have.
+      if (dim == 2 || face->n_vertices() != 3)
+        return face->center(true);
+      std::vector<dealii::Point<dim>> corners;
+      for (const unsigned int v : face->vertex_indices())
+        corners.push_back(face->vertex(v));
+      const std::vector<double> weights(corners.size(), 1. / 3.);
+      return face->get_manifold().get_new_point(
+          dealii::make_array_view(corners), dealii::make_array_view(weights));
+    }
+
     /** A straight facet and how far its middle is from the manifold. */
     template <int dim> struct Chord
     {
@@ -42,8 +58,9 @@ namespace abut::shim
                                            const double least) const
   {
     const Pair &pair = pairs_[number];
-    const bool is_straight =
-        surface_.kind == ABUT_FACET_LINE2 || surface_.kind == ABUT_FACET_QUAD4;
+    const bool is_straight = surface_.kind == ABUT_FACET_LINE2
+                             || surface_.kind == ABUT_FACET_QUAD4
+                             || surface_.kind == ABUT_FACET_TRI3;
     const std::size_t n_nodes = surface_.nodes.size();
     if (!is_straight || pair.data.obstacle || !pair.data.geometric_gap)
       return 0.;
@@ -78,7 +95,7 @@ namespace abut::shim
                               ->face(facet.face);
         Chord<dim> chord;
         chord.middle = face->center();
-        chord.to_curve = face->center(true) - chord.middle;
+        chord.to_curve = middle_on_manifold<dim>(face) - chord.middle;
         chord.size = face->diameter();
         bool touches = false;
         for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)

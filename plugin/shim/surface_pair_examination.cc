@@ -31,14 +31,19 @@ namespace abut::shim
       {
         const auto coordinate = [&](const unsigned int k)
         { return (2. * k + 1.) / n - 1.; };
-        for (unsigned int j = 0; j < (dim == 2 ? 1 : n); ++j)
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            const double local[2] = {coordinate(i), coordinate(j)};
-            shape_.emplace_back(n_nodes_);
-            abut_facet_shape(kind, local, shape_.back().data(), nullptr,
-                             nullptr);
-          }
+        const auto add = [&](const double xi, const double eta)
+        {
+          const double local[2] = {xi, eta};
+          shape_.emplace_back(n_nodes_);
+          abut_facet_shape(kind, local, shape_.back().data(), nullptr, nullptr);
+        };
+        if (kind == ABUT_FACET_TRI3 || kind == ABUT_FACET_TRI6)
+          for (const dealii::Point<2> &point : simplex_points<2>(n))
+            add(point[0], point[1]);
+        else
+          for (unsigned int j = 0; j < (dim == 2 ? 1 : n); ++j)
+            for (unsigned int i = 0; i < n; ++i)
+              add(coordinate(i), coordinate(j));
       }
 
       /** The points of a facet whose node a is at place_of(a). */

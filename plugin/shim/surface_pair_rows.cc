@@ -4,6 +4,7 @@
 
 #include "agree.h"
 #include "fnv_hash.h"
+#include "host_cells.h"
 #include "pair_diagnosis.h"
 #include "stopwatch.h"
 
@@ -36,12 +37,22 @@ namespace abut::shim
     constexpr double skin_of_displaced = 1.;
 
     /** What suits a pair, if the parameters leave it to choose. */
-    abut_discretisation automatic_discretisation(const abut_law &law,
-                                                 const bool at_nodes)
+    abut_discretisation
+    automatic_discretisation(const abut_law &law,
+                             const abut_kinematics_info &kinematics,
+                             const bool at_nodes, const abut_facet_kind kind)
     {
-      return abut_law_needs_stress(&law) ? ABUT_DISCRETISATION_QUADRATURE_POINT
-             : at_nodes                  ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
-                                         : ABUT_DISCRETISATION_DUAL_MORTAR;
+      if (abut_law_needs_stress(&law))
+        return ABUT_DISCRETISATION_QUADRATURE_POINT;
+      // The corners of quadratic triangles have no weight.
+      if (kind == ABUT_FACET_TRI6)
+        return at_nodes && !kinematics.weighted_obstacle
+                       && !abut_law_is_exact(&law)
+                       && !abut_law_is_primal_dual(&law)
+                   ? ABUT_DISCRETISATION_QUADRATURE_POINT
+                   : ABUT_DISCRETISATION_MORTAR;
+      return at_nodes ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
+                      : ABUT_DISCRETISATION_DUAL_MORTAR;
     }
 
     template <int dim>
@@ -99,6 +110,9 @@ namespace abut::shim
         exchange_(std::move(exchange)),
         detection_(detection)
   {
+    const Message reason = displacement_refusal(dof_handler.get_fe());
+    if (!reason.empty())
+      throw ContactError(reason);
     const auto pairs = SelfContact<dim>::with_sides(given);
     const auto ids = all_ids(pairs);
     if (exchange_ != nullptr && exchange_->boundary_ids() == ids)
@@ -124,7 +138,8 @@ namespace abut::shim
     if (!data.tied)
       pair.set_kinematics(kinematics);
     pair.discretisation = settings_.method.discretisation.value_or(
-        automatic_discretisation(law, data.obstacle != nullptr));
+        automatic_discretisation(law, kinematics_info(kinematics),
+                                 data.obstacle != nullptr, exchange_->kind()));
     const Message reason =
         refusal(law, pair.discretisation, settings_.method.system, data.tied);
     if (!reason.empty())
@@ -164,10 +179,11 @@ namespace abut::shim
                            "lagrangian."));
     pair.reach = data.reach;
     const std::string fixed =
-        data.tied ? ""
-                  : kinematics_refusal(
-                      kinematics, law, pair.discretisation,
-                      {data.obstacle != nullptr, data.geometric_gap});
+        data.tied
+            ? ""
+            : kinematics_refusal(kinematics, law, pair.discretisation,
+                                 {data.obstacle != nullptr, data.geometric_gap,
+                                  exchange_->kind() != ABUT_FACET_TRI6});
     if (!fixed.empty())
       throw ContactError(about_pair(data.name, fixed, PairField::kinematics));
     pairs_.push_back(std::move(pair));
@@ -226,10 +242,11 @@ namespace abut::shim
   {
     abut_coupling_options options = abut_coupling_defaults();
     options.discretisation = discretisation;
-    options.multiplier_degree =
-        discretisation_info(discretisation).has_degree
-            ? static_cast<std::int32_t>(settings_.method.multiplier_degree)
-            : 0;
+    if (discretisation_info(discretisation).has_degree)
+      options.multiplier_degree =
+          surface_.kind == ABUT_FACET_TRI6
+              ? 1
+              : static_cast<std::int32_t>(settings_.method.multiplier_degree);
     options.quadrature_degree =
         static_cast<std::int32_t>(settings_.method.quadrature_degree);
     options.segments = settings_.method.segments;

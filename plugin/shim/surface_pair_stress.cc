@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The bodies' own stress at quadrature points, for Nitsche's method.
 #include "agree.h"
+#include "reference_faces.h"
 #include "surface_pair_rows.h"
 
 #include <deal.II/grid/cell_id.h>
@@ -104,6 +105,7 @@ namespace abut::shim
                                       abut_points *stress) const
   {
     const unsigned int n_dofs = dof_handler_.get_fe().n_dofs_per_cell();
+    const ReferenceFaces<dim> faces(dof_handler_.get_fe().base_element(0));
     std::vector<global_dof_index> dofs(n_dofs);
     CellNodes nodes(constraints_);
     for (std::size_t first = 0, end; first < places_.size(); first = end)
@@ -123,7 +125,7 @@ namespace abut::shim
       std::vector<Direction> normals(end - first);
       for (std::size_t i = first; i < end; ++i)
       {
-        points.push_back(dealii::GeometryInfo<dim>::project_to_unit_cell(
+        points.push_back(faces.inside(
             mapping_.transform_real_to_unit_cell(cell, places_[i].position)));
         for (unsigned int d = 0; d < dim; ++d)
           normals[i - first][d] =

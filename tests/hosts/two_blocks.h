@@ -12,14 +12,20 @@
 
 #include <abut/dealii/contact_assembler.h>
 
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/fully_distributed_tria.h>
+#include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
 
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <memory>
 
 namespace abut::hosts
 {
@@ -136,6 +142,34 @@ namespace abut::hosts
     const Tensor<2, dim> r_;
   };
 
+  /** Rule of a cell or face, exact for products of shape functions. */
+  template <int dim>
+  dealii::Quadrature<dim> rule(const bool simplices, const unsigned int degree)
+  {
+    if (simplices)
+      return dealii::QGaussSimplex<dim>(degree + 1);
+    return dealii::QGauss<dim>(degree + 1);
+  }
+
+  /** Linear cells. */
+  template <int dim>
+  std::unique_ptr<const dealii::Mapping<dim>> make_mapping(const bool simplices)
+  {
+    if (simplices)
+      return std::make_unique<dealii::MappingFE<dim>>(
+          dealii::FE_SimplexP<dim>(1));
+    return std::make_unique<dealii::MappingQ<dim>>(1);
+  }
+
+  template <int dim>
+  dealii::FESystem<dim> make_element(const bool simplices,
+                                     const unsigned int degree)
+  {
+    if (simplices)
+      return dealii::FESystem<dim>(dealii::FE_SimplexP<dim>(degree), dim);
+    return dealii::FESystem<dim>(dealii::FE_Q<dim>(degree), dim);
+  }
+
   /** What is varied. */
   struct Case
   {
@@ -164,6 +198,15 @@ namespace abut::hosts
     bool yields = false;
     /** Cells of the lower and upper block along each axis. */
     std::array<unsigned int, 2> cells = {{3, 4}};
+    /** Triangles and tetrahedra, of which nodes are not equally far apart. */
+    bool simplices = false;
+    /** No cell is refined, so that no node hangs. */
+    bool uniform = false;
+
+    bool has_hanging_nodes() const
+    {
+      return !pressed && !uniform;
+    }
   };
 
   /** Largest errors. */
@@ -217,7 +260,7 @@ namespace abut::hosts
     /** Forget what contact has found. */
     void forget()
     {
-      contact_.reinit(mapping_, dof_handler_, constraints_);
+      contact_.reinit(*mapping_, dof_handler_, constraints_);
     }
 
     /** Start from 0, with the prescribed displacements. */
@@ -259,6 +302,11 @@ namespace abut::hosts
 
     void make_mesh();
 
+    /** The same cells on one part of the ranks each. */
+    void create(const std::vector<Point<dim>> &vertices,
+                const std::vector<dealii::CellData<dim>> &cells,
+                const dealii::SubCellData &faces);
+
     /** Flag cells of both blocks up to @p towards along the interface and up to
      * @p depth from it. */
     void flag(const double towards, const double depth);
@@ -299,7 +347,7 @@ namespace abut::hosts
     const std::unique_ptr<Mesh> triangulation_;
     const MPI_Comm communicator_;
     const dealii::FESystem<dim> fe_;
-    const dealii::MappingQ<dim> mapping_;
+    const std::unique_ptr<const dealii::Mapping<dim>> mapping_;
     const Tensor<2, dim> rotation_;
     dealii::DoFHandler<dim> dof_handler_;
     dealii::IndexSet owned_, relevant_;

@@ -11,11 +11,11 @@
 #include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria_description.h>
 #include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools.h>
 
@@ -26,8 +26,8 @@ namespace abut::hosts
       : run_(run),
         triangulation_(make_triangulation(communicator)),
         communicator_(abut::versions::communicator(*triangulation_)),
-        fe_(dealii::FE_Q<dim>(run.degree), dim),
-        mapping_(1),
+        fe_(make_element<dim>(run.simplices, run.degree)),
+        mapping_(make_mapping<dim>(run.simplices)),
         rotation_(rotation<dim>(!run.pressed)),
         dof_handler_(*triangulation_),
         contact_(communicator_)
@@ -58,7 +58,7 @@ namespace abut::hosts
     SolverParameters solver;
     solver.linear = SolverParameters::Linear::direct;
     contact_.set_parameters(run_.method, solver);
-    contact_.reinit(mapping_, dof_handler_, constraints_);
+    contact_.reinit(*mapping_, dof_handler_, constraints_);
   }
 
   template <int dim, class Mesh>
@@ -207,9 +207,13 @@ namespace abut::hosts
       lower[dim - 1] = block - 1;
       upper[dim - 1] = block;
       dealii::Triangulation<dim> part;
-      dealii::GridGenerator::subdivided_hyper_rectangle(
-          part, std::vector<unsigned int>(dim, run_.cells[block]), lower,
-          upper);
+      const std::vector<unsigned int> n_cells(dim, run_.cells[block]);
+      if (run_.simplices)
+        dealii::GridGenerator::subdivided_hyper_rectangle_with_simplices(
+            part, n_cells, lower, upper);
+      else
+        dealii::GridGenerator::subdivided_hyper_rectangle(part, n_cells, lower,
+                                                          upper);
       for (const auto &face : part.active_face_iterators())
         if (face->at_boundary())
         {
@@ -221,6 +225,10 @@ namespace abut::hosts
         }
       part.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
       auto [v, c, f] = dealii::GridTools::get_coarse_mesh_description(part);
+      if (run_.simplices)
+        for (Point<dim> &p : v)
+          for (int d = 0; d < dim - 1; ++d)
+            p[d] += (block == 0 ? 0.2 : -0.3) * p[d] * (1. - p[d]);
       if (block == 1)
         for (Point<dim> &p : v)
           p[dim - 1] += run_.separation + run_.tilt * p[0];
@@ -246,9 +254,32 @@ namespace abut::hosts
     }
     for (Point<dim> &p : vertices)
       p = Point<dim>(rotation_ * Tensor<1, dim>(p));
-    triangulation_->create_triangulation(vertices, cells, faces);
-    if (!run_.pressed)
+    create(vertices, cells, faces);
+    if (run_.has_hanging_nodes())
       refine();
+  }
+
+  template <int dim, class Mesh>
+  void
+  TwoBlocks<dim, Mesh>::create(const std::vector<Point<dim>> &vertices,
+                               const std::vector<dealii::CellData<dim>> &cells,
+                               const dealii::SubCellData &faces)
+  {
+    using Parts = dealii::parallel::fullydistributed::Triangulation<dim>;
+    if constexpr (std::is_same_v<Mesh, Parts>)
+    {
+      // Both blocks are cut, and no rank has cells that follow each other.
+      dealii::Triangulation<dim> all;
+      all.create_triangulation(vertices, cells, faces);
+      const unsigned int n_ranks = MPI::n_mpi_processes(communicator_);
+      for (const auto &cell : all.active_cell_iterators())
+        cell->set_subdomain_id(cell->active_cell_index() / 2 % n_ranks);
+      triangulation_->create_triangulation(
+          dealii::TriangulationDescription::Utilities::
+              create_description_from_triangulation(all, communicator_));
+    }
+    else
+      triangulation_->create_triangulation(vertices, cells, faces);
   }
 
   template <int dim, class Mesh>
@@ -300,16 +331,16 @@ namespace abut::hosts
   template <int dim, class Mesh> void TwoBlocks<dim, Mesh>::move_ends()
   {
     dealii::VectorTools::interpolate_boundary_values(
-        mapping_, dof_handler_, bottom, ExactDisplacement<dim>(material(false)),
-        constraints_);
+        *mapping_, dof_handler_, bottom,
+        ExactDisplacement<dim>(material(false)), constraints_);
     Tensor<1, dim> shift;
     shift[0] = run_.aside;
     dealii::VectorTools::interpolate_boundary_values(
-        mapping_, dof_handler_, top,
+        *mapping_, dof_handler_, top,
         ExactDisplacement<dim>(material(true), shift), constraints_);
     if (run_.is_die)
       dealii::VectorTools::interpolate_boundary_values(
-          mapping_, dof_handler_, upper_interface,
+          *mapping_, dof_handler_, upper_interface,
           dealii::Functions::ZeroFunction<dim>(dim), constraints_);
   }
 
@@ -318,7 +349,7 @@ namespace abut::hosts
     dealii::ComponentMask up(dim, false);
     up.set(dim - 1, true);
     dealii::VectorTools::interpolate_boundary_values(
-        mapping_, dof_handler_, bottom,
+        *mapping_, dof_handler_, bottom,
         dealii::Functions::ZeroFunction<dim>(dim), constraints_, up);
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (!cell->is_artificial())
@@ -336,8 +367,8 @@ namespace abut::hosts
 
   template <int dim, class Mesh> void TwoBlocks<dim, Mesh>::press()
   {
-    const dealii::QGauss<dim - 1> quadrature(run_.degree + 1);
-    dealii::FEFaceValues<dim> values(mapping_, fe_, quadrature,
+    const auto quadrature = rule<dim - 1>(run_.simplices, run_.degree);
+    dealii::FEFaceValues<dim> values(*mapping_, fe_, quadrature,
                                      dealii::update_values
                                          | dealii::update_JxW_values);
     dealii::Vector<double> force(fe_.n_dofs_per_cell());
@@ -361,8 +392,8 @@ namespace abut::hosts
 
   template <int dim, class Mesh> void TwoBlocks<dim, Mesh>::assemble()
   {
-    const dealii::QGauss<dim> quadrature(run_.degree + 1);
-    dealii::FEValues<dim> values(mapping_, fe_, quadrature,
+    const auto quadrature = rule<dim>(run_.simplices, run_.degree);
+    dealii::FEValues<dim> values(*mapping_, fe_, quadrature,
                                  dealii::update_gradients
                                      | dealii::update_JxW_values);
     const dealii::FEValuesExtractors::Vector displacement(0);
@@ -433,8 +464,8 @@ namespace abut::hosts
                                             Errors &errors) const
   {
     const double p = mean_pressure(errors);
-    const dealii::QGauss<dim> quadrature(run_.degree + 1);
-    dealii::FEValues<dim> values(mapping_, fe_, quadrature,
+    const auto quadrature = rule<dim>(run_.simplices, run_.degree);
+    dealii::FEValues<dim> values(*mapping_, fe_, quadrature,
                                  dealii::update_gradients
                                      | dealii::update_values
                                      | dealii::update_quadrature_points);
@@ -514,7 +545,11 @@ namespace abut::hosts
   std::unique_ptr<Mesh> TwoBlocks<dim, Mesh>::make_triangulation(
       [[maybe_unused]] const MPI_Comm communicator)
   {
-    if constexpr (std::is_constructible_v<Mesh, MPI_Comm>)
+    using Shared = dealii::parallel::shared::Triangulation<dim>;
+    if constexpr (std::is_same_v<Mesh, Shared>)
+      return std::make_unique<Mesh>(communicator, Mesh::none, true,
+                                    Shared::partition_zorder);
+    else if constexpr (std::is_constructible_v<Mesh, MPI_Comm>)
       return std::make_unique<Mesh>(communicator);
     else
       return std::make_unique<Mesh>();

@@ -53,6 +53,7 @@ namespace abut
   {
     bool has_obstacle = false;     ///< a rigid obstacle, not a second body
     bool has_geometric_gap = true; ///< gaps are those of surfaces
+    bool has_nodal_weights = true; ///< facets are not quadratic triangles
   };
 
   /** Why a kinematics is not offered with a method, with what to take instead;
@@ -105,14 +106,15 @@ namespace abut
     /** How contact between two surfaces, or of a surface with a rigid obstacle,
      * is written down as rows; membranes have no choice. None: dual mortar for
      * two surfaces, nodes against rigid obstacles, quadrature points for laws
-     * that need the stress. */
+     * that need the stress; of quadratic triangles mortar, or quadrature points
+     * where a law with a penalty follows an obstacle. */
     std::optional<abut_discretisation> discretisation;
 
     /** Of `nitsche`: 1 (symmetric), 0 or -1. */
     double nitsche_theta = 0.;
 
     /** Degree of mortar multipliers on quadratic facets: 1, or 0 for the
-     * degree of the facets. */
+     * degree of the facets; on quadratic triangles always 1. */
     unsigned int multiplier_degree = 0;
 
     /** Degree of the quadrature on each common part of two facets (or, without

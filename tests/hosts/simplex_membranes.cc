@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Obstacles of scalar fields on triangles and tetrahedra, beside exact
+// solutions that are linear, or exact at the nodes.
+#include "expect.h"
+
+#include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/versions.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <iostream>
+
+using namespace abut;
+using namespace dealii;
+
+namespace
+{
+  /** -Laplace u = -load in the unit cube with the flux -flux at its top (side
+   * 1); u is 0 on side 0 and not below -depth. */
+  template <int dim> class Membrane
+  {
+  public:
+    Membrane(const unsigned int n,
+             const std::function<types::boundary_id(const Point<dim> &)> &side)
+    {
+      GridGenerator::subdivided_hyper_cube_with_simplices(mesh, n);
+      for (const auto &face : mesh.active_face_iterators())
+        if (face->at_boundary())
+          face->set_boundary_id(side(face->center()));
+      dofs.distribute_dofs(fe);
+      const IndexSet &owned = dofs.locally_owned_dofs();
+      abut::versions::reinit(constraints, owned, owned);
+      VectorTools::interpolate_boundary_values(
+          mapping, dofs, 0, Functions::ZeroFunction<dim>(), constraints);
+      constraints.close();
+      DynamicSparsityPattern pattern(owned);
+      DoFTools::make_sparsity_pattern(dofs, pattern, constraints, false);
+      matrix.reinit(owned, owned, pattern, MPI_COMM_SELF);
+      rhs.reinit(owned, MPI_COMM_SELF);
+    }
+
+    void assemble(const double load, const double flux)
+    {
+      const QGaussSimplex<dim> rule(2);
+      const QGaussSimplex<dim - 1> face_rule(2);
+      FEValues<dim> values(mapping, fe, rule,
+                           update_values | update_gradients
+                               | update_JxW_values);
+      FEFaceValues<dim> on_face(mapping, fe, face_rule,
+                                update_values | update_JxW_values);
+      const unsigned int n = fe.n_dofs_per_cell();
+      FullMatrix<double> k(n, n);
+      Vector<double> f(n);
+      std::vector<types::global_dof_index> indices(n);
+      for (const auto &cell : dofs.active_cell_iterators())
+      {
+        values.reinit(cell);
+        k = 0.;
+        f = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int q = 0; q < rule.size(); ++q)
+          {
+            f(i) -= load * values.shape_value(i, q) * values.JxW(q);
+            for (unsigned int j = 0; j < n; ++j)
+              k(i, j) += values.shape_grad(i, q) * values.shape_grad(j, q)
+                         * values.JxW(q);
+          }
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary() && face->boundary_id() == 1)
+          {
+            on_face.reinit(cell, face);
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int q = 0; q < face_rule.size(); ++q)
+                f(i) -= flux * on_face.shape_value(i, q) * on_face.JxW(q);
+          }
+        cell->get_dof_indices(indices);
+        constraints.distribute_local_to_global(k, f, indices, matrix, rhs);
+      }
+      matrix.compress(VectorOperation::add);
+      rhs.compress(VectorOperation::add);
+    }
+
+    /** u >= -depth everywhere, or on the sides @p ids. */
+    void solve(const double depth, const std::set<types::boundary_id> &ids)
+    {
+      Obstacle<dim> obstacle;
+      obstacle.lower =
+          std::make_shared<Functions::ConstantFunction<dim>>(-depth);
+      obstacle.boundary_ids = ids;
+      contact.set_obstacle(obstacle);
+      contact.reinit(mapping, dofs, constraints);
+      u.reinit(rhs);
+      la::Vector residual(rhs), step(rhs);
+      contact.detect(u);
+      do
+      {
+        matrix.vmult(residual, u);
+        residual -= rhs;
+        contact.solve(matrix, residual, step);
+        u += step;
+      } while (contact.update(u));
+    }
+
+    const MappingFE<dim> mapping{FE_SimplexP<dim>(1)};
+    const FE_SimplexP<dim> fe{1};
+    Triangulation<dim> mesh;
+    DoFHandler<dim> dofs{mesh};
+    AffineConstraints<double> constraints;
+    la::Matrix matrix;
+    la::Vector rhs, u;
+    ContactAssembler<dim> contact{MPI_COMM_SELF};
+  };
+
+  /** u'' = 8 up to the place a with u = -4 a^2 where u' = 0: for the depth 1/4
+   * a is 1/4, and what is left of the load, half of 8, is carried. */
+  void check_string()
+  {
+    Membrane<2> string(8, [](const Point<2> &x)
+                       { return x[0] < 1e-9 || x[0] > 1. - 1e-9 ? 0 : 2; });
+    string.assemble(8., 0.);
+    string.solve(0.25, {});
+    const double force = string.contact.contact_force();
+    Vector<float> depth;
+    string.contact.missed_depth(string.u, depth);
+    std::cout << "force " << force << ", obstacle inside cells by "
+              << depth.linfty_norm() << std::endl;
+    hosts::expect(depth.linfty_norm() < 1e-9, "an obstacle outside of cells");
+    hosts::expect(std::abs(std::abs(force) - 4.) < 1e-6, "force of a string");
+  }
+
+  /** u = -depth z: all of the top has the pressure flux - depth. */
+  void check_top()
+  {
+    Membrane<3> block(3,
+                      [](const Point<3> &x) {
+                        return x[2] < 1e-9 ? 0 : x[2] > 1. - 1e-9 ? 1 : 2;
+                      });
+    block.assemble(0., 3.);
+    block.solve(0.5, {1});
+    const la::Vector pressure = block.contact.pressure();
+    double error = 0.;
+    unsigned int n = 0;
+    for (const auto &[dof, x] :
+         abut::versions::support_points(block.mapping, block.dofs))
+    {
+      const bool is_on_top = x[2] > 1. - 1e-9;
+      error = std::max({error, std::abs(block.u(dof) + 0.5 * x[2]),
+                        std::abs(pressure(dof) - (is_on_top ? 2.5 : 0.))});
+      n += is_on_top;
+    }
+    std::cout << "error " << error << " at " << n << " nodes" << std::endl;
+    hosts::expect(n == 16 && error < 1e-7, "pressure on the top");
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_string();
+  check_top();
+  return hosts::good ? 0 : 1;
+}
