@@ -18,6 +18,7 @@
 #include <abut/facet.h>
 #include <abut/failure.h>
 #include <abut/friction.h>
+#include <abut/friction_points.h>
 #include <abut/history.h>
 #include <abut/law.h>
 #include <abut/limits.h>

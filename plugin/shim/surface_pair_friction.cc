@@ -3,6 +3,7 @@
 #include "agree.h"
 #include "surface_pair_rows.h"
 
+#include <abut/friction_points.h>
 #include <abut/strategy.h>
 
 #include <algorithm>
@@ -59,12 +60,29 @@ namespace abut::shim
      * the way along the surface, sin(a) / a. */
     constexpr double largest_turn = 15.01 * M_PI / 180.;
 
-    /** Normals that differ by less, 1 - cosine, are the same. */
-    constexpr double same_direction = 1e-12;
-
     /** A node that can move along a tangent only this little (1: freely) takes
      * part in stick by springs, and below the second number not at all. */
     constexpr double least_freedom = 0.5, no_freedom = 1e-8;
+
+    /** Where points belong, as the core wants it. */
+    struct PointPlaces
+    {
+      template <int dim>
+      PointPlaces(const std::vector<PointPlace<dim>> &places,
+                  const std::size_t n_nodes, const std::size_t n_pairs)
+      {
+        for (const PointPlace<dim> &place : places)
+        {
+          node.push_back(place.node);
+          pair.push_back(static_cast<std::int32_t>(place.pair));
+        }
+        view = {sizeof(view), static_cast<std::int32_t>(n_nodes),
+                static_cast<std::int32_t>(n_pairs), node.data(), pair.data()};
+      }
+
+      std::vector<std::int32_t> node, pair;
+      abut_point_places view = {};
+    };
   } // namespace
 
   template <int dim>
@@ -232,8 +250,20 @@ namespace abut::shim
         message = about_pair(pair.data.name, wrong);
     }
     throw_everywhere<ContactError>(communicator_, message);
-    if (result.any)
-      find_rivals(result);
+    if (!result.any)
+      return result;
+    const PointPlaces places(places_, surface_.nodes.size(), pairs_.size());
+    const auto n = static_cast<std::int32_t>(result.first.size());
+    std::int32_t n_rivals = 0;
+    check(context_,
+          abut_points_rivals(points_, &places.view, n, result.first.data(),
+                             &n_rivals, nullptr, nullptr));
+    result.rival_point.resize(n_rivals);
+    result.rival_row.resize(n_rivals);
+    check(context_,
+          abut_points_rivals(points_, &places.view, n, result.first.data(),
+                             &n_rivals, result.rival_point.data(),
+                             result.rival_row.data()));
     return result;
   }
 
@@ -243,64 +273,16 @@ namespace abut::shim
     // Springs share the load.
     if (abut_law_has_penalty(settings_.method.options.law))
       return;
-    const auto normal = [&](const std::size_t i)
-    {
-      Direction n;
-      for (unsigned int d = 0; d < dim; ++d)
-        n[d] = view_.frame[view_.component_start[i] * std::size_t(dim) + d];
-      return n;
-    };
-    std::multimap<Node, std::size_t> seen;
-    for (std::size_t i = 0; i < places_.size(); ++i)
-    {
-      const Pair &pair = pairs_[places_[i].pair];
-      if (places_[i].node < 0 || pair.data.obstacle == nullptr
-          || pair.has_current_points())
-        continue;
-      const auto [begin, end] = seen.equal_range(places_[i].node);
-      for (auto other = begin; other != end; ++other)
-      {
-        const std::size_t j = other->second;
-        const bool slides = pair.data.friction != nullptr
-                            || pairs_[places_[j].pair].data.friction != nullptr;
-        if (!slides || normal(i) * normal(j) < 1. - same_direction)
-          continue;
-        // Both gaps change by the same, so that one stays behind.
-        const std::size_t behind =
-            view_.gap[view_.component_start[i]]
-                    >= view_.gap[view_.component_start[j]]
-                ? i
-                : j;
-        for (auto row = view_.component_start[behind];
-             row < view_.component_start[behind + 1]; ++row)
-          keep[row] = 0;
-      }
-      seen.emplace(places_[i].node, i);
-    }
-  }
-
-  template <int dim>
-  void SurfacePairRows<dim>::find_rivals(FrictionalPoints &points) const
-  {
-    std::multimap<Node, std::int32_t> normals;
-    for (std::size_t i = 0; i < places_.size(); ++i)
-      if (places_[i].node >= 0 && view_.kind[i] == ABUT_POINT_CONTACT)
-        normals.emplace(places_[i].node, view_.component_start[i]);
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < places_.size(); ++i)
-    {
-      if (k == points.first.size()
-          || points.first[k] != view_.component_start[i])
-        continue;
-      const auto [begin, end] = normals.equal_range(places_[i].node);
-      for (auto other = begin; other != end; ++other)
-        if (other->second != points.first[k])
-        {
-          points.rival_point.push_back(static_cast<std::int32_t>(k));
-          points.rival_row.push_back(other->second);
-        }
-      ++k;
-    }
+    std::vector<std::uint8_t> marks;
+    for (const Pair &pair : pairs_)
+      marks.push_back(
+          (pair.data.obstacle != nullptr && !pair.has_current_points()
+               ? ABUT_PAIR_FIXED_POINTS
+               : 0)
+          | (pair.data.friction != nullptr ? ABUT_PAIR_FRICTION : 0));
+    const PointPlaces places(places_, surface_.nodes.size(), pairs_.size());
+    check(context_,
+          abut_points_cover(points_, &places.view, marks.data(), keep.data()));
   }
 
   template <int dim>
@@ -475,66 +457,28 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::find_shared_sticks(
-      const double *row_pressure, const std::uint8_t *row_state,
-      std::vector<PairResult<dim>> &results) const
-  {
-    std::vector<int> n_closed(surface_.nodes.size(), 0);
-    const auto for_each_closed = [&](const auto &visit)
-    {
-      for (std::size_t i = 0; i < places_.size() && row_state != nullptr; ++i)
-        if (places_[i].node >= 0 && view_.kind[i] == ABUT_POINT_CONTACT
-            && row_state[view_.component_start[i]] != ABUT_STATE_OPEN)
-          visit(i, view_.component_start[i]);
-    };
-    for_each_closed([&](const std::size_t i, std::int32_t)
-                    { ++n_closed[places_[i].node]; });
-    for_each_closed(
-        [&](const std::size_t i, const std::int32_t row)
-        {
-          if (n_closed[places_[i].node] > 1
-              && view_.component_start[i + 1] > row + 1
-              && row_state[row] == ABUT_STATE_CLOSED)
-            results[places_[i].pair].shared_stick_force +=
-                view_.weight[i] * row_pressure[row];
-        });
-  }
-
-  template <int dim>
   void SurfacePairRows<dim>::add_friction(
       const double *row_pressure, const double *row_gap,
       const std::uint8_t *row_state,
       std::vector<PairResult<dim>> &results) const
   {
-    for (std::size_t i = 0; i < places_.size(); ++i)
+    const PointPlaces places(places_, surface_.nodes.size(), pairs_.size());
+    std::vector<abut_friction_sums> sums(pairs_.size());
+    check(context_, abut_points_friction(points_, &places.view, row_pressure,
+                                         row_gap, row_state, sums.data()));
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
-      const std::int32_t first = view_.component_start[i];
-      const double w = view_.weight[i];
-      PairResult<dim> &result = results[places_[i].pair];
-      if (view_.kind[i] == ABUT_POINT_TIE)
-        continue;
-      result.normal_force += w * row_pressure[first];
-      const bool slips =
-          row_state != nullptr && row_state[first] == ABUT_STATE_SLIP;
-      result.n_slipping += slips;
-      double square = 0., work = 0.;
-      for (std::int32_t row = first + 1; row < view_.component_start[i + 1];
-           ++row)
-      {
-        square += row_pressure[row] * row_pressure[row];
-        // The springs of what sticks take nothing up.
-        if (slips)
-          work -= row_pressure[row] * row_gap[row];
-        for (unsigned int d = 0; d < dim; ++d)
-          result.secondary_friction[d] +=
-              w * row_pressure[row] * view_.frame[row * std::size_t(dim) + d];
-      }
-      result.friction_force += w * std::sqrt(square);
-      result.traction = std::max(result.traction, std::sqrt(square));
-      result.dissipation += w * std::max(0., work);
+      PairResult<dim> &result = results[p];
+      result.normal_force = sums[p].normal_force;
+      result.friction_force = sums[p].friction_force;
+      result.traction = sums[p].traction;
+      result.dissipation = sums[p].dissipation;
+      result.shared_stick_force = sums[p].shared_stick_force;
+      result.n_slipping = sums[p].n_slipping;
+      for (unsigned int d = 0; d < dim; ++d)
+        result.secondary_friction[d] = sums[p].force[d];
     }
     find_prescribed_nodes(row_state, results);
-    find_shared_sticks(row_pressure, row_state, results);
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
@@ -551,7 +495,6 @@ namespace abut::shim
       std::vector<RigidPose<dim>>, bool) const;                                \
   template void SurfacePairRows<dim>::drop_covered(                            \
       std::vector<std::uint8_t> &) const;                                      \
-  template void SurfacePairRows<dim>::find_rivals(FrictionalPoints &) const;   \
   template void SurfacePairRows<dim>::refuse_turns(                            \
       const std::vector<RigidPose<dim>> &,                                     \
       const std::vector<RigidPose<dim>> &) const;                              \
@@ -559,9 +502,6 @@ namespace abut::shim
       const;                                                                   \
   template void SurfacePairRows<dim>::find_prescribed_nodes(                   \
       const std::uint8_t *, std::vector<PairResult<dim>> &) const;             \
-  template void SurfacePairRows<dim>::find_shared_sticks(                      \
-      const double *, const std::uint8_t *, std::vector<PairResult<dim>> &)    \
-      const;                                                                   \
   template void SurfacePairRows<dim>::add_friction(                            \
       const double *, const double *, const std::uint8_t *,                    \
       std::vector<PairResult<dim>> &) const;

@@ -320,11 +320,6 @@ namespace abut::shim
     void find_prescribed_nodes(const std::uint8_t *row_state,
                                std::vector<PairResult<dim>> &results) const;
 
-    /** PairResult::shared_stick_force. Collective. */
-    void find_shared_sticks(const double *row_pressure,
-                            const std::uint8_t *row_state,
-                            std::vector<PairResult<dim>> &results) const;
-
     /** Give the tangents of a point the value [rows] of its normal. */
     void copy_to_tangents(std::vector<double> &value) const;
 
@@ -478,8 +473,6 @@ namespace abut::shim
                            const std::vector<Direction> &u) const;
     /** Mark with 0 the rows of contacts that are behind another one. */
     void drop_covered(std::vector<std::uint8_t> &keep) const;
-    /** Note where contacts share a node of the secondary. */
-    void find_rivals(FrictionalPoints &points) const;
     class MissedCheck;
 
     /** [pairs][nodes of the whole surface] nonzero: the node has a closed row

@@ -235,6 +235,30 @@ test_through(void **state)
   scene_free(&sheet);
 }
 
+/* Out of a body through its surface is no way in, not of an interference
+ * either. */
+static void
+test_out(void **state)
+{
+  (void)state;
+  scene_mesh below = level(4, 0.1, 0.9, -2., false),
+             ceiling = level(7, -1., 2., 0., false);
+  const double up[3] = {0., 3., 0.}, rest[3] = {0., 0., 0.};
+  search s;
+  open_meshes(&s, &below, &ceiling);
+  start_at(&s, &below, up, &ceiling, rest);
+  for (int k = 0; k < 2; ++k)
+  {
+    s.options.gap = k == 0 ? 0. : -0.3;
+    run(&s);
+    assert_int_equal(s.report.n, 0);
+  }
+  forget_start(&s);
+  close_surfaces(&s);
+  scene_free(&below);
+  scene_free(&ceiling);
+}
+
 /* In space, through triangles and quadrilaterals: exactly the nodes whose path
  * meets the square, at a speed that depends on the node. */
 static void
@@ -480,6 +504,7 @@ main(void)
       cmocka_unit_test_setup_teardown(test_inside, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_marks, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_through, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_out, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_through_3d, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_strain, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_same_side, set_up, tear_down),

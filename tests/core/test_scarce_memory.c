@@ -409,6 +409,26 @@ scalar_points(world *w)
   return ABUT_SUCCESS;
 }
 
+/* Sums of friction, and points of one node. */
+static abut_status
+points_with_friction(world *w, const double *value)
+{
+  const int32_t node[14] = {0, 1, 0, 1, 0, 1, 0}, pair[14] = {0};
+  const abut_point_places places = {sizeof(places), 2, 1, node, pair};
+  const uint8_t closed[14] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1},
+                marks[1] = {ABUT_PAIR_FIXED_POINTS | ABUT_PAIR_FRICTION};
+  const int32_t first[1] = {0};
+  uint8_t keep[14] = {0};
+  abut_friction_sums sums;
+  int32_t n_rivals = 0;
+  TRY(abut_points_friction(w->points, &places, value, value, closed, &sums));
+  TRY(abut_points_cover(w->points, &places, marks, keep));
+  TRY(abut_points_rivals(w->points, &places, 1, first, &n_rivals, NULL, NULL));
+  note(w, sums.normal_force);
+  note(w, n_rivals);
+  return ABUT_SUCCESS;
+}
+
 static abut_status
 points(world *w)
 {
@@ -443,7 +463,7 @@ points(world *w)
   TRY(abut_points_add_force(w->points, 10, value, force));
   for (int i = 0; i < 12; ++i)
     note(w, value[i] + force[i]);
-  return ABUT_SUCCESS;
+  return points_with_friction(w, value);
 }
 
 static abut_status
