@@ -350,7 +350,7 @@ main(int argc, char **argv)
 {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::cout.precision(12);
-  check_tied_beams(hosts::tied_beams, "tied beams");
+  check_tied_beams(hosts::make_tied_beams(), "tied beams");
   for (const unsigned int degree : {1, 2})
   {
     check_large_strain<2>(degree);

@@ -3,13 +3,14 @@
 #define ABUT_TESTS_TIED_BEAMS_H
 
 /** @file
- * Two beams that are tied, of tetrahedra: mesh and displacements of the
- * example tetCM (contact_slag_tied_iter) of FrontISTR, which is another program
- * (https://github.com/FrontISTR/FrontISTR, commit 9f5e9f5f, MIT licence). (0,
+ * Two beams that are tied, of tetrahedra, and the displacements that the
+ * example tetCM (contact_slag_tied_iter) of another program, FrontISTR,
+ * has (https://github.com/FrontISTR/FrontISTR, commit 9f5e9f5f). (0,
  * 2) x (0, 1)^2 is clamped at x = 0 and tied at x = 2 to (2, 4) x (0, 1)^2; a
  * pressure of 1 follows the faces at y = 1. Young's modulus 1000, Poisson's
  * ratio 0.3, linear material. */
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -27,7 +28,7 @@ namespace abut::hosts
   };
 
   // clang-format off
-  inline const TiedBeams tied_beams = {{
+  inline const std::vector<BeamNode> tied_beam_nodes = {
     {{1, 0, 0}, {-0.01259090072826, -0.02121320778646, 0.00254859279039}},
     {{1, 0, 1}, {-0.01071902614155, -0.02008045040645, 0.003465169634022}},
     {{0, 0, 1}, {0, 0, 0}},
@@ -56,21 +57,47 @@ namespace abut::hosts
     {{4, 1, 0}, {0.01774657886564, -0.1389493708742, -0.006132162627301}},
     {{2.5065283, 0.47230574, 0.47654158}, {-0.001086658795703, -0.07713770647929, 0.0002916596712227}},
     {{3.4757498, 0.53102702, 0.51110506}, {0.001433370757984, -0.1173455383366, -0.003727361389897}},
-  }, {
-    {{12, 2, 3, 0}}, {{12, 7, 0, 3}}, {{12, 6, 3, 2}}, {{12, 3, 6, 7}},
-    {{12, 2, 5, 6}}, {{12, 4, 7, 6}}, {{12, 6, 5, 4}}, {{12, 0, 7, 4}},
-    {{12, 4, 1, 0}}, {{12, 1, 4, 5}}, {{12, 0, 1, 2}}, {{12, 5, 2, 1}},
-    {{13, 10, 9, 1}}, {{13, 4, 1, 9}}, {{13, 1, 4, 0}}, {{13, 1, 0, 10}},
-    {{13, 11, 10, 0}}, {{13, 7, 0, 4}}, {{13, 0, 7, 11}}, {{13, 10, 11, 8}},
-    {{13, 8, 9, 10}}, {{13, 9, 8, 4}}, {{13, 7, 4, 8}}, {{13, 8, 11, 7}},
-    {{21, 26, 14, 18}}, {{18, 26, 14, 15}}, {{26, 19, 15, 18}}, {{19, 16, 26, 15}},
-    {{21, 20, 26, 18}}, {{15, 16, 26, 14}}, {{18, 20, 26, 19}}, {{14, 16, 26, 17}},
-    {{14, 21, 17, 26}}, {{26, 17, 20, 21}}, {{16, 17, 20, 26}}, {{19, 20, 26, 16}},
-    {{18, 27, 22, 23}}, {{27, 18, 21, 14}}, {{27, 25, 14, 21}}, {{24, 22, 27, 23}},
-    {{14, 24, 25, 27}}, {{21, 27, 25, 22}}, {{18, 27, 23, 15}}, {{18, 14, 27, 15}},
-    {{22, 18, 21, 27}}, {{24, 27, 15, 23}}, {{24, 22, 25, 27}}, {{15, 27, 24, 14}},
-  }};
+  };
   // clang-format on
+
+  /** Four unit cubes in a row, each of twelve tetrahedra between its faces,
+   * which a diagonal cuts in two, and a node inside. The beams share no nodes:
+   * the first two cubes come before the others. */
+  inline TiedBeams make_tied_beams()
+  {
+    // Corners x + 2 y + 4 z at the ends of the diagonals of the faces at the
+    // lower and upper x, y and z; those at the lower x alternate.
+    constexpr unsigned int diagonals[6][2] = {{2, 4}, {1, 7}, {1, 4},
+                                              {2, 7}, {0, 3}, {5, 6}},
+                           alternate[2] = {0, 6}, center[4] = {12, 13, 26, 27};
+    const auto &nodes = tied_beam_nodes;
+    TiedBeams beams{nodes, {}};
+    for (unsigned int cube = 0; cube < 4; ++cube)
+    {
+      const auto node = [&](const unsigned int corner)
+      {
+        const double at[3] = {1. * (cube + (corner & 1U)),
+                              1. * ((corner >> 1U) & 1U), 1. * (corner >> 2U)};
+        const unsigned int first = cube < 2 ? 0 : 14;
+        return static_cast<unsigned int>(
+            std::find_if(nodes.begin() + first, nodes.end(),
+                         [&](const BeamNode &one)
+                         { return std::equal(one.x, one.x + 3, at); })
+            - nodes.begin());
+      };
+      for (unsigned int face = 0; face < 6; ++face)
+      {
+        const unsigned int *ends =
+            face == 0 && cube % 2 == 1 ? alternate : diagonals[face];
+        const unsigned int bit = 1U << (face / 2), side = face % 2 * bit;
+        for (unsigned int third = 0; third < 8; ++third)
+          if ((third & bit) == side && third != ends[0] && third != ends[1])
+            beams.cells.push_back(
+                {{center[cube], node(ends[0]), node(ends[1]), node(third)}});
+      }
+    }
+    return beams;
+  }
 } // namespace abut::hosts
 
 #endif
