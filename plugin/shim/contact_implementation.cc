@@ -58,7 +58,7 @@ namespace abut
       return abut_law_has_penalty(&law) && !abut_law_updates_multipliers(&law);
     }
 
-    /** Number that tells operators apart: their values, but for gaps. */
+    /** Number that distinguishes operators: their values, but for gaps. */
     std::uint64_t signature(const solve::PointOperator &rows)
     {
       shim::FnvHash hash;
@@ -303,7 +303,7 @@ namespace abut
     }
     catch (...)
     {
-      // What is left of the points is not what they were made of.
+      // The remaining points are not the ones that these were made of.
       coefficients = solve::PointOperator();
       view = {};
       throw;
@@ -314,7 +314,7 @@ namespace abut
   bool ContactAssembler<dim>::Implementation::drop_needless(
       const solve::PointOperator &rows)
   {
-    // Rows between nodes that cannot move say nothing.
+    // Rows between nodes that cannot move are no measure.
     std::vector<std::uint8_t> keep = rows.rows_with_columns();
     source->drop_needless(keep);
     const bool any = MPI::logical_or(
@@ -331,8 +331,8 @@ namespace abut
       make_operator();
     n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
                       communicator);
-    // A solver is kept as long as it would be made of the same rows: of the
-    // undeformed bodies they are the same in most load steps.
+    // A solver is kept as long as it would be made of the same rows: in the
+    // reference configuration they are the same in most load steps.
     const std::uint64_t before = rows_signature;
     rows_signature = signature(coefficients);
     if (MPI::logical_or(before != rows_signature, communicator))
@@ -674,7 +674,7 @@ namespace abut
 
   template <int dim> bool ContactAssembler<dim>::Implementation::widen_search()
   {
-    // Of the size of the smallest body.
+    // Parts of the size of the smallest body.
     constexpr double first = 0.5, growth = 4., last = 8.;
     if (surfaces == nullptr)
       return false;

@@ -38,7 +38,7 @@ namespace abut::shim
                 const std::vector<dealii::Point<dim>> &start,
                 const std::vector<dealii::Tensor<1, dim>> &way, double depth);
 
-  /** What a straight way past an obstacle meets. */
+  /** Result for a straight path past an obstacle. */
   struct OnTheWay
   {
     double depth = 0.; ///< in the obstacle at the most, length >= 0
@@ -47,11 +47,11 @@ namespace abut::shim
     bool through = false;
   };
 
-  /** What points meet on straight ways past an obstacle as it stands, [points].
-   * Ways are sampled as far apart as the distance from its surface is, and by a
-   * quarter of its half thickness or 1/64 of the way at least, whichever is
-   * less. @p end are distances at the ends; ways that are shorter are not
-   * looked at. */
+  /** Results for straight paths of points past an obstacle in its current pose,
+   * [points]. Ways are sampled as far apart as the distance from its surface
+   * is, and by a quarter of its half thickness or 1/64 of the way at least,
+   * whichever is less. @p end are distances at the ends; ways that are shorter
+   * are not looked at. */
   template <int dim>
   std::vector<OnTheWay> on_the_way(const RigidObstacle<dim> &obstacle,
                                    const std::vector<dealii::Point<dim>> &from,

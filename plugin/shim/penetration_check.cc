@@ -265,7 +265,7 @@ namespace abut::shim
     for (const Node node : pair.secondary.node)
       if (is_owned(node))
         add(begin[node], present[node], held[node] == 0);
-    // What is smaller than facets goes by between nodes.
+    // An obstacle smaller than facets passes between nodes.
     const auto me = MPI::this_mpi_process(communicator_);
     for (const std::int32_t f : pair.secondary.facet)
       if (surface_.facets[f].owner == me)
@@ -294,7 +294,8 @@ namespace abut::shim
       else if (pair.has_committed_points() && is_free[i] && depth > tolerance)
         missed.push_back({pair.data.name, to[i], depth, false, false});
     }
-    // What is apart again no search finds, and rows are of the far side.
+    // No search finds surfaces that are apart again, and rows belong to the far
+    // side.
     if (way > 0.)
       throw ContactError(too_long_a_step(
           pair.data, way,
@@ -308,8 +309,8 @@ namespace abut::shim
       const std::vector<dealii::Point<dim>> &present, const double tolerance,
       std::vector<Penetration<dim>> &missed) const
   {
-    // What has a row is kept out at the end of the step: between, the rest is
-    // that of a step in time, unless it is seen beside a facet.
+    // A node with a row does not penetrate at the end of the step: between, the
+    // rest is that of a step in time, unless it is seen next to a facet.
     constexpr double visible = 0.05;
     const Pair &pair = pairs_[p];
     const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
@@ -357,7 +358,7 @@ namespace abut::shim
       check_passage_of_formula(p, held, present, tolerance, missed);
       return;
     }
-    // What goes no farther than this had a row from the start.
+    // A node that moves no farther than this had a row from the start.
     const abut_search_options &search = settings_.search.detection.search;
     const double smallest = std::min(pair.secondary.everywhere.smallest,
                                      pair.primary.everywhere.smallest);
@@ -439,7 +440,7 @@ namespace abut::shim
         }
         const DisplacedSides<dim> sides(context_, pair.secondary, pair.primary,
                                         reference, present);
-        // What was missed earlier may be deeper than the last step went.
+        // A node that was missed earlier may be deeper than the last step went.
         const double all = std::min(1.5 * motion(pair, u), pair.reach);
         const double reach = std::max({pair.data.reach, 1.5 * moved[p],
                                        pair.has_current_points() ? all : 0.});

@@ -56,7 +56,7 @@ namespace abut::shim
         pairs_.size(), std::vector<std::uint8_t>(n_nodes, 0));
     if (!have_common_nodes())
       return nearer;
-    // What each pair would have if it were alone.
+    // The components of each pair if it were alone.
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       if (is_group(pairs_[p]))
       {

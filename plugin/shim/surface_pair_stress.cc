@@ -36,7 +36,7 @@ namespace abut::shim
       }
 
     private:
-      /** What constraints make of an unknown. */
+      /** Terms of an unknown by constraints. */
       void append(const global_dof_index dof)
       {
         std::vector<solve::NodeMap::Term> terms;
@@ -67,7 +67,7 @@ namespace abut::shim
       return result;
     }
 
-    /** Those that are not 0, over nodes. */
+    /** Coefficients that are not 0, over nodes. */
     struct Stencil
     {
       std::vector<std::int32_t> node;

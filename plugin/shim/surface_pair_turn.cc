@@ -109,8 +109,8 @@ namespace abut::shim
       made.push_back(point.position);
       now.push_back(point.position + since);
     }
-    // Of a height along an axis, too, whose force is along the axis by choice:
-    // what its slope has changed by is beside that.
+    // For a height along an axis, too, whose force is along the axis by choice:
+    // the change of its slope does not count.
     std::vector<double> into, size;
     for (const Pressed &point : pressed)
     {

@@ -23,7 +23,7 @@
 #include <deal.II/distributed/solution_transfer.h>
 #endif
 
-/** What depends on the version of deal.II. */
+/** Functions that depend on the version of deal.II. */
 namespace abut::versions
 {
   /** Communicator of a Triangulation or DoFHandler. */
