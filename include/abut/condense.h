@@ -13,7 +13,7 @@
  * with k x k blocks that need not be symmetric; k = 1: a dp + b dg = -c. A
  * component is *held* (H) if its row of A vanishes, *sprung* (S) otherwise.
  * Eliminated, sprung pressures leave springs, and held components constraints
- * whose pressure L = (p + dp)_H only the whole system can tell:
+ * whose pressure L = (p + dp)_H only the whole system determines:
  *
  *     dg_H + B_HH^-1 B_HS dg_S = -B_HH^-1 c_H              trial . dg = value
  *     force on the gaps: test^T w L + f - Z dg,   test = (1 on H, -A_SS^-1
@@ -55,7 +55,7 @@ extern "C"
     const double *d_gap;         /**< [M] B = dc/dg */
   } abut_condense_points;
 
-  /** What takes the place of the pressures; arrays are owned by the caller. */
+  /** Terms that replace the pressures; arrays are owned by the caller. */
   typedef struct abut_condensed
   {
     size_t struct_size; /**< sizeof(abut_condensed) */

@@ -44,7 +44,7 @@ extern "C"
     return options;
   }
 
-  /** What a context has allocated. */
+  /** Memory that a context has allocated. */
   typedef struct abut_memory_usage
   {
     size_t struct_size;     /**< sizeof(abut_memory_usage) */

@@ -88,7 +88,7 @@ extern "C"
   ABUT_API const char *
   abut_discretisation_name(abut_discretisation discretisation);
 
-  /** What there is to know of a discretisation. */
+  /** Properties of a discretisation. */
   typedef struct abut_discretisation_info
   {
     size_t struct_size; /**< sizeof(abut_discretisation_info) */
@@ -195,8 +195,8 @@ extern "C"
                                            abut_facet_kind kind,
                                            const char **reason);
 
-  /** What is to be known of the nodes of the secondary surface; n_nodes is
-   * theirs. Arrays are read during abut_coupling_build() only. */
+  /** Data of the nodes of the secondary surface; n_nodes is their number.
+   * Arrays are read during abut_coupling_build() only. */
   typedef struct abut_coupling_nodes
   {
     size_t struct_size; /**< sizeof(abut_coupling_nodes) */
@@ -340,7 +340,7 @@ extern "C"
     return target;
   }
 
-  /** Append the points at the present positions (and pose).
+  /** Append the points at the current positions (and pose).
    *
    * @param nodes may be NULL: the defaults
    * @param motion length >= 0: largest relative motion of the surfaces since
@@ -389,7 +389,7 @@ extern "C"
      * primary facet, in their order there, if it has one. With tangents it is
      * followed by as many more matrices: row k of each has the derivatives of
      * the derivative of the slip along that tangent with respect to unknown k,
-     * by present tangents and shares. Of mortar it is one matrix with
+     * by present tangents and shares. For mortar it is one matrix with
      * dimension lines for each node line[line_start[i]] .., those of the
      * stencil and some with coefficients 0, and dimension columns for each node
      * column[column_start[i]] ..: the derivatives of the gap's derivatives,
@@ -428,7 +428,7 @@ extern "C"
     return abut_coupling_get_sized(coupling, view);
   }
 
-  /** What a build met. Areas and numbers of rows add up over processes, if
+  /** Statistics of a build. Areas and numbers of rows add up over processes, if
    * each row is wanted on one; the others count facets that a process had to
    * look at. */
   typedef struct abut_coupling_statistics

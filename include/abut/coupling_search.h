@@ -20,7 +20,7 @@ extern "C"
 {
 #endif
 
-  /** Search at the present positions. The next abut_coupling_build() with the
+  /** Search at the current positions. The next abut_coupling_build() with the
    * same positions and motion takes what was found; else it searches itself.
    * Does nothing against an obstacle.
    * @param motion as in abut_coupling_build() */

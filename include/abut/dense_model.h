@@ -54,8 +54,8 @@ extern "C"
    * @param pressure [n_components] in: start (may be all 0); out: pressure
    * @param state [n_components] starting set on entry, final set on return;
    * NULL to start from the set that p and g call for
-   * @param monitor called after each step, may be NULL; progress->outer tells
-   *   outer steps apart */
+   * @param monitor called after each step, may be NULL; progress->outer is the
+   * number of the outer step */
   ABUT_API abut_status abut_dense_model_solve_sized(
       abut_context *context, const abut_dense_model *model,
       const abut_strategy_options *options, double *displacement,

@@ -6,11 +6,11 @@
  * Contact detection: which facet of the primary surface each node of the
  * secondary surface may touch, and where.
  *
- * A node is paired with the nearest facet of the primary surface that is
- * within reach, faces it, is not its own neighbourhood, and does not lie on
- * the far side of a body. Both surfaces may be the same one (self contact).
- * The pairing is kept between calls, so that a change of connectivity can be
- * told from mere sliding on the same facet.
+ * A node is paired with the nearest facet of the primary surface that is within
+ * reach, faces it, is not its own neighbourhood, and does not lie on the far
+ * side of a body. Both surfaces may be the same one (self contact). The pairing
+ * is kept between calls, so that a change of connectivity can be distinguished
+ * from mere sliding on the same facet.
  *
  * Signs: the gap is positive where the node is on the outward side of the
  * facet (open), negative where it has penetrated.
@@ -85,7 +85,7 @@ extern "C"
                                                   int32_t secondary_group,
                                                   int32_t primary_group);
 
-  /** Detect at the present positions.
+  /** Detect at the current positions.
    *
    * @param motion length >= 0: largest relative motion of the surfaces since
    *   the last call (over all processes); the reach is at least 1.5 times as
@@ -147,7 +147,7 @@ extern "C"
     int32_t n_gained;    /**< nodes that had none before */
     int32_t n_lost;      /**< nodes that had one before */
     int32_t n_exchanged; /**< nodes with another one than before */
-    int32_t searched;    /**< nonzero: lists were made anew, not reused */
+    int32_t searched;    /**< nonzero: lists were made, not reused */
     double reach;        /**< absolute part of the reach in use, length */
     const int64_t *rejected; /**< [ABUT_REJECTION_N] candidates not taken, by
                                   reason */
@@ -171,7 +171,7 @@ extern "C"
   ABUT_API const abut_search *
   abut_detection_search(const abut_detection *detection);
 
-  /** What to know before solving. */
+  /** Report for a check before solving. */
   typedef struct abut_detection_report
   {
     size_t struct_size;    /**< sizeof(abut_detection_report) */

@@ -105,7 +105,7 @@ extern "C"
                                         const double *local, double *value,
                                         double *first, double *second);
 
-/** What can be wrong with a facet: name, text. */
+/** Faults of a facet: name, text. */
 #define ABUT_FACET_FAULT_LIST(X)                                               \
   X(NONE, "no fault")                                                          \
   X(KIND, "the facet's kind is not known")                                     \

@@ -73,9 +73,9 @@ extern "C"
   {
     size_t struct_size; /**< sizeof(abut_friction) */
     const char *name;   /**< word in the parameter file */
-    /** The bound rho [n] >= 0 and its derivative by the pressure [n]. Where
-     * p <= 0 the bound should be 0 and the derivative still that of p > 0: it
-     * is what a point feels that has just closed. Does not allocate; O(n). */
+    /** The bound rho [n] >= 0 and its derivative by the pressure [n]. Where p
+     * <= 0 the bound should be 0 and the derivative still that of p > 0: it
+     * acts on a point that has just closed. Does not allocate; O(n). */
     abut_status (*bound)(const abut_friction_bounds *points, double *bound,
                          double *d_bound);
   } abut_friction;
@@ -129,8 +129,8 @@ extern "C"
   abut_friction_classify(const abut_friction_points *points, uint8_t *state);
 
   /** Linearise in the given state (which need not be that of classify); where
-   * it is ABUT_STATE_OPEN, C = tau. NOT_FINITE for numbers that are none. Does
-   * not allocate; O(n). */
+   * it is ABUT_STATE_OPEN, C = tau. NOT_FINITE for values that are not finite.
+   * Does not allocate; O(n). */
   ABUT_API abut_status abut_friction_linearise(
       const abut_friction_points *points, const uint8_t *state,
       const abut_friction_linearisation *result);

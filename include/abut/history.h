@@ -3,11 +3,11 @@
 #define ABUT_HISTORY_H
 
 /** @file
- * What contact remembers from one solve to the next: pressure and state by
- * number of the point, in two versions.
+ * History of contact from one solve to the next: pressure and state by number
+ * of the point, in two versions.
  *
  * The committed version is that of the last step that was accepted, the trial
- * version that of the step in work:
+ * version that of the current step:
  *
  *     abut_history_begin_step(history);         // the trial version is empty
  *     abut_history_set(history, &entries);      // values that were reached
@@ -17,7 +17,7 @@
  * Numbers of points are the caller's, and last as long as the mesh does: the
  * number of a node along the mesh, or one made of a facet's number and that of
  * the point in a rule. Where points are renumbered while the facet stays, their
- * place on it tells which old point is nearest: abut_history_nearest().
+ * position on it determines the nearest old point: abut_history_nearest().
  *
  * With friction, the number of a tangent has the traction as its pressure: what
  * the next step's slip begins with (abut_strategy_friction).
@@ -43,7 +43,7 @@ extern "C"
   typedef enum abut_history_version
   {
     ABUT_HISTORY_COMMITTED, /**< of the last accepted step */
-    ABUT_HISTORY_TRIAL      /**< of the step in work */
+    ABUT_HISTORY_TRIAL      /**< of the current step */
   } abut_history_version;
 
   /** Values by point. */
@@ -74,7 +74,7 @@ extern "C"
     ABUT_HISTORY_LAW_BYTES = 64
   };
 
-  /** What a version knows of the problem as a whole. */
+  /** Data of a version about the problem as a whole. */
   typedef struct abut_history_problem
   {
     size_t struct_size;               /**< sizeof(abut_history_problem) */
@@ -98,7 +98,7 @@ extern "C"
   ABUT_API abut_status abut_history_clear(abut_history *history);
 
   /** Empty the trial version: a point that is not set from here on has no past
-   * once the step is committed. What is known of the problem stays. */
+   * once the step is committed. The data about the problem stay. */
   ABUT_API abut_status abut_history_begin_step(abut_history *history);
 
   /** Put entries into the trial version; those of points that it has are
@@ -125,8 +125,8 @@ extern "C"
                                             const abut_history_past *past);
 
   /** All entries of a version, ascending; valid until the next change, places
-   * NULL if no entry was given with places. Fills as much as
-   * entries->struct_size says. */
+   * NULL if no entry was given with places. Fills as much as fits in
+   * entries->struct_size. */
   ABUT_API abut_status abut_history_view_sized(const abut_history *history,
                                                abut_history_version version,
                                                abut_history_entries *entries);
@@ -141,13 +141,13 @@ extern "C"
     return abut_history_view_sized(history, version, entries);
   }
 
-  /** Tell a version what is known of the problem. */
+  /** Set a version's data about the problem. */
   ABUT_API abut_status
   abut_history_set_problem(abut_history *history, abut_history_version version,
                            const abut_history_problem *problem);
 
-  /** What a version knows of the problem. Fills as much as
-   * problem->struct_size says. */
+  /** Data of a version about the problem. Fills as much as fits in
+   * problem->struct_size. */
   ABUT_API abut_status abut_history_get_problem_sized(
       const abut_history *history, abut_history_version version,
       abut_history_problem *problem);
@@ -173,9 +173,8 @@ extern "C"
   ABUT_API abut_status abut_history_rollback(abut_history *history);
 
   /** Write a version into @p buffer of *bytes bytes; NULL: none. *bytes becomes
-   * the number needed; INVALID_ARGUMENT if there are less. The head says
-   * version of the format, byte order and sizes, and has a sum over all bytes.
-   */
+   * the number needed; INVALID_ARGUMENT if there are less. The head has the
+   * version of the format, byte order, sizes, and a sum over all bytes. */
   ABUT_API abut_status abut_history_pack(const abut_history *history,
                                          abut_history_version version,
                                          void *buffer, size_t *bytes);

@@ -24,9 +24,9 @@ extern "C"
   /** Configuration of the bodies. */
   typedef enum abut_configuration
   {
-    ABUT_CONFIGURATION_REFERENCE, /**< undeformed */
+    ABUT_CONFIGURATION_REFERENCE, /**< the mesh, displacement 0 */
     ABUT_CONFIGURATION_COMMITTED, /**< at the end of the last step */
-    ABUT_CONFIGURATION_CURRENT    /**< at the present displacement */
+    ABUT_CONFIGURATION_CURRENT    /**< at the current displacement */
   } abut_configuration;
 
   /** Kinematics of a pair. */
@@ -53,8 +53,8 @@ extern "C"
     /** Where the surfaces stand when points are made: partners and stencils
      * are found there. Weights are those of the reference configuration. */
     abut_configuration points;
-    /** What directions and gaps refer to. Current: they change at each
-     * linearisation, and have derivatives. */
+    /** Configuration that directions and gaps refer to. Current: they change at
+     * each linearisation, and have derivatives. */
     abut_configuration directions;
     bool bodies_only;       /**< no obstacles, and mortar only */
     bool weighted_obstacle; /**< mortar against obstacles, too */

@@ -39,7 +39,7 @@ extern "C"
     ABUT_STATE_SLIP = 2    /**< contact, and the traction at its bound */
   } abut_state;
 
-  /** What a law needs and what its linearisation looks like. */
+  /** Requirements of a law and properties of its linearisation. */
   typedef enum abut_law_flag
   {
     ABUT_LAW_HARD = 1,     /**< a vanishes on closed rows: a true constraint */
@@ -51,7 +51,7 @@ extern "C"
                                 traction along the surface */
   } abut_law_flag;
 
-  /** Outer iteration that a law asks for. */
+  /** Outer iteration that a law needs. */
   typedef enum abut_outer
   {
     ABUT_OUTER_NONE,       /**< Newton (active set) only */

@@ -8,11 +8,10 @@
  *
  * A field has `block` unknowns at each node. The host gives, for each mesh, by
  * what weights its nodes follow from those of the next coarser mesh; the same
- * for all components. Coarse matrices are P^T A P without rows and columns
- * that are held on the finest mesh, and nothing else: where the set has
- * changed, the rows of the coarse matrices near that place are made anew. (A
- * coarse matrix that knows nothing of the set takes 34 to 189 iterations where
- * this takes 8 to 11.)
+ * for all components. Coarse matrices are P^T A P without rows and columns that
+ * are held on the finest mesh, and nothing else: where the set has changed, the
+ * rows of the coarse matrices nearby are computed again. (With coarse matrices
+ * that ignore the set it takes 34 to 189 iterations instead of 8 to 11.)
  *
  *     abut_multigrid_create(context, &hierarchy, &mg);
  *     abut_multigrid_set_matrix(mg, &matrix);
@@ -27,11 +26,10 @@
  * is held.
  *
  * Several ranks can share a hierarchy. Each has the nodes that it owns and
- * copies of some others, and sums up its own part of all matrices: those of
- * all ranks together are the matrix. What the core does not know, which
- * copies belong together, two functions of the host do (abut_multigrid_ranks).
- * Then hold() and cycle() are collective, and so is failure.
- */
+ * copies of some others, and sums up its own part of all matrices: those of all
+ * ranks together are the matrix. The core does not know which copies belong
+ * together; two functions of the host do (abut_multigrid_ranks). Then hold()
+ * and cycle() are collective, and so is failure. */
 
 #include <abut/strategy.h>
 
@@ -58,7 +56,7 @@ extern "C"
     const double *weight;  /**< of these */
   } abut_multigrid_mesh;
 
-  /** What a rank must know of the others. */
+  /** Data of the other ranks that a rank needs. */
   typedef struct abut_multigrid_ranks
   {
     /** [n_meshes] The nodes first_own[l] to first_own[l] + n_own[l] - 1 of mesh
@@ -105,14 +103,14 @@ extern "C"
     const double *value;   /**< [start[n]] */
   } abut_multigrid_matrix;
 
-  /** What a hierarchy is and has cost. */
+  /** Sizes of a hierarchy and its cost. */
   typedef struct abut_multigrid_report
   {
     size_t struct_size; /**< sizeof(abut_multigrid_report) */
     int32_t n_meshes;   /**< levels */
     int32_t n_coarsest; /**< free unknowns of the coarsest level */
     int64_t n_entries;  /**< numbers in the matrices of all levels */
-    int64_t n_renewed;  /**< coarse rows that the last hold() made anew */
+    int64_t n_renewed;  /**< coarse rows that the last hold() computed again */
     double largest[32]; /**< [n_meshes] bound of the eigenvalues of the
                              matrix scaled by its diagonal blocks */
   } abut_multigrid_report;
@@ -139,10 +137,10 @@ extern "C"
   ABUT_API abut_status abut_multigrid_set_terms(
       abut_multigrid *multigrid, const abut_multigrid_matrix *terms);
 
-  /** Tell which unknowns are held ([rows], nonzero; NULL: none) and what is
-   * added to the diagonal ([rows], >= 0; NULL: nothing). Costs what is near
-   * the rows that have changed; after a new matrix, all. UNSUPPORTED if the
-   * coarsest level has too many unknowns to be factorised: 4000. */
+  /** Set the unknowns that are held ([rows], nonzero; NULL: none) and the
+   * values added to the diagonal ([rows], >= 0; NULL: nothing). Costs what is
+   * near the rows that have changed; after a new matrix, all. UNSUPPORTED if
+   * the coarsest level has too many unknowns to be factorised: 4000. */
   ABUT_API abut_status abut_multigrid_hold(abut_multigrid *multigrid,
                                            const uint8_t *held,
                                            const double *added);
@@ -151,7 +149,7 @@ extern "C"
   ABUT_API abut_status abut_multigrid_cycle(abut_multigrid *multigrid,
                                             const double *r, double *x);
 
-  /** What there is, for reports and tests. */
+  /** Description for reports and tests. */
   ABUT_API abut_status abut_multigrid_describe_sized(
       const abut_multigrid *multigrid, abut_multigrid_report *report);
 

@@ -11,7 +11,7 @@
  * normal of its contact row is minus the gradient.
  *
  * An obstacle is described in its own frame and placed in space by a pose, x =
- * R X + T, which may be set anew at every load step. Three ways lead to one:
+ * R X + T, which may change at every load step. Three ways lead to one:
  *
  *   shapes     plane, sphere, cylinder, box, cone: closed formulas, some ten
  *              nanoseconds per point, exact also at edges and tips
@@ -159,7 +159,7 @@ extern "C"
     /** Length > 0 over which the gradient changes a good deal, such as the
      * smallest radius of curvature: second derivatives are differences with a
      * thousandth of it as their step. 0 (default): the largest coordinate of
-     * the points asked for, in the obstacle's frame. */
+     * the points requested, in the obstacle's frame. */
     double length;
     /** The derivative of the value where the gradient of evaluate is another
      * vector, such as the axis of a height: (h', -1) instead of (0, -1).
@@ -246,7 +246,7 @@ extern "C"
    * surfaces. O(1). */
   ABUT_API double abut_obstacle_depth(const abut_obstacle *obstacle);
 
-  /** What an obstacle is, and what it has found. */
+  /** Description of an obstacle, and its statistics. */
   typedef struct abut_obstacle_view
   {
     size_t struct_size;      /**< sizeof(abut_obstacle_view) */

@@ -3,15 +3,14 @@
 #define ABUT_PLUGIN_H
 
 /** @file
- * What a plugin says of itself, and its one entry.
+ * Description of a plugin, and its one entry.
  *
  * A plugin is Abut as a module that deal.II programs load at run time, see
  * abut/dealii/load_plugin.h. It is not linked to deal.II: it uses that of the
  * program, and so both must come from the same compiler, with the same options
- * and the same deal.II. The stamp says what it was built with. It stands as
+ * and the same deal.II. The stamp has its compiler and libraries. It stands as
  * plain data in the file, so that it is read and compared before the plugin is
- * loaded: no code of a plugin that does not fit is ever run.
- */
+ * loaded: no code of a plugin that does not fit is ever run. */
 
 #include <abut/export.h>
 #include <stddef.h>
@@ -33,7 +32,7 @@ extern "C"
  */
 #define ABUT_PLUGIN_QUERY "abut_plugin_query"
 
-  /** What a plugin was built with; texts end in NUL. */
+  /** Compiler and libraries of a plugin; texts end in NUL. */
   typedef struct abut_plugin_stamp
   {
     char magic[16];      /**< ABUT_PLUGIN_MAGIC */
@@ -49,7 +48,7 @@ extern "C"
                               border */
   } abut_plugin_stamp;
 
-  /** What a plugin offers. */
+  /** Functions of a plugin. */
   typedef struct abut_plugin
   {
     size_t struct_size;             /**< sizeof(abut_plugin) */

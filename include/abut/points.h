@@ -44,7 +44,7 @@ extern "C"
 {
 #endif
 
-  /** What a point asks for. */
+  /** The condition at a point. */
   typedef enum abut_point_kind
   {
     ABUT_POINT_CONTACT = 0, /**< the normal gap may open */

@@ -63,8 +63,8 @@ extern "C"
                                           const double *nodes, const double *x,
                                           abut_projection *projection);
 
-  /** Pairs of points and facets of one kind, and what to know about them.
-   * Arrays are owned by the caller; result arrays may be NULL. */
+  /** Pairs of points and facets of one kind, and their data. Arrays are owned
+   * by the caller; result arrays may be NULL. */
   typedef struct abut_projection_batch
   {
     size_t struct_size;         /**< sizeof(abut_projection_batch) */
@@ -131,7 +131,7 @@ extern "C"
   /** The same of the signed distance g = side |x - y|, wherever the nearest
    * point y is: inside, where it is the gap as above, on an edge, or at a
    * corner. On an edge T and E are those along it, at a corner there are none,
-   * and the direction n = (x - y) / g turns about the edge or the corner:
+   * and the direction n = (x - y) / g rotates about the edge or the corner:
    *
    *     d2g += v' (I - n n' - t t') v / g,  v = dx - sum N dx,
    *
@@ -140,8 +140,8 @@ extern "C"
    * projection is on.
    * @param x [dimension] the point that was projected
    * @param side 1 where x is outside of the surface, -1 inside; the facet's own
-   *   normal does not tell beside a corner. Without meaning inside the facet
-   * UNSUPPORTED where x lies on the edge, besides what is said above. */
+   * normal does not decide it near a corner. Without meaning inside the facet
+   * UNSUPPORTED where x lies on the edge, in addition to the cases above. */
   ABUT_API abut_status abut_facet_distance_derivatives(
       abut_facet_kind kind, const double *nodes, const double *x,
       const abut_projection *projection, double side, double *gradient,

@@ -67,7 +67,7 @@ extern "C"
     abut_search_algorithm algorithm;
     /** Edge of a bucket as a multiple of the median facet size, >= 0; 0
      * (default) chooses it from the data. Uniform: values below the search
-     * radius are raised to it, which the statistics tell. Adaptive: a bucket
+     * radius are raised to it, which the statistics report. Adaptive: a bucket
      * holds bucket_size^2 facets (2D: bucket_size), if capacity is 0. */
     double bucket_size;
     /** Adaptive: most facets in a bucket, 0 (default: bucket_size decides) or
@@ -77,9 +77,9 @@ extern "C"
     double reach;
     /** Reach relative to the size of each facet, >= 0; default 0.5. */
     double relative_reach;
-    /** Length, >= 0, by which lists are made too long, so that they serve
-     * again after small motion; default 0: lists are made anew whenever
-     * something moved. */
+    /** Length, >= 0, by which lists are made too long, so that they serve again
+     * after small motion; default 0: lists are made again whenever something
+     * moved. */
     double skin;
     double reserved[4]; /**< 0: room for later options, since this struct stands
                              in others */
@@ -121,10 +121,10 @@ extern "C"
                                              double relative_reach,
                                              double skin);
 
-  /** Bring the search up to date with the positions of its surface. Queries
-   * do this by themselves. After motion the buckets are kept and their boxes
+  /** Bring the search up to date with the positions of its surface. Queries do
+   * this by themselves. After motion the buckets are kept and their boxes
    * refitted as long as the boxes have not grown by more than a half in sum;
-   * else everything is sorted anew. O(n). */
+   * else everything is sorted again. O(n). */
   ABUT_API abut_status abut_search_update(abut_search *search);
 
   /** Create an empty list of pairs. */
@@ -179,7 +179,7 @@ extern "C"
                                           const double *points,
                                           abut_pairs *pairs);
 
-  /** What a search consists of and has done so far. */
+  /** Sizes of a search and its work so far. */
   typedef struct abut_search_statistics
   {
     size_t struct_size;      /**< sizeof(abut_search_statistics) */
@@ -189,7 +189,7 @@ extern "C"
     int64_t n_levels;        /**< adaptive: classes of facet size; else 1 */
     double bucket_edge;      /**< uniform: edge in use, length; else 0 */
     int32_t capacity;        /**< adaptive: facets per bucket in use; else 0 */
-    int32_t bucket_raised;   /**< nonzero: the bucket size asked for was below
+    int32_t bucket_raised;   /**< nonzero: the bucket size requested was below
                                   the search radius and was raised */
     int64_t structure_bytes; /**< what the algorithm holds: order, buckets,
                                   hash table, room for sorting */

@@ -52,7 +52,7 @@ extern "C"
     return options;
   }
 
-  /** What a split met. */
+  /** Findings of a split. */
   typedef struct abut_split_report
   {
     size_t struct_size;  /**< sizeof(abut_split_report) */
@@ -64,13 +64,13 @@ extern "C"
     int64_t n_met;       /**< of n_pairs, within near and on one side so far */
   } abut_split_report;
 
-  /** Put each facet of a surface on a side, at the present positions.
+  /** Put each facet of a surface on a side, at the current positions.
    *
    * Pairs of facets within reach with opposed normals and no common node, not
    * through the body, are taken in the order of their distance, what is beside
    * their normals counted twice; then facets with a common node in the order of
    * their numbers; each takes effect unless those before have settled the
-   * matter. Of the parts that this leaves apart, the facet with the smallest
+   * matter. Among the parts that this leaves apart, the facet with the smallest
    * number is secondary. The result depends on numbers, positions and the sides
    * so far only.
    *

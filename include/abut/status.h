@@ -13,8 +13,7 @@
  *
  * Calls that reduce over ranks (abut_strategy_start() and its like) fail on all
  * of them. FAILED_ELSEWHERE is the status of those where nothing was wrong:
- * status and text of another one tell more.
- */
+ * status and text of another one have the cause. */
 
 #include <abut/export.h>
 

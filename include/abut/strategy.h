@@ -9,7 +9,7 @@
  *
  * The strategy owns pressure, slack and state of each row; the host owns the
  * displacement and the linear solver. The host calls abut_strategy_next() and
- * does what the returned action says:
+ * carries out the returned action:
  *
  *     SOLVE        solve  K du - sum w dp B = -R,  a dp + b dg = -c
  *                  with dg = B du for du; return dg and dp in the arrays of
@@ -38,7 +38,7 @@ extern "C"
   /** Opaque strategy. */
   typedef struct abut_strategy abut_strategy;
 
-  /** What the host has to do next. */
+  /** The next action of the host. */
   typedef enum abut_action
   {
     ABUT_ACTION_SOLVE,
@@ -97,14 +97,15 @@ extern "C"
      * closed rows are judged by their pressure and open ones by their gap. */
     double complementarity;
     /** First mu/(pressure_scale length_scale) of the barrier, if there is no
-     * starting pressure to tell a better one; default 0.1. */
+     * starting pressure to estimate a better one; default 0.1. */
     double barrier_start;
     double barrier_factor; /**< reduction per continuation step; default 0.1 */
     double barrier_end;    /**< last mu, same unit; default 1e-8 */
     double gap_tolerance;  /**< penetration / length_scale; default 1e-6 */
     double pressure_tolerance; /**< weighted relative change; default 1e-3 */
-    /** Relative tolerance that SOLVE asks of the linear solver while the set
-     * still changes; default 1e-2. The interior point tightens it with mu. */
+    /** Relative tolerance that SOLVE requires of the linear solver while the
+     * set still changes; default 1e-2. The interior point tightens it with mu.
+     */
     double linear_tolerance;
     /** The same for the last solve; default 1e-10. If it is not below
      * linear_tolerance there is no last solve of its own. */
@@ -160,7 +161,7 @@ extern "C"
   ABUT_API double
   abut_strategy_first_penalty(const abut_strategy_options *options);
 
-  /** What the host is to do, and with which numbers. */
+  /** The next action of the host, and its data. */
   typedef struct abut_request
   {
     size_t struct_size; /**< sizeof(abut_request) */
@@ -194,7 +195,7 @@ extern "C"
   typedef struct abut_progress
   {
     size_t struct_size;     /**< sizeof(abut_progress) */
-    int32_t step;           /**< linear systems (SOLVE) asked for so far */
+    int32_t step;           /**< linear systems (SOLVE) requested so far */
     int32_t outer;          /**< outer steps so far: times that the set
                                  settled, values of mu done, or interior point
                                  iterations */
@@ -209,25 +210,24 @@ extern "C"
     int32_t
         cycle_length; /**< of the last detected cycle of active sets, or 0 */
     int32_t fallback_steps; /**< steps in which only one row was flipped */
-    /** What the iteration itself has measured that would explain its end: the
-     * penalty at its cap, multipliers whose gaps do not fall, very short steps
-     * of an interior point, a law that further solves do not meet; else NONE.
-     */
+    /** Cause of its end that the iteration itself has measured: the penalty at
+     * its cap, multipliers whose gaps do not fall, very short steps of an
+     * interior point, a law that further solves do not meet; else NONE. */
     abut_failure seen;
     int64_t n_slipping; /**< points in contact whose traction is at its bound */
     /** How far sets of stick and slip that came back were cured: 0 not needed,
      * 1 by another derivative of the bound, 2 by a coefficient that grew in
-     * quarters, 3 by Tresca's problems with frozen bounds, 4 not at all. Of
+     * quarters, 3 by Tresca's problems with frozen bounds, 4 not at all. With
      * ABUT_FRICTION_TRESCA it is 3 from the start. */
     int32_t friction_rung;
   } abut_progress;
 
   /** The known failure behind the end of a strategy with this law, by what was
-   * measured: what progress->seen says, sets that come back, a penalty of
-   * nitsche below any that is stable, a set that still moves after a dozen of
-   * steps; STEP_LIMIT where a limit was reached and nothing else is known.
-   * CYCLE, too, where it converged only by changing rows one by one; else NONE.
-   * NULL arguments give NONE. */
+   * measured: progress->seen, sets that come back, a penalty of nitsche below
+   * any that is stable, a set that still moves after a dozen of steps;
+   * STEP_LIMIT where a limit was reached and nothing else is known. CYCLE, too,
+   * where it converged only by changing rows one by one; else NONE. NULL
+   * arguments give NONE. */
   ABUT_API abut_failure abut_reason_failure(abut_reason reason,
                                             const abut_law *law,
                                             const abut_progress *progress);
@@ -240,10 +240,10 @@ extern "C"
   /** Destroy a strategy and set the handle to NULL. */
   ABUT_API abut_status abut_strategy_destroy(abut_strategy **strategy);
 
-  /** What supports leave of a tangent: where they fix the node of a point,
-   * stick is no constraint, but friction remains. Along such tangents a point
-   * that sticks has springs of 1e4 times the stiffness of its row from the
-   * traction at the last accepted step, then from the one found, until it
+  /** Freedom that supports leave along a tangent: where they fix the node of a
+   * point, stick is no constraint, but friction remains. Along such tangents a
+   * point that sticks has springs of 1e4 times the stiffness of its row from
+   * the traction at the last accepted step, then from the one found, until it
    * stays; laws that keep their penalty have their own. */
   typedef enum abut_tangent
   {
@@ -296,9 +296,8 @@ extern "C"
    * @param bilateral [n] or NULL
    * @param gap [n] at the starting displacement
    * @param pressure [n] starting pressure, or NULL for 0. Augmented
-   *   Lagrangian takes it as the first multiplier, replaced as
-   *   options.project says; interior point makes a
-   *   warm start of it if some pressure is positive
+   *   Lagrangian takes it as the first multiplier, replaced by options.project;
+   * interior point makes a warm start of it if some pressure is positive
    * @param state [n] starting set, or NULL for the one that p and g call for
    * Arrays are copied. O(n). A rank whose arguments are wrong makes all
    * others return FAILED_ELSEWHERE. UNSUPPORTED for bilateral rows under an
@@ -314,7 +313,7 @@ extern "C"
    * same answer is given again. Collective. O(n) and no memory; about five
    * reductions of a few numbers per linear system. After a failure only a new
    * start is legal. Where the reason is not CONVERGED, abut_context_message()
-   * says what was seen. */
+   * has the cause. */
   ABUT_API abut_status abut_strategy_next_sized(abut_strategy *strategy,
                                                 const double *gap,
                                                 abut_request *request);
@@ -352,14 +351,15 @@ extern "C"
     /** MOVE: move the displacement and write the new gap. */
     abut_status (*move)(void *user, const abut_request *request, double *gap);
     /** Called after each step, when its outcome is known; may be NULL. The
-     * request is the next one, and progress->outer tells outer steps apart. */
+     * request is the next one, and progress->outer is the number of the outer
+     * step. */
     void (*monitor)(void *user, const abut_progress *progress,
                     const abut_request *request);
   } abut_host;
 
   /** Run a started strategy to its end. @p reason may be NULL. Where a method
    * ends without convergence, that is a reason and not a failure;
-   * abut_context_message() then tells what was seen. A failure of the host's
+   * abut_context_message() then has the cause. A failure of the host's
    * functions is returned as CALLBACK_FAILED, on all ranks. */
   ABUT_API abut_status abut_strategy_run(abut_strategy *strategy,
                                          const abut_host *host,

@@ -7,10 +7,10 @@
  *
  * A surface may hold the facets of several groups (bodies, boundary ids). Its
  * topology is fixed at creation; positions move by abut_surface_update().
- * Numbers that the caller gives to nodes and facets say which nodes are the
- * same (in self contact, and between surfaces) and settle ties, so that a
- * result does not depend on the order of the arrays or on how a surface was
- * cut into parts.
+ * Numbers that the caller gives to nodes and facets determine which nodes are
+ * the same (in self contact, and between surfaces) and settle ties, so that a
+ * result does not depend on the order of the arrays or on how a surface was cut
+ * into parts.
  *
  * Directions of normals and orders of nodes are those of abut/facet.h.
  */
@@ -147,7 +147,7 @@ extern "C"
     return abut_surface_get_sized(surface, view);
   }
 
-  /** Averaged unit normals of the nodes at the present positions, [n_nodes *
+  /** Averaged unit normals of the nodes at the current positions, [n_nodes *
    * dimension] (step 1 of the detection).
    *
    * The mean of the normals of the facets of a node, weighted by their areas;
@@ -158,7 +158,7 @@ extern "C"
   ABUT_API abut_status abut_surface_normals(abut_surface *surface,
                                             const double **normal);
 
-  /** Sizes of a surface at the present positions. The size of a facet is the
+  /** Sizes of a surface at the current positions. The size of a facet is the
    * length of its longest side. */
   typedef struct abut_surface_sizes
   {
@@ -170,7 +170,7 @@ extern "C"
     double lower[3];         /**< box of the nodes of all facets */
     double upper[3];         /**< lower > upper without facets */
     int64_t n_border_sides;  /**< sides without a neighbour */
-    int64_t n_feature_sides; /**< sides across which the normal turns by more
+    int64_t n_feature_sides; /**< sides across which the normal rotates by more
                                 than feature_angle (each counted once) */
   } abut_surface_sizes;
 

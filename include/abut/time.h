@@ -58,7 +58,7 @@ extern "C"
 {
 #endif
 
-  /** What the mass matrix is to be. */
+  /** Form of the mass matrix. */
   typedef enum abut_time_mass
   {
     ABUT_TIME_MASS_CONSISTENT, /**< that of the elements */
@@ -117,8 +117,8 @@ extern "C"
    * is the default. */
   ABUT_API const char *abut_time_scheme_name(int32_t index);
 
-  /** The scheme of the options; NULL: the defaults. UNSUPPORTED for a name that
-   * is none, INVALID_ARGUMENT for numbers out of range. */
+  /** The scheme of the options; NULL: the defaults. UNSUPPORTED for an unknown
+   * name, INVALID_ARGUMENT for numbers out of range. */
   ABUT_API abut_status abut_time_scheme_make_sized(
       const abut_time_options *options, abut_time_scheme *scheme);
 
@@ -139,8 +139,8 @@ extern "C"
     ABUT_TIME_STEP        /**< the step itself */
   } abut_time_stage;
 
-  /** What matrices and loads of a step are multiplied by. In the step of an
-   * explicit scheme the unknown is the acceleration, else a displacement. */
+  /** Factors of matrices and loads of a step. In the step of an explicit scheme
+   * the unknown is the acceleration, else a displacement. */
   typedef struct abut_time_weights
   {
     size_t struct_size; /**< sizeof(abut_time_weights) */
@@ -263,9 +263,9 @@ extern "C"
   ABUT_API abut_status abut_time_begin(const abut_time_state *state,
                                        double *predicted);
 
-  /** Take over what the projection of @p predicted found: the velocity becomes
-   * the one that leads to @p projected, both [n]. WRONG_ORDER if the scheme has
-   * no projection. */
+  /** Take over the result of the projection of @p predicted: the velocity
+   * becomes the one that leads to @p projected, both [n]. WRONG_ORDER if the
+   * scheme has no projection. */
   ABUT_API abut_status abut_time_project(const abut_time_state *state,
                                          const double *predicted,
                                          const double *projected);
@@ -289,7 +289,7 @@ extern "C"
 
   /** End the step with @p unknown [n], as above: displacement, velocity and
    * acceleration become those at its end. NOT_FINITE, and nothing changed, if
-   * one of the new values is no number. */
+   * one of the new values is not finite. */
   ABUT_API abut_status abut_time_end(const abut_time_state *state,
                                      const double *unknown);
 
@@ -301,17 +301,17 @@ extern "C"
     double strain;        /**< 1/2 u'Ku */
     double contact;       /**< in penalty springs */
     double dissipated;    /**< by friction and damping, since the start */
-    double external_work; /**< of loads and of what moves supports and
-                               obstacles, since the start */
+    double external_work; /**< of loads and of prescribed motions, since the
+                             start */
   } abut_time_energy;
 
-  /** What the energy balance has come to. */
+  /** Verdict on the energy balance. */
   typedef enum abut_time_verdict
   {
     ABUT_TIME_STEADY,   /**< within what the scheme may gain */
     ABUT_TIME_GAINS,    /**< more: warn, ABUT_FAILURE_ENERGY_GAIN */
-    ABUT_TIME_BLOWS_UP, /**< beyond a hundred times all energy that there
-                             was, or no number: stop, ABUT_FAILURE_BLOW_UP */
+    ABUT_TIME_BLOWS_UP, /**< beyond a hundred times all energy that there was,
+                           or not finite: stop, ABUT_FAILURE_BLOW_UP */
     ABUT_TIME_LOSES     /**< a twentieth and more is gone that friction and
                              damping have not taken: warn,
                              ABUT_FAILURE_ENERGY_LOSS. Not of schemes with

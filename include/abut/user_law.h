@@ -61,8 +61,8 @@ extern "C"
     /** Names of all parameters, then NULL; may be NULL itself. Each must be
      * given in the parameter file. */
     const char *const *parameter_names;
-    /** Look at the parameters: NULL if they are good, else one sentence that
-     * says what is wrong. May be NULL. */
+    /** Look at the parameters: NULL if they are good, else one sentence with
+     * the error. May be NULL. */
     const char *(*check)(const double *parameters);
   } abut_user_law;
 

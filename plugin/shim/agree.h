@@ -49,7 +49,7 @@ namespace abut::shim
     return known == nullptr ? Message(error.what()) : known->message();
   }
 
-  /** Run @p function. What it throws on any rank is thrown on all: as an Error
+  /** Run @p function. An exception on any rank is thrown on all: as an Error
    * with the message of the lowest such rank, and unchanged if there is only
    * one. The function must not communicate. Collective. */
   template <typename Error, typename Function>
@@ -77,7 +77,7 @@ namespace abut::shim
     throw_everywhere<Error>(communicator, message);
   }
 
-  /** What the core says of a call that failed; empty if it did not. */
+  /** The core's message about a call that failed; empty if it did not. */
   inline std::string message_of(const abut_context *context,
                                 const abut_status status)
   {

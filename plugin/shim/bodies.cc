@@ -116,7 +116,7 @@ namespace abut::shim
 
     // Other fields than the displacement may have no support points.
     const dealii::FiniteElement<dim> &element = fe.base_element(0);
-    // Of linear elements the mapped vertices are all that is needed.
+    // For linear elements the mapped vertices suffice.
     const bool is_linear =
         fe.degree == 1 && fe.n_base_elements() == 1
         && dynamic_cast<const dealii::FE_Q<dim> *>(&fe.base_element(0))

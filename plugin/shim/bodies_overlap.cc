@@ -15,7 +15,8 @@ namespace abut::shim
 {
   namespace
   {
-    /** What is nearer to the surface, in a cell of size 1, touches it. */
+    /** A point that is nearer to the surface, in a cell of size 1, touches it.
+     */
     constexpr double near_surface = 0.01;
 
     template <int dim> struct PlacedNode

@@ -20,8 +20,8 @@ namespace abut::shim
   /** The node of two surfaces, given by their boundary ids, that is deepest
    * inside of another body, which the other surface belongs to, before anything
    * is displaced. Depths are those below the surface of the cell that the node
-   * is in, or the size of a cell that has none; a hundredth of a cell is none.
-   * All ranks get the same. Some passes over the cells and O(log n) for each
+   * is in, or the size of a cell that has none; a hundredth of a cell counts as
+   * 0. All ranks get the same. Some passes over the cells and O(log n) for each
    * cell of these bodies. Collective. */
   template <int dim>
   NodeInside<dim>

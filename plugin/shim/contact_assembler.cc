@@ -173,7 +173,7 @@ namespace abut
     i.clear_source();
     i.solver.reset();
     i.kept_preconditioner.clear();
-    // Assigned anew, they would keep the ranks that unknowns had before, where
+    // Assigned again, they would keep the ranks that unknowns had before, where
     // the number of unknowns is the same.
     i.abandon_iteration();
     i.start_displacement = la::Vector();
@@ -334,7 +334,7 @@ namespace abut
     AssertThrow(!i.is_started || i.request.action == ABUT_ACTION_SOLVE,
                 ExcMessage("The contact iteration has stopped: call detect() "
                            "to begin a new one."));
-    // An infeasible start stops a barrier at once; update() then says so.
+    // An infeasible start stops a barrier at once; update() then reports it.
     increment = 0.;
     if (!i.is_started)
       i.begin(matrix, residual);
@@ -528,7 +528,8 @@ namespace abut
     const bool failed =
         reason() != ABUT_REASON_NONE && reason() != ABUT_REASON_CONVERGED;
     const abut_failure_entry *known = abut_failure_get(failure());
-    // What helps other methods that do not contract is of no use to friction.
+    // Remedies for other methods that do not contract are of no use with
+    // friction.
     return (known != nullptr && known->failure == ABUT_FAILURE_STICK_SLIP
                 ? std::string(known->name) + ": " + known->remedy
                 : std::string(abut_reason_text(reason())))

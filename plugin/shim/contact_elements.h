@@ -23,7 +23,7 @@ namespace abut::shim
      * primary side have in common with no others. Each on one rank. */
     using Table = std::unordered_map<std::int64_t, std::uint64_t>;
 
-    /** Of another mesh, nothing can be compared. */
+    /** Elements of another mesh cannot be compared. */
     void forget()
     {
       *this = ContactElements();

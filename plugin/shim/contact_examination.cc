@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What an answer is worth: measures first, then what they are a sign of.
+// Quality of an answer: measures first, then the faults that they are a sign
+// of.
 #include "contact_implementation.h"
 
 #include "deformation.h"
@@ -21,13 +22,13 @@ namespace abut
     /** Part of a whole by which an answer may contradict itself. */
     constexpr double useless = 0.1;
 
-    /** Distance of facets from their curve, by what moves at the most,
-     * that leaves no digit of a pressure. */
+    /** Distance of facets from their curve, relative to the largest motion,
+     * that leaves a pressure without accuracy. */
     constexpr double useless_chord = 1.;
 
-    /** Strains that small-strain theory is off by visibly, and that it is of
-     * no use for. A body that is a third of its size shorter has such a mean.
-     */
+    /** Strains at which the error of small-strain theory is visible, and at
+     * which it is of no use. A body that is a third of its size shorter has
+     * such a mean. */
     constexpr double visible_strain = 0.05, useless_strain = 0.5,
                      useless_mean_strain = 1. / 3.;
 
@@ -128,11 +129,11 @@ namespace abut
                            "at its sign.");
     }
 
-    /** Depths on a pair beside what bodies are deformed by. */
+    /** Scales of depths on a pair: deformation of the bodies. */
     struct Scale
     {
-      double way = 0.;   ///< what bodies are deformed by
-      double far = 0.;   ///< what moves at the most
+      double way = 0.;   ///< deformation of the bodies
+      double far = 0.;   ///< largest displacement
       double least = 0.; ///< that is no round-off of places
 
       /** Far from its place, a body's gaps have the round-off of its way. */
@@ -268,7 +269,7 @@ namespace abut
                            "normal if contact is to carry them.");
     }
 
-    /** Facets that turn by a large angle: polygons that are in each other. */
+    /** Facets that rotate by a large angle: polygons that are in each other. */
     template <int dim>
     void judge_corners(const PairResult<dim> &pair, const PairCheck &check,
                        const double depth, const Scale &scale,
@@ -291,7 +292,7 @@ namespace abut
     }
 
     /** Straight facets whose distance from their curve is as large as all that
-     * is pressed in: no digit of the pressure is left. */
+     * is pressed in: the pressure has no accuracy left. */
     void judge_chords(const std::string &pair, const double error,
                       const Scale &scale, Findings &findings)
     {
@@ -312,9 +313,10 @@ namespace abut
                        const double size, const double size_ratio,
                        const Scale &scale, Findings &findings)
     {
-      // Rows that are soft are told of by themselves.
+      // Rows that are soft have a report of their own.
       const double between = pair.between_rows - std::max(0., pair.penetration);
-      // What a round side does to facets that are small beside its radius.
+      // Distance of a round side from facets that are small compared with its
+      // radius.
       const auto if_flat = [&](const double depth)
       { return pair.between_rows <= missed_part * size ? depth : 0.; };
       if (!is_obstacle)
@@ -379,8 +381,8 @@ namespace abut
     }
 
     /** Bodies in the obstacle elsewhere than at the surface of the pair: the
-     * depth there is no more than that at the surface if that is what holds
-     * the obstacle. */
+     * depth there is no more than that at the surface if that stops the
+     * obstacle. */
     template <int dim>
     void judge_inside(const std::string &pair,
                       const shim::ObstacleInBodies<dim> &found,
@@ -410,7 +412,7 @@ namespace abut
     {
       double missed = 0., peak = 0., any = 0.;
 
-      /** Of the cells or of the facets of a @p pair. Collective. */
+      /** The deepest of the cells or of the facets of a @p pair. Collective. */
       Deepest(const std::vector<shim::Unseen> &unseen, const std::size_t pair,
               const MPI_Comm communicator)
       {
@@ -576,7 +578,8 @@ namespace abut
                                || pairs[p].between_rows > 0.);
       judge_apart(pairs[p].name, apart[p], follows, scale, findings);
       judge_width(pairs[p].name, narrow, findings);
-      // What presses may be deformed by bending alone: beside all that moves.
+      // Bodies with pressure may be deformed by bending alone: compared with
+      // all motion.
       const Scale motion{scale.far, scale.far, scale.least};
       judge_chords(pairs[p].name,
                    i.surfaces->chord_error(p, i.row_states().data(),

@@ -241,8 +241,8 @@ namespace abut
     shim::Handle<abut_points> old_points = std::move(points);
     find_points(displacement);
     take_points();
-    // Rows come and go where gaps are as large as the reach: then those of the
-    // last linearisation tell as much.
+    // Rows come and go where gaps are as large as the reach: then the rows of
+    // the last linearisation suffice.
     if (MPI::logical_or(before != row_numbers(), communicator))
     {
       points = std::move(old_points);

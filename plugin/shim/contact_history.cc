@@ -15,8 +15,8 @@ namespace abut::shim
 
   namespace
   {
-    /** Where to ask for a point: the same rank for all points of a facet.
-     * Numbers come in strides; their products by an odd constant do not
+    /** The rank to request a point from: the same rank for all points of a
+     * facet. Numbers come in strides; their products by an odd constant do not
      * (Knuth, TAOCP 6.4). */
     unsigned int meeting_rank(const std::int64_t id, const unsigned int n_ranks)
     {
@@ -89,16 +89,16 @@ namespace abut::shim
       check(context, abut_history_set(history, &given));
     }
 
-    /** Where a solve ended in a pressure that is no number, the next begins
-     * with none. */
+    /** Where a solve ended in a pressure that is not finite, the next begins
+     * without pressure. */
     double finite_pressure(const double pressure)
     {
       return std::isfinite(pressure) ? pressure : 0.;
     }
 
-    /** Points by ascending numbers. Those that are open and have no pressure
-     * are left out: of points that it does not know the history says the same.
-     */
+    /** Points by ascending numbers. Points that are open and have no pressure
+     * are left out: the history has the same answer for points that it does not
+     * know. */
     void set_loaded(const abut_context *context, abut_history *history,
                     const std::vector<std::int64_t> &id,
                     const std::vector<double> &pressure,

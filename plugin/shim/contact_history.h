@@ -15,13 +15,13 @@
 
 namespace abut::shim
 {
-  /** What contact remembers on all ranks: the core's history, and the way to it
+  /** History of contact on all ranks: the core's history, and the way to it
    * where the points have come to other ranks.
    *
-   * Entries stay on the rank that recorded them. As long as the mesh is not cut
-   * anew, that rank has the points; afterwards what is asked for goes by way of
-   * a third rank, see contact_history.cc, until the values are recorded
-   * again. */
+   * Entries stay on the rank that recorded them. As long as the mesh is not
+   * partitioned again, that rank has the points; afterwards requests go through
+   * a third rank, see contact_history.cc, until the values are recorded again.
+   */
   class ContactHistory
   {
   public:
@@ -58,7 +58,7 @@ namespace abut::shim
               const std::vector<PlacedRow> &placed,
               abut_history_version version = ABUT_HISTORY_TRIAL);
 
-    /** The penalty that the next solve goes on with; without a law if it is
+    /** The penalty that the next solve goes on with; without a law if there is
      * none. Not collective. */
     Penalty penalty_to_resume() const;
 
@@ -76,12 +76,12 @@ namespace abut::shim
 
     /** Make both versions what save() wrote, which rank 0 reads. Throws
      * HistoryError on all ranks, without any change, if it is anything else or
-     * of another mesh than that with this signature. What follows in the stream
-     * is for @p read_rest, which may throw so, too. Collective. */
+     * of another mesh than that with this signature. The rest of the stream is
+     * for @p read_rest, which may throw so, too. Collective. */
     void load(std::istream &stream, std::uint64_t mesh,
               const std::function<void()> &read_rest);
 
-    /** What this rank has sent. */
+    /** Data that this rank has sent. */
     const CommunicationReport &sent() const
     {
       return post_.sent();

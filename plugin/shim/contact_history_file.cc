@@ -111,8 +111,8 @@ namespace abut::shim
       return parts;
     }
 
-    /** What @p function throws on rank 0 is thrown on all ranks; it is called
-     * there alone. Collective. */
+    /** An exception of @p function on rank 0 is thrown on all ranks; it is
+     * called there alone. Collective. */
     template <typename Function>
     void run_on_first(const MPI_Comm communicator, const Function &function)
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What a host brings, of whatever type, as vectors and matrices of Abut's.
+// Vectors and matrices of a host, of whatever type, as ones of Abut's types.
 #include "contact_implementation.h"
 
 #include <deal.II/dofs/dof_tools.h>

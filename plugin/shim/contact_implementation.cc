@@ -59,7 +59,7 @@ namespace abut
       return abut_law_has_penalty(&law) && !abut_law_updates_multipliers(&law);
     }
 
-    /** Number that tells operators apart: their values, but for gaps. */
+    /** Number that distinguishes operators: their values, but for gaps. */
     std::uint64_t signature(const solve::PointOperator &rows)
     {
       shim::FnvHash hash;
@@ -321,7 +321,7 @@ namespace abut
     }
     catch (...)
     {
-      // What is left of the points is not what they were made of.
+      // The remaining points are not the ones that these were made of.
       coefficients = solve::PointOperator();
       view = {};
       throw;
@@ -333,8 +333,8 @@ namespace abut
     coefficients = make_operator(points.get(), view);
     n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
                       communicator);
-    // A solver is kept as long as it would be made of the same rows: of the
-    // undeformed bodies they are the same in most load steps.
+    // A solver is kept as long as it would be made of the same rows: in the
+    // reference configuration they are the same in most load steps.
     const std::uint64_t before = rows_signature;
     rows_signature = signature(coefficients);
     if (MPI::logical_or(before != rows_signature, communicator))
@@ -676,7 +676,7 @@ namespace abut
 
   template <int dim> bool ContactAssembler<dim>::Implementation::widen_search()
   {
-    // Of the size of the smallest body.
+    // Parts of the size of the smallest body.
     constexpr double first = 0.5, growth = 4., last = 8.;
     if (surfaces == nullptr)
       return false;

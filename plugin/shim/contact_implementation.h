@@ -86,7 +86,7 @@ namespace abut
     void compute_gap(const la::Vector &displacement);
     /** Slips are measured from where obstacles are now. */
     void note_poses();
-    /** What slips are measured from, with the present points. Collective. */
+    /** Find the reference of slips, with the present points. Collective. */
     void find_slip_reference();
     /** Note what bodies move before pairs touch, which is no slip. Collective.
      */
@@ -98,14 +98,14 @@ namespace abut
     /** A motion on the present mesh. */
     la::Vector
     displacement_of(const std::vector<solve::RigidMotion> &motions) const;
-    /** Give the strategy what it must know of friction. Collective. */
+    /** Give the strategy its data of friction. Collective. */
     void set_friction();
     /** Whether the law needs the normal stress of the bodies. */
     bool is_nitsche() const;
     /** The gap as the law wants it. */
     const double *law_gap();
     void set_scales(const solve::Stiffness &matrix, const la::Vector &residual);
-    /** Of the present iteration. Collective. */
+    /** Length scale of the present iteration. Collective. */
     double length_scale() const;
     /** The same, or 0 where nothing has moved and all gaps are 0. Collective.
      */
@@ -124,7 +124,7 @@ namespace abut
     void begin_at(const la::Vector &displacement);
     /** Whether rows are where the bodies are. */
     bool moves() const;
-    /** Whether a commit() tells where the next points are made. */
+    /** Whether a commit() determines where the next points are made. */
     bool makes_points_at_commits() const
     {
       return kinematics_info(method.kinematics).points
@@ -132,8 +132,8 @@ namespace abut
     }
     /** Throws if the displacement of the last commit() is not known. */
     void check_committed(const std::string &what) const;
-    /** What rows have, by their numbers: pressures and, unless the iteration
-     * has none, states. */
+    /** Data of rows, by their numbers: pressures and, unless the iteration has
+     * none, states. */
     struct RowValues
     {
       std::map<std::int64_t, std::pair<double, std::uint8_t>> of;
@@ -158,7 +158,7 @@ namespace abut
     RowsElsewhere rows_at(const la::Vector &displacement);
     /** Compare the surfaces' points with those of the rows. */
     void note_changes(const typename shim::SurfacePairRows<dim>::Kept &before);
-    /** What the forces of the rows' pressures change by because rows move.
+    /** Find the change of the forces of the rows' pressures because rows move.
      * Collective. */
     void find_geometry();
     /** The host's matrix with that; lives until the next call. Collective. */
@@ -167,7 +167,7 @@ namespace abut
     la::Vector with_geometry(const la::Vector &residual) const;
     /** How gaps change because directions and partners do. Collective. */
     void find_substitution();
-    /** Make the displacements of what a solver says, and remember that.
+    /** Make the displacements from the result of a solver, and store that.
      * Collective. */
     void take_increment(la::Vector &increment);
     /** Gaps where the iteration has come to. Collective. */
@@ -189,7 +189,7 @@ namespace abut
     /** Add to the gaps [rows] of some operator what they are raised by. */
     void add_raises(const solve::PointOperator &rows,
                     std::vector<double> &gaps) const;
-    /** What the solver must know of the iteration that begins. */
+    /** Data of the iteration that begins, for the solver. */
     solve::ContactIteration iteration();
     /** Find what an iteration that stopped leaves undetermined. Collective. */
     void note_end();
@@ -199,8 +199,8 @@ namespace abut
     void begin(const solve::Stiffness &matrix, const la::Vector &residual);
     /** The tangent with its unknowns. Throws where it is not of as many as in
      * reinit(). */
-    /** What a host gives to a @p call: the vector itself, or its view's copy.
-     * Throws, on all ranks, if it is not one of the present unknowns.
+    /** The argument of a host in a @p call: the vector itself, or its view's
+     * copy. Throws, on all ranks, if it is not one of the present unknowns.
      * Collective. */
     const la::Vector &take(const std::string &call, const std::string &what,
                            const la::VectorView &given) const;
@@ -234,8 +234,8 @@ namespace abut
     std::vector<shim::Unseen> find_unseen(const la::Vector &displacement);
     void examine_membrane(const la::Vector &displacement, double penetration,
                           ContactExamination &result);
-    /** What depths are compared with: how far bodies are deformed, or the
-     * membrane is moved. Collective. */
+    /** Length that depths are compared with: how far bodies are deformed, or
+     * the membrane is moved. Collective. */
     double deformation(const la::Vector &displacement) const;
     /** Penetration that the law is meant to have, length. */
     double soft_on_purpose() const;
@@ -250,14 +250,15 @@ namespace abut
     const MPI_Comm communicator;
     Obstacle<dim> obstacle;
     std::vector<ContactPair<dim>> pairs;
-    bool has_pairs = false; ///< they were given, and may be none
+    bool has_pairs = false; ///< they were given, and may be empty
     bool axisymmetric = false;
     MethodParameters method;
     SearchParameters search;
     SolverParameters solver_parameters;
     bool constant_matrix = false;
     std::optional<solve::Stiffness> reference; ///< none: the present one
-    /** Of hosts' matrices of other types: the present one, and reference. */
+    /** Copies of hosts' matrices of other types: the present one, and
+     * reference. */
     mutable shim::HostMatrixCopy copied, copied_reference;
     double given_length = 0.; ///< 0: none
 
@@ -307,25 +308,26 @@ namespace abut
     shim::ContactHistory::Penalty penalty;    ///< of this iteration
     shim::ContactHistory::Penalty resumed;    ///< that it may go on with
     la::Vector start_displacement;
-    /** Of rows that move, by the pressures that an iteration starts from; null:
-     * nothing. */
+    /** Stiffness of rows that move, with the pressures that an iteration starts
+     * from; null: none. */
     std::unique_ptr<la::Matrix> geometry;
     std::unique_ptr<la::Matrix> sum_with_geometry; ///< null: not made yet
-    /** Of rows that move: solvers see its v; null: the displacement. */
+    /** Substitution for rows that move: solvers see its v; null: the
+     * displacement. */
     std::unique_ptr<solve::GapSubstitution> substitution;
     la::Vector substituted;           ///< v that the iteration has come to
     la::Vector substituted_increment; ///< of the last solve(); empty: none
     la::Vector present_displacement;  ///< with geometry
     PartnerChanges partner_changes;   ///< of this rank, since linearise()
-    std::vector<double> gap;          ///< [rows] at the present displacement
+    std::vector<double> gap;          ///< [rows] at the current displacement
     bool has_friction = false;        ///< some pair has, on all ranks
     la::Vector committed; ///< displacement of the last commit(); empty: 0
     std::vector<RigidPose<dim>> committed_poses; ///< of obstacles; empty: first
     std::vector<double> committed_times;         ///< of obstacles, likewise
     bool committed_is_lost = false;              ///< of another mesh or run
     shim::RowSource::SlipReference slip_reference;
-    /** What gaps are raised by where surfaces are apart, length > 0, by the
-     * number of the row, and how often they have been since detect(). */
+    /** Amounts that gaps are raised by where surfaces are apart, length > 0, by
+     * the number of the row, and how often they have been since detect(). */
     std::map<std::int64_t, shim::GapRaise> raised;
     unsigned int n_raises = 0;
     /** [pairs][bodies] what bodies have moved since then before the pair
@@ -333,8 +335,8 @@ namespace abut
     std::vector<std::vector<solve::RigidMotion>> approach;
     /** [rows] place of a row's own derivatives in those of the request. */
     std::vector<std::int64_t> diagonal;
-    /** Of each unknown of this rank, in the matrix that penalties are
-     * multiples of; empty: none yet. */
+    /** Compliance of each unknown of this rank, in the matrix that penalties
+     * are multiples of; empty: none yet. */
     la::Vector law_compliance;
     /** [rows] pressure per length, > 0: of each row in the last matrix taken,
      * for solvers; and in that of law_compliance, as the law has it, by patches
@@ -354,7 +356,7 @@ namespace abut
     bool has_new_matrix = false;     ///< since the last solve
 
     solve::LocalElimination local; ///< of rows that are added to a matrix
-    /** What a preconditioner to be built again was built for, with the
+    /** State that a preconditioner to be built again was built for, with the
      * signature of its rows; empty: none. */
     std::vector<solve::PreconditionerState> kept_preconditioner;
     std::uint64_t kept_rows = 0;

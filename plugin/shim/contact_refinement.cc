@@ -150,7 +150,7 @@ namespace abut
             && cells.count(cell->active_cell_index()) > 0
             && !cell->refine_flag_set())
         {
-          // What shall not be coarsened is as large as before; look again.
+          // Cells that are not coarsened are as large as before; look again.
           if (cell->coarsen_flag_set())
             cell->clear_coarsen_flag();
           else

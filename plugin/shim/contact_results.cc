@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What a contact solve found, as numbers and as nodal fields.
+// Results of a contact solve, as numbers and as nodal fields.
 #include "contact_implementation.h"
 
 #include <algorithm>
@@ -114,7 +114,8 @@ namespace abut
     for (int row = 0; row < i.coefficients.n_rows() && i.is_started; ++row)
     {
       const double s = i.stiffness[row];
-      // What sticks must not slip, and the forces of what slips are exact.
+      // Points that stick must not slip, and the forces of points that slip are
+      // exact.
       const bool sticks = i.coefficients.is_tangent(row)
                           && i.request.state[row] == ABUT_STATE_CLOSED;
       const double residual =

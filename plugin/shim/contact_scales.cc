@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What pressures, gaps and residuals are compared with.
+// Scales of pressures, gaps and residuals.
 #include "contact_implementation.h"
 
 #include "deformation.h"
@@ -14,7 +14,8 @@ namespace abut
 
   namespace
   {
-    // What is smaller has no square, and norms do not see it: as good as 0.
+    // The square of a smaller number underflows, and norms do not see it: it
+    // counts as 0.
     constexpr double least_scale = 1e-150;
   } // namespace
 

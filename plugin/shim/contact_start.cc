@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What a solve starts from, and what it leaves behind.
+// The start of a solve, and the history that it leaves.
 //
 //   detect()     the rows' values so far become the trial version of the
 //                history; rows of the next solve look theirs up by number
 //   linearise()  the same rows go on from what they have
 //   reinit()     entries stay where they are, though points may go to other
-//                ranks; they are used again if set_pressure() says so
+//                ranks; they are used again if set_pressure() has the same
 //   set_pairs()  of other surfaces: numbers are others, the field of pressures
 //                is what remains
 //   commit()     the trial version is kept; rollback() brings it back
@@ -67,7 +67,7 @@ namespace abut
     limit_start();
     if (history.knows(ABUT_HISTORY_TRIAL, rows_mesh))
     {
-      // The field that the rows' own values make says that the host means them.
+      // The field that the rows' own values make stands for these values.
       constexpr double same_field = 1e-8;
       const std::vector<double> own =
           history.pressures(row_numbers(), placed_rows);
@@ -83,7 +83,7 @@ namespace abut
     }
     history.record(rows_mesh, row_numbers(), placed_rows, start_pressure,
                    row_states(), shim::ContactHistory::Penalty());
-    // Of another mesh, nothing can be brought back but this.
+    // Only this can be restored from another mesh.
     if (!history.knows(ABUT_HISTORY_COMMITTED, rows_mesh))
       history.commit();
   }
@@ -174,8 +174,8 @@ namespace abut
       i.elements.commit(i.surfaces->contact_elements(), i.communicator);
     if (i.surfaces != nullptr)
       i.surfaces->note_commit(displacement);
-    // Pairs with friction may be out of reach of each other as yet. Those that
-    // get it later must be told what slips are measured from.
+    // Pairs with friction may be out of reach of each other as yet. Pairs that
+    // reach each other later need a reference of slips.
     const bool is_wanted = i.makes_points_at_commits()
                            || std::any_of(i.pairs.begin(), i.pairs.end(),
                                           [](const ContactPair<dim> &pair)
@@ -244,7 +244,7 @@ namespace abut
                    });
     i.elements = std::move(elements);
     // Displacements are the host's to keep: that of the commit() must come from
-    // there, or slips would be measured from an undeformed body.
+    // there, or slips would be measured from the reference configuration.
     if (i.committed.size() == 0
         && i.history.knows(ABUT_HISTORY_COMMITTED, mesh))
       i.committed_is_lost = true;

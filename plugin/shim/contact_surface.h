@@ -18,8 +18,8 @@
 namespace abut::shim
 {
   /** The part of the contact surfaces that a rank knows: its own facets, those
-   * around its nodes, and those that may touch one of these; with all that rows
-   * need to know of their nodes. Facets and nodes are sorted by numbers that do
+   * around its nodes, and those that may touch one of these; with all data that
+   * rows need of their nodes. Facets and nodes are sorted by numbers that do
    * not depend on how the mesh is distributed, so that sums over them have the
    * same order on any number of ranks. Indices into the arrays are local. */
   template <int dim> struct ContactSurface
@@ -62,7 +62,7 @@ namespace abut::shim
     abut_facet_kind kind = dim == 2 ? ABUT_FACET_LINE2 : ABUT_FACET_QUAD4;
     std::vector<Facet> facets;
     std::vector<Node> nodes;
-    /** What the host's constraints make of the unknowns of each node. */
+    /** The unknowns of each node by the host's constraints. */
     solve::NodeMap map{dim};
     /** [nodes] parents of a hanging node, by number; empty: does not hang. */
     std::vector<std::vector<Parent>> parents;

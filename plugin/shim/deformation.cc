@@ -99,7 +99,7 @@ namespace abut::shim
 
       std::vector<dealii::Tensor<1, dim>> node_;
       std::vector<dealii::types::global_dof_index> dofs_;
-      /** Of an unknown: component, and shape function. */
+      /** Component and shape function of an unknown. */
       std::vector<std::pair<unsigned int, unsigned int>> place_;
     };
 
@@ -222,7 +222,7 @@ namespace abut::shim
       for (const unsigned int q : motion.points.quadrature_point_indices())
       {
         double here = principal(symmetrize(motion.gradient(q)));
-        // What turns about an axis is strained by its way to it, too.
+        // In axisymmetry the displacement towards the axis is a strain, too.
         if (axisymmetric)
           here =
               std::max(here, std::abs(motion.value(q)[0]

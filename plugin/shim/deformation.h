@@ -22,8 +22,8 @@ namespace abut::shim
   double largest_displacement(const solve::NearNullSpace &space,
                               const la::Vector &u, MPI_Comm communicator);
 
-  /** Half the diagonal of the box around the nodes of the smallest body, in
-   * the undeformed state; 0 if no positions are known. Collective. */
+  /** Half the diagonal of the box around the nodes of the smallest body, in the
+   * reference configuration; 0 if no positions are known. Collective. */
   double smallest_body(const solve::NearNullSpace &space,
                        MPI_Comm communicator);
 

@@ -17,7 +17,7 @@ namespace abut::shim
     if (std::none_of(pairs_.begin(), pairs_.end(),
                      [](const auto &pair) { return pair.data.holds_body; }))
       return {};
-    // Pressures of an earlier solve say more, and states of slip with them.
+    // Pressures of an earlier solve are better, and states of slip with them.
     const bool is_pressed = std::any_of(pressure.begin(), pressure.end(),
                                         [](const double p) { return p > 0.; });
     if (dealii::Utilities::MPI::logical_or(is_pressed, communicator_))

@@ -6,8 +6,8 @@
 
 namespace abut::shim
 {
-  /** A number that tells sequences of words apart, the same on all ranks and in
-   * all runs (FNV-1a of Fowler, Noll and Vo). */
+  /** A number that distinguishes sequences of words, the same on all ranks and
+   * in all runs (FNV-1a of Fowler, Noll and Vo). */
   struct FnvHash
   {
     std::uint64_t value = 14695981039346656037u;

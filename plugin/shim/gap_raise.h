@@ -6,8 +6,8 @@
 
 namespace abut::shim
 {
-  /** What the gap of a row that presses where surfaces are apart is raised by,
-   * and what was seen with the value before. */
+  /** Amount that the gap of a row with pressure is raised by where surfaces are
+   * apart, and the result of the value before. */
   struct GapRaise
   {
     double value = 0.; ///< length >= 0

@@ -65,7 +65,7 @@ namespace abut::shim
 
   template <typename Object> using Handle = std::unique_ptr<Object, Destroy>;
 
-  /** Throw what the core says when a call failed. */
+  /** Throw the core's message when a call failed. */
   inline void check(const abut_context *context, const abut_status status)
   {
     const bool has_message =

@@ -37,7 +37,7 @@ namespace abut::shim
       refuse_row(row, name, "a value that is not finite", communicator);
     }
 
-    /** Of a row of @p matrix: global columns, and where their values are. */
+    /** Global columns of a row of @p matrix, and where their values are. */
     std::vector<std::pair<Index, int>> places_of_row(const la::Matrix &matrix,
                                                      const la::LocalRows &rows,
                                                      const int row)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Linear elements have their nodes in the vertices of the mesh, and these stay
 // when cells are refined. Mesh l of the hierarchy has the cells of level l and
-// those of lower levels that are not refined. What a vertex of it is on mesh
-// l - 1 follows from the tree of cells: itself, or the middle of an edge, face
-// or cell there.
+// those of lower levels that are not refined. The place of a vertex on mesh l -
+// 1 follows from the tree of cells: itself, or the middle of an edge, face or
+// cell there.
 //
 // Quadratic elements have one mesh more: their own nodes follow from the
 // vertices of the same cells, of which linear functions are quadratic ones,
@@ -11,8 +11,8 @@
 //
 // On several ranks each has the vertices whose unknowns it owns. All that they
 // follow from are corners of cells that its own cells were refined from: these
-// are in its tree, but what else there is to know of such a corner, only its
-// owner does. See shared_vertices.h for how they find each other.
+// are in its tree, but all other data of such a corner only its owner has. See
+// shared_vertices.h for how they find each other.
 #include "mesh_hierarchy.h"
 
 #include "agree.h"
@@ -39,7 +39,7 @@ namespace abut::shim
 
     /** A mesh with at most so many unknowns is coarse enough. */
     constexpr std::size_t coarse_enough = 600;
-    /** What can be factorised in each cycle. */
+    /** Unknowns that can be factorised in each cycle. */
     constexpr std::size_t most_on_coarsest = 4000;
 
     const char *const tied_unknowns = "unknowns are tied to others";
@@ -122,8 +122,8 @@ namespace abut::shim
       std::vector<Parents> middle_;              ///< [vertices]
       /** [vertices] of the coarsest mesh that it is a corner in. */
       std::vector<std::uint8_t> level_;
-      /** [vertices] the same on all meshes that it is on; of vertices of other
-       * ranks what they said. */
+      /** [vertices] the same on all meshes that it is on; for vertices of other
+       * ranks their answer. */
       std::vector<std::uint8_t> hangs_, is_wholly_fixed_;
       bool is_lost_ = false; ///< a vertex that must be known is not
     };
@@ -188,7 +188,7 @@ namespace abut::shim
       find_constrained();
     }
 
-    /** Constraints are asked once: they take long to find one of a number. */
+    /** Constraints are read once: a search for the one of a number is slow. */
     template <int dim> void HierarchyMaker<dim>::find_constrained()
     {
       for (const auto &line : constraints_.get_lines())
@@ -228,7 +228,7 @@ namespace abut::shim
       for (const auto &cell : triangulation_.cell_iterators_on_level(0))
         for (const unsigned int v : cell->vertex_indices())
           level_[cell->vertex_index(v)] = 0;
-      // What is refined belongs to a cell that is.
+      // Refined parts belong to a refined cell.
       for (unsigned int l = 0; l + 1 < triangulation_.n_levels(); ++l)
         for (const auto &cell : triangulation_.cell_iterators_on_level(l))
         {
@@ -246,7 +246,7 @@ namespace abut::shim
       return true;
     }
 
-    /** What other ranks must know of the vertices in the middles of cells. */
+    /** Record the vertices in the middles of cells for other ranks. */
     template <int dim> void HierarchyMaker<dim>::note_coarsest_cells()
     {
       for (const auto &cell : triangulation_.cell_iterators())

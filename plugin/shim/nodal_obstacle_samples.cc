@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What an obstacle of a membrane does between the nodes.
+// Penetration of an obstacle of a membrane between the nodes.
 #include "nodal_obstacle_rows.h"
 
 #include "agree.h"

@@ -92,7 +92,7 @@ namespace abut::shim
           return;
         grid_->reinit(cell);
         DeepestPoint<dim> deepest = take(cell, *grid_, found);
-        // What is thinner than the grid may be just behind the surface.
+        // A part thinner than the grid may be just behind the surface.
         if (is_on_surface(cell, deepest.unit)
             && pair_.obstacle->depth() > extent() / n_)
           return;
@@ -108,7 +108,7 @@ namespace abut::shim
       }
 
     private:
-      /** Of a cell, that the deepest point is followed to. */
+      /** Part of a cell that the deepest point is followed to. */
       static constexpr double least_width = 1e-3;
 
       static dealii::UpdateFlags flags()

@@ -29,7 +29,7 @@ namespace abut::shim
     /** Whether the surface meets the obstacle at all. */
     bool is_met(double facet) const;
 
-    /** What is wrong and what to do, with the depth in words. */
+    /** The fault and the remedy, with the depth in words. */
     std::string text(const std::string &depth) const;
 
     /** The same of an obstacle that nodes have missed; the remedy is left to
@@ -41,10 +41,10 @@ namespace abut::shim
    * belongs to, everywhere and not only where that surface would meet it. Only
    * shapes that are bounded are looked for: of them all of the material is
    * known, while planes and formulas are often meant for a part of the body
-   * alone; and others, such as functions, of which nobody knows how
-   * thick they are, if the pair has a gap that may be more than that. Depths
-   * are without the gap there. One pass over the cells, and more of those near
-   * the obstacle. Collective. */
+   * alone; and others, such as functions, whose thickness is unknown, if the
+   * pair has a gap that may be more than that. Depths are without the gap
+   * there. One pass over the cells, and more of those near the obstacle.
+   * Collective. */
   template <int dim>
   ObstacleInBodies<dim>
   find_obstacle_in_bodies(const dealii::Mapping<dim> &mapping,

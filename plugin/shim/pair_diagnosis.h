@@ -10,7 +10,7 @@
 
 namespace abut::shim
 {
-  /** Run @p function; what the core says goes on with the name of the pair. */
+  /** Run @p function; the core's message gets the name of the pair. */
   template <typename Function>
   void run_named(const std::string &pair, const Function &function)
   {
@@ -30,8 +30,8 @@ namespace abut::shim
 
   /** Why two surfaces have no part in contact range: too far apart, deeper in
    * each other than the reach, or turned the wrong way; in words, with what to
-   * do. Of the facets known here: they must be those up to the least distance
-   * of the surfaces. Collective. */
+   * do. Only facets known here count: they must be those up to the least
+   * distance of the surfaces. Collective. */
   template <int dim>
   Message why_no_rows(abut_context *context, const SurfaceSide<dim> &secondary,
                       const SurfaceSide<dim> &primary,

@@ -20,8 +20,8 @@ namespace abut::shim
     const std::vector<PointPlace<dim>> &places;
   };
 
-  /** What has become @p now of the points @p before whose first component is
-   * one of @p pressing, by its number. */
+  /** Changes up to @p now of the points @p before whose first component is one
+   * of @p pressing, by its number. */
   template <int dim>
   PartnerChanges count_changes(const PlacedPoints<dim> &before,
                                const PlacedPoints<dim> &now,

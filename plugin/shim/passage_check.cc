@@ -75,7 +75,7 @@ namespace abut::shim
       RigidObstacle<dim> &obstacle;
       const double begin, end;
       const RigidPose<dim> now;
-      /** What forces have added to the motion. */
+      /** Part of the motion due to forces. */
       const dealii::Tensor<1, dim> beside_then, beside_now;
     };
   } // namespace

@@ -12,7 +12,7 @@ namespace abut::shim
    * it does: no pair is in them, so that a node that changes pairs is the same
    * point.
    *
-   * Points at nodes come first. Those of quadrature have the upper half, where
+   * Points at nodes come first. Points of quadrature have the upper half, where
    * each facet has a range of numbers. */
   struct PointNumber
   {
@@ -20,8 +20,8 @@ namespace abut::shim
     static constexpr std::int64_t points_per_facet = 1 << 24;
     static constexpr std::int64_t first_of_facets = std::int64_t(1) << 52;
 
-    /** What the number shares with other points of the same facet; of a node
-     * the number itself. */
+    /** The part of the number that is the same for all points of a facet; for a
+     * node the number itself. */
     static std::int64_t group(const std::int64_t number)
     {
       return number < first_of_facets ? number
@@ -30,7 +30,7 @@ namespace abut::shim
   };
 
   /** A row at a point whose number does not last while the mesh does, and where
-   * it sits in the undeformed body. */
+   * it is in the reference configuration. */
   struct PlacedRow
   {
     std::int32_t row;

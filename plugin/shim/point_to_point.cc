@@ -118,7 +118,7 @@ namespace abut::shim
         owned, ghosts, post.communicator());
     owned_.assign(partitioner_->locally_owned_size(), 0.);
     ghosts_.assign(partitioner_->n_ghost_indices(), 0.);
-    // Owners are told which of theirs are wanted.
+    // Send to owners which of their nodes are wanted.
     post.count(partitioner_->ghost_targets().size(),
                sizeof(Index) * partitioner_->n_ghost_indices());
   }

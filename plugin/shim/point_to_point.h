@@ -15,8 +15,8 @@
 
 namespace abut::shim
 {
-  /** What one rank tells another: whole numbers and values, written and read
-   * in the same order. */
+  /** A message from one rank to another: whole numbers and values, written and
+   * read in the same order. */
   class Parcel
   {
   public:
@@ -59,8 +59,8 @@ namespace abut::shim
   /** Parcels by rank. */
   using Mail = std::map<unsigned int, Parcel>;
 
-  /** Sends parcels between the ranks that have something to say to each other,
-   * and counts what this rank sends. */
+  /** Sends parcels between the ranks that have data for each other, and counts
+   * the data that this rank sends. */
   class PointToPoint
   {
   public:
@@ -87,7 +87,7 @@ namespace abut::shim
       sent_.bytes += bytes;
     }
 
-    /** What this rank has sent so far. */
+    /** Data that this rank has sent so far. */
     const CommunicationReport &sent() const
     {
       return sent_;

@@ -19,8 +19,8 @@ namespace abut::shim
       unsigned int line = no_part, face = no_part;
     };
 
-    /** Of each node of the scalar element: first those of vertices, then of
-     * lines, in space of faces, and of the cell. */
+    /** Place of each node of the scalar element: first those of vertices, then
+     * of lines, in space of faces, and of the cell. */
     template <int dim>
     std::vector<NodePlace>
     node_places(const dealii::FiniteElement<dim> &element)
@@ -59,7 +59,7 @@ namespace abut::shim
       {
         if constexpr (dim == 3)
           faces_.resize(triangulation.n_raw_quads(), false);
-        // What artificial cells have may be refined elsewhere.
+        // Lines and faces of artificial cells may be refined elsewhere.
         for (const auto &cell : triangulation.active_cell_iterators())
         {
           if (cell->is_artificial())

@@ -17,14 +17,14 @@ namespace abut::shim
     /** Vertices that it is in the middle of; one: it is that vertex. */
     unsigned int n_vertices = 0;
     std::array<unsigned int, 8> vertex = {};
-    /** Of each component. */
+    /** Unknown of each component. */
     std::array<dealii::types::global_dof_index, 3> unknown = {};
     bool hangs = false; ///< on a coarser neighbour's line or face
   };
 
   /** The nodes whose unknowns this rank owns, in the order of these; @p hangs
-   * [vertices] says which vertices do. The element is FE_Q of degree 2 with
-   * nodes in the middle, or a system of up to three of it. */
+   * [vertices] is true for vertices that hang. The element is FE_Q of degree 2
+   * with nodes in the middle, or a system of up to three of it. */
   template <int dim>
   std::vector<QuadraticNode>
   own_quadratic_nodes(const dealii::DoFHandler<dim> &dof_handler,

@@ -25,8 +25,8 @@ namespace abut
       return points;
     }
 
-    /** A function of the host behind the core's callback. What it throws must
-     * not pass through C: it is kept. */
+    /** A function of the host behind the core's callback. An exception must not
+     * pass through C: it is kept. */
     template <int dim> class HostFunction
     {
     public:
@@ -76,7 +76,7 @@ namespace abut
       }
 
       const bool has_derivative;
-      /** What the last evaluation threw, or null. */
+      /** Exception of the last evaluation, or null. */
       std::exception_ptr thrown;
 
     protected:

@@ -23,8 +23,8 @@ namespace abut::shim
     unsigned int cell = 0; ///< index of the active cell
     double depth = 0.;     ///< of the deepest sample, length > 0
     double size = 0.;      ///< of the facet, length; 0 of membranes
-    /** Of that, how much the nodes know nothing of: gaps at zero displacement
-     * are that much smaller there than at all nodes of the facet or cell. */
+    /** The part of it that the nodes do not see: gaps at zero displacement are
+     * that much smaller there than at all nodes of the facet or cell. */
     double peak = 0.;
     bool is_missed = true;            ///< there is no contact at all
     std::array<double, 3> place = {}; ///< of that sample, where it is now
@@ -46,7 +46,7 @@ namespace abut::shim
   public:
     virtual ~RowSource() = default;
 
-    /** What is other than in the find() before. */
+    /** Difference from the find() before. */
     enum class Change
     {
       none,
@@ -60,7 +60,7 @@ namespace abut::shim
     /** Replace @p points, which must outlive their use here, by those for the
      * bodies displaced by @p displacement (owned entries). Points that would be
      * the same are left as they are, filter() and all. Throws on all ranks; the
-     * next call makes them anew then. Collective. */
+     * next call makes them again then. Collective. */
     virtual Change find(const la::Vector &displacement,
                         abut_points *points) = 0;
 
@@ -105,8 +105,8 @@ namespace abut::shim
     /** The unknowns of the points' nodes. */
     virtual const solve::NodeMap &nodes() const = 0;
 
-    /** A number that is the same for the same points: wherever it is, numbers
-     * of rows say the same. Never 0. Collective. */
+    /** A number that is the same for the same points: where it is equal,
+     * numbers of rows are those of the same points. Never 0. Collective. */
     virtual std::uint64_t mesh_signature() const = 0;
 
     /** The rows whose points have no number that lasts. */
@@ -129,13 +129,13 @@ namespace abut::shim
       std::vector<std::int32_t> rival_point, rival_row;
     };
 
-    /** Those of the present points. Throws on all ranks. Collective. */
+    /** Friction of the present points. Throws on all ranks. Collective. */
     virtual FrictionalPoints friction() const
     {
       return {};
     }
 
-    /** What the slips of tangents are measured from. */
+    /** Reference of the slips of tangents. */
     struct SlipReference
     {
       std::vector<double> value; ///< [rows] empty: 0

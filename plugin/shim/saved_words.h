@@ -17,7 +17,7 @@ namespace abut::shim
                   const std::vector<std::uint64_t> &words);
 
   /** Read what save_words() wrote, for all ranks. Throws HistoryError on all of
-   * them; @p what begins its message. Collective. */
+   * them; its message begins with @p what. Collective. */
   std::vector<std::uint64_t> load_words(std::istream &stream,
                                         MPI_Comm communicator,
                                         const std::string &what);

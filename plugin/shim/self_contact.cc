@@ -20,7 +20,8 @@ namespace abut::shim
 
   namespace
   {
-    /** What tells the id of a primary side from that of the mesh. */
+    /** Bit that distinguishes the id of a primary side from that of the mesh.
+     */
     constexpr dealii::types::boundary_id primary_side = 1u << 31;
 
     template <int dim> bool touches_itself(const ContactPair<dim> &pair)
@@ -299,8 +300,8 @@ namespace abut::shim
     run();
     for (const BoundaryId id : pair.secondary)
       thickness_[id] = report.thickness;
-    // What faces each other from afar may come near; what faces nothing may
-    // bend until it does.
+    // Facets that face each other from afar may come near; facets that face
+    // nothing may bend until they do.
     how.reach = std::max(how.reach, part.wide_reach());
     if (report.n_pairs == 0)
       run();

@@ -55,12 +55,12 @@ namespace abut::shim
 
     /** Split surfaces again where the bodies are, displaced by @p displacement
      * (owned), if facets of one side face each other there within @p near
-     * (length). What touches keeps its sides. Returns whether any facet has
-     * another one; then ids are others. Collective. */
+     * (length). Facets that touch keep their sides. Returns whether any facet
+     * has another one; then ids are others. Collective. */
     bool renew(const la::Vector &displacement, double near,
                abut_context *context);
 
-    /** Boundary id that pairs know a facet of this rank by. */
+    /** Boundary id of a facet of this rank for pairs. */
     BoundaryId id(const Cell &cell, unsigned int face,
                   BoundaryId of_mesh) const;
 
@@ -105,8 +105,8 @@ namespace abut::shim
     SearchParameters search_;
     std::set<std::pair<Cell, unsigned int>> primary_;
     std::map<BoundaryId, double> thickness_;
-    /** Of the thinnest part anywhere in reach of renew(), undeformed; by the
-     * first id. */
+    /** Thickness of the thinnest part anywhere in reach of renew(), in the
+     * reference configuration; by the first id. */
     std::map<BoundaryId, double> thinnest_;
     bool has_changed_ = false; ///< by the present renew()
   };

@@ -56,7 +56,7 @@ namespace abut::shim
       std::vector<VertexKey> keys_;
     };
 
-    /** What this rank keeps for all. */
+    /** Data that this rank keeps for all. */
     class Directory
     {
     public:

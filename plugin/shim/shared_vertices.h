@@ -18,7 +18,7 @@ namespace abut::shim
     unsigned int cell = 0; ///< coarse cell and 1, of middles of cells
   };
 
-  /** What a vertex is called on all ranks. */
+  /** Name of a vertex on all ranks. */
   using VertexKey = std::array<std::uint64_t, 2>;
 
   /** Names of vertices of a tree of cells, as long as all ranks number the
@@ -26,10 +26,9 @@ namespace abut::shim
    * it is in the middle of, however little of the tree a rank has. */
   std::vector<VertexKey> vertex_keys(const std::vector<VertexParents> &middle);
 
-  /** Each rank says of some vertices, @p n_words Words for each, what others
-   * may want to know; no two of the same vertex. Returns the Words for @p
-   * wanted; those of vertices of which nobody says anything are unknown_vertex.
-   * Collective. */
+  /** Each rank describes some vertices, @p n_words Words for each, for others;
+   * no two of the same vertex. Returns the Words for @p wanted; words of
+   * vertices that no rank describes are unknown_vertex. Collective. */
   solve::Words find_vertices(MPI_Comm communicator,
                              const std::vector<VertexKey> &known,
                              const solve::Words &words, unsigned int n_words,

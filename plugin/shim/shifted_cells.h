@@ -42,7 +42,7 @@ namespace abut::shim
   private:
     static constexpr unsigned int n_vertices =
         dealii::GeometryInfo<dim>::vertices_per_cell;
-    /** Of squares; as deal.II compares cells. */
+    /** Tolerance of squares; as deal.II compares cells. */
     static constexpr double round_off = 1e-24;
 
     /** Mappings that are derived from these may move the vertices. */

@@ -12,9 +12,9 @@
 
 namespace abut::shim
 {
-  /** What solvers with @p parameters are to know of the unknowns of a field:
-   * rigid motions of the bodies if it is a displacement, and the coarser
-   * meshes if multigrid may want them. Collective. */
+  /** Data of the unknowns of a field for solvers with @p parameters: rigid
+   * motions of the bodies if it is a displacement, and the coarser meshes if
+   * multigrid may want them. Collective. */
   template <int dim>
   solve::NearNullSpace
   make_solver_space(const dealii::Mapping<dim> &mapping,

@@ -430,7 +430,7 @@ namespace abut::shim
   void SurfaceExchange<dim>::write(const NodeRecord &record,
                                    Parcel &parcel) const
   {
-    // Free unknowns, which are most, are told by a bit.
+    // Free unknowns, which are most, are a bit.
     std::int64_t kinds = std::int64_t(record.parents.size()) << 8;
     for (unsigned int d = 0; d < dim; ++d)
       if (record.lines[d].terms.size() == 1

@@ -33,8 +33,8 @@ namespace abut::shim
    *   around their parts, and each sends what the core finds near them
    *   (abut/parts.h); with a ring around them.
    *
-   * What a rank knows of a node comes from the node's owner. Numbers of facets
-   * run along the mesh, and so do those of nodes. */
+   * A rank has the data of a node from the node's owner. Numbers of facets run
+   * along the mesh, and so do those of nodes. */
   template <int dim> class SurfaceExchange
   {
   public:
@@ -48,7 +48,8 @@ namespace abut::shim
       /** Distance within which facets are looked for; with @ref margin added,
        * by which nodes may have moved without anything being missed. */
       double reach = 0., margin = 0.;
-      /** Its sides are looked for at the place of gather(), not undeformed. */
+      /** Its sides are searched in the configuration of gather(), not in the
+       * reference configuration. */
       bool displaced = false;
     };
 
@@ -98,8 +99,8 @@ namespace abut::shim
       return hanging_;
     }
 
-    /** Tell that the constraints have changed: what is known of nodes is told
-     * anew by the next gather(), facets are not. */
+    /** The constraints have changed: the next gather() exchanges the data of
+     * nodes again, but not facets. */
     void refresh();
 
     /** The facets that this rank needs, with those near each other of each
@@ -119,7 +120,7 @@ namespace abut::shim
                                   std::vector<Link> &links,
                                   const abut_search_options &search);
 
-    /** What bodies were displaced by in the last gather_at(); empty: 0. */
+    /** Displacement of the bodies in the last gather_at(); empty: 0. */
     const la::Vector &place() const
     {
       return place_;
@@ -152,7 +153,7 @@ namespace abut::shim
     void merge_marks(const ContactSurface<dim> &surface,
                      std::vector<std::uint8_t> &marks);
 
-    /** What this rank has sent. */
+    /** Data that this rank has sent. */
     CommunicationReport communication() const;
 
   private:
@@ -173,14 +174,14 @@ namespace abut::shim
     };
     static constexpr int near = 4, beyond = 5;
 
-    /** What constraints make of an unknown: a sum of terms and a constant. */
+    /** An unknown by constraints: a sum of terms and a constant. */
     struct Line
     {
       std::vector<Term> terms;
       double constant = 0.;
     };
 
-    /** What the owner of a node tells of it. */
+    /** Data of a node from its owner. */
     struct NodeRecord
     {
       Node node;
@@ -188,7 +189,7 @@ namespace abut::shim
       std::vector<Parent> parents;
     };
 
-    /** What an owner knows of a node's place in the surfaces. */
+    /** An owner's data of a node's place in the surfaces. */
     struct Place
     {
       std::vector<std::int64_t> facets; ///< that depend on it
@@ -261,13 +262,13 @@ namespace abut::shim
     std::unordered_map<Index, Place> places_;
     std::unordered_map<std::int64_t, FacetRecord> announced_;
     std::unordered_map<Index, NodeRecord> described_;
-    /** What is known here. */
+    /** Data known here. */
     std::unordered_map<std::int64_t, FacetRecord> facets_;
     std::unordered_map<Index, NodeRecord> nodes_;
     la::Vector place_; ///< empty: 0
     /** By the first unknown of nodes; not there: 0. */
     std::unordered_map<Index, dealii::Tensor<1, dim>> displaced_;
-    /** Of the last selection. */
+    /** Data of the last selection. */
     std::vector<Link> links_;
     abut_search_options search_;
     Boxes boxes_;

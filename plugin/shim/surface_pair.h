@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A pair of surfaces, or a surface against an obstacle, and what is known of
-// its points beside the set that they are in.
+// A pair of surfaces, or a surface against an obstacle, and data of its points
+// in addition to the set that they are in.
 #ifndef ABUT_SHIM_SURFACE_PAIR_H
 #define ABUT_SHIM_SURFACE_PAIR_H
 
@@ -86,7 +86,8 @@ namespace abut::shim
       return directions != points;
     }
 
-    /** Whether directions and gaps are not those of the undeformed bodies. */
+    /** Whether directions and gaps are not those of the reference
+     * configuration. */
     bool is_displaced() const
     {
       return directions != ABUT_CONFIGURATION_REFERENCE;
@@ -95,9 +96,9 @@ namespace abut::shim
     abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
     SurfaceSide<dim> secondary, primary;
     Handle<abut_coupling> coupling;
-    /** Of the body that a point must not be pushed through, the primary's or,
-     * at an obstacle, its own; and that of the secondary's body; length, 0:
-     * not known. */
+    /** Thickness of the body that a point must not be pushed through, the
+     * primary's or, at an obstacle, its own; and that of the secondary's body;
+     * length, 0: not known. */
     double thickness = 0., own_thickness = 0.;
     /** Distances that the facets known here suffice for. */
     double reach = 0., margin = 0.;
@@ -110,7 +111,7 @@ namespace abut::shim
     /** The deepest node in the other body, or in an obstacle that bodies fly
      * towards, before anything is displaced. */
     NodeInside<dim> first_inside;
-    /** Of the thinner body; 0: was not needed. */
+    /** Extent of the thinner body; 0: was not needed. */
     double least_extent = 0.;
     /** Known failures that it was made with all the same. */
     std::vector<Message> refused;
@@ -120,8 +121,8 @@ namespace abut::shim
     ObstacleWidth narrow;
   };
 
-  /** What the points of a pair depend on that may change from one find() to
-   * the next; positions, supports and settings do not. */
+  /** Input of the points of a pair that may change from one find() to the next;
+   * positions, supports and settings do not. */
   struct PointsOrigin
   {
     double reach, gap; ///< reach 0: a part of each facet's size
@@ -132,22 +133,22 @@ namespace abut::shim
     }
   };
 
-  /** What is known of a point beside the set that it is in. */
+  /** Data of a point in addition to the set that it is in. */
   template <int dim> struct PointPlace
   {
     std::size_t pair;
     std::int32_t node;           ///< -1: quadrature point
     std::int32_t facet;          ///< of a quadrature point
     dealii::Point<dim> position; ///< where the point sits
-    /** Of a point that moves: nodes of the primary facet that has the nearest
+    /** For a point that moves: nodes of the primary facet that has the nearest
      * point, and the square matrix of second derivatives of the gap with
      * respect to the position, then these nodes, and those of its tangents;
-     * empty: the point is fixed. Of mortar: nodes of its lines and columns,
+     * empty: the point is fixed. For mortar: nodes of its lines and columns,
      * and one matrix; see abut_coupling_view. */
     std::vector<std::int32_t> opposite;
     std::vector<std::int32_t> lines, columns;
     std::vector<double> hessian;
-    /** Of mortar that moves: abut_coupling_view::least. */
+    /** For mortar that moves: abut_coupling_view::least. */
     double least = INFINITY;
 
     /** Let the matrices follow the components of the point that stay. */
@@ -163,7 +164,7 @@ namespace abut::shim
     }
   };
 
-  /** What a tangent's point of mortar that moves had opposite it at the last
+  /** The opposite points of a tangent's point of mortar that moves, at the last
    * commit(). */
   struct CommittedPartners
   {

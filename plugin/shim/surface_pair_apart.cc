@@ -117,7 +117,7 @@ namespace abut::shim
             return;
           Apart &found = result[row.place.pair];
           found.all += force;
-          // What the law leaves open is no fault of the row.
+          // The gap that the law leaves is not an error of the row.
           const double gap =
               clearance[row.row] - std::max(0., row_gap[row.row]);
           if (!std::isfinite(gap) || gap <= visible[row.place.pair])

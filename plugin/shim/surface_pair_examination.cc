@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What rows on the undeformed surfaces do not see: the way that bodies slide,
-// and obstacles between the nodes.
+// Contact that rows in the reference configuration do not see: sliding of
+// bodies, and obstacles between the nodes.
 #include "surface_pair_rows.h"
 
 #include "agree.h"
@@ -69,8 +69,8 @@ namespace abut::shim
     double hollow_of(const std::vector<dealii::Point<dim>> &node,
                      const std::vector<dealii::Tensor<1, dim>> &normal)
     {
-      // h^2 / (8 R), by what the normals turn; at the ends of a surface they
-      // are those of one facet and turn by half.
+      // h^2 / (8 R), by the rotation of the normals; at the ends of a surface
+      // they are those of one facet and rotate by half.
       constexpr double rough = 2.;
       double hollow = 0.;
       for (std::size_t a = 0; a < node.size(); ++a)
@@ -80,9 +80,9 @@ namespace abut::shim
       return hollow;
     }
 
-    /** Of the @p depth that an obstacle has now at the points of a facet, what
-     * its nodes know nothing of: where they were, their gaps are larger than at
-     * the point. */
+    /** The part of the @p depth of an obstacle at the points of a facet that
+     * its nodes do not see: where they were, their gaps are larger than at the
+     * point. */
     template <int dim>
     double peak_of(const RigidObstacle<dim> &obstacle,
                    const FacetGrid<dim> &grid,
@@ -324,7 +324,7 @@ namespace abut::shim
     examined_ = u;
     const std::vector<RigidPose<dim>> now = poses();
     find_turns(u, row_pressure, row_state);
-    // What distances from an obstacle are, or what they change by on a way.
+    // Distances from an obstacle, or their changes on a path.
     struct Distances
     {
       std::vector<dealii::Point<dim>> from, to;
@@ -351,7 +351,7 @@ namespace abut::shim
             return u[node]
                    - (pair.is_displaced() ? made_at(node) : Direction());
           };
-          // Of the place, and since the point was made there.
+          // Motion in this step, and since the point was made there.
           Direction motion = way_of_partners(row, u), since;
           const auto add = [&](const Node node, const double c)
           { since += c * since_made(node); };
@@ -375,8 +375,8 @@ namespace abut::shim
             looked_at.expected.push_back(row_gap[row.row] - pair.data.gap);
             return;
           }
-          // Of gaps that are means, or no distances, what they change by is
-          // looked at, at the node if there is one.
+          // Gaps that are means, or no distances, are judged by their change,
+          // at the node if there is one.
           const Direction moved =
               row.place.node < 0 ? since : since_made(row.place.node);
           looked_at.from.push_back(row.place.position + way);

@@ -195,7 +195,7 @@ namespace abut::shim
                                          la::Vector &displacement) const
   {
     // Each row's own node steps back along the normal. Nodes around quadrature
-    // points step back together, as far as the worst point asks.
+    // points step back together, as far as the worst point needs.
     la::Vector step = field();
     double worst = 0.;
     for_each_component(

@@ -46,8 +46,8 @@ namespace abut::shim
       return sum;
     }
 
-    /** The angle that a rigid body has turned by, radian; whole turns are not
-     * seen. */
+    /** The angle of rotation of a rigid body, radian, modulo whole rotations.
+     */
     template <int dim>
     double angle_between(const RigidPose<dim> &then, const RigidPose<dim> &now)
     {
@@ -231,7 +231,7 @@ namespace abut::shim
       const Friction<dim> &friction = *pair.data.friction;
       Message wrong;
       dealii::Point<dim> place = places_[i].position;
-      if (pair.has_current_points()) // back on the undeformed body
+      if (pair.has_current_points()) // back in the reference configuration
         for_each_secondary(i, [&](const Node node, const double c)
                            { place -= c * made_at(node); });
       result.first.push_back(first);

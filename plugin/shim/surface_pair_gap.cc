@@ -31,8 +31,9 @@ namespace abut::shim
       return text.str();
     }
 
-    /** How far the bodies of a side reach along its mean normal, undeformed;
-     * infinite where a surface has no such normal. Collective. */
+    /** How far the bodies of a side reach along its mean normal, in the
+     * reference configuration; infinite where a surface has no such normal.
+     * Collective. */
     template <int dim>
     double extent_behind(const abut_context *context,
                          const dealii::Mapping<dim> &mapping,
@@ -42,7 +43,7 @@ namespace abut::shim
     {
       constexpr double one_sided = 0.7;
       const MPI_Comm communicator = versions::communicator(dof_handler);
-      // Those of nodes that several ranks know count several times.
+      // Normals of nodes that several ranks know count several times.
       std::vector<double> sum(dim + 1, 0.);
       const double *normal = nullptr;
       check(context, abut_surface_normals(side.surface.get(), &normal));

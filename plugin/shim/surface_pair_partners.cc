@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What slips of mortar that moves are measured by: the points that were
-// opposite each other at the last commit(). With their coefficients c, tangent
-// t and places x at that time and t', x' now, the slip is
+// Reference of slips of mortar that moves: the points that were opposite each
+// other at the last commit(). With their coefficients c, tangent t and places x
+// at that time and t', x' now, the slip is
 //
 //     s = t' . sum c x' - t . sum c x ,
 //
-// which is none where both bodies turn as one, and whose derivative is
-// t' . sum c v where the bodies are opposite each other. Coefficients of now
-// would change with the opposite points of what is not in contact yet, where a
-// facet is next to a corner.
+// which is 0 where both bodies rotate as one, and whose derivative is t' . sum
+// c v where the bodies are opposite each other. Coefficients of now would
+// change with the opposite points of what is not in contact yet, where a facet
+// is next to a corner.
 //
 // They are found by making the points at that place once more, so that nothing
 // need be kept by a checkpoint or sent where cells go.

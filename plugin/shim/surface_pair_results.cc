@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What was met on pairs of surfaces, and what a solve found there.
+// Checks of pairs of surfaces, and results of a solve there.
 #include "pair_measures.h"
 #include "surface_pair_rows.h"
 
@@ -221,7 +221,8 @@ namespace abut::shim
     if (!pair.data.obstacle && !pair.has_current_directions()
         && result.covered_area > 0.)
     {
-      // Of graded meshes the smallest facets are likely to be those that meet.
+      // In graded meshes the smallest facets are likely to be the ones in
+      // contact.
       const double smallest =
           std::max(sizes.smallest, pair.primary.everywhere.smallest);
       const double width = std::pow(result.covered_area, 1. / (dim - 1));
@@ -248,7 +249,7 @@ namespace abut::shim
       checks_.push_back(result);
       return;
     }
-    // Of others no width is known.
+    // The width of others is unknown.
     if (result.n_rows == 0 && pair.data.obstacle
         && std::isfinite(pair.data.obstacle->depth()))
       find_narrow(pair, made());
@@ -342,7 +343,7 @@ namespace abut::shim
               result.least_pressure =
                   std::min(result.least_pressure, row_pressure[i]);
           }
-          // Of points that move the gaps at displacement 0 are none.
+          // Points that move have no gaps at displacement 0.
           if (row.place.hessian.empty())
             result.initial_gap_work += weight * row_pressure[i] * view_.gap[i];
         });

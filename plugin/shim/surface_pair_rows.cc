@@ -32,8 +32,8 @@ namespace abut::shim
     constexpr double least_freedom = 0.5;
 
     /** Lists of candidates where bodies are are too long by this part of a
-     * facet, unless the parameters say by what: the longer they are, the longer
-     * they serve. */
+     * facet, unless the parameters have a length: the longer they are, the
+     * longer they serve. */
     constexpr double skin_of_displaced = 1.;
 
     /** What suits a pair, if the parameters leave it to choose. */
@@ -609,8 +609,8 @@ namespace abut::shim
   template <int dim>
   bool SurfacePairRows<dim>::has_lasting_numbers(const Pair &pair) const
   {
-    // Against obstacles, where they move, and if they are told so, points are
-    // those of a rule over the whole facet.
+    // Against obstacles, where they move, and if the parameters require it,
+    // points are those of a rule over the whole facet.
     return !discretisation_info(pair.discretisation).row_per_point
            || pair.has_current_points() || pair.data.obstacle != nullptr
            || !settings_.method.segments;

@@ -31,14 +31,14 @@ namespace abut::shim
    *
    * The geometry is that of the reference configuration (displacement 0), so
    * that the gap is linear in the displacement, or, of pairs that move, that of
-   * the displacement of find(), with weights of the reference; of pairs that
-   * turn, directions and gaps alone are of there. A point is on
-   * the rank that owns its secondary node, or for quadrature points the facet's
-   * cell. Nodes are those of the gathered surface. */
+   * the displacement of find(), with weights of the reference; for corotational
+   * pairs only directions and gaps are current. A point is on the rank that
+   * owns its secondary node, or for quadrature points the facet's cell. Nodes
+   * are those of the gathered surface. */
   template <int dim> class SurfacePairRows : public RowSource
   {
   public:
-    /** What does not depend on the pair. */
+    /** Settings that do not depend on the pair. */
     struct Settings
     {
       MethodParameters method;
@@ -47,9 +47,9 @@ namespace abut::shim
     };
 
     /** All references must outlive this object. Throws ContactError for pairs
-     * that make no sense. Of the surfaces, each rank holds what is near its own
-     * part. @p exchange may be null. What detection takes is added to @p
-     * detection. Collective. */
+     * that make no sense. Each rank has the part of the surfaces that is near
+     * its own part. @p exchange may be null. The effort of detection is added
+     * to @p detection. Collective. */
     SurfacePairRows(const dealii::Mapping<dim> &mapping,
                     const dealii::DoFHandler<dim> &dof_handler,
                     const dealii::AffineConstraints<double> &constraints,
@@ -58,8 +58,8 @@ namespace abut::shim
                     std::shared_ptr<SurfaceExchange<dim>> exchange,
                     DetectionReport &detection);
 
-    /** What knows the facets: to be given to the next object for the same mesh,
-     * so that they need not be found again. */
+    /** The exchange of facets: to be given to the next object for the same
+     * mesh, so that they need not be found again. */
     const std::shared_ptr<SurfaceExchange<dim>> &exchange() const
     {
       return exchange_;
@@ -79,7 +79,7 @@ namespace abut::shim
     std::vector<solve::GapLine>
     gap_lines(const std::vector<std::uint8_t> &wanted) const override;
 
-    /** Tell the displacement of a commit(): bodies whose points move look for
+    /** Record the displacement of a commit(): bodies whose points move look for
      * each other as far as they have come since. */
     void note_commit(const la::Vector &displacement)
     {
@@ -139,8 +139,8 @@ namespace abut::shim
     void push_inside(const std::vector<double> &gap, std::vector<double> margin,
                      la::Vector &displacement) const override;
 
-    /** Measure for results() how far closed rows slide and turn, what gaps are
-     * off by, and what unseen() has found. Collective. */
+    /** Measure for results() slip and rotation at closed rows, errors of gaps,
+     * and the result of unseen(). Collective. */
     void examine(const la::Vector &displacement, const double *row_pressure,
                  const double *row_gap, const std::uint8_t *row_state,
                  const std::vector<Unseen> &unseen);
@@ -260,8 +260,8 @@ namespace abut::shim
       committed_times_ = times;
     }
 
-    /** What bodies have moved since then before pairs touched, which is no
-     * slip: [pairs] displacements (owned; empty: none), or empty. */
+    /** Motion of bodies since then before pairs touched, which is no slip:
+     * [pairs] displacements (owned; empty: none), or empty. */
     void set_approach(std::vector<la::Vector> approach)
     {
       approach_ = std::move(approach);
@@ -275,7 +275,7 @@ namespace abut::shim
       committed_ = &committed;
     }
 
-    /** The next find() makes all points anew. */
+    /** The next find() makes all points again. */
     void renew_points()
     {
       origins_.clear();
@@ -297,7 +297,7 @@ namespace abut::shim
     std::vector<StepMotion> step_motion(const la::Vector &displacement,
                                         const std::uint8_t *row_state);
 
-    /** What find() met, by pair. */
+    /** Findings of find(), by pair. */
     const std::vector<PairCheck> &checks() const
     {
       return checks_;
@@ -443,7 +443,7 @@ namespace abut::shim
      * are those. Collective. */
     void find_partners(const std::vector<Direction> &u);
     void note_partners();
-    /** Those of a row, or null. */
+    /** Partners of a row, or null. */
     const Partners *partners_of(const Component &row) const;
     /** The value of a tangent's row that is no slip since then, or since nodes
      * were displaced by @p u, but for obstacles. */
@@ -452,7 +452,7 @@ namespace abut::shim
     double reference_of_slip(const Component &row,
                              const std::vector<Direction> &u) const;
     bool has_partners(const Pair &pair) const;
-    /** What supports leave of a tangent of a point. */
+    /** Freedom that supports leave along a tangent of a point. */
     struct TangentSupport
     {
       abut_tangent kind = ABUT_TANGENT_FREE;
@@ -465,7 +465,7 @@ namespace abut::shim
      * @p kinds free only as it moves along the normal or the other tangent. */
     bool is_guided(std::size_t point,
                    const std::vector<abut_tangent> &kinds) const;
-    /** What supports leave of the tangents of a point. */
+    /** Freedom that supports leave along the tangents of a point. */
     std::vector<abut_tangent> tangent_kinds(std::size_t point) const;
     /** How far supports take a point along a tangent since nodes were displaced
      * by @p u. */
@@ -520,8 +520,8 @@ namespace abut::shim
     void create_pair(const ContactPair<dim> &data);
     /** First unknowns of the nodes that points refer to. */
     std::set<dealii::types::global_dof_index> used_nodes() const;
-    /** @p place: where bodies are displaced to, whose points are not those of
-     * the undeformed ones; null: where they were the last time. */
+    /** @p place: displacement of bodies whose points are not those of the
+     * reference configuration; null: that of the last time. */
     void gather(const la::Vector *place);
     void create_sides(Pair &pair);
     void find_thickness(Pair &pair);
@@ -660,7 +660,7 @@ namespace abut::shim
     /** PairCheck::first_overlap, where the rows have that @p overlap.
      * Collective. */
     double first_overlap(std::size_t pair, double overlap);
-    /** What to say of it, or nothing. Collective. */
+    /** The message about it, or an empty one. Collective. */
     Message overlap_at_start(Pair &pair, const PairCheck &found);
     void make_check(std::size_t pair, unsigned int n_dropped);
     la::Vector field() const;
@@ -714,8 +714,9 @@ namespace abut::shim
     /** [nodes] displacements of the last examine(); of another number of nodes
      * than there are: none that is known of all. */
     std::vector<Direction> examined_;
-    /** Of pairs that are displaced: where the nodes are and were, and their
-     * displacements [nodes * dim], where the points were made. */
+    /** For pairs that are displaced: current and reference positions of the
+     * nodes, and their displacements [nodes * dim], where the points were made.
+     */
     std::vector<dealii::Point<dim>> present_, reference_;
     std::vector<double> present_displacement_;
     Direction made_at(const Node node) const
@@ -732,7 +733,7 @@ namespace abut::shim
       return u;
     }
 
-    /** [pairs] of the present points; empty: they have to be made anew. */
+    /** [pairs] of the present points; empty: they have to be made again. */
     std::vector<Origin> origins_;
     std::vector<PairCheck> checks_;
     std::vector<double> checked_gaps_; ///< [pairs] or empty, by check_gaps()

@@ -21,8 +21,8 @@ namespace abut::shim
 
   namespace
   {
-    /** As run_everywhere(), with the name of the pair before what the core
-     * says. */
+    /** As run_everywhere(), with the name of the pair before the core's
+     * message. */
     template <typename Function>
     void run_for_pair(const MPI_Comm communicator, const std::string &name,
                       const Function &function)
@@ -220,7 +220,7 @@ namespace abut::shim
   template <int dim>
   void SurfacePairRows<dim>::renew(const la::Vector *const where)
   {
-    // What refers to nodes and facets does so by their numbers meanwhile.
+    // Data that refer to nodes and facets do so by their numbers meanwhile.
     const auto number_of = [](const auto &list, const std::int32_t index)
     { return index < 0 ? std::int64_t(-1) : list[index].number; };
     std::vector<std::int64_t> nodes, facets;
@@ -370,7 +370,7 @@ namespace abut::shim
     const std::vector<Direction> since = difference(u, then),
                                  there = difference(then, gathered_),
                                  here = difference(u, gathered_);
-    // What the search reaches for follows from these.
+    // The reach of the search follows from these.
     const std::vector<double> searched = motions(has_steps() ? since : u);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
@@ -394,7 +394,7 @@ namespace abut::shim
     {
       if (is_in_reach(pair, motions))
         return;
-      // As far again before it has to be done anew.
+      // As far again before it has to be done again.
       pair.reach = std::max(pair.reach, 2. * 1.5 * motions.searched);
       pair.margin = std::max(pair.margin, 2. * motions.gathered);
       return;

@@ -17,8 +17,8 @@ namespace abut::shim
   namespace
   {
     /** Surfaces that have moved against each other by no more than this part of
-     * their smallest facet keep their points: of flat surfaces gaps are right
-     * all the same, of curved ones they are off by the square of it. */
+     * their smallest facet keep their points: gaps of flat surfaces are right
+     * all the same, the error for curved ones is the square of it. */
     constexpr double skin = 1e-2;
 
     /** The angle between two directions of any length, radian. */

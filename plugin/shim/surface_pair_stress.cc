@@ -37,7 +37,7 @@ namespace abut::shim
       }
 
     private:
-      /** What constraints make of an unknown. */
+      /** Terms of an unknown by constraints. */
       void append(const global_dof_index dof)
       {
         std::vector<solve::NodeMap::Term> terms;
@@ -68,7 +68,7 @@ namespace abut::shim
       return result;
     }
 
-    /** Those that are not 0, over nodes. */
+    /** Coefficients that are not 0, over nodes. */
     struct Stencil
     {
       std::vector<std::int32_t> node;

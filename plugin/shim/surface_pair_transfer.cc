@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// How well rows hand a uniform pressure to the primary surface: the question
-// that the contact patch test asks, answered without solving anything.
+// How well rows hand a uniform pressure to the primary surface: the error that
+// the contact patch test measures, without solving anything.
 #include "surface_pair_rows.h"
 
 #include <cmath>

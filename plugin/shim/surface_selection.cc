@@ -18,7 +18,7 @@ namespace abut::shim
      * that a space-filling curve has cut out, but all ranks get all boxes. */
     constexpr std::int32_t boxes_per_part = 8;
 
-    /** Facets up to this ring have a say in the rows of own nodes. */
+    /** Facets up to this ring have a share in the rows of own nodes. */
     constexpr int last_ring_with_shares = 2;
 
     using Ids = std::set<dealii::types::boundary_id>;

@@ -11,7 +11,7 @@
 
 namespace abut::shim
 {
-  /** What is known of a side on all ranks together. */
+  /** Measures of a side on all ranks together. */
   struct SideMeasures
   {
     std::int64_t n_facets = 0;

@@ -23,8 +23,8 @@ namespace abut::shim
                              "Method/Friction file",
                              "Method/Friction parameters"};
 
-    /** What the shared object exports by a function of type Query; throws a
-     * text if it cannot be had. */
+    /** The table that the shared object exports by a function of type Query;
+     * throws a text if it cannot be had. */
     template <typename Query>
     auto &open(const std::string &file, const Kind &kind)
     {
@@ -50,7 +50,7 @@ namespace abut::shim
       return *found;
     }
 
-    /** Of a structure: its name, and its sizes there and here. */
+    /** A structure: its name, and its sizes there and here. */
     using Size = std::pair<const char *, std::pair<std::size_t, std::size_t>>;
 
     /** The shared object may be of another version. */

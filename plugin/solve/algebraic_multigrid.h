@@ -9,7 +9,7 @@
 
 namespace abut::solve
 {
-  /** What smoothed aggregation of either Trilinos stack is built with. */
+  /** Options of smoothed aggregation of either Trilinos stack. */
   struct AggregationOptions
   {
     double threshold = 0.;         ///< weaker connections are dropped
@@ -34,7 +34,7 @@ namespace abut::solve
     virtual void restrict() = 0;
   };
 
-  /** Of the stack that la::Matrix is of. */
+  /** Algebraic multigrid of the stack of la::Matrix. */
   std::unique_ptr<AlgebraicMultigrid> make_algebraic_multigrid();
 } // namespace abut::solve
 

@@ -14,7 +14,7 @@ namespace abut::solve
   /** Whole numbers, and bits of others, on their way to other ranks. */
   using Words = std::vector<std::uint64_t>;
 
-  /** What goes to, or came from, which rank; this one is welcome. */
+  /** Words by the rank that they go to or come from; this one is welcome. */
   using WordMail = std::map<unsigned int, Words>;
 
   inline std::uint64_t to_word(const double value)
@@ -43,7 +43,7 @@ namespace abut::solve
     return result;
   }
 
-  /** What the ranks answer: @p answer(question) makes the Words for each
+  /** Answers of the ranks: @p answer(question) makes the Words for each
    * question. Collective. */
   template <typename Answer>
   WordMail ask_ranks(const MPI_Comm communicator, const WordMail &questions,

@@ -20,7 +20,7 @@ namespace abut::solve
   public:
     virtual ~CondensateSolver() = default;
 
-    /** What is known of the unknowns, for the stiffness that comes. */
+    /** Set the description of the unknowns, for the stiffness that comes. */
     virtual void set_near_null_space(const NearNullSpace &space) = 0;
 
     /** Take a new stiffness and rows, which must outlive this object or the
@@ -57,7 +57,7 @@ namespace abut::solve
     /** One cycle of the preconditioner of the last prepare(). Collective. */
     virtual void precondition(la::Vector &dst, const la::Vector &src) const = 0;
 
-    /** What the preconditioner was built for. Not collective. */
+    /** State that the preconditioner was built for. Not collective. */
     virtual PreconditionerState state() const
     {
       return {};
@@ -82,7 +82,7 @@ namespace abut::solve
       return is_symmetric_ && !matrix_.has_blocks();
     }
 
-    /** What iterates, in words. */
+    /** Name of the iteration. */
     std::string krylov_method() const
     {
       return is_definite() ? "conjugate gradients" : "FGMRES";

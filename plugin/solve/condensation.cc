@@ -138,8 +138,8 @@ namespace abut::solve
     }
     else
     {
-      // What does not depend on the pressures of constraints, which are not
-      // known yet.
+      // The part that does not depend on the pressures of constraints, which
+      // are not known yet.
       force.assign(request.gap_change, request.gap_change + rows_->n_rows());
       solver_->matrix().apply_springs(force);
       for (int i = 0; i < rows_->n_rows(); ++i)
@@ -151,7 +151,7 @@ namespace abut::solve
   void Condensation::recover_held(const la::Vector &reaction,
                                   const abut_request &request) const
   {
-    // What holds the pivots is the force of their rows.
+    // The reaction at the pivots is the force of their rows.
     const double *const values = la::data(reaction);
     const RowBlocks &blocks = condensate_.blocks;
     for (int block = 0; !blocks.empty() && block < blocks.n_blocks(); ++block)
@@ -193,7 +193,7 @@ namespace abut::solve
     reaction.add(1., residual);
     add_spring_forces(request, reaction);
     recover_held(reaction, request);
-    // Tractions of what slips follow from the pressures.
+    // Tractions of slipping points follow from the pressures.
     if (has_blocks)
       local_.recover(request);
   }

@@ -19,14 +19,13 @@ namespace abut::solve
    * of stiffness w b/a. The system P^T (K + B^T diag(w b/a) B) P stays
    * symmetric and positive definite if K is.
    *
-   * With friction, the rows of a point go together: what sticks is held in all
-   * its components; what slips is held along the normal, with a force that has
+   * With friction, the rows of a point go together: a sticking point is held in
+   * all its components; a slipping one along the normal, with a force that has
    * the friction, too, which makes the system unsymmetric (Hueber, Stadler and
    * Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572).
    *
-   * Where a constraint has no unknown of its own (standard mortar), the
-   * system is solved as a saddle point, which needs a matrix; the report says
-   * so. */
+   * Where a constraint has no unknown of its own (standard mortar), the system
+   * is solved as a saddle point, which needs a matrix; it is in the report. */
   class Condensation : public RowSolver
   {
   public:

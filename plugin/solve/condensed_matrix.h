@@ -29,7 +29,7 @@ namespace abut::solve
     /** Take what is condensed. Collective. */
     void set(const Condensate &condensate);
 
-    /** What is condensed. */
+    /** The terms that are condensed. */
     const Condensate &condensate() const
     {
       return condensate_;
@@ -71,7 +71,7 @@ namespace abut::solve
      * which is K. Collective. */
     la::Matrix assemble() const;
 
-    /** What the matrix has beyond K line by line, see
+    /** Entries of the matrix in addition to K line by line, see
      * for_each_elimination_term(). Rows and columns of pivots, which sum up to
      * 0, are among them. Collective. */
     void for_each_term(const VisitLine &visit) const;

@@ -27,7 +27,7 @@ namespace abut::solve
 
   namespace
   {
-    /** Make the blocks of springs of @p soft those that its diagonal says. */
+    /** Make the blocks of springs of @p soft those of its diagonal. */
     void soften_blocks(const Condensate &stiff, Condensate &soft)
     {
       const RowBlocks &blocks = soft.blocks;
@@ -157,7 +157,7 @@ namespace abut::solve
 
   Condensate CondensedSolver::without_friction_forces() const
   {
-    // Springs of what slips grow beyond all bounds at the border to stick.
+    // Springs of slipping points grow beyond all bounds at the border to stick.
     constexpr double stiffest = 100.;
     Condensate result = matrix_.condensate();
     result.test = result.trial;
@@ -177,8 +177,8 @@ namespace abut::solve
                        ? std::sqrt(limit / diagonal)
                        : 1.;
       }
-      // What the pressure of a spring does along the surface is no stiffness,
-      // see subtract_friction().
+      // The force along the surface due to the pressure of a spring is no
+      // stiffness, see subtract_friction().
       for (int r = 1; r < k; ++r)
         spring[r * k] = spring[r] = 0.;
       for (int r = 0; r < k; ++r)
@@ -321,7 +321,7 @@ namespace abut::solve
 
   PreconditionerState CondensedSolver::state() const
   {
-    // With friction it is built anew.
+    // With friction it is built again.
     if (!built_.blocks.empty())
       return {};
     return {keeper_, built_.stiffness, built_.pivot, {}, {}};
@@ -465,8 +465,8 @@ namespace abut::solve
                                           const double tolerance, la::Vector &x,
                                           LinearReport &report)
   {
-    // What is kept may have become bad, and the coarser meshes may be of no
-    // use: neither is worth waiting for.
+    // A kept preconditioner may have become bad, and the coarser meshes may be
+    // of no use: neither is worth waiting for.
     const double digits = std::log10(rhs.l2_norm() / tolerance);
     while (keeper_.is_kept() || choice_.is_geometric())
     {
@@ -491,8 +491,8 @@ namespace abut::solve
                                        const double tolerance, la::Vector &x,
                                        LinearReport &report) const
   {
-    // Again with the residual: factors of stiff springs lose digits, those of
-    // fields without stiffness, as pressures, more of them on several ranks.
+    // Again with the residual: factors of stiff springs lose accuracy, those of
+    // fields without stiffness, as pressures, more of it on several ranks.
     constexpr int most = 8;
     constexpr double slow = 0.5;
     la::Vector residual(rhs), correction(rhs);
@@ -519,7 +519,7 @@ namespace abut::solve
     LinearReport report;
     const dealii::Timer timer;
     x = 0.;
-    // With factors all digits come at the price of a few.
+    // With factors a solve to full accuracy costs no more.
     if (!(rhs.l2_norm() <= (is_direct() ? 0. : tolerance)))
     {
       if (is_direct())

@@ -15,7 +15,7 @@ namespace abut::solve
    * multigrid, or a factorisation.
    *
    * The operator always is the present one; the multigrid hierarchy, which
-   * costs as much as a solve, is kept while few rows change. It is built anew
+   * costs as much as a solve, is kept while few rows change. It is built again
    * when many have changed or the iteration slows down. Rows that are stiff
    * springs spoil it; then a direct solve on their unknowns is wrapped around
    * it, see ContactFilter. */
@@ -39,7 +39,7 @@ namespace abut::solve
     LinearReport solve(const la::Vector &rhs, double tolerance,
                        la::Vector &x) override;
 
-    /** Build the preconditioner anew if it was kept from another matrix;
+    /** Build the preconditioner again if it was kept from another matrix;
      * returns whether it was. Collective. */
     bool refresh();
 
@@ -63,8 +63,8 @@ namespace abut::solve
               const std::vector<double> &row_stiffness);
     bool is_outdated() const;
     void find_friction();
-    /** Take from @p force the friction that goes with what presses on stiff
-     * springs. What a symmetric preconditioner does not know is then of the
+    /** Take from @p force the friction due to the pressure of stiff springs.
+     * The part that a symmetric preconditioner does not know is then of the
      * size of the stiffness, not of the springs. Collective. */
     void subtract_friction(la::Vector &force) const;
     void cycle(la::Vector &dst, const la::Vector &src) const;
@@ -78,7 +78,7 @@ namespace abut::solve
     std::unique_ptr<Multigrid> make_cycle(const la::Matrix &system) const;
     /** [owned] unknowns that are pivots. */
     std::vector<std::uint8_t> held_by_pivots() const;
-    /** What a symmetric preconditioner is built for. */
+    /** Terms that a symmetric preconditioner is built for. */
     Condensate without_friction_forces() const;
     bool iterate(const la::Vector &rhs, unsigned int max_iterations,
                  double digits, double tolerance, la::Vector &x,
@@ -94,7 +94,7 @@ namespace abut::solve
     std::vector<double> row_stiffness_;
     MultigridChoice choice_;
 
-    /** What the preconditioner was built on. */
+    /** The matrix that the preconditioner was built on. */
     std::unique_ptr<la::Matrix> assembled_;
     std::unique_ptr<la::Matrix> softened_; ///< and its multigrid, if filtered
     Condensate built_;

@@ -8,7 +8,7 @@ namespace abut::solve
   namespace
   {
     /** MUMPS: room beyond its estimate, in percent of it, tried one after the
-     * other. The estimate knows nothing of pivoting. */
+     * other. The estimate does not include pivoting. */
     constexpr int extra_room[] = {100, 1000, 10000};
 
     void check(const std::string &failure)

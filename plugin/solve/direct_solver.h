@@ -18,7 +18,7 @@ namespace abut::solve
   class DirectSolver
   {
   public:
-    /** What is used, in words. */
+    /** Name of the solver. */
     static std::string name();
 
     /** Factorise @p matrix, which must exist and keep its values as long as

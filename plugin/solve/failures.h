@@ -8,7 +8,7 @@
 
 namespace abut::solve
 {
-  /** Throw a SolverFailure that says what was seen. */
+  /** Throw a SolverFailure with the cause. */
   [[noreturn]] void
   throw_failure(const std::string &method,
                 const dealii::SolverControl::NoConvergence &failure,

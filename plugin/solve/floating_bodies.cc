@@ -33,14 +33,14 @@ namespace abut::solve
      * square of it. */
     constexpr double free_gap = 1e-14;
 
-    /** Springs of what slips are none if they are softer, as a part of the
-     * surface's own stiffness. */
+    /** Springs of points that slip count as 0 below this part of the surface's
+     * own stiffness. */
     constexpr double no_spring = 1e-9;
 
     /** Rigid motions of a body in space. */
     constexpr unsigned int most_modes = 6;
 
-    /** Rigid motions of all bodies at once; each body turns about its centre,
+    /** Rigid motions of all bodies at once; each body rotates about its centre,
      * with displacements of about 1 at its rim. */
     class Motions
     {
@@ -169,7 +169,7 @@ namespace abut::solve
       std::vector<std::uint8_t> is_coupled_;
     };
 
-    /** What all modes of an unknown do to it, or the forces in them. */
+    /** Values of all modes at an unknown, or the forces in them. */
     using Modes = std::array<double, most_modes>;
 
     void fill(const Motions &motions, const unsigned int mode,
@@ -247,7 +247,7 @@ namespace abut::solve
     }
     /** Whether prescribed values alone stop all motions of all bodies, and not
      * by nodes that are next to each other only: then stiffness need not be
-     * asked. Collective. */
+     * examined. Collective. */
     bool supports_hold(const Motions &motions, const NearNullSpace &space,
                        const MPI_Comm communicator)
     {
@@ -592,7 +592,8 @@ namespace abut::solve
     for (int i = 0; i < rows.n_rows() && result.has_friction; ++i)
     {
       result.sticks[i] = request.state[i] != ABUT_STATE_OPEN;
-      // The springs of what slips vanish at the solution, but for round-off.
+      // The springs of slipping points vanish at the solution, but for
+      // round-off.
       if (rows.is_tangent(i) && !local.is_held(i)
           && local.spring()[i] <= no_spring * rows.weight(i) * row_stiffness[i])
         result.now[i] = 0;

@@ -19,8 +19,8 @@ namespace abut::solve
 {
   /** Rigid motions of bodies that a stiffness does not resist, and whether
    * constraint rows do. A system with such a motion left has no solution, or
-   * many; iterations and factorisations then fail in ways that do not tell
-   * why, or not at all. */
+   * many; iterations and factorisations then fail without an explanation, or
+   * not at all. */
   class FloatingBodies
   {
   public:
@@ -29,7 +29,7 @@ namespace abut::solve
     using Combination = std::vector<double>;
 
     /** Loads do no work along a motion if it is less, as a part of the sum of
-     * their magnitudes times the largest displacement; pressures are none
+     * their magnitudes times the largest displacement; pressures count as 0
      * likewise. */
     static constexpr double no_work = 1e-10;
 
@@ -57,7 +57,7 @@ namespace abut::solve
       return static_cast<unsigned int>(motions_.size());
     }
 
-    /** Combinations of motions that no row with @p resists nonzero feels.
+    /** Combinations of motions that no row with @p resists nonzero resists.
      * Collective. */
     std::vector<Combination>
     free_motions(const PointOperator &rows,
@@ -87,7 +87,7 @@ namespace abut::solve
     /** [motions] work of @p forces. Collective. */
     std::vector<double> work(const la::Vector &forces) const;
 
-    /** Those of these motions along which @p residual does more work than a
+    /** Motions among these along which @p residual does more work than a
      * @p tolerance. Collective. */
     std::vector<Combination>
     along_which_works(const std::vector<Combination> &motions,

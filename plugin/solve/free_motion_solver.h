@@ -14,7 +14,7 @@ namespace abut::solve
   /** A solver of rows for bodies that contact alone supports. Where the rows
    * of a request leave rigid motions free, which makes the system singular,
    *
-   *   - motions that no row at all feels are constrained by springs at as many
+   *   - motions without a resisting row are constrained by springs at as many
    *     unknowns, the others by springs on as many open or slipping rows,
    *   - inertia balances the loads along these motions (M z c with
    *     z.M z c = z.F), so that no spring has a force,
@@ -68,12 +68,12 @@ namespace abut::solve
     void find_turning(const Stiffness &stiffness);
     /** The parts of these motions that forces which turn do not resist. */
     Combinations unresisted(const Combinations &motions) const;
-    /** Returns whether loads do work along motions that no row feels, which
-     * are an error unless the next iteration may resist them. */
+    /** Returns whether loads do work along motions without a resisting row,
+     * which are an error unless the next iteration may resist them. */
     bool check_unfelt(const la::Vector &residual);
     Free find_free(const la::Vector &residual,
                    const abut_request &request) const;
-    /** What the loads do along the motions. Collective. */
+    /** Work of the loads along the motions. Collective. */
     void find_work(const la::Vector &residual, Free &free) const;
     void find_mass(Free &free) const;
     /** The motion that the loads drive, 1 at most. */
@@ -85,7 +85,7 @@ namespace abut::solve
                        la::Vector &increment, std::vector<double> &force);
     void take_forces_of_springs(Free &free) const;
     /** Motions that sticking points leave free, if springs in the place of
-     * what slips work along them. Collective. */
+     * slipping points work along them. Collective. */
     Free pivots(const Free &free) const;
     /** Solve mass c = right. */
     static std::vector<double> divide_by_mass(const Free &free,
@@ -114,15 +114,15 @@ namespace abut::solve
     void settle(const Free &free, const abut_request &request,
                 la::Vector &increment) const;
     /** Work below which there is none: a part of the load's, and round-off of
-     * internal forces, which do none along rigid motions. Collective. */
+     * internal forces, whose work along rigid motions is 0. Collective. */
     double work_tolerance() const;
-    /** The parts of these motions that rows feel. */
+    /** The parts of these motions that rows resist. */
     Combinations felt(const Combinations &motions) const;
 
     std::unique_ptr<RowSolver> inner_;
     NearNullSpace space_;
     FloatingBodies floating_;
-    Combinations unfelt_;             ///< motions that no row feels
+    Combinations unfelt_;             ///< motions without a resisting row
     std::optional<Stiffness> bodies_; ///< without forces that turn
     std::vector<double> turning_;     ///< [motions x motions] their stiffness
     std::vector<double> diagonal_;

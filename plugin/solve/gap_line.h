@@ -8,8 +8,8 @@
 
 namespace abut::solve
 {
-  /** What the gap of a row changes by beside what its coefficients say, by
-   * unknowns. */
+  /** Change of the gap of a row in addition to its coefficients, by unknowns.
+   */
   struct GapLine
   {
     int row = 0;

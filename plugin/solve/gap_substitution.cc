@@ -26,7 +26,7 @@ namespace abut::solve
       std::vector<std::pair<Index, double>> motion;
     };
 
-    /** The motion is along the row, and B says 1 of it. */
+    /** The motion is along the row, and its product with B is 1. */
     Row make_row(const PointOperator &rows, const GapLine &line)
     {
       Row result;
@@ -75,8 +75,7 @@ namespace abut::solve
                           });
     }
 
-    /** The entries of a line that say more than round-off does of what the next
-     * linearisation is. */
+    /** The entries of a line above round-off of the next linearisation. */
     std::vector<std::pair<Index, double>>
     without_negligible(const SparseLine &line)
     {
@@ -195,7 +194,7 @@ namespace abut::solve
     {
       constexpr double least = 0.3;
       Row row = make_row(rows, line);
-      // What its own lever nearly takes back would move it too far.
+      // A row whose own lever nearly cancels the change would move too far.
       if (!row.motion.empty() && by_motion(row.whole, row) > least)
         all.push_back(std::move(row));
     }

@@ -10,7 +10,7 @@
 
 namespace abut::solve
 {
-  /** Gaps that change by more than their rows B say, by C u = (B + R) u, as a
+  /** Gaps that change by more than their rows B, by C u = (B + R) u, as a
    * substitution: with a motion E of the nodes that the rows belong to,
    *
    *     u = v + Z v,   Z = - E (C E)^-1 R:   C u = B v .
@@ -22,8 +22,8 @@ namespace abut::solve
   class GapSubstitution
   {
   public:
-    /** Of the rows of R on this rank, which may be 0: what another row moves
-     * must not change their gaps, either. Collective. */
+    /** Substitution for the rows of R on this rank, which may be 0: what
+     * another row moves must not change their gaps, either. Collective. */
     GapSubstitution(const PointOperator &rows,
                     const std::vector<GapLine> &lines);
 

@@ -7,7 +7,7 @@ namespace abut::solve
 {
   namespace
   {
-    /** What the core asks of other ranks; user data are the shared meshes. */
+    /** Communication for the core; user data are the shared meshes. */
     void add_copies(void *user, const std::int32_t mesh,
                     const std::int32_t n_values, float *values)
     {
@@ -33,7 +33,7 @@ namespace abut::solve
       return result;
     }
 
-    /** Those and the others of @p touched. */
+    /** The owned ones and the others of @p touched. */
     std::vector<GeometricMultigrid::Index>
     with_touched(const dealii::IndexSet &owned,
                  const std::vector<GeometricMultigrid::Index> &ghosts,

@@ -21,8 +21,8 @@ namespace abut::solve
     using Index = dealii::types::global_dof_index;
 
     /** A copy of @p matrix is made; hold() comes next. @p touched are unknowns
-     * of other ranks that terms will have beside those of the matrix; owned
-     * ones do no harm. */
+     * of other ranks that terms will have in addition to the unknowns of the
+     * matrix; owned ones do no harm. */
     GeometricMultigrid(const la::Matrix &matrix, const MeshHierarchy &meshes,
                        const std::vector<Index> &touched = {});
 
@@ -34,8 +34,9 @@ namespace abut::solve
     /** Another matrix on the same meshes, copied; hold() comes next. */
     void set_matrix(const la::Matrix &matrix);
 
-    /** What is added to the matrix in a few of its rows from the next hold()
-     * on, instead of what was; any rank may have any part of it. Closes it. */
+    /** Set the terms added to the matrix in a few of its rows from the next
+     * hold() on, instead of the previous ones; any rank may have any part of
+     * it. Closes it. */
     void set_terms(LocalMatrix &terms);
 
     /** [owned] nonzero where an unknown is held, and what is added to the
@@ -74,8 +75,8 @@ namespace abut::solve
   bool wants_meshes(const SolverParameters &parameters,
                     unsigned long long n_unknowns, unsigned int n_components);
 
-  /** Which multigrid a solver takes: the geometric one where it is asked for
-   * or is the faster one, until a system takes it too long. */
+  /** Which multigrid a solver takes: the geometric one where it is requested or
+   * is the faster one, until a system takes it too long. */
   class MultigridChoice
   {
   public:
@@ -84,8 +85,8 @@ namespace abut::solve
     {
     }
 
-    /** Choose for a new matrix. @p is_faster: whether it is to be taken
-     * without being asked for. Collective. */
+    /** Choose for a new matrix. @p is_faster: whether it is to be taken without
+     * a request. Collective. */
     void choose(const la::Matrix &matrix, const NearNullSpace &space,
                 bool is_faster = true);
 
@@ -101,7 +102,7 @@ namespace abut::solve
     /** Algebraic multigrid from now on, as that was not enough. */
     void give_up(unsigned int n_iterations);
 
-    /** What is used, in words. */
+    /** Name of the preconditioner. */
     std::string name() const;
 
   private:

@@ -34,7 +34,7 @@ namespace abut::solve
                    const std::vector<double> &diagonal,
                    const PointOperator &rows)
   {
-    // Of the first unknown of a row on the first rank that has one.
+    // Use the first unknown of a row on the first rank that has one.
     constexpr double round_off = 1e-9;
     double first = INFINITY;
     for (int i = 0; i < rows.n_rows() && std::isinf(first); ++i)

@@ -3,9 +3,9 @@
 #define ABUT_SOLVE_HOST_CHECKS_H
 
 /** @file
- * Whether what a host has in place of a matrix is what HostOperator says. The
- * checks throw std::invalid_argument on all ranks, and all are collective.
- */
+ * Checks of a host's functions in place of a matrix against the contract of
+ * HostOperator. The checks throw std::invalid_argument on all ranks, and all
+ * are collective. */
 
 #include "common_array.h"
 #include "point_operator.h"
@@ -32,9 +32,9 @@ namespace abut::solve
                         const std::vector<double> &diagonal,
                         const CommonArray<std::uint8_t> &prescribed);
 
-  /** What is wrong with the preconditioner, and that K is not symmetric, as
-   * far as vectors without structure tell, as sentences that begin with a
-   * blank; empty: nothing. Three cycles. */
+  /** Errors of the preconditioner, and a K that is not symmetric, as far as
+   * vectors without structure show them, as sentences that begin with a blank;
+   * empty: nothing. Three cycles. */
   std::string faults(const Stiffness &stiffness, bool is_symmetric);
 } // namespace abut::solve
 

@@ -17,8 +17,8 @@ namespace abut::solve
    *
    * For a few nodes on each other that is as good as M is for K; for surfaces
    * that press on each other the condition number grows with the number of
-   * cells along them, as M knows nothing of the contact. Unknowns that rows of
-   * single unknowns hold are told to the host. */
+   * cells along them, as M does not include the contact. The host receives the
+   * unknowns that rows of single unknowns hold. */
   class HostSolver : public CondensateSolver
   {
   public:

@@ -8,8 +8,8 @@
 
 namespace abut::solve
 {
-  /** What a rank has of a sparse matrix, summed up from lines, as plain
-   * arrays. */
+  /** A rank's part of a sparse matrix, summed up from lines, as plain arrays.
+   */
   class LocalMatrix
   {
   public:

@@ -13,9 +13,9 @@ namespace abut::solve
   /** Whether each row is one owned unknown alone, on all ranks. Collective. */
   bool are_nodal(const PointOperator &rows);
 
-  /** The solver for a set of rows: by elimination unless the user's word
-   * @p system asks for a saddle point, which needs a matrix, as elimination
-   * does not. Collective. */
+  /** The solver for a set of rows: by elimination unless the user's word @p
+   * system is the saddle point, which needs a matrix, as elimination does not.
+   * Collective. */
   std::unique_ptr<RowSolver> make_row_solver(System system,
                                              const SolverParameters &parameters,
                                              const PointOperator &rows,

@@ -17,7 +17,7 @@
 
 namespace abut::solve
 {
-  /** What distinguishes the system to be solved from the matrix K. */
+  /** Difference between the system to be solved and the matrix K. */
   struct Mask
   {
     /** [owned] nonzero where the unknown is held at its given value. */
@@ -127,7 +127,7 @@ namespace abut::solve
    * since the copy is brought up to date, and
    *     M -> S M S,  s = sqrt(d_old / d_new),
    * where d is the diagonal of K + D (s = 0 on held unknowns, which is the
-   * limit d -> infinity), accounts for a changed D. It is built anew when too
+   * limit d -> infinity), accounts for a changed D. It is built again when too
    * many entries changed or the iteration slows down.
    *
    * Geometric multigrid follows each mask, at the cost of what changed. */
@@ -136,7 +136,7 @@ namespace abut::solve
   public:
     explicit MaskedSolver(const SolverParameters &parameters = {});
 
-    /** What is known of the unknowns, for the matrices that come. */
+    /** Set the description of the unknowns, for the matrices that come. */
     void set_near_null_space(const NearNullSpace &space);
 
     /** Take a new matrix, which must outlive this object or the next call.
@@ -147,10 +147,10 @@ namespace abut::solve
      * slow. */
     void renew(const la::Matrix &matrix);
 
-    /** Solve with the Euclidean norm of the residual on the free unknowns
-     * at most @p tolerance. @p x holds the values of held unknowns and a
-     * start for the free ones; @p start_is_zero says that all of it is 0.
-     * Throws if the iteration does not converge. Collective. */
+    /** Solve with the Euclidean norm of the residual on the free unknowns at
+     * most @p tolerance. @p x holds the values of held unknowns and a start for
+     * the free ones; @p start_is_zero: all of it is 0. Throws if the iteration
+     * does not converge. Collective. */
     LinearReport solve(const Mask &mask, const la::Vector &rhs,
                        double tolerance, la::Vector &x,
                        bool start_is_zero = false);
@@ -165,7 +165,7 @@ namespace abut::solve
     /** Make the preconditioner (or factorisation) fit the mask. Collective. */
     LinearReport prepare(const Mask &mask);
 
-    /** What the preconditioner was built for. Not collective. */
+    /** State that the preconditioner was built for. Not collective. */
     PreconditionerState state() const;
 
     /** Build that of another solver, see RowSolver::restore(). Collective. */

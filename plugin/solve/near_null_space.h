@@ -57,7 +57,7 @@ namespace abut::solve
       share.change().resize(n);
     }
 
-    /** What owned unknown @p k is. */
+    /** Set the component and the position of owned unknown @p k. */
     template <int dim>
     void set(const std::size_t k, const unsigned int its_component,
              const int its_body, const dealii::Point<dim> &place)

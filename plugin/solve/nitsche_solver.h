@@ -9,7 +9,7 @@
 
 namespace abut::solve
 {
-  /** What Nitsche's method needs of each row beside its gap. */
+  /** Terms of each row that Nitsche's method needs in addition to its gap. */
   struct NitscheTerms
   {
     PointOperator stress; ///< S = d sigma / du, sigma(0) as gap; sigma is

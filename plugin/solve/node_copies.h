@@ -37,9 +37,9 @@ namespace abut::solve
     /** Which of the nodes has a number; it must be one of them. */
     std::int32_t place(std::int32_t number) const;
 
-    /** What the owners of copies say of them, in the order of the nodes: @p
-     * describe(own node, words) appends those of node number `own
-     * node` of this rank. Collective. */
+    /** Descriptions of copies by their owners, in the order of the nodes: @p
+     * describe(own node, words) appends those of node number `own node` of this
+     * rank. Collective. */
     template <typename Describe> Words of_copies(const Describe &describe) const
     {
       const WordMail answers = ask_ranks(

@@ -9,10 +9,10 @@
 
 namespace abut::solve
 {
-  /** What the unknowns of nodes are: unknown k of node l is a sum of factors
-   * times free unknowns of the matrix, and a constant. Supports, hanging nodes
-   * and prescribed values are put in here, once per node, and nowhere else.
-   * Which unknowns these are is not asked. Rigid obstacles have none: where
+  /** The unknowns of nodes: unknown k of node l is a sum of factors times free
+   * unknowns of the matrix, and a constant. Supports, hanging nodes and
+   * prescribed values are put in here, once per node, and nowhere else. The
+   * kind of these unknowns does not matter. Rigid obstacles have none: where
    * forces put them is found outside of the contact problem. */
   class NodeMap
   {

@@ -107,8 +107,8 @@ namespace abut::solve
     }
 
     /** Gauss's elimination of all constraints at once, with the largest pivot
-     * each: what is left of a candidate must not be small beside what it was.
-     */
+     * each: the rest of a candidate must not be small compared with its first
+     * value. */
     bool pick(std::vector<Candidate> all, const int n,
               std::vector<std::int64_t> &entry)
     {

@@ -9,8 +9,8 @@
 
 namespace abut::solve
 {
-  /** What is condensed into a matrix: rows that are springs, and rows that
-   * determine one of their unknowns. */
+  /** Rows condensed into a matrix: springs, and rows that determine one of
+   * their unknowns. */
   struct Condensate
   {
     /** pivot[] of rows that determine nothing. */

@@ -51,7 +51,7 @@ namespace abut::solve
                end < terms_.size() && terms_[end].first == terms_[first].first;
                ++end)
             sum += terms_[end].second;
-          // What is no number is kept, to be seen.
+          // A value that is not finite is kept, so that it is reported.
           if (!(std::abs(sum) <= round_off * largest))
             write_sum(terms_[first].first, sum, column, coefficient);
         }

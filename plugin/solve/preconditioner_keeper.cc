@@ -10,7 +10,7 @@ namespace abut::solve
   namespace
   {
     /** Part of the entries that may change before a preconditioner is built
-     * anew, and the factor that counts as a change. */
+     * again, and the factor that counts as a change. */
     constexpr double rebuild_fraction = 0.08;
     constexpr double rebuild_factor = 3.;
   } // namespace

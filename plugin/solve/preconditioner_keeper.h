@@ -6,10 +6,10 @@
 
 namespace abut::solve
 {
-  /** When a preconditioner or factorisation, which costs as much as a solve,
-   * is built anew, and when it is kept although the matrix has changed: the
-   * one policy of all solvers. A factorisation is exact or nothing; multigrid
-   * is kept while few contacts change and while it is not slow. */
+  /** When a preconditioner or factorisation, which costs as much as a solve, is
+   * built again, and when it is kept although the matrix has changed: the one
+   * policy of all solvers. A factorisation is exact or nothing; multigrid is
+   * kept while few contacts change and while it is not slow. */
   class PreconditionerKeeper
   {
   public:
@@ -91,7 +91,7 @@ namespace abut::solve
       keeps_ = keeps;
     }
 
-    /** What to keep of it with a preconditioner, by an archive of boost's. */
+    /** Its data to keep with a preconditioner, by an archive of boost's. */
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
       archive &is_built_ &is_kept_ &is_slow_;

@@ -9,9 +9,9 @@
 
 namespace abut::solve
 {
-  /** What a preconditioner was built for, on this rank: a solver of the same
-   * matrix and rows builds the same from it, bit by bit, and keeps it as long.
-   */
+  /** State that a preconditioner was built for, on this rank: a solver of the
+   * same matrix and rows builds the same from it, bit by bit, and keeps it as
+   * long. */
   struct PreconditionerState
   {
     PreconditionerKeeper keeper{1.};

@@ -19,7 +19,7 @@ namespace abut::solve
 
     RowBlocks() = default;
 
-    /** Those of a request; empty if it has none. */
+    /** Blocks of a request; empty if it has none. */
     explicit RowBlocks(const abut_request &request)
     {
       if (request.block_size == nullptr)

@@ -65,13 +65,13 @@ namespace abut::solve
   public:
     virtual ~RowSolver() = default;
 
-    /** What is known of the unknowns. Call before reinit(), and again when the
-     * mesh changes. Not collective. */
+    /** Set the description of the unknowns. Call before reinit(), and again
+     * when the mesh changes. Not collective. */
     virtual void set_near_null_space(const NearNullSpace &space) = 0;
 
-    /** The stiffness of the bodies alone, which says what rigid motions
-     * supports leave, where that of reinit() and renew() has terms of contact
-     * forces that turn, too. Called before these. */
+    /** The stiffness of the bodies alone, which determines the rigid motions
+     * that supports leave, where that of reinit() and renew() has terms of
+     * contact forces that turn, too. Called before these. */
     virtual void set_bodies(const Stiffness & /*bodies*/)
     {
     }
@@ -88,8 +88,8 @@ namespace abut::solve
     virtual void renew(const Stiffness &stiffness, const PointOperator &rows,
                        const std::vector<double> &row_stiffness) = 0;
 
-    /** What its preconditioners were built for, for restore(); empty: it keeps
-     * none. Not collective. */
+    /** States that its preconditioners were built for, for restore(); empty: it
+     * keeps none. Not collective. */
     virtual std::vector<PreconditionerState> state() const
     {
       return {};

@@ -19,7 +19,8 @@ namespace abut::solve
   {
     std::vector<double> result = rows.squares(compliance);
     for (int i = 0; i < rows.n_rows(); ++i)
-      // What supports hold along a tangent feels the stiffness of its point.
+      // A point that supports hold along a tangent has the stiffness of its
+      // normal there.
       result[i] = result[i] > 0. || !rows.is_tangent(i) || i == 0
                       ? 1. / (rows.weight(i) * result[i])
                       : result[i - 1];

@@ -23,8 +23,7 @@ namespace abut::solve
     std::vector<double> scale;
     std::vector<double> right; ///< h
     std::vector<double> schur; ///< 3 w / ((1 + gamma) s)
-    /** What is condensed into the first equation: D, augmented for
-     * iterations. */
+    /** Terms condensed into the first equation: D, augmented for iterations. */
     Condensate leading;
     la::Vector force; ///< f
     dealii::types::global_dof_index n_constraints = 0;
@@ -357,9 +356,9 @@ namespace abut::solve
           [&](const dealii::types::global_dof_index line, const int row,
               const double trial, const double test)
           {
-            // As stiffnesses and forces, in whatever units: of a matrix with
-            // other numbers in its lines no residual tells whether it is
-            // solved.
+            // As stiffnesses and forces, in whatever units: the residual of a
+            // matrix with other numbers in its lines does not show whether it
+            // is solved.
             const double scale =
                 system.scale[line - n - system.first_constraint];
             for (auto e = rows_->begin(row); e < rows_->end(row); ++e)
@@ -398,7 +397,7 @@ namespace abut::solve
     double after = matrix.residual(rest, solution, right);
     if (after > 1e-12 * before)
     {
-      // Once more: an indefinite matrix costs digits.
+      // Once more: an indefinite matrix loses accuracy.
       solver.solve(correction, rest);
       solution += correction;
       after = matrix.residual(rest, solution, right);

@@ -13,10 +13,10 @@ namespace abut::solve
    *     [ K + D   -C^T ] [du]   [ f ]
    *     [  -C      0   ] [dp] = [ h ],      C = W B on constraints (a = 0);
    *
-   * rows whose pressure follows from the gap (a != 0) are condensed into
-   * D = B^T diag(w b/a) B. With friction the point is what is condensed: D has
-   * a block for each, and the forces of constraints are C'^T dp, which have
-   * the friction of what slips, while C has not; the matrix is unsymmetric.
+   * rows whose pressure follows from the gap (a != 0) are condensed into D =
+   * B^T diag(w b/a) B. With friction the point is what is condensed: D has a
+   * block for each, and the forces of constraints are C'^T dp, which have the
+   * friction of slipping points, while C has not; the matrix is unsymmetric.
    * Iteratively: FGMRES with the block-triangular preconditioner of the
    * augmented system, one multigrid cycle for K + D + gamma s W B^T B and the
    * diagonal 3 w / ((1 + gamma) s) for the Schur complement, s being the local

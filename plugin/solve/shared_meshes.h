@@ -54,8 +54,7 @@ namespace abut::solve
       return communicator_;
     }
 
-    /** Row of an unknown that is owned or one of the ghosts; -1: it is none.
-     */
+    /** Row of an unknown that is owned or one of the ghosts; -1: neither. */
     int row(Index unknown) const;
 
   private:

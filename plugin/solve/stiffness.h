@@ -18,7 +18,7 @@ namespace abut::solve
     /** None. */
     Stiffness() = default;
 
-    /** A matrix is one without being told so. */
+    /** A matrix converts to it. */
     Stiffness(const la::Matrix &matrix);
 
     /** That of the unknowns @p owned. */

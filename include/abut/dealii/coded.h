@@ -23,7 +23,7 @@ namespace abut
   };
 
   /** A message: the known failure, and the pair, its field and the body that it
-   * is about, as data, and the text for the user. Programs ask the data, never
+   * is about, as data, and the text for the user. Programs read the data, never
    * the text. */
   struct Message
   {

@@ -3,8 +3,7 @@
 #define ABUT_DEALII_COMMUNICATION_REPORT_H
 
 /** @file
- * What ranks had to tell each other about contact surfaces.
- */
+ * Data that ranks have exchanged about contact surfaces. */
 
 #include <cstdint>
 

@@ -15,7 +15,7 @@
  *       u += du;
  *     } while (contact.update(u));
  *
- * When the mesh is refined, coarsened or cut anew for the ranks, the host takes
+ * When the mesh is refined, coarsened or partitioned again, the host takes
  * displacement and pressures along like any other fields:
  *
  *     // u, p: with ghosts, p copied from a variable that has pressure(): an
@@ -35,10 +35,9 @@
  *
  * Signs: gap > 0 is open, pressure > 0 is compression. R holds no contact
  * force; rows of R and K that the constraints eliminate must be zero and
- * diagonal, as AffineConstraints::distribute_local_to_global() leaves them.
- * All functions are collective over the communicator unless they say
- * otherwise, and errors are thrown on all ranks.
- */
+ * diagonal, as AffineConstraints::distribute_local_to_global() leaves them. All
+ * functions are collective over the communicator unless stated otherwise, and
+ * errors are thrown on all ranks. */
 
 #include <abut/dealii/communication_report.h>
 #include <abut/dealii/contact_examination.h>
@@ -80,8 +79,8 @@ namespace abut
     std::set<dealii::types::boundary_id> boundary_ids;
   };
 
-  /** An obstacle that no displacement can respect, or that is not a number:
-   * the message says where. Thrown on all ranks. */
+  /** An obstacle that no displacement can respect, or that is not a number: the
+   * message has the place. Thrown on all ranks. */
   class ObstacleError : public MessageError
   {
   public:
@@ -89,7 +88,7 @@ namespace abut
   };
 
   /** A history of contact that cannot be read or written, or belongs to another
-   * mesh: the message says which. Thrown on all ranks. */
+   * mesh: the message has the reason. Thrown on all ranks. */
   class HistoryError : public std::runtime_error
   {
   public:
@@ -122,8 +121,8 @@ namespace abut
      * collective. */
     virtual void set_search_parameters(const SearchParameters &search);
 
-    /** What the field may not penetrate. Takes effect at detect(). Not
-     * collective. */
+    /** The obstacle that the field may not penetrate. Takes effect at detect().
+     * Not collective. */
     virtual void set_obstacle(const Obstacle<dim> &obstacle);
 
     /** The other kind of contact: pairs of surfaces of elastic bodies, or of a
@@ -147,7 +146,7 @@ namespace abut
     virtual void
     set_surface_traction(std::shared_ptr<const SurfaceTraction<dim>> traction);
 
-    /** Say that the matrix given to solve() is the same until the next
+    /** Declare that the matrix given to solve() is the same until the next
      * reinit() or linearise(): preconditioners are then kept. Default: false.
      * Not collective. */
     virtual void assume_constant_matrix(bool constant);
@@ -167,38 +166,38 @@ namespace abut
     void reinit(const dealii::Mapping<dim> &&, const dealii::DoFHandler<dim> &,
                 const dealii::AffineConstraints<double> &) = delete;
 
-    /** Find the constraint rows and begin a new solve at @p displacement
-     * (owned entries). Throws ObstacleError if a prescribed value violates
-     * an obstacle, if obstacles cross or have a value that is not a number,
-     * and ContactError for pairs that cannot be solved; pair_checks() tells
-     * what is odd but no error. Surfaces look for each other within half a
-     * facet, one and a half times their relative motion in @p displacement,
-     * or the reach given, whichever is most. Pressures of the last solve, or
-     * those of set_pressure(), are its start. */
+    /** Find the constraint rows and begin a new solve at @p displacement (owned
+     * entries). Throws ObstacleError if a prescribed value violates an
+     * obstacle, if obstacles cross or have a value that is not a number, and
+     * ContactError for pairs that cannot be solved; pair_checks() reports what
+     * is unusual but no error. Surfaces look for each other within half a
+     * facet, one and a half times their relative motion in @p displacement, or
+     * the reach given, whichever is most. Pressures of the last solve, or those
+     * of set_pressure(), are its start. */
     virtual void detect(const la::VectorView &displacement);
 
     /** Begin a new iteration at @p displacement with the rows of the last
      * detect(), from the pressures and the set reached so far: for Newton's
      * method, where each linearisation is a contact problem of its own, see
      * ContactSolver. The next matrix may have other values even if it was
-     * said to be constant; a preconditioner is kept while it is good. Not for
+     * declared constant; a preconditioner is kept while it is good. Not for
      * `nitsche`, whose stress is linear.
      * @param linear_tolerance relative tolerance of the linear systems of this
-     *   iteration; 0: as the parameters say */
+     *   iteration; 0: that of the parameters */
     virtual void linearise(const la::VectorView &displacement,
                            double linear_tolerance = 0.);
 
     /** Whether points move with the bodies (MethodParameters::sliding): then
-     * linearise() makes them anew at its displacement, solve() and add() take
+     * linearise() makes them again at its displacement, solve() and add() take
      * into account that the directions of their pressures change, with the
      * pressures that they start from, and evaluate() looks at them where they
      * are. Not collective. */
     virtual bool points_move() const;
 
     /** Take points that move to @p displacement, with their pressures and
-     * states: what pair_results() and the fields tell is then of there. To be
-     * called at the end of a Newton iteration; ContactSolver does. Does nothing
-     * where points are fixed. */
+     * states: pair_results() and the fields then refer to that configuration.
+     * To be called at the end of a Newton iteration; ContactSolver does. Does
+     * nothing where points are fixed. */
     virtual void follow(const la::VectorView &displacement);
 
     /** Earlier name of linearise(). */
@@ -212,8 +211,8 @@ namespace abut
      * interpolated from a coarser mesh. Call between reinit() and detect(). If
      * it is what pressure() was before reinit(), on the same mesh with cells on
      * any ranks, rows start from the pressures that they had themselves. From
-     * detect() on it is what pressure(), status() and pair_results() tell,
-     * until there is a solve. */
+     * detect() on pressure(), status() and pair_results() report it, until
+     * there is a solve. */
     virtual void set_pressure(const la::VectorView &pressure);
 
     /** Accept the step that has been solved: its pressures, states and the
@@ -223,16 +222,16 @@ namespace abut
 
     /** Give up the step since commit(), as if it had never been tried: the next
      * detect(), which must follow, begins with what was committed, or with
-     * pressure 0 if nothing was. Of another mesh than that of commit(), what
-     * set_pressure() brought counts as committed. Preconditioners may be those
-     * of the step given up: with iterative solvers the same answer within
-     * their tolerance. */
+     * pressure 0 if nothing was. On another mesh than that of commit(), values
+     * given to set_pressure() count as committed. Preconditioners may be those
+     * of the step given up: with iterative solvers the same answer within their
+     * tolerance. */
     virtual void rollback();
 
     /** Write what was committed to @p stream of rank 0, binary; streams of
-     * other ranks are not touched. Preconditioners are made anew after it, so
-     * that this run goes on as one does that calls load(). Throws
-     * HistoryError. */
+     * other ranks are not touched. Preconditioners are built again after it, so
+     * that this run goes on as one does that calls load(). Throws HistoryError.
+     */
     virtual void save(std::ostream &stream);
 
     /** Begin with what save() wrote, read from @p stream of rank 0: it counts
@@ -253,11 +252,11 @@ namespace abut
      * HistoryError for streams of anything else. Collective. */
     virtual void load_preconditioner(std::istream &stream);
 
-    /** Tell what slips are measured from, and where points of updated
-     * kinematics are made, on a new mesh: the displacement of the last
-     * commit(), with prescribed values as they were then, brought to this mesh.
-     * Needed after reinit() for pairs with friction and for updated kinematics
-     * only, and after load(). Collective. */
+    /** Set the configuration that slips are measured from, and in which points
+     * of updated kinematics are made, on a new mesh: the displacement of the
+     * last commit(), with prescribed values as they were then, brought to this
+     * mesh. Needed after reinit() for pairs with friction and for updated
+     * kinematics only, and after load(). Collective. */
     virtual void set_committed(const la::VectorView &displacement);
 
     /** Add the couplings that add() needs: those of all rows, in contact or
@@ -278,7 +277,7 @@ namespace abut
                        const la::MutableVectorView &displacement);
 
     /** One linearised step with contact: returns the increment of the
-     * displacement, already damped where the method asks for it. @p tangent is
+     * displacement, already damped where the method requires it. @p tangent is
      * the matrix, which is not changed, or a HostOperator. The latter is solved
      * by conjugate gradients with its own preconditioner, and throws for what
      * needs a matrix: Nitsche's method, saddle points, points that move, and
@@ -289,8 +288,8 @@ namespace abut
 
     /** For hosts with a linear solver of their own: add the condensed contact
      * terms to @p matrix and @p residual, so that matrix increment =
-     * -residual is the step with contact; then call update(). With friction
-     * the matrix is not symmetric any more: solve it by what can do that.
+     * -residual is the step with contact; then call update(). With friction the
+     * matrix is not symmetric any more: use a solver for nonsymmetric matrices.
      * Throws for laws with true constraints (lagrange), for interior point and
      * for nitsche, which need solve(). */
     virtual void add(const la::MatrixTarget &matrix,
@@ -301,15 +300,15 @@ namespace abut
      * their own: solve() and update() in turn, by products with the one
      * @p tangent. @p residual is that of the displacement where it began; @p
      * step becomes the whole way from there, hanging nodes and all. reason()
-     * tells whether it has an answer. Assemble, call this, shorten the step if
-     * you must, and linearise() where you have gone. */
+     * reports whether it has an answer. Assemble, call this, shorten the step
+     * if you must, and linearise() where you have gone. */
     virtual LinearReport solve_linearised(const Tangent &tangent,
                                           const la::VectorView &residual,
                                           const la::MutableVectorView &step);
 
-    /** Tell the displacement after the step; advances active set, multipliers
-     * and parameters. Returns whether another step is needed; if not,
-     * reason() tells why. */
+    /** Set the displacement after the step; advances active set, multipliers
+     * and parameters. Returns whether another step is needed; if not, reason()
+     * reports the cause. */
     virtual bool update(const la::VectorView &displacement);
 
     /** Add the present contact forces sum w p B to @p forces: in equilibrium
@@ -317,14 +316,14 @@ namespace abut
      */
     virtual void add_contact_forces(const la::MutableVectorView &forces) const;
 
-    /** What a line search wants to know of contact at @p displacement, without
-     * a step of the iteration: writes the forces of the present pressures into
+    /** Data of contact for a line search at @p displacement, without a step of
+     * the iteration: writes the forces of the present pressures into
      * @p forces, as add_contact_forces() adds them, and returns how far
      * pressures and the gaps there are from the law,
-     * \f$ (\sum w s r^2)^{1/2} \f$, root of an energy. In rows that are
-     * closed r is the residual of the present linearisation of the law as a
-     * length, else the penetration. 0 where the problem is solved. After the
-     * first solve(); not for `nitsche`. */
+     * \f$ (\sum w s r^2)^{1/2} \f$, root of an energy. In rows that are closed
+     * r is the residual of the current linearisation of the law as a length,
+     * else the penetration. 0 where the problem is solved. After the first
+     * solve(); not for `nitsche`. */
     virtual double evaluate(const la::VectorView &displacement,
                             const la::MutableVectorView &forces) const;
 
@@ -382,9 +381,9 @@ namespace abut
      * for interior methods those with pressure / stiffness > gap. */
     virtual dealii::types::global_dof_index n_active() const;
 
-    /** Of a membrane: the contact force on the lower obstacle minus that on
-     * the upper. Of pairs: the sum of the magnitudes of the normal forces of
-     * all rows that are not ties; see pair_results() for vectors. */
+    /** Membrane: the contact force on the lower obstacle minus that on the
+     * upper. Pairs: the sum of the magnitudes of the normal forces of all rows
+     * that are not ties; see pair_results() for vectors. */
     virtual double contact_force() const;
 
     /** sum w |p g| / sum w |p|: mean gap under pressure, length. */
@@ -400,57 +399,56 @@ namespace abut
 
     /** With updated kinematics: how far closed rows go in the step to
      * @p displacement, by pair. A host halves steps in which surfaces slide by
-     * more than half a facet, or turn by more than 5 degrees: points are those
-     * of its beginning. To be called after the solve and before commit(). Where
-     * partners stay: how far they have slid in all. Collective. */
+     * more than half a facet, or rotate by more than 5 degrees: points are
+     * those of its beginning. To be called after the solve and before commit().
+     * Where partners stay: how far they have slid in all. Collective. */
     virtual std::vector<StepMotion>
     step_motion(const la::VectorView &displacement) const;
 
-    /** How often points between surfaces were asked for on this mesh. */
+    /** Number of searches for points between surfaces on this mesh. */
     struct PointCount
     {
       unsigned int finds = 0; /**< by detect(), or by points that move */
-      /** Of these, those that found the points of the one before to be good
-       * still: nothing they depend on had changed, or, with updated kinematics,
-       * surfaces had moved against each other by less than a hundredth of a
-       * facet. */
+      /** Number of these that kept the points of the previous one: nothing they
+       * depend on had changed, or, with updated kinematics, surfaces had moved
+       * against each other by less than a hundredth of a facet. */
       unsigned int kept = 0;
     };
-    /** Of the mesh of the last reinit(). O(1). */
+    /** Counts on the mesh of the last reinit(). O(1). */
     virtual PointCount point_count() const;
 
-    /** What it has taken so far to find out which surfaces may touch, and
-     * which contact elements have changed since the last commit(). Collective.
-     */
+    /** Effort of the search for surfaces that may touch, so far, and changes of
+     * contact elements since the last commit(). Collective. */
     virtual DetectionReport detection_report() const;
 
-    /** What evaluate() has seen since the last linearise(). Collective. */
+    /** Changes of partners that evaluate() has found since the last
+     * linearise(). Collective. */
     virtual PartnerChanges partner_changes() const;
 
     /** Largest penetration max(0, -g), length. */
     virtual double penetration() const;
 
-    /** Of a membrane: nodal pressure, positive on the lower obstacle, negative
-     * on the upper, 0 where there is no row (hanging nodes: distribute your
+    /** Membrane: nodal pressure, positive on the lower obstacle, negative on
+     * the upper, 0 where there is no row (hanging nodes: distribute your
      * hanging-node constraints).
      *
-     * Of pairs: the vector p n at the nodes of the secondary surface, where -p
-     * n is the force per area on it, so that it can be interpolated to another
+     * Pairs: the vector p n at the nodes of the secondary surface, where -p n
+     * is the force per area on it, so that it can be interpolated to another
      * mesh; for ties likewise with the shear. Hanging nodes have the value of
      * their parents. No ghosts. */
     virtual la::Vector pressure() const;
 
-    /** Nodal gap to the nearer obstacle, 0 where there is no row. Of pairs: in
+    /** Nodal gap to the nearer obstacle, 0 where there is no row. Pairs: in
      * each of the first dim components. */
     virtual la::Vector gap() const;
 
-    /** Of pairs with friction: how far what is in contact has come along the
-     * other side since the last commit(), as a vector at the nodes of the
-     * secondary surface, 0 elsewhere; hanging nodes as in pressure(). */
+    /** Pairs with friction: how far what is in contact has come along the other
+     * side since the last commit(), as a vector at the nodes of the secondary
+     * surface, 0 elsewhere; hanging nodes as in pressure(). */
     virtual la::Vector slip() const;
 
-    /** 1 on the lower, 2 on the upper obstacle, 0 open, -1 without a row. Of
-     * pairs: 1 in contact, in each of the first dim components. */
+    /** 1 on the lower, 2 on the upper obstacle, 0 open, -1 without a row.
+     * Pairs: 1 in contact, in each of the first dim components. */
     virtual la::Vector status() const;
 
     /** Forces out of balance after a step, as a part of the contact forces: the
@@ -466,14 +464,15 @@ namespace abut
      * the residual has the wrong sign. */
     virtual double imbalance(const la::VectorView &residual) const;
 
-    /** What the entries of @p tangent make of @p displacement one by one,
-     * before they cancel: no solver lowers residuals beyond the round-off of
-     * it. Where points move, with a thousandth of the coordinates, for the
-     * round-off of positions. 0 without a matrix. Collective. */
+    /** Size of the products of the entries of @p tangent with @p displacement
+     * one by one, before they cancel: no solver lowers residuals beyond the
+     * round-off of it. Where points move, with a thousandth of the coordinates,
+     * for the round-off of positions. 0 without a matrix. Collective. */
     virtual ForceSize size_of_forces(const Tangent &tangent,
                                      const la::VectorView &displacement) const;
 
-    /** What detect() met on each pair; empty without pairs. Not collective. */
+    /** Findings of detect() on each pair; empty without pairs. Not collective.
+     */
     virtual std::vector<PairCheck> pair_checks() const;
 
     /** Forces, moments and extremes on each pair; empty without pairs. */
@@ -506,26 +505,26 @@ namespace abut
      * from a third in the mean of a body, unless @p allow_large_strain),
      * surfaces that slide by more than a facet, obstacles that pass between
      * nodes, are narrower than facets or in the inside of bodies, penetrations
-     * beside what bodies are deformed by, and, if
+     * compared with the deformation of bodies, and, if
      * @p residual is given (of the host, at @p displacement), forces out of
      * balance, as after a residual of wrong sign. Whatever contradicts itself
      * by more than a tenth is an error. Measures go into pair_results(), too.
      * To be called after convergence and check_penetration(), once per load
-     * step; obstacles are asked for their distance at points of the facets near
-     * them, of a membrane in all its cells. Throws ObstacleError for
-     * formulas without a value there. Where nothing can touch it only looks at
-     * strains. Collective. */
+     * step; distances of obstacles are evaluated at points of the facets near
+     * them, of a membrane in all its cells. Throws ObstacleError for formulas
+     * without a value there. Where nothing can touch it only looks at strains.
+     * Collective. */
     virtual ContactExamination examine(const la::VectorView &displacement,
                                        const la::VectorView &residual = {},
                                        bool allow_large_strain = false);
 
     /** How deep obstacles are in what has no contact, by active cell of this
      * rank: the depth at facets without contact, or of a membrane in cells
-     * without; and where there is contact, how much of an obstacle no node
-     * knows of, if that is more than a tenth of what bodies are deformed by.
-     * Error estimates that only look at nodes know nothing of it. 0
-     * elsewhere. Resizes @p depth; returns the largest on all ranks. See
-     * examine(). Collective. */
+     * without; and where there is contact, the depth of an obstacle that no
+     * node sees, if that is more than a tenth of the deformation of bodies.
+     * Error estimates that only look at nodes do not see it. 0 elsewhere.
+     * Resizes @p depth; returns the largest on all ranks. See examine().
+     * Collective. */
     virtual double missed_depth(const la::VectorView &displacement,
                                 dealii::Vector<float> &depth);
 
@@ -547,8 +546,8 @@ namespace abut
      * Collective. */
     virtual bool search_farther(const la::VectorView &displacement);
 
-    /** What this rank has sent about the surfaces of pairs since construction,
-     * and what it has of them now. Not collective. */
+    /** Data about the surfaces of pairs that this rank has sent since
+     * construction, and that it has now. Not collective. */
     virtual CommunicationReport communication() const;
 
     /** Cost of all linear solves since the last reinit(). */
@@ -562,8 +561,8 @@ namespace abut
 
     /** Add what contact does at unknowns that are prescribed, where
      * add_contact_forces() has nothing: the pressures' forces there, hanging
-     * nodes by their parents. What is left of a support's reaction holds the
-     * body against all else. Nothing for membranes, which have no contact
+     * nodes by their parents. The rest of a support's reaction balances all
+     * other loads on the body. Nothing for membranes, which have no contact
      * there; for nitsche that of its pressures. Collective. */
     virtual void
     add_forces_on_supports(const la::MutableVectorView &forces) const;
@@ -587,9 +586,9 @@ namespace abut
      * Weighted gaps of dual functions are less than the least gap of a convex
      * surface. To be called at the end of a Newton iteration, after follow(),
      * until it returns false: true, and the same step is to be solved on from
-     * there, with linearise(). ContactSolver does. What gaps are raised by is
-     * constant in between, and forgotten by detect(); true at most ten times
-     * from there on. Collective. */
+     * there, with linearise(). ContactSolver does. The amounts that gaps are
+     * raised by are constant in between, and detect() resets them; true at most
+     * ten times from there on. Collective. */
     virtual bool raise_gaps(const la::VectorView &displacement);
 
     /** examine() with the address of the residual, which may be null. */

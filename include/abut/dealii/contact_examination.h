@@ -3,8 +3,7 @@
 #define ABUT_DEALII_CONTACT_EXAMINATION_H
 
 /** @file
- * What an answer is worth: measures that its iteration knows nothing of.
- */
+ * Quality of an answer: measures that its iteration does not have. */
 
 #include <abut/dealii/coded.h>
 
@@ -30,7 +29,7 @@ namespace abut
   {
     ContactFinding() = default;
 
-    /** What was measured, and what to do. */
+    /** The measured values, and the remedy. */
     ContactFinding(Message message, const bool is_error)
         : Message(std::move(message)), is_error(is_error)
     {
@@ -40,11 +39,11 @@ namespace abut
      * that it should not be used. If not, it is a warning. */
     bool is_error = false;
     /** Where the other side comes between nodes by less than a twentieth of a
-     * facet, and of the obstacle: that depth, length, which is too much beside
-     * what bodies are deformed by; else 0. It is what a surface that is fine
-     * enough shows while it touches for the first or the last time: in a row of
-     * load or time steps it is the largest deformation of the pair's contact
-     * that tells whether it matters. */
+     * facet, and of the obstacle: that depth, length, which is too much
+     * compared with the deformation of bodies; else 0. A surface that is fine
+     * enough has it, too, while it touches for the first or the last time: in a
+     * row of load or time steps compare it with the largest deformation of the
+     * pair's contact. */
     double between_nodes = 0.;
     std::size_t pair_number = 0; /**< from 0 */
   };
@@ -54,7 +53,7 @@ namespace abut
   struct BodyMotion
   {
     unsigned int body = 0; ///< from 0
-    /** Of its centre; along motions that supports stop it is 0. */
+    /** Displacement of its centre; along motions that supports stop it is 0. */
     dealii::Tensor<1, 3> translation;
     /** Axis times angle, radian; the plane's axis is the third. */
     dealii::Tensor<1, 3> rotation;
@@ -62,7 +61,7 @@ namespace abut
     std::string text;
   };
 
-  /** What ContactAssembler::examine() has measured. The same on all ranks. */
+  /** Measures of ContactAssembler::examine(). The same on all ranks. */
   struct ContactExamination
   {
     /** Largest magnitude of a principal small strain at points of quadrature; 0
@@ -74,7 +73,7 @@ namespace abut
     /** How far bodies are deformed at the most, length: what depths are
      * compared with. */
     double deformation = 0.;
-    /** Forces that nothing balances, as a part of all; 0 if not asked for. */
+    /** Forces that nothing balances, as a part of all; 0 if not requested. */
     double imbalance = 0.;
     /** How deep obstacles are in facets, or cells of a membrane, that have no
      * contact, length. */

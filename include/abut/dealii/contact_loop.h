@@ -14,9 +14,9 @@
 namespace abut
 {
   /** Solve and update in turn, from @p u until the iteration stops;
-   * ContactAssembler::reason() tells whether with an answer. To be called after
-   * detect(u) or linearise(u). If something throws, @p u is as far as it went.
-   * Hanging nodes are left to the caller. Collective.
+   * ContactAssembler::reason() reports whether with an answer. To be called
+   * after detect(u) or linearise(u). If something throws, @p u is as far as it
+   * went. Hanging nodes are left to the caller. Collective.
    * @param residual writes internal minus external forces at its first argument
    *   into the second, linear in the former: R + K (u - u_0)
    * @param stepped called after each update with the cost of the linear systems

@@ -26,10 +26,10 @@
 namespace abut
 {
   /** Coulomb friction between the sides of a pair: the traction along the
-   * surface is at most rho = min(mu max(p, 0), cap), and where it is that, what
-   * slips is opposed to it (abut/friction.h). Functions of the place in the
-   * undeformed body of the secondary; what else they depend on, such as time,
-   * may change from one solve to the next. */
+   * surface is at most rho = min(mu max(p, 0), cap), and where it is that, slip
+   * is opposed to it (abut/friction.h). Functions of the position in the
+   * reference configuration of the secondary; what else they depend on, such as
+   * time, may change from one solve to the next. */
   template <int dim> struct Friction
   {
     /** mu >= 0. */
@@ -54,8 +54,8 @@ namespace abut
     /** Boundary ids of the primary surface; empty if there is an obstacle. */
     std::set<dealii::types::boundary_id> primary;
 
-    /** What the secondary surface may not penetrate instead of a primary
-     * surface; or null. */
+    /** Obstacle that the secondary surface may not penetrate instead of a
+     * primary surface; or null. */
     std::shared_ptr<const RigidObstacle<dim>> obstacle;
 
     /** Added to the gap of the geometry, length: > 0 clearance, < 0
@@ -92,7 +92,7 @@ namespace abut
     double reach = 0.;
   };
 
-  /** What is known of a pair before anything is solved. Global over ranks. */
+  /** Properties of a pair before anything is solved. Global over ranks. */
   struct PairCheck
   {
     std::string name;                  /**< of the pair */
@@ -120,7 +120,7 @@ namespace abut
     std::vector<Message> warnings; /**< with what to do */
   };
 
-  /** What a solve found on a pair. Global over ranks. */
+  /** Results of a solve on a pair. Global over ranks. */
   template <int dim> struct PairResult
   {
     std::string name;                             /**< of the pair */
@@ -132,8 +132,9 @@ namespace abut
                                    opening in any direction */
     /** How deep nodes of the primary are in the secondary between rows that
      * hold it, length >= 0, by the last check_penetration(): what the
-     * discretisation does not see. Large where the secondary is coarser. Of
-     * an obstacle in facets between their nodes, by the last examine(). */
+     * discretisation does not see. Large where the secondary is coarser. At an
+     * obstacle: its depth in facets between their nodes, by the last examine().
+     */
     double between_rows = 0.;
     /** How deep nodes of the secondary are in the other side that supports
      * hold along the normal and that have no row therefore, length >= 0, by
@@ -147,15 +148,15 @@ namespace abut
      * the distance of its node where it is now, length >= 0, by the last
      * examine(): what is lost by gaps that are linear in the displacement. */
     double gap_error = 0.;
-    /** What the normals at rows with pressure have turned by since the rows
-     * were made, radian, by the last examine(): the mean, weighted with the
-     * forces; 0 where points move. It is about the part of the forces that is
-     * beside their present directions. */
+    /** Rotation of the normals at rows with pressure since the rows were made,
+     * radian, by the last examine(): the mean, weighted with the forces; 0
+     * where points move. It is about the part of the forces that is beside
+     * their present directions. */
     double turn = 0.;
-    /** The largest of these turns, radian. */
+    /** The largest of these rotations, radian. */
     double largest_turn = 0.;
-    /** What the resultant on the secondary side would change by if the forces
-     * had their present directions. */
+    /** Change of the resultant on the secondary side if the forces had their
+     * current directions. */
     dealii::Tensor<1, dim> turned_force;
     /** Against obstacles: how deep they are in deformed facets without any
      * contact, length >= 0, by the last examine(); @ref between_rows has all
@@ -207,9 +208,9 @@ namespace abut
     std::vector<std::pair<dealii::types::global_dof_index, double>>
         prescribed_normal;
     /** With friction: sum of the pressures of points that stick at nodes with
-     * another closed contact, as in a corner, force >= 0. What both of them do
-     * along a common direction is determined in their sum alone, and without
-     * slip friction is that of the last accepted step. */
+     * another closed contact, as in a corner, force >= 0. Along a common
+     * direction only the sum of both is determined, and without slip friction
+     * is that of the last accepted step. */
     double shared_stick_force = 0.;
     /** With friction: sum of the pressures, force. */
     double normal_force = 0.;
@@ -218,7 +219,7 @@ namespace abut
     /** Resultant of the tractions along the surface on the secondary side; it
      * is a part of @ref secondary_force. */
     dealii::Tensor<1, dim> secondary_friction;
-    /** What friction took up since the last commit(), energy >= 0. */
+    /** Energy dissipated by friction since the last commit(), energy >= 0. */
     double dissipation = 0.;
     /** Largest traction, force per area. */
     double traction = 0.;
@@ -237,27 +238,26 @@ namespace abut
                             the smaller ones; 0: an obstacle, which has none */
     double turn = 0.;  /**< of facets in contact, or of the obstacle's normal,
                             radian >= 0; updated kinematics only */
-    bool stays = false; /**< from the undeformed bodies, not from the step */
+    bool stays = false; /**< from the reference, not from the step */
   };
 
   /** A point of the secondary that has penetrated without a row. */
   template <int dim> struct Penetration
   {
     std::string pair;         /**< name of the pair */
-    dealii::Point<dim> point; /**< present position of the node */
+    dealii::Point<dim> point; /**< current position of the node */
     double depth = 0.;        /**< length > 0 */
     bool on_primary = false;  /**< found by a node of the primary surface that
                                    is in a facet without rows */
     bool same_way = false;    /**< the outward normals of surface and obstacle
                                    point the same way there: nothing can touch
                                    from this side */
-    bool same_side = false;   /**< of a surface that touches itself: both
-                                   parts were put on the same of its two sides,
-                                   which do not see each other */
+    bool same_side = false; /**< self contact: both parts are on one of the two
+                               sides, which does not see itself */
   };
 
-  /** Contact pairs that cannot be solved as they are: the message names the
-   * pair and says what to do. Thrown on all ranks. */
+  /** Contact pairs that cannot be solved as they are: the message has the pair
+   * and the remedy. Thrown on all ranks. */
   class ContactError : public MessageError
   {
   public:

@@ -3,10 +3,9 @@
 #define ABUT_DEALII_CONTACT_REFINEMENT_H
 
 /** @file
- * What contact asks of a mesh beside small errors: call these after the marking
- * by an error estimate and before the mesh is refined. For programs that are
- * linked to Abut.
- */
+ * Requirements of contact on a mesh in addition to small errors: call these
+ * after the marking by an error estimate and before the mesh is refined. For
+ * programs that are linked to Abut. */
 
 #include <abut/dealii/linear_algebra.h>
 
@@ -27,8 +26,9 @@ namespace abut
   /** Flag the cells at whose secondary faces contact begins or ends: with one
    * node in contact (status > 0) and one open (0), or one of stick (1) and one
    * of slip (2); nodes without a row do not count. They are not coarsened.
-   * @param status ghosted; for vectors the first component counts
-   * Not collective. Returns the number of this rank's cells flagged anew. */
+   * @param status ghosted; for vectors the first component counts. Not
+   * collective. Returns the number of this rank's cells that were not flagged
+   * before. */
   template <int dim>
   unsigned int
   flag_contact_border(const dealii::DoFHandler<dim> &dof_handler,
@@ -41,7 +41,7 @@ namespace abut
    * other side, or far finer, contact is solved badly or in vain.
    *
    * Collective. All ranks look at all contact faces, O(n log n). Returns the
-   * number of cells flagged anew on all ranks. */
+   * number of cells on all ranks that were not flagged before. */
   template <int dim>
   unsigned int
   limit_size_ratio(dealii::parallel::distributed::Triangulation<dim> &mesh,

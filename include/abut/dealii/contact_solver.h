@@ -25,10 +25,10 @@
  * and has to be less than the tolerance times the largest |u|_K on the way,
  * which means the same on any mesh, and where u comes back to 0. Where d . K d
  * is not positive, as in a material that softens or in a snap through, energies
- * say nothing: there it is the forces that are not balanced which have to be
- * less than the tolerance times the forces. A program may ask for more of the
- * balance of forces (SolverEvents::excess): forces of contact may be small
- * beside those that have set the energy.
+ * are no measure: there forces out of balance have to be less than the
+ * tolerance times the forces. A program may require more of the balance of
+ * forces (SolverEvents::excess): forces of contact may be small compared with
+ * those that have set the energy.
  *
  * Prescribed values that have changed since the last solve are not put into u
  * at once, which would fold the first layer of cells: they are a part of the
@@ -76,9 +76,9 @@ namespace abut
     /** Solve from the displacement @p u and from the pressures of the last
      * solve or of ContactAssembler::set_pressure(). Prescribed values come into
      * @p u at once if the problem is linear, else with the first increment.
-     * Where it does not converge, @p u is the last iterate
-     * and the result says why; exceptions are those of detect() and of the
-     * host's functions. Collective. */
+     * Where it does not converge, @p u is the last iterate and the result has
+     * the cause; exceptions are those of detect() and of the host's functions.
+     * Collective. */
     NewtonResult solve(la::Vector &u)
     {
       result_ = NewtonResult();
@@ -166,7 +166,7 @@ namespace abut
         vector->reinit(u, true);
     }
 
-    /** @p u with the prescribed values of now: all that contact asks of it, as
+    /** @p u with the prescribed values of now: contact needs no more of it, as
      * the free unknowns are the same. */
     const la::Vector &goal(const la::Vector &u)
     {
@@ -237,7 +237,7 @@ namespace abut
     /** Make residual_, which is that at @p u, the one of the linear model in
      * which only the prescribed values have moved, to goal_. The tangent has no
      * columns of theirs: they are a difference quotient of the host's residual,
-     * over a way that no material minds. */
+     * over a distance that is small for any material. */
     void add_prescribed_change(const la::Vector &u)
     {
       constexpr double way = 1e-6, round_off = 1e-14;
@@ -277,8 +277,8 @@ namespace abut
       return solve_linearised(tangent, u) && is_balanced(u);
     }
 
-    /** Whether the host's forces at the end of a linear problem are what its
-     * matrix says. */
+    /** Whether the host's forces at the end of a linear problem agree with its
+     * matrix. */
     bool is_balanced(const la::Vector &u)
     {
       if (parameters_.useless_imbalance == 0.)
@@ -473,14 +473,14 @@ namespace abut
       return result;
     }
 
-    /** What a step is measured by. */
+    /** Scales that a step is compared with. */
     struct Scales
     {
       double before = 0.; ///< forces out of balance in the linear model
       double length = 0.; ///< of the step, in the energy norm
       double energy = 0.; ///< energy norm of the displacement
       double force = 0.;
-      bool is_positive = true; ///< whether energies say anything
+      bool is_positive = true; ///< whether energies are a measure
       double defect = 0.;      ///< of the law, before the step
       /** Forces, and root of their energy, that no solver lowers: round-off of
        * what the entries of the tangent make of the displacement. */
@@ -514,7 +514,7 @@ namespace abut
     }
 
     /** Bodies that small forces move far, as across a clearance, have hardly
-     * any energy beside that of round-off. */
+     * more energy than round-off. */
     void find_round_off(const Tangent &tangent, Scales &scales)
     {
       constexpr double round_off = 1e-14;
@@ -553,7 +553,7 @@ namespace abut
 
     /** The forces of contact at @p u and how far pressures and gaps are from
      * the law there. Points that do not move have the same forces everywhere,
-     * and no defect once their problem is solved: asked for @p at_start alone.
+     * and no defect once their problem is solved: computed @p at_start alone.
      */
     void find_contact(const la::Vector &u, const bool at_start)
     {
@@ -678,8 +678,8 @@ namespace abut
       result_.residual = imbalance();
     }
 
-    /** Whether this part of a step lowers forces out of balance and what the
-     * law is off by enough. */
+    /** Whether this part of a step lowers forces out of balance and the error
+     * of the law enough. */
     bool is_lower(const Scales &scales, const double part) const
     {
       return result_.residual + as_force(scales, defect_)
@@ -770,7 +770,7 @@ namespace abut
           u);
     }
 
-    /** What the law of points that move is off by, as a part of a sentence. */
+    /** Error of the law at points that move, as a part of a sentence. */
     std::string about_defect(const Scales &scales) const
     {
       if (scales.defect + defect_ == 0.)
@@ -866,12 +866,12 @@ namespace abut
     double largest_ = 0.; ///< energy norm of displacements since the start
     Watch watch_;
     la::Vector residual_, increment_, step_, product_, forces_, trial_;
-    la::Vector goal_;    ///< present displacement with prescribed values
+    la::Vector goal_;    ///< current displacement with prescribed values
     la::Vector change_;  ///< of the residual by prescribed values, linearised
     double defect_ = 0.; ///< of the law at the last trial, where points move
     bool has_change_ = false; ///< whether they differ from the present ones
     double linear_tolerance_ = 1e-2;
-    double last_excess_ = 0.; ///< of forces out of balance, when last asked for
+    double last_excess_ = 0.; ///< of forces out of balance, when last computed
   };
 } // namespace abut
 

@@ -14,8 +14,8 @@
 
 namespace abut
 {
-  /** What ContactSolver needs from the host. The functions are called on all
-   * ranks. For `nitsche`, whose bodies must be linear elastic, give the
+  /** Functions of the host that ContactSolver needs. The functions are called
+   * on all ranks. For `nitsche`, whose bodies must be linear elastic, give the
    * ContactAssembler their traction, see
    * ContactAssembler::set_surface_traction(). */
   struct HostProblem
@@ -23,9 +23,9 @@ namespace abut
     /** Internal minus external forces at u, without contact. u has no ghosts
      * and satisfies the constraints, but for prescribed values of a nonlinear
      * problem that are on their way from those of the last load step: take them
-     * from u. Rows that the constraints eliminate are zero. What the material
-     * has to remember (plastic strain) must be that of the last load step: u
-     * may be a trial. */
+     * from u. Rows that the constraints eliminate are zero. The history of the
+     * material (plastic strain) must be that of the last load step: u may be a
+     * trial. */
     std::function<void(const la::Vector &u, la::Vector &residual)> residual;
 
     /** Its derivative by u, whose rows and columns that the constraints
@@ -34,13 +34,13 @@ namespace abut
     std::function<Tangent(const la::Vector &u)> tangent;
 
     /** Whether the tangent is the same for all u and until the next reinit():
-     * it is asked for once for each solve() then, and preconditioners are
-     * kept. */
+     * it is requested once for each solve() then, and preconditioners are kept.
+     */
     bool linear = false;
 
-    /** Of a linear problem: whether the residual costs no more than a product
-     * with the tangent. It is then asked for before each linear system, which
-     * leaves the least round-off, and not only once. */
+    /** Linear problems: whether the residual costs no more than a product with
+     * the tangent. It is then requested before each linear system, which leaves
+     * the least round-off, and not only once. */
     bool residual_is_cheap = false;
 
     /** Called after each linear system with its cost; may be empty. */
@@ -72,7 +72,7 @@ namespace abut
     return problem;
   }
 
-  /** What ContactSolver is about to do. */
+  /** The next action of ContactSolver. */
   enum class SolvePhase
   {
     detect, /**< find the rows, and a start */
@@ -93,8 +93,8 @@ namespace abut
     double error = 0.;    ///< as in NewtonResult
   };
 
-  /** What a program may see of ContactSolver at work, and have a say in. All
-   * may be empty; all are called on all ranks, and may throw there. */
+  /** Functions of a program that ContactSolver calls at work. All may be empty;
+   * all are called on all ranks, and may throw there. */
   struct SolverEvents
   {
     /** A phase begins: for clocks. */
@@ -108,16 +108,16 @@ namespace abut
     /** A step of a nonlinear problem was taken. */
     std::function<void(const NewtonStep &step)> moved;
 
-    /** Of a nonlinear problem whose displacement @p u has come to its
-     * tolerance: what is left of the balance of forces, with this residual, as
-     * a multiple of what may be left. Above 1 Newton's method goes on while it
-     * falls; the assembler has followed @p u. Empty: the tolerance alone ends
-     * it. */
+    /** Nonlinear problems whose displacement @p u has reached its tolerance:
+     * forces out of balance, with this residual, as a multiple of the
+     * tolerance. Above 1 Newton's method goes on while it falls; the assembler
+     * has followed @p u. Empty: the tolerance alone ends it. */
     std::function<double(const la::Vector &u, const la::Vector &residual)>
         excess;
 
-    /** Look at a converged answer: a text that is not empty says why it must
-     * not be used. @p search counts calls of detect() so far, from 1. */
+    /** Look at a converged answer: a text that is not empty is the reason why
+     * it must not be used. @p search counts calls of detect() so far, from 1.
+     */
     std::function<Message(const la::Vector &u, unsigned int search)> refuse;
 
     /** So many nodes have penetrated without a row. */
@@ -127,8 +127,8 @@ namespace abut
   /** Settings of ContactSolver; all are free of units. */
   struct NewtonParameters
   {
-    /** Error in the energy norm relative to the displacement, > 0. Of linear
-     * problems the tolerances of the method decide alone. */
+    /** Error in the energy norm relative to the displacement, > 0. For linear
+     * problems only the tolerances of the method count. */
     double tolerance = 1e-6;
     /** Relative tolerance of linear systems, > 0; 0: chosen for each step. */
     double linear_tolerance = 0.;
@@ -144,8 +144,8 @@ namespace abut
     /** Depth that counts there, relative to ContactAssembler::length_scale().
      */
     double missed_depth = 1e-3;
-    /** Residual at the answer of a linear problem that is too much for it, as
-     * a part of the load; 0: not asked for. */
+    /** Residual at the answer of a linear problem that is too much for it, as a
+     * part of the load; 0: not requested. */
     double useless_imbalance = 0.1;
   };
 
@@ -164,12 +164,11 @@ namespace abut
                        end: it does not belong to the tangent */
   };
 
-  /** What ContactSolver::solve() found and what it cost. The same on all
-   * ranks. */
+  /** Result of ContactSolver::solve() and its cost. The same on all ranks. */
   struct NewtonResult
   {
     NewtonReason reason = NewtonReason::converged; /**< why it stopped */
-    /** What to try, and the known failure that was seen; its code is in front
+    /** The remedy, and the known failure that was found; its code is in front
      * of the text of linear solves alone. */
     Message explanation;
     unsigned int n_steps = 0;     /**< linearisations */
@@ -183,7 +182,7 @@ namespace abut
                                of the forces */
     /** Steps d with d . K d not positive: the tangent was indefinite there.
      * Where the last one is, an equilibrium that was found may be unstable, and
-     * explanation says so. */
+     * explanation reports it. */
     unsigned int n_negative_steps = 0;
     LinearReport linear; /**< cost of the linear systems */
 

@@ -14,15 +14,16 @@ namespace abut
    * together, and of the rank with most. */
   struct DetectionReport
   {
-    /** Searches at places of the bodies that made lists of candidates anew. */
+    /** Searches at new positions of the bodies that made lists of candidates.
+     */
     std::uint64_t searches = 0;
-    /** Those that lists with a skin served. */
+    /** Searches that lists with a skin served. */
     std::uint64_t reuses = 0;
     /** Times that facets were sorted into buckets. */
     std::uint64_t rebuilds = 0;
     /** Times that only the boxes of facets were refitted. */
     std::uint64_t refits = 0;
-    /** Times that facets of other ranks were asked for because bodies had come
+    /** Times that facets of other ranks were requested because bodies had come
      * too far. */
     std::uint64_t gatherings = 0;
     /** Processor time of all this and of the check for penetrations. */
@@ -31,9 +32,9 @@ namespace abut
      * first one on a mesh. An element is a node of the secondary, or a point of
      * quadrature, with what is opposite it within reach. */
     std::uint64_t gained = 0;
-    /** Those that were there and are gone. */
+    /** Contact elements that were there and are gone. */
     std::uint64_t lost = 0;
-    /** Those that have other nodes of the primary. */
+    /** Contact elements that have other nodes of the primary. */
     std::uint64_t exchanged = 0;
 
     /** The same with what it has taken since @p before alone. */
@@ -64,10 +65,10 @@ namespace abut
       return *this;
     }
   };
-  /** What trials of a line search have done to points between bodies, nodes or
+  /** Changes by trials of a line search at points between bodies, nodes or
    * points of quadrature, that move with them and pressed when the problem was
-   * linearised: the most that one of them has done. Mortar has no such points.
-   */
+   * linearised: the most changes of one trial. Mortar does not have such
+   * points. */
   struct PartnerChanges
   {
     /** They have nothing opposite them, as past the end of a surface. */

@@ -18,7 +18,7 @@
 
 namespace abut::la
 {
-  /** What Abut asks of a host's matrix. */
+  /** Functions of a host's matrix that Abut needs. */
   class HostMatrix
   {
   public:
@@ -42,7 +42,7 @@ namespace abut::la
     virtual void pattern(std::vector<std::size_t> &start,
                          std::vector<Index> &column) const = 0;
 
-    /** What values() has met. */
+    /** Findings of values(). */
     struct Pass
     {
       bool fits = true; ///< the pattern is the one given
@@ -50,8 +50,8 @@ namespace abut::la
                                                       ///< not finite
     };
 
-    /** One pass over the entries of rows(): write entry k to
-     * target[place[k]], if they are where @p start and @p column say. */
+    /** One pass over the entries of rows(): write entry k to target[place[k]],
+     * if they are at the places of @p start and @p column. */
     virtual Pass values(const std::vector<std::size_t> &start,
                         const std::vector<Index> &column,
                         const std::vector<int> &place,
@@ -106,7 +106,7 @@ namespace abut::la
     static_assert(std::is_same<typename M::value_type, double>::value,
                   "Abut takes matrices of double values, real ones.");
 
-    /** Of a matrix that must stay where it is. O(rows of blocks). */
+    /** For a matrix that must stay where it is. O(rows of blocks). */
     explicit HostMatrixOf(const M &matrix) : matrix_(matrix)
     {
       rows_.set_size(m());

@@ -41,9 +41,9 @@ namespace abut
 
     /** Before each linear system: @p held [owned] is nonzero where contact
      * holds an unknown by itself, as on membranes and at obstacles across an
-     * axis. What precondition() does to it is cut off in any case; one that
-     * holds it on its coarser levels, too, needs fewer iterations. By default
-     * nothing is done. Not collective. */
+     * axis. Its part of the result of precondition() is set to zero in any
+     * case; one that holds it on its coarser levels, too, needs fewer
+     * iterations. By default nothing is done. Not collective. */
     virtual void hold(const std::vector<std::uint8_t> &held)
     {
       static_cast<void>(held);
@@ -101,8 +101,8 @@ namespace abut
   };
 
   /** K of a linearised step: the host's matrix or, where it has none, its
-   * HostOperator, either of which is one without being told so. Refers to it,
-   * and is copied freely. */
+   * HostOperator, either of which converts to it. Refers to it, and is copied
+   * freely. */
   class Tangent
   {
   public:
@@ -123,7 +123,7 @@ namespace abut
     /** Not one that is gone when it is needed. */
     Tangent(const la::Matrix &&) = delete;
 
-    /** What contact terms are added to. */
+    /** The matrix that contact terms are added to. */
     explicit Tangent(const la::MatrixTarget &matrix)
         : matrix_(matrix.native()), other_(matrix.host())
     {

@@ -3,11 +3,10 @@
 #define ABUT_DEALII_LINEAR_ALGEBRA_H
 
 /** @file
- * The one place that names linear-algebra types. Everything else says
+ * The one place that names linear-algebra types. Everything else uses
  * la::Matrix and la::Vector, which are of the Trilinos stack that deal.II's
  * TrilinosWrappers are made of: Epetra, or Tpetra where Trilinos has no Epetra.
- * What differs between them is in plugin/solve/epetra and plugin/solve/tpetra.
- */
+ * Their differences are in plugin/solve/epetra and plugin/solve/tpetra. */
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>

@@ -32,8 +32,8 @@ namespace abut
     using std::runtime_error::runtime_error;
   };
 
-  /** Parts of load_plugin(). Those that return a text tell what is wrong; it
-   * is empty if nothing is. */
+  /** Parts of load_plugin(). The text that some of them return is the error; it
+   * is empty without one. */
   namespace internal
   {
     /** Whether two stamps agree, and if not, in what. */

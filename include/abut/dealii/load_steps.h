@@ -29,7 +29,7 @@
 
 namespace abut
 {
-  /** What LoadSteps may do. */
+  /** Limits of LoadSteps. */
   struct LoadStepOptions
   {
     /** Number of equal steps that are tried first, > 0. */
@@ -43,7 +43,7 @@ namespace abut
     double smallest_step = 1e-3;
   };
 
-  /** Chooses the length of load steps: those asked for, halved when one fails
+  /** Chooses the length of load steps: those requested, halved when one fails
    * or was hard to solve, and doubled again up to these after two good ones.
    * All ranks must call the same functions. */
   class LoadSteps
@@ -122,7 +122,7 @@ namespace abut
       return n_rejected_;
     }
 
-    /** What to keep of it in a checkpoint, with an archive of boost's. */
+    /** Its data in a checkpoint, with an archive of boost's. */
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
       archive &reached_ &length_ &n_good_ &n_accepted_ &n_rejected_;

@@ -33,7 +33,7 @@ namespace abut
   std::string
   discretisation_name(std::optional<abut_discretisation> discretisation);
 
-  /** What there is to know of a discretisation. */
+  /** Properties of a discretisation. */
   abut_discretisation_info
   discretisation_info(abut_discretisation discretisation);
 
@@ -48,7 +48,7 @@ namespace abut
 
   struct MethodParameters;
 
-  /** What a kinematics needs to know of a pair. */
+  /** Properties of a pair that a kinematics may refuse. */
   struct KinematicsPair
   {
     bool has_obstacle = false;     ///< a rigid obstacle, not a second body
@@ -74,18 +74,17 @@ namespace abut
    *
    * Call declare_parameters() on a handler, parse the file, then
    * parse_parameters(). Neither is collective. All values are free of units;
-   * abut_strategy_options tells what each is a multiple of. The scales of
-   * length and pressure and the reduction over ranks in @ref options are left
-   * at their defaults: they belong to the scene, not to the file.
-   */
+   * abut_strategy_options has the unit of each. The scales of length and
+   * pressure and the reduction over ranks in @ref options are left at their
+   * defaults: they belong to the scene, not to the file. */
   struct MethodParameters
   {
     /** The law and all settings of the outer method. */
     abut_strategy_options options = abut_strategy_defaults();
 
     /** Whether the file leaves the law to choose (`Enforcement = auto`).
-     * parse_parameters() then takes lagrange, or penalty where rows are made
-     * at quadrature points; a program that knows more of its problem may
+     * parse_parameters() then takes lagrange, or penalty where rows are made at
+     * quadrature points; a program with more information on its problem may
      * replace options.law. */
     bool law_is_automatic = false;
 
@@ -110,7 +109,7 @@ namespace abut
      * where a law with a penalty follows an obstacle. */
     std::optional<abut_discretisation> discretisation;
 
-    /** Of `nitsche`: 1 (symmetric), 0 or -1. */
+    /** Variant of `nitsche`: 1 (symmetric), 0 or -1. */
     double nitsche_theta = 0.;
 
     /** Degree of mortar multipliers on quadratic facets: 1, or 0 for the
@@ -125,7 +124,7 @@ namespace abut
      * facets. */
     bool segments = true;
 
-    /** Empty: what a program takes that knows its bodies; else reference. */
+    /** Empty: the program's choice, from its bodies; else reference. */
     std::optional<abut_kinematics> kinematics;
 
     /** Whether the tangent has what forces and gaps of points that move change

@@ -16,8 +16,8 @@
 
 namespace abut
 {
-  /** A number in a range with open or closed ends: dealii::Patterns::Double
-   * knows closed ones only. Infinity and NaN are in no range. */
+  /** A number in a range with open or closed ends: dealii::Patterns::Double has
+   * closed ones only. Infinity and NaN are in no range. */
   class NumberPattern : public dealii::Patterns::PatternBase
   {
   public:

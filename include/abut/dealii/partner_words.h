@@ -8,8 +8,8 @@
 
 namespace abut
 {
-  /** A sentence, with a blank before it, that says what points that press have
-   * lost, and what to take instead; empty if there are none. */
+  /** A sentence, with a blank before it, on the partners that points with
+   * pressure have lost, and the remedy; empty if there are none. */
   inline std::string in_words(const PartnerChanges &changes)
   {
     if (changes.lost + changes.jumped == 0)

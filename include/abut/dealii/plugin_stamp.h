@@ -63,7 +63,7 @@ namespace abut
     return hash;
   }
 
-  /** What this translation unit is built with. */
+  /** Compiler and libraries of this translation unit. */
   constexpr abut_plugin_stamp plugin_stamp()
   {
     return {

@@ -27,7 +27,7 @@
 
 namespace abut
 {
-  /** What Abut gives to a registry. No function is collective, except that
+  /** Entries of Abut in a registry. No function is collective, except that
    * assemblers must be created on all ranks of their communicator. */
   template <int dim> class ContactLibrary
   {
@@ -70,8 +70,8 @@ namespace abut
     using std::runtime_error::runtime_error;
   };
 
-  /** The contact methods that a program knows; owned by the program. Nothing
-   * is registered by itself. What it has made may outlive it. */
+  /** The contact methods of a program; owned by the program. Nothing is
+   * registered by itself. Objects that it has made may outlive it. */
   template <int dim> class Registry
   {
   public:

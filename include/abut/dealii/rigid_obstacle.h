@@ -55,7 +55,7 @@ namespace abut
   template <int dim> struct HeightObstacle
   {
     /** Height as a function of the point; its coordinate along the axis is
-     * zero. Gradients are asked for only if along_axis is false, or if points
+     * zero. Gradients are evaluated only if along_axis is false, or if points
      * move (ABUT_KINEMATICS_CURRENT). */
     std::shared_ptr<dealii::Function<dim>> height;
     unsigned int axis = dim - 1; /**< 0 .. dim - 1 */
@@ -78,7 +78,7 @@ namespace abut
   {
   public:
     /** A shape; its dimension must be dim. Throws dealii::ExceptionBase with
-     * what the core says for a number out of range, as all constructors. */
+     * the core's message for a number out of range, as all constructors. */
     explicit RigidObstacle(const abut_obstacle_shape &shape);
 
     /** A height. */
@@ -106,7 +106,7 @@ namespace abut
     virtual void set_motion(std::function<RigidPose<dim>(double)> motion);
 
     /** Hand the time to the function of the obstacle, if it has one, and put
-     * the obstacle where its motion, if it has one, says. */
+     * the obstacle where its motion, if it has one, prescribes. */
     virtual void set_time(double time);
 
     /** Signed distances and, unless NULL, gradients of points; resized. */
@@ -118,7 +118,7 @@ namespace abut
     /** The core's obstacle, for abut_coupling_create_obstacle(); owned. */
     virtual abut_obstacle *handle() const;
 
-    /** What it is, where, and what it has found. */
+    /** Its description, pose and statistics. */
     virtual abut_obstacle_view view() const;
 
     /** Why the last call of the core with handle() failed: the message of
@@ -130,8 +130,8 @@ namespace abut
 
     /** How wide a bounded shape is for a surface with this unit @p normal,
      * length > 0: the least length of it through its centre along the surface.
-     * Facets larger than that know of it by single nodes.
-     * Infinite for planes, cones, holes, functions and surfaces of facets. */
+     * Facets larger than that see it at single nodes. Infinite for planes,
+     * cones, holes, functions and surfaces of facets. */
     virtual double width(const dealii::Tensor<1, dim> &normal) const;
 
     /** How deep a point can be in a bounded shape, length > 0: half of what it

@@ -52,7 +52,7 @@ namespace abut
     static void declare_parameters(dealii::ParameterHandler &prm);
 
     /** Read the section `Search` in the present section of @p prm; throws
-     * dealii::ExceptionBase for a list of thicknesses that is none. */
+     * dealii::ExceptionBase for an invalid list of thicknesses. */
     void parse_parameters(dealii::ParameterHandler &prm);
 
     /** The thicknesses of these groups, for abut_detection_options: its

@@ -54,15 +54,15 @@ namespace abut
     void parse_parameters(dealii::ParameterHandler &prm);
   };
 
-  /** A linear system could not be solved: the message says what was seen and
-   * what to try. Thrown on all ranks. */
+  /** A linear system could not be solved: the message has the cause and the
+   * remedy. Thrown on all ranks. */
   class SolverFailure : public MessageError
   {
   public:
     using MessageError::MessageError;
   };
 
-  /** What linear solves have cost. */
+  /** Cost of linear solves. */
   struct LinearReport
   {
     unsigned int n_systems = 0;    /**< matrices with one right-hand side, or

@@ -3,8 +3,7 @@
 #define ABUT_DEALII_SURFACE_TRACTION_H
 
 /** @file
- * What Nitsche's method must know of the host's material.
- */
+ * Data of the host's material for Nitsche's method. */
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

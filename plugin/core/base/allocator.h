@@ -2,7 +2,7 @@
 #ifndef ABUT_BASE_ALLOCATOR_H
 #define ABUT_BASE_ALLOCATOR_H
 
-/* The C library's memory in the form that abut_context_options asks for. */
+/* The C library's memory in the form of abut_context_options. */
 
 #include <stddef.h>
 

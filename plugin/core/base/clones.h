@@ -12,8 +12,8 @@
 #define ABUT_CLONES
 #endif
 
-/* What they call, or what is to be compiled once for each constant argument.
- */
+/* Functions that they call, or that are compiled once for each constant
+ * argument. */
 #define ABUT_INLINE static inline __attribute__((always_inline))
 
 #endif

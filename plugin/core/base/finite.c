@@ -6,8 +6,8 @@ enum
   SUMS = 8
 };
 
-/* x * 0 is 0 for every finite x and NaN otherwise: sums tell without a branch
- * in the loop, several side by side as none need wait for another. */
+/* x * 0 is 0 for every finite x and NaN otherwise: sums decide it without a
+ * branch in the loop, several side by side as none need wait for another. */
 bool
 abut_all_finite(const double *x, int64_t n)
 {

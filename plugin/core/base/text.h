@@ -2,8 +2,8 @@
 #ifndef ABUT_BASE_TEXT_H
 #define ABUT_BASE_TEXT_H
 
-/* A bounded line of text, built piece by piece without the C library's
- * printf family. What does not fit is cut off; data is always terminated. */
+/* A bounded line of text, built piece by piece without the C library's printf
+ * family. A text that does not fit is cut off; data is always terminated. */
 
 #include <stddef.h>
 #include <stdint.h>

@@ -2,7 +2,8 @@
 #ifndef ABUT_CONSTRAINT_POINTS_H
 #define ABUT_CONSTRAINT_POINTS_H
 
-/* What the kernels of the core need of a set of points beside its interface. */
+/* Functions of a set of points for the kernels of the core, in addition to its
+ * interface. */
 
 #include <abut/points.h>
 

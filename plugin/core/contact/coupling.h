@@ -55,7 +55,7 @@ typedef struct abut_coupling_point
   double opposite[ABUT_FACET_MAX_NODES]; /* shape functions N there */
 } abut_coupling_point;
 
-/* The secondary facet in work. */
+/* The current secondary facet. */
 typedef struct abut_coupling_facet
 {
   int32_t index;
@@ -142,11 +142,11 @@ typedef struct abut_coupling_entry
   int32_t unused;
 } abut_coupling_entry;
 
-/* What a secondary facet is looked at for. */
+/* Purposes of looking at a secondary facet. */
 enum
 {
   ABUT_COUPLING_FOR_ROWS = 1,    /* it has a share in wanted rows */
-  ABUT_COUPLING_FOR_DROPPING = 2 /* it tells which neighbours to drop */
+  ABUT_COUPLING_FOR_DROPPING = 2 /* it decides which neighbours to drop */
 };
 
 typedef struct abut_discretisation_methods abut_discretisation_methods;
@@ -162,7 +162,7 @@ typedef struct abut_coupling_order
   abut_array keyed;              /* abut_keyed */
 } abut_coupling_order;
 
-/* Of the nodes and facets of this build. */
+/* Data of the nodes and facets of this build. */
 typedef struct abut_coupling_node_state
 {
   const abut_coupling_nodes *given;
@@ -183,7 +183,7 @@ typedef struct abut_coupling_node_state
   abut_array flag;        /* uint8_t, [n_nodes] */
 } abut_coupling_node_state;
 
-/* Of the facet in work. */
+/* Data of the current facet. */
 typedef struct abut_coupling_work
 {
   abut_array candidates; /* int32_t, primary facets in order */
@@ -193,7 +193,7 @@ typedef struct abut_coupling_work
   int32_t n_points;
 } abut_coupling_work;
 
-/* Obstacles: points asked for, in the order in which the answers are taken. */
+/* Obstacles: points requested, in the order in which the answers are taken. */
 typedef struct abut_coupling_answers
 {
   abut_array asked;        /* double */
@@ -213,7 +213,7 @@ typedef struct abut_coupling_answers
 /* Derivatives of mortar rows. */
 typedef struct abut_coupling_changes
 {
-  abut_array rates;            /* double, of the points in work */
+  abut_array rates;            /* double, of the current points */
   abut_array blocks;           /* abut_coupling_block */
   abut_array block_values;     /* double */
   abut_array directions;       /* abut_coupling_direction, [n_nodes] averaged */
@@ -276,7 +276,7 @@ struct abut_coupling
   abut_pairs_view pairs_view;
   abut_detection *detection; /* node to segment */
   double reach;              /* absolute part, of this build */
-  /* Of the last search: what it was made for, if it was. */
+  /* The last search and its input, if there was one. */
   bool has_searched;
   double searched_motion;
   uint64_t searched_revision[2];          /* of the secondary and the primary */
@@ -331,7 +331,7 @@ abut_coupling_place(const abut_coupling *c, int side)
   return side == 0 ? c->secondary->view.position : c->primary->view.position;
 }
 
-/* Gather facet f at the present positions. */
+/* Gather facet f at the current positions. */
 void abut_coupling_load(const abut_coupling *c, int32_t f,
                         abut_coupling_facet *facet);
 
@@ -383,7 +383,7 @@ abut_status abut_coupling_face_obstacle(abut_coupling *c,
 abut_status abut_coupling_near(abut_coupling *c,
                                const abut_coupling_facet *facet, bool final);
 
-/* What a point that moves has opposite it on a primary facet. */
+/* The opposite point, on a primary facet, of a point that moves. */
 typedef struct abut_coupling_opposite
 {
   double shape[ABUT_FACET_MAX_NODES]; /* at the nearest point */
@@ -399,7 +399,7 @@ abut_status abut_coupling_follow(abut_coupling *c, int32_t primary,
 
 /* The vector [3] of unit length that tangents are made of in space: of the
  * point of a share, or sum of shares, with a unit normal. Returns the facet of
- * the secondary that it turns with; -1: it is an axis. */
+ * the secondary that it rotates with; -1: it is an axis. */
 int32_t abut_coupling_guide(const abut_coupling *c,
                             const abut_coupling_share *share,
                             const double *normal, double *guide);
@@ -430,9 +430,9 @@ void abut_coupling_turn_lines(int32_t dim, int32_t n_lines, int64_t n_columns,
 
 struct abut_linear_patch;
 
-/* What a block's columns are: components of the places of the nodes of the
- * secondary facet, of those of the primary one, and (2D) of the normals at the
- * nodes of the secondary one. */
+/* Columns of a block: components of the places of the nodes of the secondary
+ * facet, of those of the primary one, and (2D) of the normals at the nodes of
+ * the secondary one. */
 static inline int32_t
 abut_coupling_columns(const abut_coupling *c, int32_t n_secondary,
                       int32_t n_primary)
@@ -442,7 +442,7 @@ abut_coupling_columns(const abut_coupling *c, int32_t n_secondary,
 }
 
 /* How the opposite point of a point of integration changes while that stays on
- * its facet: of the secondary's and the primary's parts in work at their
+ * its facet: of the secondary's and the primary's current parts at their
  * parameters s and t, and in space from patch s to m along the normal of a
  * patch of the facet. Sets the point's rate. */
 abut_status abut_coupling_rate2(abut_coupling *c,
@@ -478,8 +478,8 @@ abut_status abut_coupling_direct(abut_coupling *c, const int64_t *list,
                                  int64_t n, const abut_coupling_share *total,
                                  abut_coupling_direction *direction);
 
-/* int psi (x_m - x_s) / W where the surfaces are (present), or are told to be
- * by the build. */
+/* int psi (x_m - x_s) / W in the current configuration (present), or in that of
+ * the build. */
 void abut_coupling_gap(const abut_coupling *c, const int64_t *list, int64_t n,
                        bool present, double *gap);
 
@@ -513,7 +513,7 @@ bool abut_coupling_look(const abut_coupling *c, const double *x,
 /* Whether the gaps of the build are those of the interpolants at nodes. */
 bool abut_coupling_interpolates(const abut_coupling *c);
 
-/* Gaps at the free nodes of a facet whose points are in work. */
+/* Gaps at the free nodes of the current facet. */
 typedef struct abut_coupling_node_gaps
 {
   bool found[ABUT_COUPLING_MAX_FREE];
@@ -526,8 +526,8 @@ abut_status abut_coupling_find_node_gaps(abut_coupling *c,
                                          const abut_coupling_functions *f,
                                          abut_coupling_node_gaps *gaps);
 
-/* Give a share, the last one, with values of its function at the points in
- * work, the gaps at nodes. */
+/* Give a share, the last one, with values of its function at the current
+ * points, the gaps at nodes. */
 void abut_coupling_interpolate(const abut_coupling *c,
                                const abut_coupling_facet *facet,
                                const abut_coupling_functions *f,

@@ -8,7 +8,8 @@
 
 #include <string.h>
 
-/* Weight of a point relative to the full one below which there is none. */
+/* Weight of a point relative to the full one below which the point is dropped.
+ */
 static const double smallest_weight = 1e-6;
 
 /* The same of mortar that follows: nodes that are covered less come and go
@@ -86,7 +87,7 @@ sort_by_rank(int32_t *v, int32_t n, const int32_t *rank)
 
 /* Write the entries of a side behind the first *n of the stencil, divided by
  * their sum: the weight but for round-off, which the cancellation of dual
- * functions may magnify. Those of the primary are negative. */
+ * functions may magnify. Entries of the primary are negative. */
 static abut_status
 gather(abut_coupling *c, int side, int32_t n_touched, int32_t *n)
 {

@@ -63,7 +63,7 @@ finish(node_list *list)
   }
 }
 
-/* The matrix in work. */
+/* The current matrix. */
 typedef struct matrix
 {
   abut_coupling *c;
@@ -276,7 +276,7 @@ fill(matrix *m, const int64_t *list, int64_t n,
   return status;
 }
 
-/* Add what the tangents t[2] of the point turn by about its normal, to the
+/* Add the rotation of the tangents t[2] of the point about its normal, to the
  * matrices behind that of the normal. */
 static void
 add_spin(matrix *m, const int64_t *list, int64_t n,
@@ -312,7 +312,7 @@ add_spin(matrix *m, const int64_t *list, int64_t n,
   }
 }
 
-/* Enter what a guide turns with. */
+/* Enter the facet that a guide rotates with. */
 static abut_status
 enter_facet(matrix *m, int32_t facet)
 {

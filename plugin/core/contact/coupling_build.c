@@ -66,7 +66,7 @@ abut_coupling_searcher(const abut_coupling *coupling)
              : coupling->search;
 }
 
-/* Add the integrals of chi over the points in work to the sums of the nodes;
+/* Add the integrals of chi over the current points to the sums of the nodes;
  * returns the area of the points. */
 double
 abut_coupling_add_integrals(abut_coupling *c, const abut_coupling_facet *facet,
@@ -212,7 +212,7 @@ has_radii(const abut_surface *s, const double *reference)
   return least >= -1e-12 * largest;
 }
 
-/* Whether positions are missing, or given without being asked for. */
+/* Whether positions are missing, or given without being required. */
 static bool
 does_not_fit(const double *position, bool is_asked_for,
              const abut_surface *surface)

@@ -2,8 +2,8 @@
 /* Nodes that carry no multiplier because of what is covered around them.
  *
  * Weak nodes. Quadratic shape functions change sign, so that the integral of
- * phi_j over the covered part of its facets can be small or negative beside
- * that of |phi_j|: a row with such a weight would be useless or wrong. The
+ * phi_j over the covered part of its facets can be small or negative compared
+ * with that of |phi_j|: a row with such a weight would be useless or wrong. The
  * coverage of a node is measured by its hat function, the linear one on the
  * parts that middle nodes cut the facets into:
  *
@@ -97,8 +97,8 @@ abut_coupling_find_corners(abut_coupling *c)
   return any;
 }
 
-/* Integrals of the hats and shape functions of free nodes over the points in
- * work. */
+/* Integrals of the hats and shape functions of free nodes over the current
+ * points. */
 typedef struct integrals
 {
   double hat[ABUT_COUPLING_MAX_FREE], shape[ABUT_COUPLING_MAX_FREE];
@@ -169,7 +169,7 @@ measure(abut_coupling *c, int32_t index)
   if (status != ABUT_SUCCESS)
     return status;
   integrate(c, &facet, &f, &whole);
-  /* An obstacle is asked once, for the rows. */
+  /* The distance of an obstacle is evaluated once, for the rows. */
   if (c->obstacle == NULL)
     status = abut_coupling_make_points(c, &facet, false);
   if (status != ABUT_SUCCESS)

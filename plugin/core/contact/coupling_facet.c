@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* The secondary facet in work, and its points of integration. */
+/* The current secondary facet, and its points of integration. */
 #include "contact/coupling.h"
 #include "geometry/kernels.h"
 #include "geometry/measure.h"
@@ -89,8 +89,8 @@ abut_coupling_node_normal(const abut_coupling *c,
       memcpy(normal, facet->node_normal + 3 * a, 3 * sizeof(double));
 }
 
-/* Positions that the facet's weights are measured at: of the undeformed body,
- * where the surface is not that any more. */
+/* Positions that the facet's weights are measured at: of the reference
+ * configuration, where the surface has another one. */
 static const double *
 weighing_positions(const abut_coupling *c)
 {

@@ -54,7 +54,7 @@ extent_of(const abut_coupling *c)
   return sqrt(square);
 }
 
-/* Those that are to walk, in c->answer.walkers. */
+/* Points that are to walk, in c->answer.walkers. */
 static abut_status
 collect(abut_coupling *c, int64_t *n)
 {

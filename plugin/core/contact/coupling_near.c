@@ -4,7 +4,7 @@
  * and by the nodes of the facet.
  *
  * Where the nearest point is on an edge or a corner with facets around it, the
- * gap is the distance to that, and the pseudonormal tells the side. Where the
+ * gap is the distance to that, and the pseudonormal decides the side. Where the
  * surface ends, its own normal is all that is known of the body behind: the
  * facet is continued beyond its border. Points nearer than round-off to an edge
  * have no direction from there: they get that of the facet. */
@@ -217,8 +217,8 @@ box_distance(int dim, int n, const double *nodes, const double *x)
   return square;
 }
 
-/* What is nearest to a point of the secondary: among the candidates, and of the
- * borders that it lies beyond. */
+/* The nearest point to a point of the secondary: among the candidates, and of
+ * the borders that it lies beyond. */
 typedef struct nearest
 {
   double least, border;

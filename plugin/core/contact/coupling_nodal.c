@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What is on the axis, relative to the facet. */
+/* Distance from the axis, relative to the facet, that counts as 0. */
 static const double round_off = 1e-10;
 
 /* A node of a quadratic facet on the axis of revolution has no area: with

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* What is known of the nodes: checks, and which facets to look at. A facet has
- * a share in the rows of its free nodes. On quadratic facets, and at corners,
- * the share of a node depends on which neighbours are dropped, and that on all
- * their facets. */
+/* Data of the nodes: checks, and which facets to look at. A facet has a share
+ * in the rows of its free nodes. On quadratic facets, and at corners, the share
+ * of a node depends on which neighbours are dropped, and that on all their
+ * facets. */
 #include "contact/discretisation.h"
 
 #include <math.h>

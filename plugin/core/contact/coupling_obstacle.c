@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Points of a rule over the whole facet, and nodes, against a rigid obstacle:
  * signed distance phi for the gap, minus its gradient for the normal. All
- * points of a build are asked for in one call, because obstacles made of facets
+ * points of a build are evaluated in one call, because obstacles made of facets
  * search for many points at once; the answers are taken in the same order. */
 #include "contact/discretisation.h"
 #include "geometry/vector.h"

@@ -2,11 +2,12 @@
 /* How the shares of mortar that moves change as nodes do.
  *
  * Points of integration are held at their places on the secondary facet, so
- * that weights, which are areas of the undeformed body, and the functions psi
- * and phi stay: what changes is the opposite point. In the sum over all points
- * of a secondary facet that is the whole change, since the integrand is
- * continuous where one primary facet follows another; but for facets that the
- * border of the primary surface cuts, whose covered part changes, too.
+ * that weights, which are areas of the reference configuration, and the
+ * functions psi and phi stay: what changes is the opposite point. In the sum
+ * over all points of a secondary facet that is the whole change, since the
+ * integrand is continuous where one primary facet follows another; but for
+ * facets that the border of the primary surface cuts, whose covered part
+ * changes, too.
  *
  * In the plane, with x(s), n(s) and y(t) the linear functions of the two ends,
  *

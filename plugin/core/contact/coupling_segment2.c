@@ -13,7 +13,7 @@
 #include "geometry/quadrature.h"
 #include "geometry/vector.h"
 
-/* Common interval of the part in work with a part of a primary facet, whose
+/* Common interval of the current part with a part of a primary facet, whose
  * points are middle + r half, r in [-1, 1]. */
 typedef struct segment
 {

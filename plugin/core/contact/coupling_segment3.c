@@ -205,8 +205,8 @@ is_before(const work *w, int32_t j, int32_t i)
   return fabs(gap_j) < fabs(gap_i) || (fabs(gap_j) == fabs(gap_i) && j < i);
 }
 
-/* What is left of polygon i when all that are nearer have had their part;
- * returns the number of fragments. */
+/* The rest of polygon i without the parts of all that are nearer; returns the
+ * number of fragments. */
 static int
 cut_back(const work *w, int32_t i, abut_clip3 *fragments)
 {

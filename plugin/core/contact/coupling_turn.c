@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* How the tangents of a point that moves turn with its normal, and the shares
+/* How the tangents of a point that moves rotate with its normal, and the shares
  * of the primary's nodes go on along its facet: all of it is in the second
  * derivatives H of the gap. With its gradient n at the point and - N_a n at the
  * nodes,
@@ -11,13 +11,13 @@
  *
  *     dt at the point,  - N_a dt - dN_a t at node a.
  *
- * Of mortar the slip changes by t . sum_l c_l dx_l. What n c_l changes by has a
+ * With mortar the slip changes by t . sum_l c_l dx_l. The change of n c_l has a
  * part along n, n dc_l, and one across it, c_l dn, so that
  *
  *     d(t c_l) = t dc_l + c_l dt .
  *
- * In space tangents are made of a guide, which turns with the secondary: that
- * turns them about the normal, besides. */
+ * In space tangents are made of a guide, which rotates with the secondary: that
+ * rotates them about the normal, too. */
 #include "contact/coupling.h"
 #include "geometry/vector.h"
 
@@ -44,9 +44,9 @@ tangents_of(int dim, const double *n, const double *guide, double (*t)[3])
  * facet does not show directions in that. */
 static const double steepest = 0.5;
 
-/* A direction on a facet that turns with it: half way between those of its two
- * local coordinates, the second of which is turned by a right angle, so that
- * shear turns it by half. */
+/* A direction on a facet that rotates with it: half way between those of its
+ * two local coordinates, the second of which is rotated by a right angle, so
+ * that shear rotates it by half. */
 typedef struct facet_direction
 {
   int n_corners;
@@ -97,8 +97,8 @@ take_guide(const abut_coupling *c, int32_t f, const double *normal,
   return true;
 }
 
-/* Of the facets of a node that with the smallest number, so that it is the same
- * wherever the node goes; -1: none will do. */
+/* The facet of a node with the smallest number, so that it is the same wherever
+ * the node goes; -1: there is none. */
 static int32_t
 guide_of_node(const abut_coupling *c, int32_t node, const double *normal,
               double *guide)
@@ -141,8 +141,9 @@ abut_coupling_guide(const abut_coupling *c, const abut_coupling_share *share,
 }
 
 /* With the directions a and b of the coordinates, the facet's normal N and the
- * guide g = p a + q b, dg is half the turns of a and b about N, and the part
- * p da . N + q db . N along N. Tangents turn by t2 . dg / |g - n n . g| . */
+ * guide g = p a + q b, dg is half the rotations of a and b about N, and the
+ * part p da . N + q db . N along N. Tangents rotate by t2 . dg / |g - n n . g|.
+ */
 int
 abut_coupling_spin(const abut_coupling *c, int32_t facet, const double *normal,
                    const int32_t **node, double (*spin)[3])
@@ -197,7 +198,7 @@ turn_tangents(int dim, const double *n, const double *guide, const double *dn,
     dt[0][1] = dn[0];
     return;
   }
-  /* Of v = e - (e . n) n, which is made a unit vector. */
+  /* Derivative of v = e - (e . n) n, which is made a unit vector. */
   const double along = dot3(guide, n), change = dot3(guide, dn);
   axpy3(guide, -along, n, a);
   const double length = norm3(a);

@@ -25,7 +25,7 @@
  * Steps 2 to 11 are the search (search/search.c, query.c): it works on blocks
  * of nodes instead of single ones, and leaves step 9 to the ranking (rank.c),
  * where most candidates have dropped out for cheaper reasons. All groups are
- * searched at once; a node knows the groups it is paired with. */
+ * searched at once; a node has the groups that it is paired with. */
 #include "contact/detect.h"
 
 #include <math.h>
@@ -304,7 +304,7 @@ pair_block(void *user, const abut_answers *a)
 }
 
 /* Steps 2 to 17: candidates of a block of nodes and, while they are in the
- * cache, the pairing of these nodes; with a skin from a list that is made anew
+ * cache, the pairing of these nodes; with a skin from a list that is made again
  * only when it must be. */
 static abut_status
 search_and_pair(abut_detection *d, double motion)

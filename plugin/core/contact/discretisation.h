@@ -2,9 +2,9 @@
 #ifndef ABUT_CONTACT_DISCRETISATION_H
 #define ABUT_CONTACT_DISCRETISATION_H
 
-/* A discretisation as a table: what is told of it to everybody, and what it
- * does. A new one is an entry of ABUT_DISCRETISATION_LIST, an entry here, and
- * its functions in a file of its own. */
+/* A discretisation as a table: its public properties, and its functions. A new
+ * one is an entry of ABUT_DISCRETISATION_LIST, an entry here, and its functions
+ * in a file of its own. */
 
 #include "contact/coupling.h"
 
@@ -18,7 +18,7 @@ struct abut_discretisation_methods
   /* Weighting functions that are biorthogonal to the shape functions. */
   bool dual;
   /* Pairs are found by the detection, node by node, instead of by the search
-   * for facets; against an obstacle, its distance is asked for at the nodes. */
+   * for facets; against an obstacle, its distance is evaluated at the nodes. */
   bool detects_nodes;
   /* Take the share of a facet, whose points on the covered part are in
    * c->points; `whole` is the area of the facet. */
@@ -32,7 +32,7 @@ struct abut_discretisation_methods
 const abut_discretisation_methods *
 abut_discretisation_methods_get(abut_discretisation discretisation);
 
-/* Add the integrals of the weighting functions over the points in work to sum
+/* Add the integrals of the weighting functions over the current points to sum
  * [n_nodes]; returns their area. */
 double abut_coupling_add_integrals(abut_coupling *c,
                                    const abut_coupling_facet *facet,

@@ -11,9 +11,9 @@
  * second does, so that of the handful of candidates of a node usually one is
  * projected.
  *
- * A node beyond the border of the surface has no facet. Those behind the one at
- * the border are not nearer for being allowed: a facet whose nearest point is
- * on its edge is no candidate where the border is nearer.
+ * A node beyond the border of the surface has no facet. The facets behind the
+ * border are not nearer for being allowed: a facet whose nearest point is on
+ * its edge is no candidate where the border is nearer.
  *
  * Costs that differ by round-off are a tie, and the facet with the lowest
  * number wins; the result then does not depend on the order in which

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* A surface that touches itself, as two sides: a greedy colouring with two
- * colours by a union-find structure that knows for each facet whether it is on
+ * colours by a union-find structure that stores for each facet whether it is on
  * the side of its root (parity). Cost: the search, a sort of the pairs, and
  * nearly O(1) per pair. */
 #include "geometry/surface.h"

@@ -8,7 +8,7 @@
 #include "geometry/clip.h"
 #include "geometry/vector.h"
 
-/* Of a parameter whose equation may be nearly degenerate. */
+/* Tolerance of a parameter whose equation may be nearly degenerate. */
 static const double round_off = 1e-3;
 
 static double

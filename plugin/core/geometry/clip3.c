@@ -157,7 +157,7 @@ abut_clip3_intersect(const abut_clip3 *a, const abut_clip3 *b, double part,
   return common->area > part * min2(a->area, b->area);
 }
 
-/* What is outside of one edge of b after another. */
+/* The parts outside of one edge of b after another. */
 int
 abut_clip3_subtract(const abut_clip3 *a, const abut_clip3 *b, double part,
                     abut_clip3 *pieces)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* What is constant per kind of facet, and dispatch of the shape functions. */
+/* Constants of each kind of facet, and dispatch of the shape functions. */
 #include "geometry/kernels.h"
 
 typedef struct kind_entry

@@ -24,7 +24,7 @@ typedef struct abut_facet_tree
 void abut_facet_tree_prepare(abut_facet_tree *tree);
 void abut_facet_tree_release(abut_context *context, abut_facet_tree *tree);
 
-/* Build the tree at the present positions. O(n log n). */
+/* Build the tree at the current positions. O(n log n). */
 abut_status abut_facet_tree_build(abut_context *context,
                                   const abut_surface *surface,
                                   abut_facet_tree *tree);

@@ -208,7 +208,7 @@ assemble_hessian(stages *s, double *hessian)
   return 1;
 }
 
-/* What is added where n turns about an edge or a corner. */
+/* The terms that are added where n rotates about an edge or a corner. */
 static int
 add_turn(const stages *s, double *hessian)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* What all obstacles share: life, pose, and the call that asks for distances.
+/* Common part of all obstacles: life, pose, and the call for distances.
  *
  * Points go to the obstacle's own frame by X = R'(x - T), gradients back by
  * R, second derivatives by R H R'. A hollow obstacle is the same with the

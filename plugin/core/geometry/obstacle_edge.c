@@ -45,7 +45,7 @@ static const double least_change = 1e-3;
 /* Lengths of probes: how far inside they start; what a line may pass beside. */
 static const double inside_part = 1e-7, beside_part = 1e-6;
 
-/* Cosine of a line and a flank that it cannot be said to meet. */
+/* Cosine of a line and a flank below which they count as parallel. */
 static const double least_cosine = 0.02;
 
 /* A point with its body's normal, and the obstacle that it is near to. */
@@ -291,8 +291,8 @@ find_way(seeker *s, int k, const double *y, const double *own, double *e)
   return true;
 }
 
-/* Flanks around the surface's place y; none but its own where there is no
- * edge. Those of edges that are farther count less. */
+/* Flanks around the surface's place y; none but its own where there is no edge.
+ * Normals of edges that are farther count less. */
 static void
 find_flanks(seeker *s, const double *y, flanks *found)
 {

@@ -10,10 +10,10 @@
  * differences of the caller's gradient of fourth order, with four evaluations
  * for each axis: (8 (g(+h) - g(-h)) - (g(+2h) - g(-2h))) / (12 h).
  *
- * Of points that move the caller's derivative, where there is one, takes the
- * place of the gradient. Where f is no distance, H misses what n changes by
- * along itself, and Newton's method has the order sqrt(2): an error is that of
- * the gap before, which is the square of the one before that. */
+ * For points that move the caller's derivative, where there is one, replaces
+ * the gradient. Where f is no distance, H misses what n changes by along
+ * itself, and Newton's method has the order sqrt(2): an error is that of the
+ * gap before, which is the square of the one before that. */
 #include "geometry/obstacle.h"
 
 #include "geometry/kernels.h"
@@ -55,7 +55,7 @@ length_of(const function_obstacle *f, int64_t size, const double *points)
   return length > 0. ? length : 1.;
 }
 
-/* What second derivatives are differences of. */
+/* Values that second derivatives are differences of. */
 static int
 slopes(const function_obstacle *f, bool moving, int32_t n, const double *points)
 {

@@ -95,7 +95,7 @@ abut_obstacle_fields(abut_obstacle_kind kind)
   return i >= 0 && i < ABUT_OBSTACLE_N_KINDS ? shapes[i].fields : 0;
 }
 
-/* What is wrong with a number that belongs to the kind, or NULL. */
+/* Error in a number that belongs to the kind, or NULL. */
 static const char *
 fault_of_numbers(const abut_obstacle_shape *s)
 {

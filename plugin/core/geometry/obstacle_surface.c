@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Signed distance to a surface of facets: the nearest one by a tree of boxes;
  * within it sign and gradient are those of its normal, else the gradient is the
- * direction from the nearest point, on the side that the pseudonormal tells. */
+ * direction from the nearest point, on the side that the pseudonormal decides.
+ */
 #include "geometry/facet_tree.h"
 #include "geometry/kernels.h"
 #include "geometry/obstacle.h"
@@ -28,7 +29,7 @@ release(abut_obstacle *o)
   abut_facet_tree_release(o->context, &((surface_obstacle *)o)->tree);
 }
 
-/* Sizes of the surface and its tree at the present positions. */
+/* Sizes of the surface and its tree at the current positions. */
 static abut_status
 refresh(surface_obstacle *s)
 {

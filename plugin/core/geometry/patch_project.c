@@ -304,8 +304,8 @@ surely_global(const abut_patch *patch, const double *x, const double *y)
   return s > 0. && s * s >= sqrt(u * u + v * v + 2. * w * w);
 }
 
-/* Newton from each sample of a grid that is a minimum along xi or along eta:
- * a minimum at the bottom of a bent valley may be none among the samples. */
+/* Newton from each sample of a grid that is a minimum along xi or along eta: a
+ * minimum at the bottom of a bent valley need not be one among the samples. */
 static void
 search_samples(const abut_patch *patch, const double *x, double *local,
                double *best, int32_t *iterations)
@@ -357,7 +357,7 @@ finish(const abut_patch *patch, const double *x, const double *local,
   p->converged = residual <= max2(1e-9 * patch->size, 1e-14 * norm3(x));
   finish3(patch->origin, q.y, q.y1, q.y2, x, local[0], local[1],
           patch->triangle, p);
-  /* A stationary point inside stays one whatever round-off says. */
+  /* A stationary point inside stays one in spite of round-off. */
   const double outside = violation3(local[0], local[1], patch->triangle);
   if (p->converged && outside < -ABUT_EDGE_TOLERANCE)
   {

@@ -68,7 +68,7 @@ abut_project_line3(const double *nodes, const double *x, abut_projection *p)
   const double tt = t[0] * t[0] + t[1] * t[1];
   const double smallest =
       max2(1e-26 * (dot3(c[1], c[1]) + dot3(c[2], c[2])), ABUT_TINY);
-  /* A stationary point inside stays one whatever round-off says. */
+  /* A stationary point inside stays one in spite of round-off. */
   const double step =
       fabs(xi) < 1. || !(tt > smallest) ? 0. : (r[0] * t[0] + r[1] * t[1]) / tt;
   finish2(o, y, t, r, xi, xi + step, smallest, p);

@@ -17,7 +17,7 @@
  * so y is nearest if J^2 >= 2 |a'||b'||r.d|, with J the smallest Jacobian of
  * the facet along its mean normal (linear in xi and eta: the corners decide)
  * and |a'|, |b'| the longest tangents. For a planar convex facet J > 0 alone
- * suffices. What cannot be proved goes to patch_project.c. */
+ * suffices. Unproved cases go to patch_project.c. */
 #include "geometry/finish.h"
 #include "geometry/patch.h"
 

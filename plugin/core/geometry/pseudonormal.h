@@ -6,9 +6,9 @@
 
 #include <abut/projection.h>
 
-/* Unit normal that tells the sides of a surface at the nearest point of facet f
- * (Baerentzen and Aanaes 2005): the facet's within it, the sum of the two
- * facets' on a side, the sum weighted by angles at a corner. At borders the
+/* Unit normal that distinguishes the sides of a surface at the nearest point of
+ * facet f (Baerentzen and Aanaes 2005): the facet's within it, the sum of the
+ * two facets' on a side, the sum weighted by angles at a corner. At borders the
  * facets that are there count. Three components. */
 void abut_pseudonormal(const abut_surface *surface, int32_t f,
                        const abut_projection *p, double *normal);

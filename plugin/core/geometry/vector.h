@@ -7,9 +7,9 @@
 #include <math.h>
 #include <stdint.h>
 
-/* A squared vector below this has lost digits to underflow: it counts as zero.
- * Between lengths of 1e-40 and 1e40 no square of a length, and no square of an
- * area above round-off, gets there. */
+/* A squared vector below this has lost accuracy to underflow: it counts as
+ * zero. Between lengths of 1e-40 and 1e40 no square of a length, and no square
+ * of an area above round-off, gets there. */
 #define ABUT_TINY 1e-280
 
 static inline double

@@ -115,7 +115,7 @@ abut_history_pack(const abut_history *history, abut_history_version version,
   return ABUT_SUCCESS;
 }
 
-/* What is wrong with a head; NULL: nothing. */
+/* Error in a head; NULL: none. */
 static const char *
 fault_of(const head *h, const void *body, size_t bytes)
 {

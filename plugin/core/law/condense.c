@@ -149,7 +149,7 @@ spring(const block *at, double w, double *force, double *z, double *test)
   return true;
 }
 
-/* What does not depend on k: where the numbers of a point begin. */
+/* The part that does not depend on k: where the numbers of a point begin. */
 typedef struct place
 {
   int64_t vector, block;
@@ -234,7 +234,8 @@ recover_block(const block *at, const double *dg, double *dp)
   return true;
 }
 
-/* What a caller gave, of this version; there is no context to say why not. */
+/* The points of a caller, in this version's struct; there is no context for an
+ * error message. */
 static abut_status
 take_points(const abut_condense_points *given, abut_condense_points *points)
 {

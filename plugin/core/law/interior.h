@@ -2,7 +2,7 @@
 #ifndef ABUT_LAW_INTERIOR_H
 #define ABUT_LAW_INTERIOR_H
 
-/* What the two interior laws share. */
+/* Common functions of the two interior laws. */
 
 #include <abut/law.h>
 

@@ -144,10 +144,10 @@ find_stiffness(dense_host *host)
   return ABUT_SUCCESS;
 }
 
-/* What pressures are measured in. A stiffness of 1e13, such as mass by the
- * square of a short time, looks singular beside the ones of B: there it is the
- * largest stiffness, so that all unknowns are lengths. Else it is 1: matrices
- * that friction makes nearly singular are sensitive to their pivots. */
+/* Unit of pressures. A stiffness of 1e13, such as mass by the square of a short
+ * time, looks singular compared with the ones of B: there it is the largest
+ * stiffness, so that all unknowns are lengths. Else it is 1: matrices that
+ * friction makes nearly singular are sensitive to their pivots. */
 static double
 pressure_unit(const dense_host *host)
 {
@@ -300,8 +300,8 @@ run(dense_host *host, abut_strategy *strategy, uint8_t *state,
                           : ABUT_SUCCESS;
 }
 
-/* A singular matrix: where something slips and the caller asks for a reason,
- * the end of the iteration, else a failure. */
+/* A singular matrix: where something slips and the caller wants a reason, the
+ * end of the iteration, else a failure. */
 static abut_status
 explain_singular(const dense_host *host, const abut_strategy *strategy,
                  abut_progress *progress, abut_reason *reason,

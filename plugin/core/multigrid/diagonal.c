@@ -9,7 +9,7 @@
 /* A pivot below this part of its diagonal entry: the component moves with the
  * others, as in rigid motions of a coarse function that is nearly cut off. */
 static const double smallest_pivot = 1e-6;
-/* What the power method may have missed. */
+/* Factor for the error of the power method. */
 static const double margin = 1.2;
 
 /* The inverse of the free part of a symmetric block, by Gauss and Jordan. */

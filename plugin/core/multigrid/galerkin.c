@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Coarse matrices P^T A P without what is held, row by row, so that only rows
- * near a change are made anew. A row is summed up from nothing in the same
- * order each time: making it anew gives the same to the last bit as making
- * all. First come the rows of all children over columns of the fine mesh, then
- * these columns go to their parents: each is met once for each parent, not once
- * for each parent and child. */
+ * near a change are computed again. A row is summed up from nothing in the same
+ * order each time: computing it again gives the same to the last bit as
+ * computing all. First come the rows of all children over columns of the fine
+ * mesh, then these columns go to their parents: each is met once for each
+ * parent, not once for each parent and child. */
 #include "multigrid/multigrid.h"
 
 #include <string.h>

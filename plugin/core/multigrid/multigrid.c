@@ -117,7 +117,7 @@ transpose(abut_pool *pool, const abut_node_rows *rows, int32_t n, int32_t n_new,
     }
 }
 
-/* Tell a level which nodes are this rank's. */
+/* Set the nodes of a level that this rank owns. */
 static void
 take_own(abut_multigrid *mg, const abut_multigrid_ranks *ranks, int32_t l)
 {
@@ -217,7 +217,7 @@ build(abut_multigrid *mg, const abut_multigrid_hierarchy *h)
   if (h->ranks != NULL)
   {
     mg->ranks = *h->ranks;
-    mg->ranks.first_own = mg->ranks.n_own = NULL; /* the levels know them */
+    mg->ranks.first_own = mg->ranks.n_own = NULL; /* the levels have them */
     mg->changed = abut_pool_take(&mg->structure, h->mesh[0].n_nodes, 1);
     mg->blocks = abut_pool_take(
         &mg->structure, (int64_t)most * mg->block * mg->block, sizeof(float));
@@ -351,7 +351,7 @@ take_node(abut_multigrid *mg, int32_t i, const uint8_t *held,
   return changed;
 }
 
-/* Let mg->blocks say which unknowns other ranks hold. */
+/* Set the unknowns in mg->blocks that other ranks hold. */
 static void
 share_held(abut_multigrid *mg, const uint8_t *held)
 {
@@ -362,8 +362,8 @@ share_held(abut_multigrid *mg, const uint8_t *held)
   abut_level_share(level, mg->block, mg->blocks);
 }
 
-/* The same as mark_finest() where copies have no rows that would tell whose
- * columns they are. */
+/* The same as mark_finest() where copies have no rows that would determine
+ * whose columns they are. */
 static void
 mark_shared(abut_multigrid *mg, const uint8_t *held, const double *added,
             bool all)
@@ -432,8 +432,8 @@ mark_coarse(abut_multigrid *mg, int32_t l)
   return any_rank(coarse, any);
 }
 
-/* What is held takes nothing from the largest eigenvalue of the finest level:
- * its bound is found once for each matrix. */
+/* Held unknowns do not reduce the largest eigenvalue of the finest level: its
+ * bound is found once for each matrix. */
 static void
 prepare_finest(abut_multigrid *mg)
 {
@@ -502,7 +502,7 @@ abut_multigrid_hold(abut_multigrid *mg, const uint8_t *held,
   abut_multigrid_invert(mg, 0);
   if (first)
     memset(mg->level[0].dirty, 1, (size_t)mg->level[0].n);
-  /* What is eliminated has no stiffness left, and must be held here. */
+  /* Eliminated unknowns have no stiffness left, and must be held here. */
   if (has_terms)
     abut_multigrid_bound(mg, 0, POWER_STEPS);
   abut_status status = renew_coarse(mg, has_terms);

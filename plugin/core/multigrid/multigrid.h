@@ -73,8 +73,8 @@ typedef struct abut_multigrid_level
   float *inverse;        /* [n] blocks: inverse of the diagonal block, 0 in rows
                             and columns that are held */
   float *x, *r, *z;      /* [n * block + 1] of a cycle */
-  double largest;        /* bound of the eigenvalues of inverse * matrix; 0
-                            where nobody asks */
+  double largest; /* bound of the eigenvalues of inverse * matrix; 0 where it is
+                     not needed */
 
   int32_t number;                    /* of this level */
   int32_t first_own, end_own;        /* nodes that are this rank's */
@@ -143,7 +143,7 @@ void abut_level_reduce(const abut_multigrid_level *level, abut_reduction op,
 /* Make mg->gathered, the sum of the matrices of all ranks. */
 abut_status abut_multigrid_gather_coarsest(abut_multigrid *mg);
 
-/* What the rows of the host are. */
+/* Description of the rows of the host. */
 typedef struct abut_host_numbers
 {
   int32_t *node;      /* [rows] */

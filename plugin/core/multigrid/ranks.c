@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* What ranks that share a hierarchy tell each other. Each has a part of every
+/* Communication of ranks that share a hierarchy. Each has a part of every
  * matrix, the sum of which is the matrix: coarse parts come from fine ones
- * without a word, and only vectors, diagonal blocks and the coarsest matrix
- * are added up. */
+ * without communication, and only vectors, diagonal blocks and the coarsest
+ * matrix are added up. */
 #include "multigrid/multigrid.h"
 
 enum

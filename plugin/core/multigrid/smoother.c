@@ -60,8 +60,8 @@ add_row_times(const abut_node_rows *rows, const int32_t b, int32_t q,
 }
 
 /* t += row i of half a matrix times v, and let it add to the rows behind: for
- * blocks of 3 as above. What the diagonal block, which is among those of the
- * row, adds to its own row is dropped. */
+ * blocks of 3 as above. The contribution of the diagonal block, which is among
+ * those of the row, to its own row is dropped. */
 ABUT_INLINE void
 half_row_times_3(const abut_multigrid_level *level, int32_t i, const float *v,
                  float *t)
@@ -152,8 +152,8 @@ own_row_times(const abut_multigrid_level *level, const int32_t b, int32_t i,
     add_row_times(&level->terms.rows, b, level->terms.at[i], v, t);
 }
 
-/* Let row_times() know the product of all ranks' matrices with v, which is the
- * same at all copies. */
+/* Give row_times() the product of all ranks' matrices with v, which is the same
+ * at all copies. */
 ABUT_INLINE void
 multiply(abut_multigrid_level *level, const int32_t b, const float *v)
 {
@@ -193,7 +193,7 @@ scale(const abut_multigrid_level *level, const int32_t b, int32_t i,
   }
 }
 
-/* What is added to x with z from the first line. */
+/* The increment of x with z from the first line. */
 ABUT_INLINE void
 second_line(abut_multigrid_level *level, const int32_t b, int32_t i, bool first)
 {

@@ -5,8 +5,7 @@
  * diagonal, then the rest. The sweep from 0 needs the first part, and what it
  * leaves is minus the last part times x, which is the first part's transpose:
  * both are done at once. So a cycle reads the matrix twice, where Chebyshev's
- * polynomial of degree 2 takes it four times, and no eigenvalue is asked for.
- */
+ * polynomial of degree 2 takes it four times, and needs no eigenvalue. */
 #include "multigrid/multigrid.h"
 
 #include <string.h>

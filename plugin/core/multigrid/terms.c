@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* What is added to the matrix in few rows, such as by unknowns that contact
- * eliminates. The matrix itself stays, and with it its coarse rows elsewhere.
- */
+/* Terms that are added to the matrix in few rows, such as by unknowns that
+ * contact eliminates. The matrix itself stays, and with it its coarse rows
+ * elsewhere. */
 #include "multigrid/multigrid.h"
 
 #include <string.h>

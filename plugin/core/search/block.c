@@ -3,10 +3,10 @@
  *
  * Coordinates are sorted into 256 steps over the block by one function, which
  * is monotone: for v <= w also step(v) <= step(w). So boxes that touch touch in
- * steps too, whatever the rounding, and bytes are enough for a first test
- * that loses nothing. What passes it, few more than the pairs, is decided by
- * the exact test. Which boxes are touched cannot be predicted, hence loops
- * without branches. */
+ * steps too, whatever the rounding, and bytes are enough for a first test that
+ * loses nothing. The few candidates more than the pairs that pass it are
+ * decided by the exact test. Which boxes are touched cannot be predicted, hence
+ * loops without branches. */
 #include "search/search.h"
 
 #include "base/clones.h"

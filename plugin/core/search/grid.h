@@ -24,7 +24,7 @@ typedef struct abut_grid
   double drift;          /* largest distance of a centre from its cell */
   int32_t n_cells;       /* occupied */
   int32_t hash_bits;     /* the table has 2^hash_bits places */
-  bool raised;           /* the edge asked for was too small */
+  bool raised;           /* the edge requested was too small */
   abut_array cell_key;   /* uint64_t, [n_cells] */
   abut_array cell_start; /* int32_t, [n_cells + 1] */
   abut_array table;      /* int32_t, cell number or -1 */

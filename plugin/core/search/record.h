@@ -2,7 +2,7 @@
 #ifndef ABUT_SEARCH_RECORD_H
 #define ABUT_SEARCH_RECORD_H
 
-/* What the search knows of a facet, two cache lines, kept in search order; and
+/* Data of a facet for the search, two cache lines, kept in search order; and
  * the two exact tests that define the set of pairs. */
 
 #include "geometry/surface.h"
@@ -91,8 +91,8 @@ typedef struct abut_bounds
   double smallest;
 } abut_bounds;
 
-/* Box and size of the n facets from `first` on at the present positions, 1 <=
- * n <= ABUT_LANES; lanes beyond n repeat the last one. */
+/* Box and size of the n facets from `first` on at the current positions, 1 <= n
+ * <= ABUT_LANES; lanes beyond n repeat the last one. */
 void abut_lanes_bound(const abut_surface *surface, int32_t first, int32_t n,
                       abut_lanes *lanes);
 

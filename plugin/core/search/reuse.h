@@ -23,12 +23,12 @@ typedef struct abut_skin_list
 void abut_skin_list_prepare(abut_skin_list *list);
 void abut_skin_list_release(abut_context *context, abut_skin_list *list);
 
-/* Whether the list holds all pairs at the present positions. */
+/* Whether the list holds all pairs at the current positions. */
 bool abut_skin_list_serves(const abut_skin_list *list,
                            const abut_search *search,
                            const abut_surface *secondary, bool facets);
 
-/* Make the list anew at the present positions. */
+/* Make the list again at the current positions. */
 abut_status abut_skin_list_make(abut_skin_list *list, abut_search *search,
                                 const abut_surface *secondary, bool facets);
 

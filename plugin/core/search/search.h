@@ -21,7 +21,7 @@ typedef struct abut_list
   abut_array slot;  /* int32_t */
 } abut_list;
 
-/* What decides whether a point or box is near a facet. */
+/* Data of the exact test whether a point or box is near a facet. */
 typedef struct abut_exact
 {
   double bound[6]; /* lower and, negative, upper bounds of the inflated box */
@@ -95,7 +95,7 @@ struct abut_search
   abut_search_statistics statistics;
 };
 
-/* What is asked: n points, or n boxes. */
+/* The queries: n points, or n boxes. */
 typedef struct abut_query
 {
   int32_t n;
@@ -126,9 +126,9 @@ abut_status abut_block_fill(abut_search *search, const abut_runs *runs,
                             const double *lower, const double *upper,
                             double skin, bool of_facets);
 
-/* Those that are pairs of a query of the block, in the same order, into values,
- * which has room for all of the block; returns their number. values[*nearest]
- * is the one with the nearest centre (NULL: not asked for). */
+/* Copy the facets that are pairs of a query of the block, in the same order,
+ * into values, which has room for all of the block; returns their number.
+ * values[*nearest] is the one with the nearest centre (NULL: not requested). */
 int32_t abut_block_near_point(const abut_block *block, const double *x,
                               int32_t *values, int32_t *nearest);
 int32_t abut_block_near_box(const abut_block *block, const double *lower,

@@ -14,7 +14,8 @@
  * are sorted again on a lattice of their own, so that clusters far smaller
  * than the scene do not pile up.
  *
- * Build O(n); a query box visits O(log n) buckets beside those it touches. */
+ * Build O(n); a query box visits O(log n) buckets in addition to the ones it
+ * touches. */
 
 #include "search/order.h"
 #include "search/record.h"
@@ -45,8 +46,7 @@ typedef struct abut_tree
   abut_array groups;   /* abut_tree_group */
 } abut_tree;
 
-/* What the order of facets is made from: centre of box, inflated half-extent.
- */
+/* Input of the order of facets: centre of box, inflated half-extent. */
 typedef struct abut_site
 {
   double centre[3];

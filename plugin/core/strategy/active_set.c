@@ -18,8 +18,8 @@ enum
  * to the length scale, do not contradict a state. */
 static const double pressure_noise = 1e-10, gap_noise = 1e-12;
 
-/* Penalty, as a multiple of the stiffness, above which springs leave too few
- * digits for the rest of the matrix. */
+/* Penalty, as a multiple of the stiffness, above which springs leave too little
+ * accuracy for the rest of the matrix. */
 static const double stiff = 1e10;
 
 /* Tractions that miss their bound by less, relative to the largest pressure,
@@ -27,11 +27,11 @@ static const double stiff = 1e10;
  * Newton's method converges quadratically. */
 static const double traction_noise = 1e-10, sharp_traction = 1e-13;
 
-/* What the rows of all ranks say after a step. */
+/* Result of the rows of all ranks after a step. */
 typedef struct findings
 {
   double max_pressure, max_gap_change, defect;    /* maxima */
-  double traction_defect;                         /* max, of what slips */
+  double traction_defect;                         /* max, of slipping points */
   double n_bad, bad_weight, all_weight, n_active; /* sums */
   double n_closing, n_opening;      /* sums: normals that change */
   double n_slipping;                /* sum */
@@ -98,7 +98,7 @@ find_maxima(abut_strategy *s, findings *found)
   max[CHANGED] = s->coefficients_changed;
   for (int32_t i = 0; i < s->n; ++i)
   {
-    /* Of a length, whatever the units in which the law measures c. */
+    /* Derivative by a length, whatever the units of the law's c. */
     const double slope =
         fabs(s->d_gap[i]) + fabs(s->d_pressure[i]) * s->stiffness[i];
     const bool is_tangent = s->bilateral[i] == ABUT_ROW_TANGENT;
@@ -448,7 +448,7 @@ finish(abut_strategy *s, const findings *found, abut_reason reason)
   return abut_strategy_stop(s, ABUT_REASON_STAGNATION);
 }
 
-/* The set has settled: ask the outer iteration, if any. */
+/* The set has settled: continue with the outer iteration, if any. */
 static abut_status
 settled(abut_strategy *s, const findings *found)
 {

@@ -54,8 +54,8 @@ abut_strategy_points(const abut_strategy *s)
   return points;
 }
 
-/* A number that tells the laws' matrix coefficients apart: those of a row come
- * into one, so that rows wait for one product only. */
+/* A number that distinguishes the laws' matrix coefficients: those of a row
+ * come into one, so that rows wait for one product only. */
 static uint64_t
 sign_coefficients(const abut_strategy *s)
 {
@@ -74,8 +74,8 @@ sign_coefficients(const abut_strategy *s)
   return sign;
 }
 
-/* Why the law's result in row i is of no use; NULL if it is good, or if the
- * row is a tangent, of which friction's law has the say. */
+/* Why the law's result in row i is of no use; NULL if it is good, or if the row
+ * is a tangent, which friction's law decides. */
 static const char *
 fault_of_row(const abut_strategy *s, int32_t i)
 {

@@ -11,9 +11,9 @@ static const char call[] = "abut_strategy_next";
 /* c of the tangents, as a multiple of that of the normals. */
 static const double tangent_scale = 0.3;
 
-/* Coefficient of friction above which what has just closed does not slip before
- * it presses: equilibrium along the surface would have mu times that across it,
- * and no digits of its own. */
+/* Coefficient of friction above which a point that has just closed does not
+ * slip before it has pressure: equilibrium along the surface would have mu
+ * times that across it, and no accuracy of its own. */
 static const double sticking = 1e5;
 
 /* Blocks of all points: rows that belong to no point with friction are blocks
@@ -140,11 +140,11 @@ abut_friction_start(abut_strategy *s)
 }
 
 /* Springs of stick along tangents that supports or other contacts hold, as a
- * multiple of the stiffness, and the slip there, as a part of the length
- * scale, below which there is none. */
+ * multiple of the stiffness, and the slip there, as a part of the length scale,
+ * below which it counts as 0. */
 static const double stiff = 1e4, no_slip = 1e-12;
 
-/* Continuous, so that no digit decides. */
+/* Continuous, so that round-off does not decide. */
 static double
 beyond_noise(double slip, double noise)
 {
@@ -189,8 +189,8 @@ is_prescribed(const abut_friction_rows *f, int32_t i, int32_t tangent)
   return true;
 }
 
-/* What slips has no springs: its traction is against the slip alone, the
- * committed one where there is none. */
+/* Points that slip have no springs: their traction is against the slip alone,
+ * the committed one where there is none. */
 static void
 release_slip(abut_strategy *s, int32_t i, int32_t tangent)
 {
@@ -394,7 +394,7 @@ write_block(abut_strategy *s, int32_t i, int32_t tangent, int32_t part,
                      : f->d_slip[part + r * t + c];
     }
     s->residual[row + 1 + r] = f->residual[tangent + r];
-    /* What stands on the diagonal tells a length from a pressure. */
+    /* The diagonal distinguishes a length from a pressure. */
     s->d_pressure[row + 1 + r] = a[r + 1];
     s->d_gap[row + 1 + r] = b[r + 1];
   }

@@ -20,8 +20,8 @@
 
 enum
 {
-  /* Of abut_strategy's array bilateral: a tangent of the point before it. The
-   * law sees an equality, and what it says of it is replaced. */
+  /* Value of abut_strategy's array bilateral: a tangent of the point before it.
+   * The law sees an equality, and its result is replaced. */
   ABUT_ROW_TANGENT = 2,
   ABUT_FRICTION_QUARTERS = 4
 };
@@ -38,8 +38,7 @@ typedef enum abut_friction_rung
 
 typedef struct abut_friction_rows
 {
-  /* What abut_strategy_set_friction() was given; law is NULL without friction.
-   */
+  /* Arguments of abut_strategy_set_friction(); law is NULL without friction. */
   const abut_friction *law;
   const void *parameters;
   int32_t n, m, blocks; /* points, their tangents, numbers of these blocks */
@@ -89,7 +88,7 @@ abut_friction_is_on(const abut_friction_rows *f)
 void abut_friction_prepare(abut_friction_rows *f);
 void abut_friction_release(abut_context *context, abut_friction_rows *f);
 
-/* Say what is wrong with point i, and return the status. */
+/* Report the error of point i, and return the status. */
 abut_status abut_friction_reject(abut_strategy *s, abut_status status,
                                  int32_t i, const char *what);
 
@@ -108,7 +107,7 @@ abut_status abut_friction_find_bounds(abut_strategy *s);
 abut_status abut_friction_evaluate(abut_strategy *s);
 
 /* States that traction and slip call for, after the normal law's trial states;
- * noise: pressures below it are none. */
+ * noise: pressures below it count as 0. */
 abut_status abut_friction_find_states(abut_strategy *s, double pressure_noise,
                                       double slip_noise);
 
@@ -123,8 +122,8 @@ void abut_friction_keep_directions(abut_friction_rows *f);
 bool abut_friction_row_is_free(const abut_strategy *s, int32_t i);
 
 /* For the normal row i, after find_states: whether its point contradicts its
- * state, by how much (a pressure), and a number that tells its state and
- * direction apart in signatures of sets. */
+ * state, by how much (a pressure), and a number that distinguishes its state
+ * and direction in signatures of sets. */
 bool abut_friction_point_is_bad(const abut_strategy *s, int32_t i);
 double abut_friction_excess(const abut_strategy *s, int32_t i);
 int64_t abut_friction_mark(const abut_strategy *s, int32_t i);
@@ -147,7 +146,7 @@ abut_status abut_friction_climb(abut_strategy *s, bool *goes_on);
 /* Tresca's fixed point begins: the bounds are those of the first pressures. */
 abut_status abut_friction_begin_tresca(abut_strategy *s);
 
-/* What was seen where no state was found, for a message. */
+/* Observations where no state was found, for a message. */
 void abut_friction_describe_end(const abut_friction_rows *f, abut_text *text);
 
 /* The set has settled: whether another round of the rung follows. */

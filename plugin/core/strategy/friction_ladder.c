@@ -13,7 +13,7 @@ enum
   MAX_CORRECTIONS = 4 /* of springs of stick */
 };
 
-/* Change of the frozen bounds, relative to the largest, that is none. */
+/* Change of the frozen bounds, relative to the largest, that counts as 0. */
 static const double settled_bound = 1e-10;
 
 bool

@@ -30,8 +30,8 @@ abut_interior_move(abut_strategy *s, double alpha, double *slack)
     if (slack != NULL)
       slack[i] += alpha * s->dz[i];
   }
-  /* What a step of length alpha leaves of a linear host's residual: the rest
-   * of the old one and what the linear solver left. */
+  /* Residual of a linear host after a step of length alpha: the rest of the old
+   * one and what the linear solver left. */
   interior->imbalance *= 1 - alpha * (1 - s->request.linear_tolerance);
   interior->alpha = alpha;
   return abut_strategy_ask_move(s, alpha);

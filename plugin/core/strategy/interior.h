@@ -2,8 +2,8 @@
 #ifndef ABUT_STRATEGY_INTERIOR_H
 #define ABUT_STRATEGY_INTERIOR_H
 
-/* What the two interior methods share: steps that stay in p > 0, s > 0, where
- * s is the gap (barrier) or the slack (interior point). */
+/* Common part of the two interior methods: steps that stay in p > 0, s > 0,
+ * where s is the gap (barrier) or the slack (interior point). */
 
 #include <abut/strategy.h>
 
@@ -31,7 +31,8 @@ abut_status abut_interior_step(abut_strategy *s, const double *distance,
                                const double *d_distance, double fraction,
                                double *alpha);
 
-/* Move pressures (and the slack, if it is given) and ask the host to move. */
+/* Move pressures (and the slack, if it is given) and request a move of the
+ * host. */
 abut_status abut_interior_move(abut_strategy *s, double alpha, double *slack);
 
 /* Fill the progress report: penetration, complementarity, rows on the contact

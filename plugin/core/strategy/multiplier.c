@@ -6,7 +6,7 @@
  * With adaptive_penalty, eps grows where that is too slow.
  *
  * Where rows outnumber the unknowns of the surface, multipliers of their own
- * are not unique: modes that no displacement feels never settle. With a
+ * are not unique: modes that no displacement changes never settle. With a
  * projection the multipliers are functions of a smaller space, and the update
  * is pbar <- pbar + P (max(p, 0) - pbar): at its end the gap vanishes in the
  * weighted means of the space, as in a mortar method. */
@@ -80,7 +80,7 @@ measure(abut_strategy *s, const double *change, double *gap_error)
                              ? fabs(change[i]) * s->compliance[i]
                          : closed ? fabs(s->gap[i])
                                   : fmax(-s->gap[i], 0);
-    /* What slips closes no gap along its tangent. */
+    /* Points that slip do not close a gap along the tangent. */
     if (!abut_friction_row_is_free(s, i))
       max = fmax(max, error);
     sum[0] += s->weight[i] * fabs(change[i]);

@@ -6,7 +6,7 @@
 
 #include <abut/strategy.h>
 
-/* What an outer iteration remembers between its steps. */
+/* Data that an outer iteration keeps between its steps. */
 typedef struct abut_outer_memory
 {
   double gap_error;   /* of the last outer step, length */
@@ -14,7 +14,7 @@ typedef struct abut_outer_memory
   int32_t n_stagnant; /* outer steps in a row without contraction */
 } abut_outer_memory;
 
-/* Answer of an outer iteration, which is given one that says: converged. */
+/* Answer of an outer iteration, which is called with: converged. */
 typedef struct abut_verdict
 {
   bool go_on;         /* the problem was changed: solve again */

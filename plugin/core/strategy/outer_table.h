@@ -2,7 +2,7 @@
 #ifndef ABUT_STRATEGY_OUTER_TABLE_H
 #define ABUT_STRATEGY_OUTER_TABLE_H
 
-/* What there is to know about each outer iteration, in one table. */
+/* Properties of each outer iteration, in one table. */
 
 #include "strategy/outer.h"
 #include "strategy/strategy.h"
@@ -12,7 +12,7 @@ typedef struct abut_outer_entry
   const abut_method *method;
   /* The set has settled: what next. NULL: that was all. */
   abut_status (*settled)(abut_strategy *s, abut_verdict *verdict);
-  /* eps / stiffness of the first solve, if none is asked for; 0: the law's. */
+  /* eps / stiffness of the first solve, if none is given; 0: the law's. */
   double first_penalty;
 } abut_outer_entry;
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Quadratic penalty: eps grows by a factor from outer step to outer step, each
  * of which starts from the last one's solution, until the penetration, and the
- * slip of what sticks, meet their tolerance or eps its cap. */
+ * slip of sticking points, meet their tolerance or eps its cap. */
 #include "strategy/strategy.h"
 
 #include <math.h>
 
-/* Largest way that the springs of what sticks let it slip, length. */
+/* Largest slip of sticking points, which is that of their springs, length. */
 static abut_status
 find_slip_of_stick(abut_strategy *s, double *slip)
 {

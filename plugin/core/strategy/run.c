@@ -4,12 +4,12 @@
 
 static const char call[] = "abut_strategy_run";
 
-/* Let the host do what the request says. */
+/* Let the host carry out the request. */
 static abut_status
 serve(abut_strategy *s, const abut_host *host, const abut_request *request)
 {
   const bool move = request->action == ABUT_ACTION_MOVE;
-  /* The host writes the new gap where nobody reads until next() copies it. */
+  /* The host writes the new gap where it is not read until next() copies it. */
   const abut_status status = move
                                  ? host->move(host->user, request, s->trial_gap)
                                  : host->solve(host->user, request);

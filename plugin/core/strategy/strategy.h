@@ -25,7 +25,7 @@ typedef enum abut_phase
 {
   ABUT_PHASE_CREATED, /* start is next */
   ABUT_PHASE_STARTED, /* first call of next is next */
-  ABUT_PHASE_RUNNING, /* the host does what request says */
+  ABUT_PHASE_RUNNING, /* the host carries out the request */
   ABUT_PHASE_STOPPED
 } abut_phase;
 
@@ -72,14 +72,14 @@ abut_status abut_strategy_agree(abut_strategy *s, abut_status status);
 abut_law_points abut_strategy_points(const abut_strategy *s);
 
 /* Evaluate the law in the present state into residual, d_pressure, d_gap; fails
- * where the result is of no use, and says in which row. */
+ * where the result is of no use, with the row in the message. */
 abut_status abut_strategy_linearise(abut_strategy *s);
 
-/* Linearise and ask for a solve, or stop at the limit of steps. */
+/* Linearise and request a solve, or stop at the limit of steps. */
 abut_status abut_strategy_ask_solve(abut_strategy *s, double tolerance,
                                     bool final);
 
-/* Ask for a move by step_length times the last increment. */
+/* Request a move by step_length times the last increment. */
 abut_status abut_strategy_ask_move(abut_strategy *s, double step_length);
 
 /* Stop. */

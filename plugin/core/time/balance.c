@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* The energy balance of a motion and what it says of the scheme. */
+/* The energy balance of a motion and the verdict on the scheme. */
 #include "base/sized.h"
 #include "time/scheme.h"
 

@@ -65,7 +65,7 @@ abut_time_limit_next(abut_time_limit *limit, const double sums[2], int64_t n,
                    && limit->n_products < most_products;
   limit->square = square;
   limit->step = square > 0 ? 2 / sqrt(square) : INFINITY;
-  /* Of length 1 in the norm of M, so that nothing overflows. */
+  /* The vector has length 1 in the norm of M, so that nothing overflows. */
   const double factor = sums[1] > 0 ? 1 / sqrt(sums[1]) : 0;
   for (int64_t i = 0; i < n; ++i)
     x[i] = mass[i] > 0 ? factor * stiffness_times_x[i] / mass[i] : 0;

@@ -2,10 +2,10 @@
 /* Mass of nodes that may come into contact, handed to their neighbours.
  *
  * An entry between a candidate i and another node j goes, with its mirror
- * image, to the diagonal of j. What row i has with candidates, itself among
- * them, is shared by the neighbours j that are none, in proportion to |M_ij|.
- * So the sum of all entries stays, and nothing travels further than an element.
- */
+ * image, to the diagonal of j. The entries of row i with candidates, itself
+ * among them, are shared by the neighbours j that are not candidates, in
+ * proportion to |M_ij|. So the sum of all entries stays, and nothing travels
+ * further than an element. */
 #include "base/dense_lu.h"
 #include "base/memory.h"
 
@@ -111,7 +111,7 @@ reserve(redistribution *r)
   return ABUT_SUCCESS;
 }
 
-/* Share what row i of a candidate has. False if nobody can take it. */
+/* Share the entries of row i of a candidate. False if no node can take them. */
 static bool
 hand_on(redistribution *r, int32_t i)
 {
@@ -188,7 +188,7 @@ size_of_part(const redistribution *r, int32_t number, const double *origin)
   return size > 0 ? size : 1;
 }
 
-/* What the moments of a part lack: what went from candidates less what came to
+/* Missing moments of a part: what went from candidates less what came to
  * receivers. */
 static void
 add_lacking(const redistribution *r, int32_t i, const double *moments,

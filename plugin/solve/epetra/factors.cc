@@ -34,7 +34,7 @@ namespace abut::solve
 
       ~AmesosFactors() override
       {
-        // The destructor of Amesos' MUMPS asks the matrix for its communicator.
+        // The destructor of Amesos' MUMPS reads the communicator of the matrix.
         problem_.SetOperator(&stand_in_);
       }
 
