@@ -65,8 +65,8 @@ extern "C"
 
   /** Mark points that are behind another point of the same node and normal, one
    * of which has friction: both gaps change by the same amount, so that one of
-   * them never closes. Of equal gaps the later point is behind. Both pairs have
-   * fixed points.
+   * them never closes. The later one of points with equal gaps is behind. Both
+   * pairs have fixed points.
    *
    * @param marks [n_pairs] sums of abut_pair_mark
    * @param keep [n_components] changed: 0 for the components of such points

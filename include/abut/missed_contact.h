@@ -35,7 +35,7 @@ extern "C"
   typedef struct abut_missed_options
   {
     size_t struct_size; /**< sizeof(abut_missed_options) */
-    /** Of the detection on the deformed surfaces, with the reach of it. The
+    /** Detection on the deformed surfaces, with its reach. The
      * extension is not used: nodes beyond a border are outside. */
     abut_detection_options detection;
     /** Added to the distance of the surfaces, length: > 0 clearance, < 0
@@ -98,7 +98,7 @@ extern "C"
     double between_points; /**< of nodes of the primary between constraints */
   } abut_missed_report;
 
-  /** Find the missed nodes of a pair of surfaces at their present positions.
+  /** Find the missed nodes of a pair of surfaces in the current configuration.
    *
    * Nodes of the secondary are missed if they are owned, not held, and deeper
    * than the tolerance. Nodes of the primary are missed if they are owned, and
@@ -140,7 +140,7 @@ extern "C"
                                      nodes, report);
   }
 
-  /** What a point meets on a straight path past an obstacle. */
+  /** Result for a point on a straight path past an obstacle. */
   typedef struct abut_obstacle_path
   {
     double depth; /**< largest depth in the obstacle, length >= 0 */

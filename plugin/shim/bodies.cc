@@ -54,8 +54,8 @@ namespace abut::shim
   void
   BodyNumbers<dim>::unite_ranks(const dealii::Triangulation<dim> &triangulation)
   {
-    // A body is named by the least of its coarse cells, which ranks tell each
-    // other over ghost cells until no name changes.
+    // A body is named by the least of its coarse cells, which ranks exchange
+    // over ghost cells until no name changes.
     using Name = dealii::types::coarse_cell_id;
     const MPI_Comm communicator = versions::communicator(triangulation);
     std::vector<Name> name(n_bodies_, dealii::numbers::invalid_coarse_cell_id);
@@ -77,7 +77,7 @@ namespace abut::shim
       has_changed =
           dealii::Utilities::MPI::logical_or(has_changed, communicator);
     }
-    // Parts of artificial cells alone may have names that are no one's.
+    // Parts of artificial cells alone may have names of no owned cell.
     std::set<Name> own, all;
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned())

@@ -283,7 +283,7 @@ namespace abut
                                                        abut_points_view &result)
   {
     check(abut_points_get(made, &result));
-    // Rows between nodes that cannot move say nothing.
+    // Rows between nodes that cannot move are no measure.
     std::vector<std::uint8_t> keep =
         solve::rows_with_columns(result, source->nodes());
     source->drop_needless(keep);

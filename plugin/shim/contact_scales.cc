@@ -36,7 +36,7 @@ namespace abut
       weight += coefficients.weights()[i];
     weight = MPI::sum(weight, communicator);
     const double load = std::max(residual.l1_norm(), internal.l1_norm());
-    // The stiffness of a body that has turned says nothing of its displacement.
+    // The stiffness of a rotated body does not measure its displacement.
     present_load = moves() ? residual.l1_norm() : load;
     abut_strategy_options &options = method.options;
     options.pressure_scale =

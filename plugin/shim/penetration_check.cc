@@ -76,7 +76,7 @@ namespace abut::shim
       return result;
     }
 
-    /** What points meet on straight paths past an obstacle. */
+    /** Results for points on straight paths past an obstacle. */
     template <int dim>
     std::vector<abut_obstacle_path>
     follow_past(const RigidObstacle<dim> &obstacle,
@@ -133,7 +133,7 @@ namespace abut::shim
     using Points = std::vector<dealii::Point<dim>>;
 
     /** Positions of all nodes, which must outlive this object, as the rows
-     * must: undeformed, at the last commit(), and now. Collective. */
+     * must: reference, at the last commit(), and current. Collective. */
     MissedCheck(SurfacePairRows &rows, const Points &reference,
                 const Points &committed, const Points &present,
                 const double tolerance)
@@ -341,7 +341,7 @@ namespace abut::shim
       for (const Node node : pair.secondary.node)
         if (rows_.is_owned(node))
           add_path(begin[node], present_[node], !is_held(node));
-      // What is smaller than facets goes by between nodes.
+      // An obstacle smaller than facets passes between nodes.
       const auto me = MPI::this_mpi_process(rows_.communicator_);
       for (const std::int32_t f : pair.secondary.facet)
         if (rows_.surface_.facets[f].owner == me)
@@ -370,7 +370,8 @@ namespace abut::shim
                  && depth > tolerance_)
           add(pair, to[i], depth);
       }
-      // What is apart again no search finds, and rows are of the far side.
+      // No search finds surfaces that are apart again, and rows belong to the
+      // far side.
       if (way > 0.)
         throw ContactError(too_long_a_step(
             pair.data, way,
@@ -378,11 +379,11 @@ namespace abut::shim
             "resists."));
     }
 
-    /** Of an obstacle that is a function of time. */
+    /** The check for an obstacle that is a function of time. */
     void check_changing_obstacle(const std::size_t p)
     {
-      // What has a row is kept out at the end of the step: between, the rest is
-      // that of a step in time, unless it is seen beside a facet.
+      // A node with a row does not penetrate at the end of the step: between,
+      // the rest is that of a step in time, unless it is seen next to a facet.
       constexpr double visible = 0.05;
       const Pair &pair = rows_.pairs_[p];
       const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
@@ -444,7 +445,7 @@ namespace abut::shim
     for (std::size_t p = 0; p < pairs_.size() && message.empty(); ++p)
       try
       {
-        // What was missed earlier may be deeper than the last step went.
+        // A node that was missed earlier may be deeper than the last step went.
         const Pair &pair = pairs_[p];
         const double all = pair.has_current_points()
                                ? std::min(1.5 * motion(pair, u), pair.reach)

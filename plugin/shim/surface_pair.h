@@ -116,7 +116,7 @@ namespace abut::shim
     /** Known failures that it was made with all the same. */
     std::vector<Message> refused;
     dealii::Point<dim> gap_error_place;
-    /** Of the directions of its forces since points were made. */
+    /** Change of the directions of its forces since points were made. */
     abut_direction_change turn = {};
     ObstacleWidth narrow;
   };

@@ -41,7 +41,7 @@ namespace abut::shim
     const std::vector<unsigned int> share = share_nodes();
     if (std::find(share.begin(), share.end(), 1u) == share.end())
       return nearer;
-    // What each of them would have if it were alone.
+    // The points that each of them would have if it were alone.
     const std::vector<std::uint8_t> taken(n_nodes, 0);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       if (share[p] != 0)

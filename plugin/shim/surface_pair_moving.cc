@@ -13,7 +13,7 @@ namespace abut::shim
 
   namespace
   {
-    /** What the Hessian of a point is with respect to, by unknowns:
+    /** Arguments of the Hessian of a point, by unknowns:
      * [components][terms]. */
     using Terms = std::vector<std::vector<std::pair<global_dof_index, double>>>;
 

@@ -36,7 +36,7 @@ namespace abut::shim
      * longer they serve. */
     constexpr double skin_of_displaced = 1.;
 
-    /** What suits a pair, if the parameters leave it to choose. */
+    /** Discretisation of a pair, if the parameters leave it open. */
     abut_discretisation
     automatic_discretisation(const abut_law &law,
                              const abut_kinematics_info &kinematics,

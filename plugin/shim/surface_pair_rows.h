@@ -489,8 +489,7 @@ namespace abut::shim
                                     const dealii::Point<dim> &place) const;
     void find_narrow(Pair &pair, const std::vector<Direction> &u) const;
     class PressedPoints;
-    /** Measure what directions have turned by since rows were made.
-     * Collective. */
+    /** Measure the rotation of directions since rows were made. Collective. */
     void find_turns(const std::vector<Direction> &u, const double *row_pressure,
                     const std::uint8_t *row_state);
     /** [nodes] Distance of the pair's other side from facets around a node of
@@ -629,7 +628,7 @@ namespace abut::shim
     unsigned int make_points(std::size_t pair, double motion,
                              const std::vector<std::uint8_t> &taken,
                              Displaced &displaced);
-    /** The same, with what is said of the pair; marks the nodes as taken. */
+    /** The same, with the report on the pair; marks the nodes as taken. */
     void find_pair(std::size_t pair, double motion,
                    std::vector<std::uint8_t> &taken, Displaced &displaced);
     /** The points of all pairs. Collective. */

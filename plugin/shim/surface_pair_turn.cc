@@ -101,8 +101,8 @@ namespace abut::shim
       }
       const std::vector<double> since = sums(ABUT_SIDE_SECONDARY, way);
       std::vector<dealii::Point<dim>> now(position_);
-      // Of a height along an axis, too, whose force is along the axis by
-      // choice: what its slope has changed by is beside that.
+      // For a height along an axis, too, whose force is along the axis by
+      // choice: the change of its slope does not count.
       for (std::size_t i = 0; i < now.size(); ++i)
       {
         for (unsigned int d = 0; d < dim; ++d)

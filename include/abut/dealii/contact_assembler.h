@@ -129,11 +129,11 @@ namespace abut
      * surface and a rigid obstacle. The displacement is the first dim
      * components of the finite element, FESystem(FE_Q(degree), dim) or
      * FESystem(FE_SimplexP(degree), dim) of degree 1 or 2. Where pairs overlap,
-     * the first one has the node. The geometry is that of the undeformed
-     * bodies, so that gaps are linear in the displacement. Takes effect at
-     * detect(); replaces an obstacle. In load steps call it freely: pairs that
-     * differ from the present ones in their gaps alone keep what was found for
-     * them. Obstacles that move need no call at all. Not collective. */
+     * the first one has the node. The geometry is that of the reference
+     * configuration, so that gaps are linear in the displacement. Takes effect
+     * at detect(); replaces an obstacle. In load steps call it freely: pairs
+     * that differ from the present ones in their gaps alone keep what was found
+     * for them. Obstacles that move need no call at all. Not collective. */
     virtual void set_pairs(const std::vector<ContactPair<dim>> &pairs);
 
     /** Whether the bodies of pairs are rotated about the axis x = 0 (2D):

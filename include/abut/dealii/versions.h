@@ -19,7 +19,7 @@
 #include <map>
 #include <vector>
 
-/** What depends on the version of deal.II. */
+/** Functions that depend on the version of deal.II. */
 namespace abut::versions
 {
   /** Communicator of a Triangulation or DoFHandler. */

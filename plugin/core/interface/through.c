@@ -98,7 +98,7 @@ displace_facets(work *w, double *mean, double *margin)
 static void
 make_boxes(work *w, const double *mean, const double *margin)
 {
-  /* Of coordinates and displacements: round-off of crossings. */
+  /* Round-off of crossings, relative to coordinates and displacements. */
   const double round_off = 1e-12;
   const abut_surface *s = w->nodes;
   double(*box)[6] = w->box.data;
