@@ -60,13 +60,13 @@ extern "C"
   } abut_history_entries;
 
   /** Places for what abut_history_get() finds; NULL where it is not wanted. */
-  typedef struct abut_history_past
+  typedef struct abut_history_values
   {
-    size_t struct_size; /**< sizeof(abut_history_past) */
+    size_t struct_size; /**< sizeof(abut_history_values) */
     double *pressure;   /**< [n] 0 where there is no entry */
     uint8_t *state;     /**< [n] 0 where there is no entry */
     uint8_t *found;     /**< [n] nonzero where there is an entry */
-  } abut_history_past;
+  } abut_history_values;
 
   /** Most bytes of the name of a law, with the end. */
   enum
@@ -112,7 +112,7 @@ extern "C"
   ABUT_API abut_status abut_history_get(const abut_history *history,
                                         abut_history_version version, int64_t n,
                                         const int64_t *id,
-                                        const abut_history_past *past);
+                                        const abut_history_values *past);
 
   /** For each place [3 n] the nearest of the entries with first_id <= number <
    * end_id ([n] each), of two equally near the one with the smaller number.
@@ -122,7 +122,7 @@ extern "C"
                                             int64_t n, const int64_t *first_id,
                                             const int64_t *end_id,
                                             const double *place,
-                                            const abut_history_past *past);
+                                            const abut_history_values *past);
 
   /** All entries of a version, ascending; valid until the next change, places
    * NULL if no entry was given with places. Fills as much as fits in

@@ -33,7 +33,7 @@ extern "C"
   } abut_limit;
 
   /** Whether @p value is in the range. */
-  static inline bool abut_limit_holds(const abut_limit *limit, double value)
+  static inline bool abut_limit_contains(const abut_limit *limit, double value)
   {
     return (limit->low_open ? value > limit->low : value >= limit->low)
            && (limit->high_open ? value < limit->high : value <= limit->high);

@@ -16,7 +16,7 @@
  *     abut_multigrid_create(context, &hierarchy, &mg);
  *     abut_multigrid_set_matrix(mg, &matrix);
  *     abut_multigrid_set_terms(mg, &terms);   // if something is eliminated
- *     abut_multigrid_hold(mg, held, NULL);    // whenever the set has changed
+ *     abut_multigrid_set_constrained(mg, held, NULL);  // if the set changed
  *     abut_multigrid_cycle(mg, r, x);         // x is about A^-1 r
  *
  * A cycle is one V-cycle in single precision, with a Chebyshev smoother of
@@ -28,8 +28,9 @@
  * Several ranks can share a hierarchy. Each has the nodes that it owns and
  * copies of some others, and sums up its own part of all matrices: those of all
  * ranks together are the matrix. The core does not know which copies belong
- * together; two functions of the host do (abut_multigrid_ranks). Then hold()
- * and cycle() are collective, and so is failure. */
+ * together; two functions of the host do (abut_multigrid_ranks). Then
+ * abut_multigrid_set_constrained() and cycle() are collective, and so is
+ * failure. */
 
 #include <abut/strategy.h>
 
@@ -110,7 +111,8 @@ extern "C"
     int32_t n_meshes;   /**< levels */
     int32_t n_coarsest; /**< free unknowns of the coarsest level */
     int64_t n_entries;  /**< numbers in the matrices of all levels */
-    int64_t n_renewed;  /**< coarse rows that the last hold() computed again */
+    int64_t n_renewed;  /**< coarse rows that the last
+                           abut_multigrid_set_constrained() computed again */
     double largest[32]; /**< [n_meshes] bound of the eigenvalues of the
                              matrix scaled by its diagonal blocks */
   } abut_multigrid_report;
@@ -125,15 +127,17 @@ extern "C"
   /** Destroy and set the handle to NULL. */
   ABUT_API abut_status abut_multigrid_destroy(abut_multigrid **multigrid);
 
-  /** Take a matrix, or another one. Call hold() next. O(entries). */
+  /** Take a matrix, or another one. Call abut_multigrid_set_constrained() next.
+   * O(entries). */
   ABUT_API abut_status abut_multigrid_set_matrix(
       abut_multigrid *multigrid, const abut_multigrid_matrix *matrix);
 
-  /** Take what is added to the matrix from the next hold() on, in a few of its
-   * rows, such as by unknowns that are eliminated; NULL: nothing. Pattern and
-   * numbers are symmetric, and the sum must be positive definite on what is
-   * free. Stays when the matrix changes. O(rows + entries), and hold() then
-   * costs what is near these rows. */
+  /** Take what is added to the matrix from the next
+   * abut_multigrid_set_constrained() on, in a few of its rows, such as by
+   * unknowns that are eliminated; NULL: nothing. Pattern and numbers are
+   * symmetric, and the sum must be positive definite on what is free. Stays
+   * when the matrix changes. O(rows + entries), and
+   * abut_multigrid_set_constrained() then costs what is near these rows. */
   ABUT_API abut_status abut_multigrid_set_terms(
       abut_multigrid *multigrid, const abut_multigrid_matrix *terms);
 
@@ -141,9 +145,9 @@ extern "C"
    * values added to the diagonal ([rows], >= 0; NULL: nothing). Costs what is
    * near the rows that have changed; after a new matrix, all. UNSUPPORTED if
    * the coarsest level has too many unknowns to be factorised: 4000. */
-  ABUT_API abut_status abut_multigrid_hold(abut_multigrid *multigrid,
-                                           const uint8_t *held,
-                                           const double *added);
+  ABUT_API abut_status abut_multigrid_set_constrained(abut_multigrid *multigrid,
+                                                      const uint8_t *held,
+                                                      const double *added);
 
   /** One cycle: @p x = M @p r, both [own rows]; NULL where there are none. */
   ABUT_API abut_status abut_multigrid_cycle(abut_multigrid *multigrid,

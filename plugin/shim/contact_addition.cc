@@ -120,7 +120,8 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_rows("add()");
-    la::Vector &residual = i.take_mutable("add()", "residual", given_residual);
+    la::Vector &residual =
+        i.checked_mutable_vector("add()", "residual", given_residual);
     const solve::Stiffness stiffness = i.stiffness_of("add()", Tangent(matrix));
     AssertThrow(abut_law_has_penalty(i.method.options.law)
                     && !abut_law_needs_stress(i.method.options.law),
@@ -129,7 +130,7 @@ namespace abut
                              "ContactAssembler::solve()."));
     if (!i.is_started)
     {
-      i.take_matrix(stiffness);
+      i.find_row_stiffness(stiffness);
       i.begin(stiffness, residual);
     }
     if (i.geometry != nullptr)

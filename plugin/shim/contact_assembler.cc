@@ -194,7 +194,7 @@ namespace abut
     Implementation &i = *implementation;
     i.check_mesh("detect()");
     const la::Vector &displacement =
-        i.take("detect()", "displacement", given_displacement);
+        i.checked_vector("detect()", "displacement", given_displacement);
     // The pressures reached so far are the start of the next solve.
     i.record_present();
     if (i.is_started || i.is_restarted)
@@ -228,8 +228,8 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_rows("search_farther()");
-    const la::Vector &displacement =
-        i.take("search_farther()", "displacement", given_displacement);
+    const la::Vector &displacement = i.checked_vector(
+        "search_farther()", "displacement", given_displacement);
     const auto n_rows = [&]
     {
       return dealii::Utilities::MPI::sum(double(i.coefficients.n_rows()),
@@ -254,7 +254,7 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("linearise()");
     const la::Vector &displacement =
-        i.take("linearise()", "displacement", given_displacement);
+        i.checked_vector("linearise()", "displacement", given_displacement);
     AssertThrow(!i.is_nitsche(), ExcMessage("Nitsche's method is for linear "
                                             "elastic bodies: do not call "
                                             "linearise() with it."));
@@ -276,7 +276,7 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("follow()");
     const la::Vector &displacement =
-        i.take("follow()", "displacement", given_displacement);
+        i.checked_vector("follow()", "displacement", given_displacement);
     if (i.moves())
       i.follow(displacement);
   }
@@ -292,7 +292,7 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_mesh("set_pressure()");
     implementation->given_field =
-        i.take("set_pressure()", "pressure", pressure);
+        i.checked_vector("set_pressure()", "pressure", pressure);
   }
 
   template <int dim>
@@ -304,9 +304,10 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_rows("relax()");
-    const la::Vector &residual = i.take("relax()", "residual", given_residual);
+    const la::Vector &residual =
+        i.checked_vector("relax()", "residual", given_residual);
     la::Vector &displacement =
-        i.take_mutable("relax()", "displacement", given_displacement);
+        i.checked_mutable_vector("relax()", "displacement", given_displacement);
     AssertThrow(!i.is_started, ExcMessage("Call relax() between detect() and "
                                           "the first solve()."));
     if (abut_law_needs_open_start(i.method.options.law))
@@ -327,9 +328,10 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("solve()");
     const solve::Stiffness matrix = i.stiffness_of("solve()", tangent);
-    const la::Vector &residual = i.take("solve()", "residual", given_residual);
+    const la::Vector &residual =
+        i.checked_vector("solve()", "residual", given_residual);
     la::Vector &increment =
-        i.take_mutable("solve()", "increment", given_increment);
+        i.checked_mutable_vector("solve()", "increment", given_increment);
     i.prepare_solver(matrix);
     AssertThrow(!i.is_started || i.request.action == ABUT_ACTION_SOLVE,
                 ExcMessage("The contact iteration has stopped: call detect() "
@@ -355,7 +357,7 @@ namespace abut
     }
     if (i.request.action == ABUT_ACTION_MOVE && i.request.step_length != 1.)
       increment *= i.request.step_length;
-    i.take_increment(increment);
+    i.apply_substitution(increment);
     report.tolerance = tolerance;
     i.report += report;
     return report;
@@ -367,7 +369,7 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("update()");
     const la::Vector &displacement =
-        i.take("update()", "displacement", given_displacement);
+        i.checked_vector("update()", "displacement", given_displacement);
     AssertThrow(i.is_started,
                 ExcMessage("Call solve() or add() before update()."));
     if (i.request.action == ABUT_ACTION_STOP)
@@ -387,7 +389,7 @@ namespace abut
       i.next();
     }
     i.next();
-    i.note_end();
+    i.record_end();
     return i.request.action != ABUT_ACTION_STOP;
   }
 
@@ -398,7 +400,7 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("add_contact_forces()");
     la::Vector &forces =
-        i.take_mutable("add_contact_forces()", "force", given_forces);
+        i.checked_mutable_vector("add_contact_forces()", "force", given_forces);
     AssertThrow(!i.is_nitsche(), ExcMessage("The forces of Nitsche's method "
                                             "are not those of its pressures "
                                             "alone."));
@@ -413,8 +415,9 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("solve_linearised()");
     const la::Vector &residual =
-        i.take("solve_linearised()", "residual", given_residual);
-    la::Vector &step = i.take_mutable("solve_linearised()", "step", given_step);
+        i.checked_vector("solve_linearised()", "residual", given_residual);
+    la::Vector &step =
+        i.checked_mutable_vector("solve_linearised()", "step", given_step);
     const Tangent tangent = i.stiffness_of("solve_linearised()", given_tangent);
     const la::Vector start(i.start_displacement);
     la::Vector end(start);
@@ -442,8 +445,9 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("evaluate()");
     const la::Vector &displacement =
-        i.take("evaluate()", "displacement", given_displacement);
-    la::Vector &forces = i.take_mutable("evaluate()", "force", given_forces);
+        i.checked_vector("evaluate()", "displacement", given_displacement);
+    la::Vector &forces =
+        i.checked_mutable_vector("evaluate()", "force", given_forces);
     AssertThrow(i.is_started, ExcMessage("Call solve() before evaluate()."));
     if (i.moves())
       return implementation->evaluate_moved(displacement, forces);
@@ -487,7 +491,7 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("length_scale()");
     const la::Vector &displacement =
-        i.take("length_scale()", "displacement", given_displacement);
+        i.checked_vector("length_scale()", "displacement", given_displacement);
     const double length = i.length_scale(displacement);
     // Obstacles may come to bodies that rest.
     const bool may_come = i.surfaces != nullptr

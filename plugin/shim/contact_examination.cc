@@ -5,7 +5,7 @@
 
 #include "deformation.h"
 #include "obstacle_in_bodies.h"
-#include "solve/floating_bodies.h"
+#include "solve/unsupported_bodies.h"
 
 #include <abut/dealii/coded.h>
 
@@ -41,7 +41,7 @@ namespace abut
     /** Turn of directions, radian, and so the part of a force that is beside
      * the normal, that is worth a word; and part of the resultant that may go
      * to the side without one, whatever else is there. */
-    constexpr double visible_turn = 0.05, visible_side_force = 0.02;
+    constexpr double visible_rotation = 0.05, visible_side_force = 0.02;
 
     /** Bodies in obstacles where no surface meets them, likewise. */
     constexpr double visible_inside = 0.01;
@@ -205,7 +205,7 @@ namespace abut
     {
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double change = std::abs(pair.turned_force[d]);
+        const double change = std::abs(pair.rotated_force[d]);
         if (change > useless * std::abs(pair.secondary_force[d])
             && change > visible_side_force * pair.secondary_force.norm())
           return true;
@@ -214,25 +214,25 @@ namespace abut
     }
 
     template <int dim>
-    void judge_turn(const PairResult<dim> &pair, const bool allow,
-                    Findings &findings)
+    void judge_rotation(const PairResult<dim> &pair, const bool allow,
+                        Findings &findings)
     {
-      if (pair.turn <= visible_turn && !has_other_force(pair))
+      if (pair.rotation <= visible_rotation && !has_other_force(pair))
         return;
       const double degrees = 180. / dealii::numbers::PI;
       findings.add(
-          ABUT_FAILURE_SLIDING, !allow && pair.turn > useless,
+          ABUT_FAILURE_SLIDING, !allow && pair.rotation > useless,
           pair.name
               + ": the forces of contact have the directions of the places "
                 "where points were paired, and normals have turned since by "
-              + number(degrees * pair.turn) + " degrees in their mean, "
-              + number(degrees * pair.largest_turn)
-              + " at most: " + percent(pair.turn)
+              + number(degrees * pair.rotation) + " degrees in their mean, "
+              + number(degrees * pair.largest_rotation)
+              + " at most: " + percent(pair.rotation)
               + " of them is beside their present directions, and the "
                 "resultant "
               + numbers(pair.secondary_force) + " would be about "
               + numbers(dealii::Tensor<1, dim>(pair.secondary_force
-                                               + pair.turned_force))
+                                               + pair.rotated_force))
               + ". Let points move where they can (Method/Sliding = large), or "
                 "keep motions smaller.");
     }
@@ -356,8 +356,10 @@ namespace abut
                      place);
     }
 
-    void judge_apart(const std::string &pair, const shim::Apart &apart,
-                     const bool follows, const Scale &scale, Findings &findings)
+    void judge_separated_rows(const std::string &pair,
+                              const shim::SeparatedRows &apart,
+                              const bool follows, const Scale &scale,
+                              Findings &findings)
     {
       if (apart.force > 0.)
         findings.add(
@@ -373,11 +375,12 @@ namespace abut
                              "motions smaller."));
     }
 
-    void judge_width(const std::string &pair, const shim::ObstacleWidth &narrow,
-                     Findings &findings)
+    void judge_width(const std::string &pair,
+                     const shim::ObstacleWidth &narrowest, Findings &findings)
     {
-      if (narrow.width < 2. * narrow.facet)
-        findings.add(ABUT_FAILURE_UNSEEN, false, pair + ": " + narrow.text());
+      if (narrowest.width < 2. * narrowest.facet)
+        findings.add(ABUT_FAILURE_UNSEEN, false,
+                     pair + ": " + narrowest.text());
     }
 
     /** Bodies in the obstacle elsewhere than at the surface of the pair: the
@@ -413,10 +416,10 @@ namespace abut
       double missed = 0., peak = 0., any = 0.;
 
       /** The deepest of the cells or of the facets of a @p pair. Collective. */
-      Deepest(const std::vector<shim::Unseen> &unseen, const std::size_t pair,
-              const MPI_Comm communicator)
+      Deepest(const std::vector<shim::FacetPenetration> &facet_penetrations,
+              const std::size_t pair, const MPI_Comm communicator)
       {
-        for (const shim::Unseen &found : unseen)
+        for (const shim::FacetPenetration &found : facet_penetrations)
         {
           if (found.pair != pair)
             continue;
@@ -432,11 +435,12 @@ namespace abut
   } // namespace
 
   template <int dim>
-  std::vector<shim::Unseen> ContactAssembler<dim>::Implementation::find_unseen(
+  std::vector<shim::FacetPenetration>
+  ContactAssembler<dim>::Implementation::find_facet_penetrations(
       const la::Vector &displacement)
   {
     const std::vector<std::uint8_t> states = row_states();
-    return source->unseen(displacement, states.data());
+    return source->facet_penetrations(displacement, states.data());
   }
 
   template <int dim>
@@ -465,7 +469,8 @@ namespace abut
       const la::Vector &displacement, const double penetration,
       ContactExamination &result)
   {
-    const Deepest deepest(find_unseen(displacement), 0, communicator);
+    const Deepest deepest(find_facet_penetrations(displacement), 0,
+                          communicator);
     result.deformation = deformation(displacement);
     result.missed_depth = deepest.missed;
     double cell = 0.;
@@ -505,7 +510,7 @@ namespace abut
     else
       i.check_mesh("examine()");
     const la::Vector &displacement =
-        i.take("examine()", "displacement", given_displacement);
+        i.checked_vector("examine()", "displacement", given_displacement);
     ContactExamination result;
     Findings findings(result);
     if (residual)
@@ -535,9 +540,10 @@ namespace abut
                          "direction if the motion matters.");
     result.motions = i.solver != nullptr ? i.solver->rigid_motions(displacement)
                                          : i.followed_motions;
-    const std::vector<shim::Unseen> unseen = i.find_unseen(displacement);
+    const std::vector<shim::FacetPenetration> facet_penetrations =
+        i.find_facet_penetrations(displacement);
     i.surfaces->examine(displacement, i.row_pressures().data(), i.gap.data(),
-                        i.row_states().data(), unseen);
+                        i.row_states().data(), facet_penetrations);
     result.deformation = i.deformation(displacement);
     const std::vector<PairCheck> checks = pair_checks();
     const std::vector<PairResult<dim>> pairs = pair_results();
@@ -553,7 +559,7 @@ namespace abut
       visible.push_back(i.raises_end_early() ? i.least_clearance(displacement)
                                              : scales[p].limit(useless));
     }
-    const std::vector<shim::Apart> apart = i.surfaces->apart(
+    const std::vector<shim::SeparatedRows> apart = i.surfaces->apart(
         visible, i.row_pressures().data(), i.gap.data(), i.row_states().data());
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
@@ -566,18 +572,18 @@ namespace abut
         judge_sliding(pairs[p], checks[p], i.surfaces->gap_error_place(p),
                       is_obstacle, i.pairs[p].secondary == i.pairs[p].primary,
                       i.surfaces->has_mean_gaps(p), scale, findings);
-      judge_turn(pairs[p], allow_large_strain, findings);
+      judge_rotation(pairs[p], allow_large_strain, findings);
       judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
                    findings);
-      const auto &narrow = i.surfaces->narrow(p);
+      const auto &narrowest = i.surfaces->narrowest(p);
       judge_between(pairs[p], p, is_obstacle,
-                    Deepest(unseen, p, i.communicator).peak,
-                    std::min(checks[p].facet_size, narrow.width),
+                    Deepest(facet_penetrations, p, i.communicator).peak,
+                    std::min(checks[p].facet_size, narrowest.width),
                     checks[p].size_ratio, scale, findings);
       result.touches.push_back(pairs[p].secondary_force.norm() > 0.
                                || pairs[p].between_rows > 0.);
-      judge_apart(pairs[p].name, apart[p], follows, scale, findings);
-      judge_width(pairs[p].name, narrow, findings);
+      judge_separated_rows(pairs[p].name, apart[p], follows, scale, findings);
+      judge_width(pairs[p].name, narrowest, findings);
       // Bodies with pressure may be deformed by bending alone: compared with
       // all motion.
       const Scale motion{scale.far, scale.far, scale.least};
@@ -617,11 +623,12 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("missed_depth()");
     const la::Vector &displacement =
-        i.take("missed_depth()", "displacement", given_displacement);
+        i.checked_vector("missed_depth()", "displacement", given_displacement);
     depth.reinit(i.dof_handler->get_triangulation().n_active_cells());
     const double least_peak = useless * i.deformation(displacement);
     double largest = 0.;
-    for (const shim::Unseen &found : i.find_unseen(displacement))
+    for (const shim::FacetPenetration &found :
+         i.find_facet_penetrations(displacement))
       if (found.is_missed || found.peak > least_peak)
       {
         const double here = found.is_missed ? found.depth : found.peak;
@@ -642,25 +649,27 @@ namespace abut
         i.stiffness_of("check_supports()", tangent);
     if (i.surfaces == nullptr)
       return;
-    solve::FloatingBodies floating;
-    floating.reinit(stiffness, i.coefficients, i.near_null_space());
+    solve::UnsupportedBodies unsupported;
+    unsupported.reinit(stiffness, i.coefficients, i.near_null_space());
     const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
-    auto free = floating.free_motions(i.coefficients, all);
+    auto free = unsupported.free_motions(i.coefficients, all);
     if (given_residual)
     {
       const la::Vector &residual =
-          i.take("check_supports()", "residual", given_residual);
-      free = floating.along_which_works(
-          free, residual, solve::FloatingBodies::no_work * residual.l1_norm());
+          i.checked_vector("check_supports()", "residual", given_residual);
+      free = unsupported.along_which_works(free, residual,
+                                           solve::UnsupportedBodies::no_work
+                                               * residual.l1_norm());
     }
     if (!free.empty())
-      floating.fail(free, solve::n_resisting(i.coefficients, all),
-                    "contact rows, open or not", "or tie it");
+      unsupported.fail(free, solve::n_resisting(i.coefficients, all),
+                       "contact rows, open or not", "or tie it");
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template std::vector<shim::Unseen>                                           \
-  ContactAssembler<dim>::Implementation::find_unseen(const la::Vector &);      \
+  template std::vector<shim::FacetPenetration>                                 \
+  ContactAssembler<dim>::Implementation::find_facet_penetrations(              \
+      const la::Vector &);                                                     \
   template double ContactAssembler<dim>::Implementation::deformation(          \
       const la::Vector &) const;                                               \
   template void ContactAssembler<dim>::Implementation::examine_membrane(       \

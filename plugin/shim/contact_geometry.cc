@@ -48,7 +48,7 @@ namespace abut
     record_present();
     is_restarted = is_restarted || is_started;
     find_points(displacement);
-    take_points();
+    set_up_rows();
     find_slip_reference();
     start_pressure.assign(coefficients.n_rows(), 0.);
     start_state.assign(before.has_states ? coefficients.n_rows() : 0,
@@ -119,8 +119,8 @@ namespace abut
   }
 
   template <int dim>
-  void
-  ContactAssembler<dim>::Implementation::take_increment(la::Vector &increment)
+  void ContactAssembler<dim>::Implementation::apply_substitution(
+      la::Vector &increment)
   {
     if (substitution == nullptr)
       return;
@@ -188,7 +188,7 @@ namespace abut
     RowsElsewhere result;
     result.points = shim::create_points(context.get(), points_dimension);
     surfaces->bring_in_reach(displacement);
-    const auto kept = surfaces->keep();
+    const auto kept = surfaces->save_points();
     try
     {
       surfaces->find(displacement, result.points.get());
@@ -197,26 +197,26 @@ namespace abut
       result.rows = make_operator(result.points.get(), there);
       if (has_friction)
         result.slip_reference = surfaces->slip_reference(committed);
-      note_changes(kept);
+      record_changes(kept);
     }
     catch (...)
     {
-      surfaces->put_back(kept);
+      surfaces->restore_points(kept);
       throw;
     }
-    surfaces->put_back(kept);
+    surfaces->restore_points(kept);
     return result;
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::note_changes(
-      const typename shim::SurfacePairRows<dim>::Kept &before)
+  void ContactAssembler<dim>::Implementation::record_changes(
+      const typename shim::SurfacePairRows<dim>::SavedPoints &before)
   {
     std::set<std::int64_t> pressing;
     for (int row = 0; row < coefficients.n_rows(); ++row)
       if (!coefficients.is_tangent(row) && request.pressure[row] > 0.)
         pressing.insert(coefficients.ids()[row]);
-    const auto now = surfaces->keep();
+    const auto now = surfaces->save_points();
     const auto placed = [this](const auto &points)
     {
       shim::PlacedPoints<dim> result = {{}, points.places};
@@ -237,17 +237,17 @@ namespace abut
     if (solver != nullptr)
       followed_motions = solver->rigid_motions(displacement);
     surfaces->bring_in_reach(displacement);
-    auto kept = surfaces->keep();
+    auto kept = surfaces->save_points();
     shim::Handle<abut_points> old_points = std::move(points);
     find_points(displacement);
-    take_points();
+    set_up_rows();
     // Rows come and go where gaps are as large as the reach: then the rows of
     // the last linearisation suffice.
     if (MPI::logical_or(before != row_numbers(), communicator))
     {
       points = std::move(old_points);
-      surfaces->put_back(std::move(kept));
-      take_points();
+      surfaces->restore_points(std::move(kept));
+      set_up_rows();
       find_slip_reference();
       return;
     }
@@ -309,7 +309,7 @@ namespace abut
   template void                                                                \
   ContactAssembler<dim>::Implementation::add_round_off_of_positions(           \
       la::Vector &) const;                                                     \
-  template void ContactAssembler<dim>::Implementation::take_increment(         \
+  template void ContactAssembler<dim>::Implementation::apply_substitution(     \
       la::Vector &);                                                           \
   template void ContactAssembler<dim>::Implementation::update_gap(             \
       const la::Vector &);                                                     \

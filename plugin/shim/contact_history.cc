@@ -194,7 +194,7 @@ namespace abut::shim
                                  const std::vector<PlacedRow> &placed) const
   {
     std::vector<double> result(id.size());
-    abut_history_past past = {};
+    abut_history_values past = {};
     past.struct_size = sizeof(past);
     past.pressure = result.data();
     check(context_, abut_history_get(history, version,

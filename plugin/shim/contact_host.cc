@@ -28,10 +28,9 @@ namespace abut
   }
 
   template <int dim>
-  const la::Vector &
-  ContactAssembler<dim>::Implementation::take(const std::string &call,
-                                              const std::string &what,
-                                              const la::VectorView &given) const
+  const la::Vector &ContactAssembler<dim>::Implementation::checked_vector(
+      const std::string &call, const std::string &what,
+      const la::VectorView &given) const
   {
     const auto check = [&](const bool is_good, const std::string &text)
     {
@@ -63,12 +62,12 @@ namespace abut
   }
 
   template <int dim>
-  la::Vector &ContactAssembler<dim>::Implementation::take_mutable(
+  la::Vector &ContactAssembler<dim>::Implementation::checked_mutable_vector(
       const std::string &call, const std::string &what,
       const la::MutableVectorView &given) const
   {
     // Either is a vector that may be written.
-    return const_cast<la::Vector &>(take(call, what, given));
+    return const_cast<la::Vector &>(checked_vector(call, what, given));
   }
 
   template <int dim>
@@ -102,7 +101,7 @@ namespace abut
                              "without ranks need one rank, or a mesh and a "
                              "ContactAssembler of MPI_COMM_SELF."));
     const la::Matrix &taken = (copy == nullptr ? copied : *copy)
-                                  .take(*other, name, owned, communicator);
+                                  .copy(*other, name, owned, communicator);
     shim::check_eliminated(taken, *constraints, name, communicator);
     return taken;
   }
@@ -121,15 +120,17 @@ namespace abut
   {
     const Implementation &i = *implementation;
     i.check_mesh("copy_of()");
-    return i.take("copy_of()", "vector", vector);
+    return i.checked_vector("copy_of()", "vector", vector);
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template global_dof_index                                                    \
   ContactAssembler<dim>::Implementation::displacement_block() const;           \
-  template const la::Vector &ContactAssembler<dim>::Implementation::take(      \
+  template const la::Vector &                                                  \
+  ContactAssembler<dim>::Implementation::checked_vector(                       \
       const std::string &, const std::string &, const la::VectorView &) const; \
-  template la::Vector &ContactAssembler<dim>::Implementation::take_mutable(    \
+  template la::Vector &                                                        \
+  ContactAssembler<dim>::Implementation::checked_mutable_vector(               \
       const std::string &, const std::string &, const la::MutableVectorView &) \
       const;                                                                   \
   template solve::Stiffness                                                    \

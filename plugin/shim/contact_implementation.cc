@@ -7,9 +7,9 @@
 #include "fnv_hash.h"
 #include "host_cells.h"
 #include "nodal_obstacle_rows.h"
-#include "solve/floating_bodies.h"
 #include "solve/make_row_solver.h"
 #include "solve/row_stiffness.h"
+#include "solve/unsupported_bodies.h"
 #include "solver_space.h"
 
 #include <algorithm>
@@ -230,7 +230,7 @@ namespace abut
       surfaces = made.get();
       surfaces->foresee_motion(foreseen_motion);
       if (committed.size() > 0)
-        surfaces->note_commit(committed);
+        surfaces->record_commit(committed);
       if (exchange != surfaces->exchange())
         count_messages();
       exchange = surfaces->exchange();
@@ -328,7 +328,7 @@ namespace abut
     }
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::take_points()
+  template <int dim> void ContactAssembler<dim>::Implementation::set_up_rows()
   {
     coefficients = make_operator(points.get(), view);
     n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
@@ -350,7 +350,7 @@ namespace abut
     rows_mesh = 0;
     const auto change = find_points(displacement);
     if (change == shim::RowSource::Change::points)
-      take_points();
+      set_up_rows();
     else if (change == shim::RowSource::Change::constants)
       coefficients.renew_constants(source->nodes());
     if (is_nitsche())
@@ -377,8 +377,8 @@ namespace abut
       {
         if (error.message().failure != ABUT_FAILURE_NO_PARTNER
             || surfaces == nullptr
-            || solve::FloatingBodies::are_supported(near_null_space(),
-                                                    communicator)
+            || solve::UnsupportedBodies::are_supported(near_null_space(),
+                                                       communicator)
             || !widen_search())
           throw;
       }
@@ -558,7 +558,7 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::take_matrix(
+  void ContactAssembler<dim>::Implementation::find_row_stiffness(
       const solve::Stiffness &matrix)
   {
     la::Vector compliance = solve::compliance(matrix);
@@ -666,7 +666,7 @@ namespace abut
     return result;
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::note_end()
+  template <int dim> void ContactAssembler<dim>::Implementation::record_end()
   {
     undetermined.clear();
     followed_motions.clear();
@@ -741,7 +741,7 @@ namespace abut
     if (is_renewed && !has_new_matrix)
       return;
     has_new_matrix = false;
-    take_matrix(of_host);
+    find_row_stiffness(of_host);
     const solve::Stiffness matrix =
         solver_has_matrix ? with_geometry(of_host.matrix()) : of_host;
     if (solver == nullptr)

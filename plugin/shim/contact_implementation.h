@@ -59,7 +59,7 @@ namespace abut
     /** Let the source find points. Collective. */
     shim::RowSource::Change find_points(const la::Vector &displacement);
     /** Make all that belongs to new points. Collective. */
-    void take_points();
+    void set_up_rows();
     /** Take out the rows of the source's points, just made, that need none, and
      * make the operator of the others. Collective. */
     solve::PointOperator make_operator(abut_points *made,
@@ -85,7 +85,7 @@ namespace abut
     /** Gaps, and slips since the last commit(). */
     void compute_gap(const la::Vector &displacement);
     /** Slips are measured from where obstacles are now. */
-    void note_poses();
+    void record_poses();
     /** Find the reference of slips, with the present points. Collective. */
     void find_slip_reference();
     /** Note what bodies move before pairs touch, which is no slip. Collective.
@@ -116,7 +116,7 @@ namespace abut
     /** Find the local stiffness of the rows in a new matrix, which is that of
      * the law only if it is the first one: a law must not change from one
      * linearisation to the next. Collective. */
-    void take_matrix(const solve::Stiffness &matrix);
+    void find_row_stiffness(const solve::Stiffness &matrix);
     /** Length by pressure: inverse mean of the rows' stiffness. */
     double softness() const;
     /** Make what has been reached the start of the next iteration. */
@@ -157,7 +157,8 @@ namespace abut
      */
     RowsElsewhere rows_at(const la::Vector &displacement);
     /** Compare the surfaces' points with those of the rows. */
-    void note_changes(const typename shim::SurfacePairRows<dim>::Kept &before);
+    void record_changes(
+        const typename shim::SurfacePairRows<dim>::SavedPoints &before);
     /** Find the change of the forces of the rows' pressures because rows move.
      * Collective. */
     void find_geometry();
@@ -169,7 +170,7 @@ namespace abut
     void find_substitution();
     /** Make the displacements from the result of a solver, and store that.
      * Collective. */
-    void take_increment(la::Vector &increment);
+    void apply_substitution(la::Vector &increment);
     /** Gaps where the iteration has come to. Collective. */
     void update_gap(const la::Vector &displacement);
     /** Add the part of the coordinates that stands for the round-off of gaps
@@ -192,7 +193,7 @@ namespace abut
     /** Data of the iteration that begins, for the solver. */
     solve::ContactIteration iteration();
     /** Find what an iteration that stopped leaves undetermined. Collective. */
-    void note_end();
+    void record_end();
     /** Let the search reach farther, as far as bodies without supports may
      * have to move. Returns whether it does. Collective. */
     bool widen_search();
@@ -202,10 +203,12 @@ namespace abut
     /** The argument of a host in a @p call: the vector itself, or its view's
      * copy. Throws, on all ranks, if it is not one of the present unknowns.
      * Collective. */
-    const la::Vector &take(const std::string &call, const std::string &what,
-                           const la::VectorView &given) const;
-    la::Vector &take_mutable(const std::string &call, const std::string &what,
-                             const la::MutableVectorView &given) const;
+    const la::Vector &checked_vector(const std::string &call,
+                                     const std::string &what,
+                                     const la::VectorView &given) const;
+    la::Vector &
+    checked_mutable_vector(const std::string &call, const std::string &what,
+                           const la::MutableVectorView &given) const;
     /** Unknowns of the displacement if they come before all others, else 0. */
     dealii::types::global_dof_index displacement_block() const;
     /** A matrix of another type is copied, to @p copy or the one of the present
@@ -231,7 +234,8 @@ namespace abut
     void add_forces(la::Vector &forces) const;
     std::vector<std::uint8_t> row_states() const;
     /** Where obstacles are between the nodes. Collective. */
-    std::vector<shim::Unseen> find_unseen(const la::Vector &displacement);
+    std::vector<shim::FacetPenetration>
+    find_facet_penetrations(const la::Vector &displacement);
     void examine_membrane(const la::Vector &displacement, double penetration,
                           ContactExamination &result);
     /** Length that depths are compared with: how far bodies are deformed, or

@@ -47,7 +47,7 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("step_motion()");
     const la::Vector &displacement =
-        i.take("step_motion()", "displacement", given_displacement);
+        i.checked_vector("step_motion()", "displacement", given_displacement);
     if (i.surfaces == nullptr)
       return {};
     const std::vector<std::uint8_t> states = i.row_states();
@@ -158,8 +158,8 @@ namespace abut
   {
     const Implementation &i = *implementation;
     i.check_rows("add_forces_on_supports()");
-    la::Vector &forces =
-        i.take_mutable("add_forces_on_supports()", "force", given_forces);
+    la::Vector &forces = i.checked_mutable_vector("add_forces_on_supports()",
+                                                  "force", given_forces);
     if (i.surfaces == nullptr)
       return;
     const la::Vector all = forces_of(*i.surfaces, i.row_pressures(), forces);
@@ -176,8 +176,8 @@ namespace abut
   {
     const Implementation &i = *implementation;
     i.check_rows("add_pressure_forces()");
-    la::Vector &forces =
-        i.take_mutable("add_pressure_forces()", "force", given_forces);
+    la::Vector &forces = i.checked_mutable_vector("add_pressure_forces()",
+                                                  "force", given_forces);
     if (i.surfaces == nullptr)
       return;
     std::vector<double> pressures = i.row_pressures();
@@ -241,7 +241,7 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("imbalance()");
     const la::Vector &residual =
-        i.take("imbalance()", "residual", given_residual);
+        i.checked_vector("imbalance()", "residual", given_residual);
     la::Vector contact(residual);
     contact = 0.;
     i.add_forces(contact);
@@ -273,8 +273,8 @@ namespace abut
         tangent.other() == nullptr
             ? solve::Stiffness(tangent.matrix())
             : i.stiffness_of("size_of_forces()", tangent);
-    la::Vector free(
-        i.take("size_of_forces()", "displacement", given_displacement));
+    la::Vector free(i.checked_vector("size_of_forces()", "displacement",
+                                     given_displacement));
     if (i.moves())
       i.add_round_off_of_positions(free);
     i.constraints->set_zero(free);
@@ -318,8 +318,8 @@ namespace abut
   {
     const Implementation &i = *implementation;
     i.check_rows("transfer_errors()");
-    const la::Vector &displacement =
-        i.take("transfer_errors()", "displacement", given_displacement);
+    const la::Vector &displacement = i.checked_vector(
+        "transfer_errors()", "displacement", given_displacement);
     return i.surfaces == nullptr ? std::vector<double>()
                                  : i.surfaces->transfer_errors(displacement);
   }
@@ -330,8 +330,8 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_rows("check_penetration()");
-    const la::Vector &displacement =
-        i.take("check_penetration()", "displacement", given_displacement);
+    const la::Vector &displacement = i.checked_vector(
+        "check_penetration()", "displacement", given_displacement);
     if (i.surfaces == nullptr)
       return {};
     return i.surfaces->penetrations(displacement, tolerance);

@@ -146,7 +146,7 @@ namespace abut
       start_from_history();
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::note_poses()
+  template <int dim> void ContactAssembler<dim>::Implementation::record_poses()
   {
     committed_poses.clear();
     committed_times.clear();
@@ -165,7 +165,7 @@ namespace abut
     Implementation &i = *implementation;
     i.check_mesh("commit()");
     const la::Vector &displacement =
-        i.take("commit()", "displacement", given_displacement);
+        i.checked_vector("commit()", "displacement", given_displacement);
     i.record_present();
     i.history.commit();
     i.committed_load = std::max(i.committed_load, i.present_load);
@@ -173,7 +173,7 @@ namespace abut
     if (i.surfaces != nullptr && i.has_rows)
       i.elements.commit(i.surfaces->contact_elements(), i.communicator);
     if (i.surfaces != nullptr)
-      i.surfaces->note_commit(displacement);
+      i.surfaces->record_commit(displacement);
     // Pairs with friction may be out of reach of each other as yet. Pairs that
     // reach each other later need a reference of slips.
     const bool is_wanted = i.makes_points_at_commits()
@@ -182,7 +182,7 @@ namespace abut
                                           { return pair.friction != nullptr; });
     i.committed = is_wanted ? displacement : la::Vector();
     i.committed_is_lost = !is_wanted;
-    i.note_poses();
+    i.record_poses();
     if (!is_wanted)
       return;
     if (i.has_rows)
@@ -196,13 +196,13 @@ namespace abut
     Implementation &i = *implementation;
     i.check_mesh("set_committed()");
     const la::Vector &displacement =
-        i.take("set_committed()", "displacement", given_displacement);
+        i.checked_vector("set_committed()", "displacement", given_displacement);
     i.committed = displacement;
     i.approach.clear();
     i.committed_is_lost = false;
     if (i.surfaces != nullptr)
-      i.surfaces->note_commit(displacement);
-    i.note_poses();
+      i.surfaces->record_commit(displacement);
+    i.record_poses();
     if (i.has_rows)
       i.find_slip_reference();
   }

@@ -160,7 +160,7 @@ namespace abut::shim
       rows.value[rows.start[r]] = mean;
   }
 
-  const la::Matrix &HostMatrixCopy::take(const la::HostMatrix &host,
+  const la::Matrix &HostMatrixCopy::copy(const la::HostMatrix &host,
                                          const std::string &name,
                                          const dealii::IndexSet &owned,
                                          const MPI_Comm communicator)

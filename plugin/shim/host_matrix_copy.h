@@ -37,7 +37,7 @@ namespace abut::shim
      * Throws dealii::ExceptionBase, on all ranks, for rows without a diagonal
      * entry and for values that are not finite. Collective.
      * @param name of the matrix in messages */
-    const la::Matrix &take(const la::HostMatrix &host, const std::string &name,
+    const la::Matrix &copy(const la::HostMatrix &host, const std::string &name,
                            const dealii::IndexSet &owned,
                            MPI_Comm communicator);
 

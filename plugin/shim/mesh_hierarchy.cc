@@ -87,9 +87,9 @@ namespace abut::shim
       void find_unknowns();
       void find_constrained();
       template <typename Object>
-      void note_middle(const Object &object, unsigned int level);
+      void record_middle(const Object &object, unsigned int level);
       bool find_middles();
-      void note_coarsest_cells();
+      void record_coarsest_cells();
       bool is_uniform() const;
       void mark_hanging();
       void mark_fixed();
@@ -207,8 +207,8 @@ namespace abut::shim
      * the next level or finer. */
     template <int dim>
     template <typename Object>
-    void HierarchyMaker<dim>::note_middle(const Object &object,
-                                          const unsigned int level)
+    void HierarchyMaker<dim>::record_middle(const Object &object,
+                                            const unsigned int level)
     {
       const unsigned int n = object->n_vertices();
       const unsigned int vertex = object->child(0)->vertex_index(n - 1);
@@ -237,17 +237,17 @@ namespace abut::shim
           if (cell->refinement_case() != isotropic)
             return false;
           for (const unsigned int line : cell->line_indices())
-            note_middle(cell->line(line), l);
+            record_middle(cell->line(line), l);
           if constexpr (dim == 3)
             for (const unsigned int face : cell->face_indices())
-              note_middle(cell->face(face), l);
-          note_middle(cell, l);
+              record_middle(cell->face(face), l);
+          record_middle(cell, l);
         }
       return true;
     }
 
     /** Record the vertices in the middles of cells for other ranks. */
-    template <int dim> void HierarchyMaker<dim>::note_coarsest_cells()
+    template <int dim> void HierarchyMaker<dim>::record_coarsest_cells()
     {
       for (const auto &cell : triangulation_.cell_iterators())
       {
@@ -605,7 +605,7 @@ namespace abut::shim
       if (dealii::Utilities::MPI::n_mpi_processes(communicator_) > 1
           && meshes.size() > first)
       {
-        note_coarsest_cells();
+        record_coarsest_cells();
         learn_of_others(meshes, first);
       }
       if (is_quadratic)

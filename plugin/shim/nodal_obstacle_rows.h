@@ -40,8 +40,9 @@ namespace abut::shim
                                     const std::vector<double> &gap,
                                     unsigned int n_sweeps,
                                     la::Vector &displacement) const override;
-    std::vector<Unseen> unseen(const la::Vector &displacement,
-                               const std::uint8_t *row_state) override;
+    std::vector<FacetPenetration>
+    facet_penetrations(const la::Vector &displacement,
+                       const std::uint8_t *row_state) override;
     void push_inside(const std::vector<double> &gap, std::vector<double> margin,
                      la::Vector &displacement) const override;
 
@@ -78,12 +79,12 @@ namespace abut::shim
      * @p height is overwritten by those of the obstacles. Not collective. */
     void find_depth(const std::vector<dealii::Point<dim>> &points,
                     const std::vector<double> &values,
-                    std::vector<double> &height, Unseen &found) const;
+                    std::vector<double> &height, FacetPenetration &found) const;
     /** And how far it is higher there than at these @p nodes. */
     void find_peak(const std::vector<dealii::Point<dim>> &points,
                    const std::vector<double> &values,
                    const std::vector<dealii::Point<dim>> &nodes,
-                   Unseen &found) const;
+                   FacetPenetration &found) const;
 
     const dealii::Mapping<dim> &mapping_;
     const dealii::DoFHandler<dim> &dof_handler_;

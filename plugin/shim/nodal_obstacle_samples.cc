@@ -50,7 +50,7 @@ namespace abut::shim
   void NodalObstacleRows<dim>::find_depth(
       const std::vector<dealii::Point<dim>> &points,
       const std::vector<double> &values, std::vector<double> &height,
-      Unseen &found) const
+      FacetPenetration &found) const
   {
     const auto compare =
         [&](const dealii::Function<dim> *obstacle, const double sign)
@@ -76,7 +76,8 @@ namespace abut::shim
   void NodalObstacleRows<dim>::find_peak(
       const std::vector<dealii::Point<dim>> &points,
       const std::vector<double> &values,
-      const std::vector<dealii::Point<dim>> &nodes, Unseen &found) const
+      const std::vector<dealii::Point<dim>> &nodes,
+      FacetPenetration &found) const
   {
     std::vector<double> height(points.size()), known(nodes.size());
     const auto compare =
@@ -102,9 +103,9 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::vector<Unseen>
-  NodalObstacleRows<dim>::unseen(const la::Vector &displacement,
-                                 const std::uint8_t *row_state)
+  std::vector<FacetPenetration>
+  NodalObstacleRows<dim>::facet_penetrations(const la::Vector &displacement,
+                                             const std::uint8_t *row_state)
   {
     const dealii::IndexSet relevant =
         dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_);
@@ -145,12 +146,12 @@ namespace abut::shim
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
     std::vector<double> of_nodes(dofs.size()), values, height;
     std::vector<dealii::Point<dim>> nodes;
-    std::vector<Unseen> result;
+    std::vector<FacetPenetration> result;
     const auto look = [&](const auto &cell,
                           const dealii::FEValuesBase<dim> &points,
                           const auto &is_there)
     {
-      Unseen found;
+      FacetPenetration found;
       found.cell = cell->active_cell_index();
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -206,12 +207,13 @@ namespace abut::shim
 #define ABUT_INSTANTIATE(dim)                                                  \
   template void NodalObstacleRows<dim>::find_depth(                            \
       const std::vector<dealii::Point<dim>> &, const std::vector<double> &,    \
-      std::vector<double> &, Unseen &) const;                                  \
+      std::vector<double> &, FacetPenetration &) const;                        \
   template void NodalObstacleRows<dim>::find_peak(                             \
       const std::vector<dealii::Point<dim>> &, const std::vector<double> &,    \
-      const std::vector<dealii::Point<dim>> &, Unseen &) const;                \
-  template std::vector<Unseen> NodalObstacleRows<dim>::unseen(                 \
-      const la::Vector &, const std::uint8_t *);
+      const std::vector<dealii::Point<dim>> &, FacetPenetration &) const;      \
+  template std::vector<FacetPenetration>                                       \
+  NodalObstacleRows<dim>::facet_penetrations(const la::Vector &,               \
+                                             const std::uint8_t *);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

@@ -91,7 +91,7 @@ namespace abut::shim
         if (nearest() > extent())
           return;
         grid_->reinit(cell);
-        DeepestPoint<dim> deepest = take(cell, *grid_, found);
+        DeepestPoint<dim> deepest = examine_points(cell, *grid_, found);
         // A part thinner than the grid may be just behind the surface.
         if (is_on_surface(cell, deepest.unit)
             && pair_.obstacle->depth() > extent() / n_)
@@ -101,7 +101,7 @@ namespace abut::shim
           dealii::FEValues<dim> closer(
               mapping_, fe_, of(grid_about(deepest.unit, width, 4)), flags());
           closer.reinit(cell);
-          const DeepestPoint<dim> better = take(cell, closer, found);
+          const DeepestPoint<dim> better = examine_points(cell, closer, found);
           if (better.depth > deepest.depth)
             deepest = better;
         }
@@ -171,9 +171,9 @@ namespace abut::shim
       }
 
       /** Note what the points of a cell show. Returns the deepest. */
-      DeepestPoint<dim> take(const Cell &cell,
-                             const dealii::FEValues<dim> &points,
-                             ObstacleInBodies<dim> &found)
+      DeepestPoint<dim> examine_points(const Cell &cell,
+                                       const dealii::FEValues<dim> &points,
+                                       ObstacleInBodies<dim> &found)
       {
         sample(points);
         DeepestPoint<dim> deepest;

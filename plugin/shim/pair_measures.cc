@@ -46,7 +46,7 @@ namespace abut
         {"gap_error", &R::gap_error, maximum, all, "length",
          "largest difference of a closed row's gap from the distance of its "
          "node"},
-        {"turn", &R::turn, maximum, all, "radian",
+        {"turn", &R::rotation, maximum, all, "radian",
          "mean rotation of the normals at rows with pressure"},
         {"slipping", &R::n_slipping, sum, friction, "", "rows that slip"},
         {"normal_force", &R::normal_force, sum, friction, "force",
@@ -64,7 +64,7 @@ namespace abut
         {"shared_stick_force", &R::shared_stick_force, sum, none, "force",
          "pressures of sticking points that share their node with another "
          "contact"},
-        {"largest_turn", &R::largest_turn, maximum, none, "radian",
+        {"largest_turn", &R::largest_rotation, maximum, none, "radian",
          "largest rotation of the normals"},
         {"missed_depth", &R::missed_depth, maximum, none, "length",
          "depth of the obstacle in facets without contact"},

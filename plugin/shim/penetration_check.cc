@@ -29,13 +29,14 @@ namespace abut::shim
       std::vector<Item> items;
       for (const auto &found : mine)
         items.emplace_back(found.pair, found.point, found.depth,
-                           found.on_primary, found.same_way, found.same_side);
+                           found.on_primary, found.same_direction,
+                           found.same_side);
       std::vector<Penetration<dim>> result;
       for (const auto &some : MPI::all_gather(communicator, items))
-        for (const auto &[pair, point, depth, on_primary, same_way, same_side] :
-             some)
+        for (const auto &[pair, point, depth, on_primary, same_direction,
+                          same_side] : some)
           result.push_back(
-              {pair, point, depth, on_primary, same_way, same_side});
+              {pair, point, depth, on_primary, same_direction, same_side});
       return result;
     }
 
@@ -438,7 +439,8 @@ namespace abut::shim
       for (std::size_t n = 0; n < present.size(); ++n)
         committed[n] += then[n];
     }
-    const std::vector<double> moved = motions(has_steps() ? way_since(u) : u);
+    const std::vector<double> moved =
+        motions(has_steps() ? displacement_since(u) : u);
 
     MissedCheck missed(*this, reference, committed, present, tolerance);
     Message message;

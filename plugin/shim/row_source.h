@@ -17,7 +17,7 @@
 namespace abut::shim
 {
   /** A facet, or a cell of a membrane, that an obstacle is in. */
-  struct Unseen
+  struct FacetPenetration
   {
     std::size_t pair = 0;  ///< 0 of membranes
     unsigned int cell = 0; ///< index of the active cell
@@ -185,8 +185,9 @@ namespace abut::shim
     /** Where obstacles are in the deformed surface of this rank, by samples
      * between its nodes; @p row_state may be null. Throws on all ranks.
      * Collective. */
-    virtual std::vector<Unseen> unseen(const la::Vector &displacement,
-                                       const std::uint8_t *row_state) = 0;
+    virtual std::vector<FacetPenetration>
+    facet_penetrations(const la::Vector &displacement,
+                       const std::uint8_t *row_state) = 0;
 
     /** Open every gap to at least @p margin, as far as that can be done by
      * moving the nodes of the rows; @p margin [rows], length > 0, @p gap at

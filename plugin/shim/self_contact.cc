@@ -307,7 +307,7 @@ namespace abut::shim
       run();
     if (report.n_pairs == 0)
       std::fill(side.begin() + side.size() / 2, side.end(), 1);
-    take(part, side);
+    set_primary(part, side);
   }
 
   template <int dim>
@@ -326,7 +326,7 @@ namespace abut::shim
     how.near = std::max(near, how.relative_reach * part.sizes.largest);
     check(context, abut_surface_split(context, part.surface.get(), &how,
                                       side.data(), nullptr));
-    has_changed_ = take(part, side) || has_changed_;
+    has_changed_ = set_primary(part, side) || has_changed_;
   }
 
   template <int dim>
@@ -367,8 +367,8 @@ namespace abut::shim
   }
 
   template <int dim>
-  bool SelfContact<dim>::take(const Part &part,
-                              const std::vector<std::uint8_t> &side)
+  bool SelfContact<dim>::set_primary(const Part &part,
+                                     const std::vector<std::uint8_t> &side)
   {
     bool differs = false;
     for (std::size_t f = 0; f < side.size(); ++f)

@@ -94,7 +94,7 @@ namespace abut::shim
     void split_again(const ContactPair<dim> &pair, const Facets &facets,
                      double near, abut_context *context);
     /** Note the sides of the facets of a part; returns whether they differ. */
-    bool take(const Part &part, const std::vector<std::uint8_t> &side);
+    bool set_primary(const Part &part, const std::vector<std::uint8_t> &side);
     /** Call function(pair) for surfaces that touch themselves; what it throws
      * is thrown on all ranks. */
     template <typename Function> void for_each(const Function &function) const;

@@ -88,7 +88,7 @@ namespace abut::shim
   {
     if (!self_contact_.renew(displacement, near, context))
       return false;
-    take_sides();
+    assign_sides();
     return true;
   }
 
@@ -96,22 +96,22 @@ namespace abut::shim
   {
     if (!self_contact_.load(stream))
       return false;
-    take_sides();
+    assign_sides();
     return true;
   }
 
-  template <int dim> void SurfaceExchange<dim>::take_sides()
+  template <int dim> void SurfaceExchange<dim>::assign_sides()
   {
-    const auto take = [&](Facet &facet)
+    const auto assign_id = [&](Facet &facet)
     {
       facet.boundary_id = self_contact_.id(
           facet.cell, facet.face, self_contact_.of_mesh(facet.boundary_id));
     };
     for (FacetRecord &record : own_)
-      take(record.facet);
+      assign_id(record.facet);
     for (auto *list : {&announced_, &facets_})
       for (auto &[number, record] : *list)
-        take(record.facet);
+        assign_id(record.facet);
     links_.clear();
   }
 
@@ -225,7 +225,8 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfaceExchange<dim>::take(const FacetRecord &record, const int ring)
+  void SurfaceExchange<dim>::add_facet(const FacetRecord &record,
+                                       const int ring)
   {
     FacetRecord &known =
         facets_.emplace(record.facet.number, record).first->second;
@@ -243,7 +244,7 @@ namespace abut::shim
           ranks.insert(owners_.of(node));
       for (const unsigned int rank : ranks)
         write(record, mail[rank]);
-      take(record, 1);
+      add_facet(record, 1);
     }
     const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
     const std::int64_t stride = ContactSurface<dim>::max_nodes;
@@ -265,7 +266,7 @@ namespace abut::shim
               place.number = name;
           }
         announced_.emplace(number, record);
-        take(record, 1);
+        add_facet(record, 1);
       }
     for (auto &[dof, place] : places_)
     {
@@ -362,7 +363,7 @@ namespace abut::shim
     }
     for (auto &[rank, answer] : post_.exchange(answers))
       while (!answer.at_end())
-        take(read_facet(answer), to);
+        add_facet(read_facet(answer), to);
   }
 
   template <int dim> void SurfaceExchange<dim>::fetch_nodes()

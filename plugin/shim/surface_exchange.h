@@ -197,7 +197,7 @@ namespace abut::shim
     };
 
     /** Let facets have the ids of their sides. */
-    void take_sides();
+    void assign_sides();
     void tabulate();
     void collect();
     void number_own();
@@ -211,7 +211,7 @@ namespace abut::shim
     FacetRecord read_facet(Parcel &parcel) const;
     void write(const NodeRecord &record, Parcel &parcel) const;
     NodeRecord read_node(Parcel &parcel) const;
-    void take(const FacetRecord &record, int ring);
+    void add_facet(const FacetRecord &record, int ring);
 
     /** [2 * links: secondary, primary][ranks] boxes around the facets of a
      * rank. */

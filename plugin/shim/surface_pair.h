@@ -117,8 +117,8 @@ namespace abut::shim
     std::vector<Message> refused;
     dealii::Point<dim> gap_error_place;
     /** Change of the directions of its forces since points were made. */
-    abut_direction_change turn = {};
-    ObstacleWidth narrow;
+    abut_direction_change rotation = {};
+    ObstacleWidth narrowest;
   };
 
   /** Input of the points of a pair that may change from one find() to the next;

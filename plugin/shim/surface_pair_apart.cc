@@ -80,10 +80,10 @@ namespace abut::shim
                                   const std::vector<double> &distance) const
   {
     double least = INFINITY;
-    const auto take = [&](const Node node, double)
+    const auto include_node = [&](const Node node, double)
     { least = std::min(least, distance[node]); };
-    for_each_secondary(row.point, take);
-    for_each_primary(row.point, take);
+    for_each_secondary(row.point, include_node);
+    for_each_primary(row.point, include_node);
     // Edges may cross between nodes.
     const Pair &pair = pairs_[row.place.pair];
     if (row.place.least > -facet_size(pair))
@@ -99,12 +99,12 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::vector<Apart>
+  std::vector<SeparatedRows>
   SurfacePairRows<dim>::apart(const std::vector<double> &visible,
                               const double *row_pressure, const double *row_gap,
                               const std::uint8_t *row_state)
   {
-    std::vector<Apart> result(pairs_.size());
+    std::vector<SeparatedRows> result(pairs_.size());
     const std::vector<double> clearance = clearances(examined_, false);
     for_each_component(
         [&](const Component &row)
@@ -115,7 +115,7 @@ namespace abut::shim
                   : view_.weight[row.point] * row_pressure[row.row];
           if (!(force > 0.))
             return;
-          Apart &found = result[row.place.pair];
+          SeparatedRows &found = result[row.place.pair];
           found.all += force;
           // The gap that the law leaves is not an error of the row.
           const double gap =
@@ -125,7 +125,7 @@ namespace abut::shim
           found.force += force;
           found.gap = std::max(found.gap, gap);
         });
-    for (Apart &found : result)
+    for (SeparatedRows &found : result)
     {
       found.force = MPI::sum(found.force, communicator_);
       found.all = MPI::sum(found.all, communicator_);
@@ -165,7 +165,7 @@ namespace abut::shim
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template std::vector<Apart> SurfacePairRows<dim>::apart(                     \
+  template std::vector<SeparatedRows> SurfacePairRows<dim>::apart(             \
       const std::vector<double> &, const double *, const double *,             \
       const std::uint8_t *);                                                   \
   template std::vector<double> SurfacePairRows<dim>::distances_of_nodes(       \

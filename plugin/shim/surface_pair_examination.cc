@@ -106,7 +106,7 @@ namespace abut::shim
     /** Note the deepest of points. */
     template <int dim>
     void take_deepest(const std::vector<dealii::Point<dim>> &points,
-                      const std::vector<double> &depth, Unseen &found)
+                      const std::vector<double> &depth, FacetPenetration &found)
     {
       for (std::size_t q = 0; q < points.size(); ++q)
         if (depth[q] > found.depth)
@@ -168,7 +168,7 @@ namespace abut::shim
       const std::size_t number, const std::vector<Direction> &u,
       const std::vector<std::uint8_t> &touching,
       const std::vector<std::uint8_t> &touching_facets,
-      std::vector<Unseen> &found) const
+      std::vector<FacetPenetration> &found) const
   {
     const Pair &pair = pairs_[number];
     const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
@@ -216,7 +216,7 @@ namespace abut::shim
       points = grid.points(place_of);
       obstacle.distance(points, distance);
 
-      Unseen here;
+      FacetPenetration here;
       here.pair = number;
       here.size = size;
       std::vector<double> depth;
@@ -248,11 +248,11 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::find_narrow(Pair &pair,
-                                         const std::vector<Direction> &u) const
+  void SurfacePairRows<dim>::find_narrowest_width(
+      Pair &pair, const std::vector<Direction> &u) const
   {
     const auto me = MPI::this_mpi_process(communicator_);
-    Narrow narrow;
+    NarrowestWidth narrowest;
     std::vector<dealii::Point<dim>> nodes;
     std::vector<double> distance;
     for (const std::int32_t f : pair.secondary.facet)
@@ -272,22 +272,22 @@ namespace abut::shim
       const double gap =
           *std::min_element(distance.begin(), distance.end()) + pair.data.gap;
       const double width = pair.data.obstacle->width(normal_of(nodes.data()));
-      if (gap <= size && width / size < narrow.width / narrow.facet)
-        narrow = {width, size};
+      if (gap <= size && width / size < narrowest.width / narrowest.facet)
+        narrowest = {width, size};
     }
     for (const auto &[width, size] : MPI::all_gather(
-             communicator_, std::make_pair(narrow.width, narrow.facet)))
-      if (width / size < narrow.width / narrow.facet)
-        narrow = {width, size};
-    pair.narrow = narrow;
+             communicator_, std::make_pair(narrowest.width, narrowest.facet)))
+      if (width / size < narrowest.width / narrowest.facet)
+        narrowest = {width, size};
+    pair.narrowest = narrowest;
   }
 
   template <int dim>
-  std::vector<Unseen>
-  SurfacePairRows<dim>::unseen(const la::Vector &displacement,
-                               const std::uint8_t *row_state)
+  std::vector<FacetPenetration>
+  SurfacePairRows<dim>::facet_penetrations(const la::Vector &displacement,
+                                           const std::uint8_t *row_state)
   {
-    std::vector<Unseen> found;
+    std::vector<FacetPenetration> found;
     const std::vector<Direction> u = displacements_in_reach(displacement);
     const std::vector<std::uint8_t> touching = touching_nodes(row_state);
     run_everywhere<ContactError>(
@@ -314,16 +314,15 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::examine(const la::Vector &displacement,
-                                     const double *row_pressure,
-                                     const double *row_gap,
-                                     const std::uint8_t *row_state,
-                                     const std::vector<Unseen> &unseen)
+  void SurfacePairRows<dim>::examine(
+      const la::Vector &displacement, const double *row_pressure,
+      const double *row_gap, const std::uint8_t *row_state,
+      const std::vector<FacetPenetration> &facet_penetrations)
   {
     const std::vector<Direction> u = displacements_in_reach(displacement);
     examined_ = u;
     const std::vector<RigidPose<dim>> now = poses();
-    find_turns(u, row_pressure, row_state);
+    find_rotations(u, row_pressure, row_state);
     // Distances from an obstacle, or their changes on a path.
     struct Distances
     {
@@ -338,7 +337,7 @@ namespace abut::shim
       if (!pair.data.obstacle)
         continue;
       measured.between_rows = 0.;
-      find_narrow(pair, u);
+      find_narrowest_width(pair, u);
     }
     for_each_component(
         [&](const Component &row)
@@ -352,15 +351,16 @@ namespace abut::shim
                    - (pair.is_displaced() ? made_at(node) : Direction());
           };
           // Motion in this step, and since the point was made there.
-          Direction motion = way_of_partners(row, u), since;
+          Direction motion = relative_displacement(row, u), since;
           const auto add = [&](const Node node, const double c)
           { since += c * since_made(node); };
           for_each_secondary(row.point, add);
           for_each_primary(row.point, add);
           const Direction way =
               pair.data.obstacle
-                  ? way_of(row.place.position, slip_poses_[row.place.pair],
-                           now[row.place.pair])
+                  ? rigid_displacement(row.place.position,
+                                       slip_poses_[row.place.pair],
+                                       now[row.place.pair])
                   : Direction();
           motion -= way;
           const Direction tangential =
@@ -407,7 +407,7 @@ namespace abut::shim
             }
           }
         });
-    for (const Unseen &found : unseen)
+    for (const FacetPenetration &found : facet_penetrations)
     {
       Pair &pair = pairs_[found.pair];
       pair.measured.between_rows =
@@ -453,9 +453,9 @@ namespace abut::shim
           std::vector<double> distance;
           std::vector<Direction> outward;
           pair.data.obstacle->distance(points, distance, &outward);
-          std::vector<std::uint8_t> same_way(points.size(), 0);
+          std::vector<std::uint8_t> same_direction(points.size(), 0);
           for (std::size_t n = 0; n < points.size(); ++n)
-            count[1] += same_way[n] = outward[n] * normals[n] > 0.;
+            count[1] += same_direction[n] = outward[n] * normals[n] > 0.;
           // Along the inward normals; thin obstacles are not to be passed by.
           constexpr int n_steps = 32;
           std::vector<std::uint8_t> met(points.size(), 0);
@@ -465,7 +465,7 @@ namespace abut::shim
               points[n] -= side.everywhere.median / n_steps * normals[n];
             pair.data.obstacle->distance(points, distance);
             for (std::size_t n = 0; n < points.size(); ++n)
-              met[n] |= same_way[n] != 0 && distance[n] < 0.;
+              met[n] |= same_direction[n] != 0 && distance[n] < 0.;
           }
           count[2] += double(std::count(met.begin(), met.end(), 1));
         });
@@ -637,14 +637,15 @@ namespace abut::shim
   template void SurfacePairRows<dim>::sample_facets(                           \
       std::size_t, const std::vector<Direction> &,                             \
       const std::vector<std::uint8_t> &, const std::vector<std::uint8_t> &,    \
-      std::vector<Unseen> &) const;                                            \
-  template void SurfacePairRows<dim>::find_narrow(                             \
+      std::vector<FacetPenetration> &) const;                                  \
+  template void SurfacePairRows<dim>::find_narrowest_width(                    \
       Pair &, const std::vector<Direction> &) const;                           \
-  template std::vector<Unseen> SurfacePairRows<dim>::unseen(                   \
-      const la::Vector &, const std::uint8_t *);                               \
+  template std::vector<FacetPenetration>                                       \
+  SurfacePairRows<dim>::facet_penetrations(const la::Vector &,                 \
+                                           const std::uint8_t *);              \
   template void SurfacePairRows<dim>::examine(                                 \
       const la::Vector &, const double *, const double *,                      \
-      const std::uint8_t *, const std::vector<Unseen> &);                      \
+      const std::uint8_t *, const std::vector<FacetPenetration> &);            \
   template std::string SurfacePairRows<dim>::wrong_side(Pair &) const;         \
   template ObstacleWidth SurfacePairRows<dim>::passed_between(                 \
       std::size_t, const dealii::Point<dim> &) const;                          \

@@ -58,7 +58,7 @@ namespace abut::shim
 
     /** From here on the chord, which slips are measured by, is 1 % shorter than
      * the way along the surface, sin(a) / a. */
-    constexpr double largest_turn = 15.01 * M_PI / 180.;
+    constexpr double largest_rotation = 15.01 * M_PI / 180.;
 
     /** A node that can move along a tangent only this little (1: freely) takes
      * part in stick by springs, and below the second number not at all. */
@@ -87,9 +87,9 @@ namespace abut::shim
 
   template <int dim>
   dealii::Tensor<1, dim>
-  SurfacePairRows<dim>::way_of(const dealii::Point<dim> &place,
-                               const RigidPose<dim> &then,
-                               const RigidPose<dim> &now)
+  SurfacePairRows<dim>::rigid_displacement(const dealii::Point<dim> &place,
+                                           const RigidPose<dim> &then,
+                                           const RigidPose<dim> &now)
   {
     const dealii::Tensor<1, dim> x = place;
     const dealii::Tensor<1, dim> own =
@@ -286,7 +286,7 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::refuse_turns(
+  void SurfacePairRows<dim>::refuse_large_rotations(
       const std::vector<RigidPose<dim>> &then,
       const std::vector<RigidPose<dim>> &now) const
   {
@@ -294,7 +294,7 @@ namespace abut::shim
     {
       const double angle = angle_between(then[p], now[p]);
       if (pairs_[p].data.friction == nullptr
-          || pairs_[p].data.obstacle == nullptr || angle <= largest_turn)
+          || pairs_[p].data.obstacle == nullptr || angle <= largest_rotation)
         continue;
       std::ostringstream text;
       text.precision(3);
@@ -351,7 +351,7 @@ namespace abut::shim
       u = exchange_->displacements_as_given(surface_, committed);
     const std::vector<RigidPose<dim>> now = poses(),
                                       then = poses_before(now, true);
-    refuse_turns(then, now);
+    refuse_large_rotations(then, now);
     find_partners(u);
     SlipReference result = {std::vector<double>(view_.n_components, 0.),
                             std::vector<std::uint8_t>(view_.n_components, 0)};
@@ -383,7 +383,8 @@ namespace abut::shim
           }
           if (pairs_[p].data.obstacle != nullptr)
             result.value[row.row] -=
-                way_of(row.place.position, then[p], now[p]) * row.direction;
+                rigid_displacement(row.place.position, then[p], now[p])
+                * row.direction;
         });
     return result;
   }
@@ -487,7 +488,7 @@ namespace abut::shim
       const Component &, const std::vector<Direction> &) const;                \
   template RowSource::SlipReference SurfacePairRows<dim>::slip_reference(      \
       const la::Vector &);                                                     \
-  template dealii::Tensor<1, dim> SurfacePairRows<dim>::way_of(                \
+  template dealii::Tensor<1, dim> SurfacePairRows<dim>::rigid_displacement(    \
       const dealii::Point<dim> &, const RigidPose<dim> &,                      \
       const RigidPose<dim> &);                                                 \
   template std::vector<RigidPose<dim>> SurfacePairRows<dim>::poses() const;    \
@@ -495,7 +496,7 @@ namespace abut::shim
       std::vector<RigidPose<dim>>, bool) const;                                \
   template void SurfacePairRows<dim>::drop_covered(                            \
       std::vector<std::uint8_t> &) const;                                      \
-  template void SurfacePairRows<dim>::refuse_turns(                            \
+  template void SurfacePairRows<dim>::refuse_large_rotations(                  \
       const std::vector<RigidPose<dim>> &,                                     \
       const std::vector<RigidPose<dim>> &) const;                              \
   template void SurfacePairRows<dim>::copy_to_tangents(std::vector<double> &)  \

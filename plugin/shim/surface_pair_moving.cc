@@ -104,7 +104,7 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::note_place(const std::vector<Direction> &u)
+  void SurfacePairRows<dim>::record_place(const std::vector<Direction> &u)
   {
     present_.clear();
     reference_.clear();
@@ -149,7 +149,7 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::take_hessians(const Pair &pair,
+  void SurfacePairRows<dim>::copy_hessians(const Pair &pair,
                                            const abut_coupling_view &view)
   {
     const std::size_t first = places_.size() - view.n_points;
@@ -285,9 +285,9 @@ namespace abut::shim
   }
 
   template <int dim>
-  typename SurfacePairRows<dim>::Kept SurfacePairRows<dim>::keep()
+  typename SurfacePairRows<dim>::SavedPoints SurfacePairRows<dim>::save_points()
   {
-    Kept kept;
+    SavedPoints kept;
     kept.points = points_;
     kept.places = places_;
     kept.checks = checks_;
@@ -298,7 +298,7 @@ namespace abut::shim
     return kept;
   }
 
-  template <int dim> void SurfacePairRows<dim>::put_back(Kept kept)
+  template <int dim> void SurfacePairRows<dim>::restore_points(SavedPoints kept)
   {
     points_ = kept.points;
     places_ = std::move(kept.places);
@@ -317,9 +317,9 @@ namespace abut::shim
       const std::vector<Direction> &) const;                                   \
   template std::vector<double> SurfacePairRows<dim>::motions(                  \
       const std::vector<Direction> &);                                         \
-  template void SurfacePairRows<dim>::note_place(                              \
+  template void SurfacePairRows<dim>::record_place(                            \
       const std::vector<Direction> &);                                         \
-  template void SurfacePairRows<dim>::take_hessians(                           \
+  template void SurfacePairRows<dim>::copy_hessians(                           \
       const Pair &, const abut_coupling_view &);                               \
   template std::vector<double> SurfacePairRows<dim>::places_of(                \
       const std::vector<Node> &, const std::vector<dealii::Point<dim>> &);     \
@@ -330,8 +330,9 @@ namespace abut::shim
   template std::vector<solve::GapLine> SurfacePairRows<dim>::gap_lines(        \
       const std::vector<std::uint8_t> &) const;                                \
   template void SurfacePairRows<dim>::make_isotropic(la::Vector &) const;      \
-  template SurfacePairRows<dim>::Kept SurfacePairRows<dim>::keep();            \
-  template void SurfacePairRows<dim>::put_back(Kept);
+  template SurfacePairRows<dim>::SavedPoints                                   \
+  SurfacePairRows<dim>::save_points();                                         \
+  template void SurfacePairRows<dim>::restore_points(SavedPoints);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

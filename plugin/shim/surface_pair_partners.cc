@@ -35,21 +35,21 @@ namespace abut::shim
       return;
     if (!MPI::logical_or(u != partners_place_, communicator_))
       return;
-    const Kept kept = keep();
+    const SavedPoints kept = save_points();
     const Handle<abut_points> there = create_points(context_, dim);
     const auto find_there = [&]
     {
       points_ = there.get();
       places_.clear();
       checks_.clear();
-      note_place(u);
+      record_place(u);
       check(context_, abut_points_get(points_, &view_));
       find_pairs(motions(u));
       // Components are known by their place among those that stay.
       std::vector<std::uint8_t> components(view_.n_components, 1);
       drop_needless(components);
       filter(components);
-      note_partners();
+      record_partners();
     };
     try
     {
@@ -57,14 +57,14 @@ namespace abut::shim
     }
     catch (...)
     {
-      put_back(kept);
+      restore_points(kept);
       throw;
     }
-    put_back(kept);
+    restore_points(kept);
     partners_place_ = u;
   }
 
-  template <int dim> void SurfacePairRows<dim>::note_partners()
+  template <int dim> void SurfacePairRows<dim>::record_partners()
   {
     partners_.clear();
     for_each_row(
@@ -107,7 +107,7 @@ namespace abut::shim
   template bool SurfacePairRows<dim>::has_partners(const Pair &) const;        \
   template void SurfacePairRows<dim>::find_partners(                           \
       const std::vector<Direction> &);                                         \
-  template void SurfacePairRows<dim>::note_partners();                         \
+  template void SurfacePairRows<dim>::record_partners();                       \
   template const typename SurfacePairRows<dim>::Partners *                     \
   SurfacePairRows<dim>::partners_of(const Component &) const;                  \
   template double SurfacePairRows<dim>::reference_of_slip(                     \

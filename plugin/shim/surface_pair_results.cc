@@ -27,7 +27,7 @@ namespace abut::shim
 
     /** Angle between the normals of two facets that is too much for a smooth
      * surface, degrees: a circle of 12 facets. */
-    constexpr double large_turn = 30.;
+    constexpr double large_rotation = 30.;
 
     /** Initial overlap, in sizes of a facet, that is worth a word. */
     constexpr double large_overlap = 0.3;
@@ -74,9 +74,9 @@ namespace abut::shim
       abut_surface_view view;
       check(context_, abut_surface_get(side.surface.get(), &view));
       if (side.n_facets() > 0)
-        check(context_, abut_surface_features(side.surface.get(),
-                                              large_turn * M_PI / 180. - 1e-6,
-                                              mask.data()));
+        check(context_, abut_surface_features(
+                            side.surface.get(),
+                            large_rotation * M_PI / 180. - 1e-6, mask.data()));
       bool found = false;
       for (int f = 0; f < side.n_facets() && !found; ++f)
       {
@@ -125,7 +125,7 @@ namespace abut::shim
           const dealii::Point<dim> place =
               row.place.node < 0 ? row.place.position
                                  : surface_.nodes[row.place.node].point;
-          nodes.push_back(place - way_of(place, now, first));
+          nodes.push_back(place - rigid_displacement(place, now, first));
         });
     std::vector<double> distance;
     run_everywhere<ContactError>(
@@ -239,7 +239,8 @@ namespace abut::shim
     if (!bends.empty())
       result.warnings.push_back(coded(
           ABUT_FAILURE_COARSE_CURVE,
-          "Facets of the " + bends + " turn by more than " + text(large_turn)
+          "Facets of the " + bends + " turn by more than "
+              + text(large_rotation)
               + " degrees at a node in the contact zone: normals and gaps "
                 "there are those of a polygon, and so are the pressures. "
                 "Refine the surface, or leave the corner out of the pair."));
@@ -252,13 +253,13 @@ namespace abut::shim
     // The width of others is unknown.
     if (result.n_rows == 0 && pair.data.obstacle
         && std::isfinite(pair.data.obstacle->depth()))
-      find_narrow(pair, made());
+      find_narrowest_width(pair, made());
     if (result.n_rows == 0 && pair.data.obstacle
-        && pair.narrow.is_below_facets())
+        && pair.narrowest.is_below_facets())
       result.warnings.push_back(coded(
           ABUT_FAILURE_UNSEEN, "no node of the surface is within reach of the "
                                "obstacle: "
-                                   + pair.narrow.text()));
+                                   + pair.narrowest.text()));
     else if (result.n_rows == 0 && pair.data.obstacle)
     {
       const std::string side = wrong_side(pairs_[number]);
@@ -308,11 +309,12 @@ namespace abut::shim
       results[p] = pairs_[p].measured;
       results[p].name = pairs_[p].data.name;
       results[p].least_pressure = none;
-      const abut_direction_change &turn = pairs_[p].turn;
-      results[p].turn = turn.force > 0. ? turn.sum / turn.force : 0.;
-      results[p].largest_turn = turn.largest;
+      const abut_direction_change &rotation = pairs_[p].rotation;
+      results[p].rotation =
+          rotation.force > 0. ? rotation.sum / rotation.force : 0.;
+      results[p].largest_rotation = rotation.largest;
       for (unsigned int d = 0; d < dim; ++d)
-        results[p].turned_force[d] = turn.change[d];
+        results[p].rotated_force[d] = rotation.change[d];
     }
     for_each_component(
         [&](const Component &row)

@@ -195,10 +195,10 @@ namespace abut::shim
     if (!settings_.method.solve_known_failures
         || message.failure == ABUT_FAILURE_NONE)
       throw ContactError(about_pair(pair.data.name, message));
-    const bool is_noted = std::any_of(
+    const bool is_recorded = std::any_of(
         pair.refused.begin(), pair.refused.end(),
         [&](const Message &each) { return each.failure == message.failure; });
-    if (!is_noted)
+    if (!is_recorded)
       pair.refused.push_back(message);
   }
 
@@ -443,7 +443,7 @@ namespace abut::shim
       places_.push_back(place);
     }
     if (pair.has_current_directions())
-      take_hessians(pair, view);
+      copy_hessians(pair, view);
     if (pair.is_displaced())
       check(context_,
             abut_points_set_origin(points_, view.first, view.n_points,
@@ -686,7 +686,7 @@ namespace abut::shim
     places_.clear();
     checks_.clear();
     check(context_, abut_points_clear(points_));
-    note_place(moves() ? u : place);
+    record_place(moves() ? u : place);
     made_place_ = moves() ? displacement : last_commit();
     if (n_finds_ == 1)
       look_inside(displacement);

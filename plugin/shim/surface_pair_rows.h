@@ -19,7 +19,7 @@
 namespace abut::shim
 {
   /** Rows of a pair that press where its surfaces are apart. */
-  struct Apart
+  struct SeparatedRows
   {
     double gap = 0.;             ///< largest distance, length
     double force = 0., all = 0.; ///< sums of these rows and of all that press
@@ -81,7 +81,7 @@ namespace abut::shim
 
     /** Record the displacement of a commit(): bodies whose points move look for
      * each other as far as they have come since. */
-    void note_commit(const la::Vector &displacement)
+    void record_commit(const la::Vector &displacement)
     {
       searched_from_ = moves() ? displacement : la::Vector();
       look_at_sides(displacement);
@@ -98,10 +98,10 @@ namespace abut::shim
     /** Give all components of a node of the surfaces their mean. */
     void make_isotropic(la::Vector &value) const;
 
-    struct Kept;
+    struct SavedPoints;
     /** Take the points of find() out, and put them back after another one. */
-    Kept keep();
-    void put_back(Kept kept);
+    SavedPoints save_points();
+    void restore_points(SavedPoints kept);
 
     /** Take the gaps of @p pairs, which differ in nothing else from those given
      * before. */
@@ -134,36 +134,38 @@ namespace abut::shim
                                     const std::vector<double> &gap,
                                     unsigned int n_sweeps,
                                     la::Vector &displacement) const override;
-    std::vector<Unseen> unseen(const la::Vector &displacement,
-                               const std::uint8_t *row_state) override;
+    std::vector<FacetPenetration>
+    facet_penetrations(const la::Vector &displacement,
+                       const std::uint8_t *row_state) override;
     void push_inside(const std::vector<double> &gap, std::vector<double> margin,
                      la::Vector &displacement) const override;
 
     /** Measure for results() slip and rotation at closed rows, errors of gaps,
-     * and the result of unseen(). Collective. */
+     * and the result of facet_penetrations(). Collective. */
     void examine(const la::Vector &displacement, const double *row_pressure,
                  const double *row_gap, const std::uint8_t *row_state,
-                 const std::vector<Unseen> &unseen);
+                 const std::vector<FacetPenetration> &facet_penetrations);
 
     /** Rows of pairs between bodies that press where these are apart, by the
      * last examine(). @p visible: [pairs] least distance, length. Collective.
      */
-    std::vector<Apart> apart(const std::vector<double> &visible,
-                             const double *row_pressure, const double *row_gap,
-                             const std::uint8_t *row_state);
+    std::vector<SeparatedRows> apart(const std::vector<double> &visible,
+                                     const double *row_pressure,
+                                     const double *row_gap,
+                                     const std::uint8_t *row_state);
 
     /** [rows] How far apart surfaces are around the rows of mortar that moves:
      * the least gap, length, at nodes of both sides and at points of
      * integration, of the law; infinite for other rows. Collective. */
     std::vector<double> clearances(const la::Vector &displacement);
 
-    using Narrow = ObstacleWidth;
+    using NarrowestWidth = ObstacleWidth;
 
     /** The obstacle of a pair where it is narrowest for the facets, by the last
      * examine(). */
-    const Narrow &narrow(std::size_t pair) const
+    const NarrowestWidth &narrowest(std::size_t pair) const
     {
-      return pairs_[pair].narrow;
+      return pairs_[pair].narrowest;
     }
 
     /** Width of the obstacle and size of the nearest facet, if the place of
@@ -224,7 +226,7 @@ namespace abut::shim
     bool has_steps() const;
 
     /** Let facets be known that are near each other at @p displacement, so
-     * that what is kept meanwhile by keep() stays good. Collective. */
+     * that what is kept meanwhile by save_points() stays good. Collective. */
     void bring_in_reach(const la::Vector &displacement)
     {
       displacements_in_reach(displacement);
@@ -371,7 +373,7 @@ namespace abut::shim
 
   public:
     /** The points of a find(), to be put back after another one. */
-    struct Kept
+    struct SavedPoints
     {
       abut_points *points = nullptr;
       std::vector<Place> places;
@@ -431,18 +433,18 @@ namespace abut::shim
     std::vector<RigidPose<dim>> poses_before(std::vector<RigidPose<dim>> now,
                                              bool of_step) const;
     /** How far the point of a rigid body that is at @p place now has come. */
-    static Direction way_of(const dealii::Point<dim> &place,
-                            const RigidPose<dim> &then,
-                            const RigidPose<dim> &now);
+    static Direction rigid_displacement(const dealii::Point<dim> &place,
+                                        const RigidPose<dim> &then,
+                                        const RigidPose<dim> &now);
     /** Throws for obstacles with friction that turn too far for the chord to be
      * their way. */
-    void refuse_turns(const std::vector<RigidPose<dim>> &then,
-                      const std::vector<RigidPose<dim>> &now) const;
+    void refuse_large_rotations(const std::vector<RigidPose<dim>> &then,
+                                const std::vector<RigidPose<dim>> &now) const;
     using Partners = CommittedPartners;
     /** Find them if nodes were displaced by @p u then; nothing happens if they
      * are those. Collective. */
     void find_partners(const std::vector<Direction> &u);
-    void note_partners();
+    void record_partners();
     /** Partners of a row, or null. */
     const Partners *partners_of(const Component &row) const;
     /** The value of a tangent's row that is no slip since then, or since nodes
@@ -482,16 +484,18 @@ namespace abut::shim
     void sample_facets(std::size_t pair, const std::vector<Direction> &u,
                        const std::vector<std::uint8_t> &touching,
                        const std::vector<std::uint8_t> &touching_facets,
-                       std::vector<Unseen> &found) const;
+                       std::vector<FacetPenetration> &found) const;
     /** Where the place of the obstacle that is now at @p place was before the
      * present step. */
     dealii::Point<dim> place_before(std::size_t pair,
                                     const dealii::Point<dim> &place) const;
-    void find_narrow(Pair &pair, const std::vector<Direction> &u) const;
+    void find_narrowest_width(Pair &pair,
+                              const std::vector<Direction> &u) const;
     class PressedPoints;
     /** Measure the rotation of directions since rows were made. Collective. */
-    void find_turns(const std::vector<Direction> &u, const double *row_pressure,
-                    const std::uint8_t *row_state);
+    void find_rotations(const std::vector<Direction> &u,
+                        const double *row_pressure,
+                        const std::uint8_t *row_state);
     /** [nodes] Distance of the pair's other side from facets around a node of
      * the secondary, or from a node of the primary, as far as it is known. */
     std::vector<double>
@@ -564,7 +568,7 @@ namespace abut::shim
      * Collective. */
     void renew_sides();
     /** Make sides of facets that have other ids now. Collective. */
-    void take_sides(const la::Vector *place);
+    void assign_sides(const la::Vector *place);
     bool is_owned(Node node) const;
     double motion(const Pair &pair, const std::vector<Direction> &u) const;
     /** [pairs] how far they have come since the last search. */
@@ -578,7 +582,7 @@ namespace abut::shim
     void build(const Pair &pair, abut_coupling *coupling,
                const std::vector<std::uint8_t> &dropped, double motion,
                const abut_coupling_target &target) const;
-    void note_place(const std::vector<Direction> &u);
+    void record_place(const std::vector<Direction> &u);
     /** Displacements that the next find() makes points at, unless they move; 0
      * but for pairs that do so step by step. Collective. */
     std::vector<Direction> place_of_step();
@@ -596,15 +600,16 @@ namespace abut::shim
     static std::vector<Direction>
     difference(std::vector<Direction> u, const std::vector<Direction> &from);
     /** The way since the points were made. */
-    std::vector<Direction> way_since(const std::vector<Direction> &u) const;
-    void take_hessians(const Pair &pair, const abut_coupling_view &view);
+    std::vector<Direction>
+    displacement_since(const std::vector<Direction> &u) const;
+    void copy_hessians(const Pair &pair, const abut_coupling_view &view);
     /** From the place that is opposite a point of mortar to its own, if nodes
      * are displaced by @p u. */
     Direction apart(std::size_t point, const std::vector<Direction> &u) const;
     /** How far the two sides of a row have come against each other since they
      * were paired, or since the step began. */
-    Direction way_of_partners(const Component &row,
-                              const std::vector<Direction> &u) const;
+    Direction relative_displacement(const Component &row,
+                                    const std::vector<Direction> &u) const;
     /** [nodes of the side * dim] */
     static std::vector<double>
     places_of(const std::vector<Node> &nodes,

@@ -91,11 +91,11 @@ namespace abut::shim
     sides_seen_ = place;
     // Two sides that come as near in this step as in the last one, and again.
     if (exchange_->renew_sides(place, 4. * way.linfty_norm(), context_))
-      take_sides(&place);
+      assign_sides(&place);
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::take_sides(const la::Vector *const place)
+  void SurfacePairRows<dim>::assign_sides(const la::Vector *const place)
   {
     for (Pair &pair : pairs_)
       if (SelfContact<dim>::is_split(pair.data))
@@ -111,7 +111,7 @@ namespace abut::shim
   {
     sides_place_.reset();
     if (exchange_->load_sides(stream))
-      take_sides(nullptr);
+      assign_sides(nullptr);
   }
 
   template <int dim> std::uint64_t SurfacePairRows<dim>::mesh_signature() const
@@ -241,7 +241,7 @@ namespace abut::shim
     // Nodes have other numbers; points stay where they were made. Ranks without
     // nodes take part.
     if (points_ != nullptr && (moves() || has_steps()))
-      note_place(exchange_->displacements_as_given(surface_, made_place_));
+      record_place(exchange_->displacements_as_given(surface_, made_place_));
 
     const auto index_of = [](const auto &list, const std::int64_t number)
     {

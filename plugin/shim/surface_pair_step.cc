@@ -57,8 +57,8 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<1, dim>>
-  SurfacePairRows<dim>::way_since(const std::vector<Direction> &u) const
+  std::vector<dealii::Tensor<1, dim>> SurfacePairRows<dim>::displacement_since(
+      const std::vector<Direction> &u) const
   {
     std::vector<Direction> result(u);
     for (std::size_t n = 0; n < u.size() && !present_.empty(); ++n)
@@ -72,7 +72,7 @@ namespace abut::shim
   {
     if (!has_steps())
       return true;
-    const std::vector<Direction> way = way_since(place);
+    const std::vector<Direction> way = displacement_since(place);
     return std::all_of(pairs_.begin(), pairs_.end(),
                        [&](const Pair &pair)
                        {
@@ -85,9 +85,8 @@ namespace abut::shim
   }
 
   template <int dim>
-  dealii::Tensor<1, dim>
-  SurfacePairRows<dim>::way_of_partners(const Component &row,
-                                        const std::vector<Direction> &u) const
+  dealii::Tensor<1, dim> SurfacePairRows<dim>::relative_displacement(
+      const Component &row, const std::vector<Direction> &u) const
   {
     const Pair &pair = pairs_[row.place.pair];
     // A turn of both sides is no slip: by places, which have been opposite each
@@ -133,7 +132,7 @@ namespace abut::shim
           if ((!pairs_[p].has_committed_points() && !stays(pairs_[p]))
               || row_state[row.row] == ABUT_STATE_OPEN)
             return;
-          const Direction motion = way_of_partners(row, u);
+          const Direction motion = relative_displacement(row, u);
           const Direction n = row.direction / row.direction.norm();
           result[p].slip =
               std::max(result[p].slip, (motion - (motion * n) * n).norm());
@@ -164,14 +163,14 @@ namespace abut::shim
                 std::vector<std::uint8_t> marks;
                 for (const Node node : side->node)
                   marks.push_back(marked[p][node]);
-                double turn = 0.;
+                double rotation = 0.;
                 if (pair.has_committed_points())
                   check(context_,
                         abut_surface_rotation(
                             side->surface.get(), marks.data(),
                             places_of(side->node, present_).data(),
-                            places_of(side->node, now).data(), &turn));
-                motion.turn = std::max(motion.turn, turn);
+                            places_of(side->node, now).data(), &rotation));
+                motion.rotation = std::max(motion.rotation, rotation);
               }
               continue;
             }
@@ -181,12 +180,12 @@ namespace abut::shim
             std::vector<Direction> normal;
             pair.data.obstacle->distance(places[p], distance, &normal);
             for (std::size_t i = 0; i < normal.size(); i += 2)
-              motion.turn =
-                  std::max(motion.turn, angle<dim>(normal[i], normal[i + 1]));
+              motion.rotation = std::max(motion.rotation,
+                                         angle<dim>(normal[i], normal[i + 1]));
           }
         });
     for (StepMotion &motion : result)
-      for (double *value : {&motion.slip, &motion.turn})
+      for (double *value : {&motion.slip, &motion.rotation})
         *value = MPI::max(*value, communicator_);
     return result;
   }
@@ -199,10 +198,11 @@ namespace abut::shim
   SurfacePairRows<dim>::difference(std::vector<Direction>,                     \
                                    const std::vector<Direction> &);            \
   template std::vector<dealii::Tensor<1, dim>>                                 \
-  SurfacePairRows<dim>::way_since(const std::vector<Direction> &) const;       \
+  SurfacePairRows<dim>::displacement_since(const std::vector<Direction> &)     \
+      const;                                                                   \
   template bool SurfacePairRows<dim>::is_where_made(                           \
       const std::vector<Direction> &) const;                                   \
-  template dealii::Tensor<1, dim> SurfacePairRows<dim>::way_of_partners(       \
+  template dealii::Tensor<1, dim> SurfacePairRows<dim>::relative_displacement( \
       const Component &, const std::vector<Direction> &) const;                \
   template std::vector<StepMotion> SurfacePairRows<dim>::step_motion(          \
       const la::Vector &, const std::uint8_t *);

@@ -88,7 +88,8 @@ namespace abut::shim
 
     /** Where nodes are displaced by @p u. */
     abut_direction_change
-    turn_at_obstacle(const Pair &pair, const std::vector<Direction> &u) const
+    rotation_at_obstacle(const Pair &pair,
+                         const std::vector<Direction> &u) const
     {
       const std::size_t n_nodes = rows_.surface_.nodes.size();
       std::vector<double> way, into, size;
@@ -124,15 +125,15 @@ namespace abut::shim
                     directions_at(*pair.data.obstacle, now, into, size));
     }
 
-    abut_direction_change turn_of_bodies(Pair &pair,
-                                         const std::vector<Direction> &u) const
+    abut_direction_change
+    rotation_of_bodies(Pair &pair, const std::vector<Direction> &u) const
     {
       const std::size_t n_nodes = rows_.surface_.nodes.size();
-      std::vector<dealii::Point<dim>> undeformed(n_nodes), now(n_nodes);
+      std::vector<dealii::Point<dim>> reference(n_nodes), now(n_nodes);
       for (std::size_t n = 0; n < n_nodes; ++n)
       {
-        undeformed[n] = rows_.surface_.nodes[n].point;
-        now[n] = undeformed[n] + u[n];
+        reference[n] = rows_.surface_.nodes[n].point;
+        now[n] = reference[n] + u[n];
       }
       // Nearest points have the direction of the primary's facets, all others
       // that of the secondary, see abut/coupling.h.
@@ -142,12 +143,12 @@ namespace abut::shim
       const auto directions_of = [&](const auto &place)
       {
         const DisplacedSides<dim> displaced(rows_.context_, pair.secondary,
-                                            pair.primary, undeformed, place);
+                                            pair.primary, reference, place);
         return sums(of_primary ? ABUT_SIDE_PRIMARY : ABUT_SIDE_SECONDARY,
                     inward_normals(rows_.context_, side, n_nodes));
       };
       return change(
-          directions_of(pair.is_displaced() ? rows_.present_ : undeformed),
+          directions_of(pair.is_displaced() ? rows_.present_ : reference),
           directions_of(now));
     }
 
@@ -186,9 +187,9 @@ namespace abut::shim
   };
 
   template <int dim>
-  void SurfacePairRows<dim>::find_turns(const std::vector<Direction> &u,
-                                        const double *row_pressure,
-                                        const std::uint8_t *row_state)
+  void SurfacePairRows<dim>::find_rotations(const std::vector<Direction> &u,
+                                            const double *row_pressure,
+                                            const std::uint8_t *row_state)
   {
     run_everywhere<ContactError>(
         communicator_,
@@ -197,27 +198,28 @@ namespace abut::shim
           for (std::size_t p = 0; p < pairs_.size(); ++p)
           {
             Pair &pair = pairs_[p];
-            pair.turn = {};
+            pair.rotation = {};
             // A tie's force has any direction.
             if (pair.data.tied)
               continue;
             const PressedPoints pressed(*this, p, row_pressure, row_state);
-            pair.turn = pair.data.obstacle ? pressed.turn_at_obstacle(pair, u)
-                                           : pressed.turn_of_bodies(pair, u);
+            pair.rotation = pair.data.obstacle
+                                ? pressed.rotation_at_obstacle(pair, u)
+                                : pressed.rotation_of_bodies(pair, u);
           }
         });
     for (Pair &pair : pairs_)
     {
-      abut_direction_change &turn = pair.turn;
-      for (double *value : {&turn.force, &turn.sum, turn.change,
-                            turn.change + 1, turn.change + 2})
+      abut_direction_change &rotation = pair.rotation;
+      for (double *value : {&rotation.force, &rotation.sum, rotation.change,
+                            rotation.change + 1, rotation.change + 2})
         *value = MPI::sum(*value, communicator_);
-      turn.largest = MPI::max(turn.largest, communicator_);
+      rotation.largest = MPI::max(rotation.largest, communicator_);
     }
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template void SurfacePairRows<dim>::find_turns(                              \
+  template void SurfacePairRows<dim>::find_rotations(                          \
       const std::vector<Direction> &, const double *, const std::uint8_t *);
 
   ABUT_INSTANTIATE(2)

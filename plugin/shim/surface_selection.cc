@@ -251,7 +251,7 @@ namespace abut::shim
         write(facets_.at(number), mail[rank]);
     for (auto &[rank, parcel] : post_.exchange(mail))
       while (!parcel.at_end())
-        take(read_facet(parcel), near);
+        add_facet(read_facet(parcel), near);
     add_ring(near, beyond);
     links_ = links;
     search_ = search;

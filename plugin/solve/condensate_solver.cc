@@ -8,8 +8,8 @@
 
 namespace abut::solve
 {
-  void CondensateSolver::take(const Stiffness &stiffness,
-                              const PointOperator &rows)
+  void CondensateSolver::set_stiffness(const Stiffness &stiffness,
+                                       const PointOperator &rows)
   {
     rows_ = &rows;
     diagonal_ = stiffness.diagonal();

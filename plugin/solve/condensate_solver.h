@@ -70,7 +70,7 @@ namespace abut::solve
 
   protected:
     /** Set what is below and the matrix, with nothing condensed. Collective. */
-    void take(const Stiffness &stiffness, const PointOperator &rows);
+    void set_stiffness(const Stiffness &stiffness, const PointOperator &rows);
 
     /** [owned] what springs make of the diagonal, as a part of what it is then:
      * 1 without springs. Collective. */

@@ -29,7 +29,7 @@ namespace abut::solve
                             const std::vector<double> &row_stiffness)
   {
     solver_->reinit(stiffness, rows, row_stiffness);
-    take(stiffness, rows, row_stiffness);
+    set_stiffness(stiffness, rows, row_stiffness);
     saddle_point_.reset();
   }
 
@@ -38,13 +38,14 @@ namespace abut::solve
                            const std::vector<double> &row_stiffness)
   {
     solver_->renew(stiffness, rows, row_stiffness);
-    take(stiffness, rows, row_stiffness);
+    set_stiffness(stiffness, rows, row_stiffness);
     if (saddle_point_ != nullptr)
       saddle_point_->renew(stiffness, rows, row_stiffness);
   }
 
-  void Condensation::take(const Stiffness &stiffness, const PointOperator &rows,
-                          const std::vector<double> &row_stiffness)
+  void Condensation::set_stiffness(const Stiffness &stiffness,
+                                   const PointOperator &rows,
+                                   const std::vector<double> &row_stiffness)
   {
     stiffness_ = stiffness;
     rows_ = &rows;

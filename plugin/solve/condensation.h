@@ -49,8 +49,8 @@ namespace abut::solve
                        la::Vector &increment) override;
 
   private:
-    void take(const Stiffness &stiffness, const PointOperator &rows,
-              const std::vector<double> &row_stiffness);
+    void set_stiffness(const Stiffness &stiffness, const PointOperator &rows,
+                       const std::vector<double> &row_stiffness);
     void make_saddle_point();
     bool condense();
     la::Vector right_hand_side(const la::Vector &residual,

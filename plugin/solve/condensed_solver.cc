@@ -82,7 +82,7 @@ namespace abut::solve
                                const PointOperator &rows,
                                const std::vector<double> &row_stiffness)
   {
-    take(stiffness.matrix(), rows, row_stiffness);
+    set_stiffness(stiffness.matrix(), rows, row_stiffness);
     keeper_.forget();
     filter_.reset();
     multigrid_.reset();
@@ -102,14 +102,14 @@ namespace abut::solve
         || built_.pivot.size() != static_cast<std::size_t>(rows.n_rows()))
       reinit(stiffness, rows, row_stiffness);
     else
-      take(stiffness.matrix(), rows, row_stiffness);
+      set_stiffness(stiffness.matrix(), rows, row_stiffness);
   }
 
-  void CondensedSolver::take(const la::Matrix &stiffness,
-                             const PointOperator &rows,
-                             const std::vector<double> &row_stiffness)
+  void CondensedSolver::set_stiffness(const la::Matrix &stiffness,
+                                      const PointOperator &rows,
+                                      const std::vector<double> &row_stiffness)
   {
-    CondensateSolver::take(stiffness, rows);
+    CondensateSolver::set_stiffness(stiffness, rows);
     stiffness_ = &stiffness;
     has_new_matrix_ = true;
     row_stiffness_ = row_stiffness;
@@ -208,7 +208,7 @@ namespace abut::solve
     if (!choice_.is_geometric())
       return make_multigrid(system, parameters_, space_, matrix_.has_blocks());
     auto result = std::make_unique<GeometricMultigrid>(system, *space_.meshes);
-    result->hold(held_by_pivots(), {});
+    result->set_constrained(held_by_pivots(), {});
     return result;
   }
 
@@ -251,7 +251,7 @@ namespace abut::solve
       geometric_->set_matrix(*stiffness_);
     has_new_matrix_ = false;
     geometric_->set_terms(terms);
-    geometric_->hold(held_by_pivots(), {});
+    geometric_->set_constrained(held_by_pivots(), {});
   }
 
   void CondensedSolver::build()
@@ -264,7 +264,7 @@ namespace abut::solve
     const bool has_model =
         matrix_.has_blocks() && !is_direct() && !matrix_.is_plain();
     built_ = has_model ? without_friction_forces() : matrix_.condensate();
-    keeper_.note_built();
+    keeper_.record_build();
     const bool is_filtered =
         !is_direct() && parameters_.contact_filter && has_stiff_springs();
     if (choice_.is_geometric() && !is_filtered)
@@ -342,7 +342,7 @@ namespace abut::solve
     const dealii::Timer timer;
     matrix_.set(condensate);
     find_friction();
-    keeper_.note_kept();
+    keeper_.record_reuse();
     if (is_outdated())
     {
       build();
@@ -457,7 +457,7 @@ namespace abut::solve
     }
     report.n_matvecs += control.last_step() * (filter_ ? 2 : 0);
     if (converged)
-      keeper_.note_speed(digits, control.last_step());
+      keeper_.record_speed(digits, control.last_step());
     return converged;
   }
 

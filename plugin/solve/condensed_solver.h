@@ -59,8 +59,8 @@ namespace abut::solve
     }
 
   private:
-    void take(const la::Matrix &stiffness, const PointOperator &rows,
-              const std::vector<double> &row_stiffness);
+    void set_stiffness(const la::Matrix &stiffness, const PointOperator &rows,
+                       const std::vector<double> &row_stiffness);
     bool is_outdated() const;
     void find_friction();
     /** Take from @p force the friction due to the pressure of stiff springs.

@@ -101,7 +101,7 @@ namespace abut::solve
       }
 
       /** The sum, which is empty afterwards. */
-      SparseLine take()
+      SparseLine release()
       {
         for (const int column : line_.column)
           place_[column] = -1;
@@ -288,13 +288,13 @@ namespace abut::solve
     {
       for (int k = t.start[i]; k < t.start[i + 1]; ++k)
         sum.add(z[t.column[k]], t.value[k]);
-      const SparseLine line = sum.take();
+      const SparseLine line = sum.release();
       if (!z[i].empty())
       {
         sum.add(line, 1.);
         for (int k = t.start[i]; k < t.start[i + 1]; ++k)
           sum.add(t.column[k], t.value[k]);
-        h[i] = sum.take();
+        h[i] = sum.release();
       }
       pass_on(i, line);
     }
@@ -303,7 +303,7 @@ namespace abut::solve
       for (const auto &[q, value] : entries)
         if (const auto line = h.find(q); line != h.end())
           sum.add(line->second, value);
-      pass_on(j, sum.take());
+      pass_on(j, sum.release());
     }
   }
 

@@ -57,14 +57,16 @@ namespace abut::solve
                                 const PointOperator &rows,
                                 const std::vector<double> &row_stiffness)
   {
-    inner_->reinit(take(stiffness, rows, row_stiffness), rows, row_stiffness);
+    inner_->reinit(set_stiffness(stiffness, rows, row_stiffness), rows,
+                   row_stiffness);
   }
 
   void FreeMotionSolver::renew(const Stiffness &stiffness,
                                const PointOperator &rows,
                                const std::vector<double> &row_stiffness)
   {
-    inner_->renew(take(stiffness, rows, row_stiffness), rows, row_stiffness);
+    inner_->renew(set_stiffness(stiffness, rows, row_stiffness), rows,
+                  row_stiffness);
   }
 
   std::vector<PreconditionerState> FreeMotionSolver::state() const
@@ -78,32 +80,33 @@ namespace abut::solve
   }
 
   const Stiffness &
-  FreeMotionSolver::take(const Stiffness &stiffness, const PointOperator &rows,
-                         const std::vector<double> &row_stiffness)
+  FreeMotionSolver::set_stiffness(const Stiffness &stiffness,
+                                  const PointOperator &rows,
+                                  const std::vector<double> &row_stiffness)
   {
     rows_ = &rows;
     row_stiffness_ = row_stiffness;
-    floating_.reinit(bodies_ ? *bodies_ : stiffness, rows, space_);
+    unsupported_.reinit(bodies_ ? *bodies_ : stiffness, rows, space_);
     find_turning(stiffness);
     diagonal_ =
-        floating_.empty() ? std::vector<double>() : stiffness.diagonal();
-    unfelt_ = unresisted(floating_.free_motions(
+        unsupported_.empty() ? std::vector<double>() : stiffness.diagonal();
+    uncoupled_ = unresisted(unsupported_.free_motions(
         rows, std::vector<std::uint8_t>(rows.n_rows(), 1)));
     fixed_.clear();
-    if (unfelt_.empty() || !stiffness.has_matrix())
+    if (uncoupled_.empty() || !stiffness.has_matrix())
       return stiffness;
-    fix_unfelt(stiffness);
+    fix_uncoupled(stiffness);
     return stiffness_;
   }
 
-  void FreeMotionSolver::fix_unfelt(const Stiffness &stiffness)
+  void FreeMotionSolver::fix_uncoupled(const Stiffness &stiffness)
   {
-    const std::size_t n = unfelt_.size();
+    const std::size_t n = uncoupled_.size();
     std::vector<la::Vector> motions;
-    for (const Combination &combination : unfelt_)
+    for (const Combination &combination : uncoupled_)
     {
       motions.push_back(stiffness.make_vector());
-      floating_.add(combination, motions.back());
+      unsupported_.add(combination, motions.back());
     }
     const std::vector<double> diagonal = stiffness.diagonal();
     const auto pinned = choose_pivots_of_span(
@@ -128,9 +131,9 @@ namespace abut::solve
   void FreeMotionSolver::find_turning(const Stiffness &stiffness)
   {
     turning_.clear();
-    if (!bodies_ || floating_.empty())
+    if (!bodies_ || unsupported_.empty())
       return;
-    const std::size_t n = floating_.size();
+    const std::size_t n = unsupported_.size();
     std::vector<double> works;
     for (std::size_t j = 0; j < n; ++j)
     {
@@ -138,9 +141,9 @@ namespace abut::solve
       one[j] = 1.;
       la::Vector motion = stiffness.make_vector();
       la::Vector force(motion);
-      floating_.add(one, motion);
+      unsupported_.add(one, motion);
       stiffness.vmult(force, motion);
-      const std::vector<double> work = floating_.work(force);
+      const std::vector<double> work = unsupported_.work(force);
       works.insert(works.end(), work.begin(), work.end());
     }
     turning_ = works;
@@ -168,7 +171,7 @@ namespace abut::solve
       for (unsigned int k = 0; k < n; ++k)
       {
         double sum = 0.;
-        const std::size_t all = floating_.size();
+        const std::size_t all = unsupported_.size();
         for (std::size_t a = 0; a < all; ++a)
           for (std::size_t b = 0; b < all; ++b)
             sum += motions[j][a] * turning_[a * all + b] * motions[k][b];
@@ -204,18 +207,18 @@ namespace abut::solve
         size += facet * dealii::Tensor<1, 3>(space_.point[i]).norm();
       internal += std::abs(diagonal_[i]) * size;
     }
-    return FloatingBodies::no_work * iteration_.load
+    return UnsupportedBodies::no_work * iteration_.load
            + round_off * MPI::sum(internal, rows_->communicator());
   }
 
   FreeMotionSolver::Combinations
-  FreeMotionSolver::felt(const Combinations &motions) const
+  FreeMotionSolver::coupled(const Combinations &motions) const
   {
-    if (unfelt_.empty())
+    if (uncoupled_.empty())
       return motions;
     // Gram and Schmidt: both are orthonormal, and one spans the other.
     constexpr double none = 1e-6;
-    Combinations result, basis(unfelt_);
+    Combinations result, basis(uncoupled_);
     for (Combination motion : motions)
     {
       for (const Combination &other : basis)
@@ -237,18 +240,18 @@ namespace abut::solve
     return result;
   }
 
-  bool FreeMotionSolver::check_unfelt(const la::Vector &residual)
+  bool FreeMotionSolver::check_uncoupled(const la::Vector &residual)
   {
-    if (unfelt_.empty())
+    if (uncoupled_.empty())
       return false;
     const Combinations refused =
         has_begun_ && fixed_.m() > 0
-            ? floating_.along_which_works(unfelt_, residual, no_work_)
-            : unfelt_;
+            ? unsupported_.along_which_works(uncoupled_, residual, no_work_)
+            : uncoupled_;
     if (!refused.empty() && has_begun_ && iteration_.turns)
       deferred_ = refused;
     else if (!refused.empty())
-      floating_.fail(
+      unsupported_.fail(
           refused,
           n_resisting(*rows_, std::vector<std::uint8_t>(rows_->n_rows(), 1)),
           "contact rows, open or not", "or tie it");
@@ -261,8 +264,8 @@ namespace abut::solve
   {
     Free free;
     free.resisting =
-        FloatingBodies::resisting(*rows_, local_, request, row_stiffness_);
-    free.motions = floating_.free_motions(*rows_, free.resisting.now);
+        UnsupportedBodies::resisting(*rows_, local_, request, row_stiffness_);
+    free.motions = unsupported_.free_motions(*rows_, free.resisting.now);
     if (free.motions.empty())
       return free;
     bool slips = false;
@@ -277,7 +280,7 @@ namespace abut::solve
 
   void FreeMotionSolver::find_work(const la::Vector &residual, Free &free) const
   {
-    const std::vector<double> work = floating_.work(residual);
+    const std::vector<double> work = unsupported_.work(residual);
     for (const Combination &motion : free.motions)
     {
       const double sum =
@@ -290,9 +293,9 @@ namespace abut::solve
 
   void FreeMotionSolver::find_mass(Free &free) const
   {
-    const std::size_t n = free.motions.size(), all = floating_.size();
+    const std::size_t n = free.motions.size(), all = unsupported_.size();
     std::vector<double> products, unused;
-    floating_.project(moved_, products, unused);
+    unsupported_.project(moved_, products, unused);
     free.mass.assign(n * n, 0.);
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t k = 0; k < n; ++k)
@@ -306,14 +309,14 @@ namespace abut::solve
   FreeMotionSolver::divide_by_mass(const Free &free,
                                    const std::vector<double> &right)
   {
-    return FloatingBodies::divide(free.mass, right);
+    return UnsupportedBodies::divide(free.mass, right);
   }
 
   FreeMotionSolver::Combination
   FreeMotionSolver::combine(const Combinations &motions,
                             const std::vector<double> &coefficients) const
   {
-    Combination result(floating_.size(), 0.);
+    Combination result(unsupported_.size(), 0.);
     for (std::size_t j = 0; j < motions.size(); ++j)
       for (std::size_t k = 0; k < result.size(); ++k)
         result[k] += coefficients[j] * motions[j][k];
@@ -325,10 +328,10 @@ namespace abut::solve
   {
     la::Vector result(residual), motion(residual);
     motion = 0.;
-    floating_.add(combine(free.motions, divide_by_mass(free, free.forces)),
-                  motion);
+    unsupported_.add(combine(free.motions, divide_by_mass(free, free.forces)),
+                     motion);
     for (int i = 0; i < la::n_owned(result); ++i)
-      la::data(result)[i] += floating_.share(i) * la::data(motion)[i];
+      la::data(result)[i] += unsupported_.share(i) * la::data(motion)[i];
     return result;
   }
 
@@ -338,8 +341,8 @@ namespace abut::solve
       std::vector<double> &force)
   {
     std::vector<std::vector<double>> gap_change;
-    for (const Combination &motion : felt(free.motions))
-      gap_change.push_back(floating_.gap_change(motion));
+    for (const Combination &motion : coupled(free.motions))
+      gap_change.push_back(unsupported_.gap_change(motion));
     const std::size_t n = gap_change.size();
     const RowBlocks blocks(request);
     std::vector<std::int64_t> own(rows_->n_rows());
@@ -379,7 +382,7 @@ namespace abut::solve
     return report;
   }
 
-  void FreeMotionSolver::take_forces_of_springs(Free &free) const
+  void FreeMotionSolver::find_spring_forces(Free &free) const
   {
     free.works = false;
     free.forces.assign(free.motions.size(), 0.);
@@ -387,7 +390,8 @@ namespace abut::solve
         std::max(no_work_, 10. * iteration_.linear_tolerance * iteration_.load);
     for (std::size_t k = 0; k < free.motions.size(); ++k)
     {
-      const std::vector<double> change = floating_.gap_change(free.motions[k]);
+      const std::vector<double> change =
+          unsupported_.gap_change(free.motions[k]);
       double sum = 0.;
       for (std::size_t i = 0; i < free.springs.size(); ++i)
         sum += free.springs[i] * change[i];
@@ -411,12 +415,12 @@ namespace abut::solve
     return result;
   }
 
-  double FreeMotionSolver::way_to_touch(const Combination &motion,
-                                        const abut_request &request,
-                                        const bool others) const
+  double FreeMotionSolver::distance_to_contact(const Combination &motion,
+                                               const abut_request &request,
+                                               const bool others) const
   {
     constexpr double parallel = 1e-10;
-    const std::vector<double> change = floating_.gap_change(motion);
+    const std::vector<double> change = unsupported_.gap_change(motion);
     const auto &group = iteration_.group;
     const std::vector<std::uint8_t> apart =
         others ? groups_apart(request) : std::vector<std::uint8_t>();
@@ -433,10 +437,10 @@ namespace abut::solve
     return -MPI::max(way, rows_->communicator());
   }
 
-  double FreeMotionSolver::way_to_stick(const Combination &motion,
-                                        const abut_request &request) const
+  double FreeMotionSolver::distance_to_stick(const Combination &motion,
+                                             const abut_request &request) const
   {
-    const std::vector<double> change = floating_.gap_change(motion);
+    const std::vector<double> change = unsupported_.gap_change(motion);
     const int n = rows_->n_rows();
     double way = -infinite;
     for (int i = 0; i < n; ++i)
@@ -468,8 +472,8 @@ namespace abut::solve
     Combination part(motion);
     for (double &value : part)
       value *= distance;
-    floating_.add(part, increment);
-    const std::vector<double> change = floating_.gap_change(part);
+    unsupported_.add(part, increment);
+    const std::vector<double> change = unsupported_.gap_change(part);
     for (int i = 0; i < rows_->n_rows(); ++i)
       request.gap_change[i] += change[i];
   }
@@ -491,7 +495,7 @@ namespace abut::solve
     Combination part(motion);
     for (double &value : part)
       value *= distance;
-    iteration_.approach(floating_.of_bodies(part), apart);
+    iteration_.approach(unsupported_.of_bodies(part), apart);
   }
 
   FreeMotionSolver::Combination FreeMotionSolver::driven(const Free &free) const
@@ -510,9 +514,9 @@ namespace abut::solve
   {
     Free result;
     result.resisting = free.resisting;
-    result.motions = floating_.free_motions(*rows_, free.resisting.sticks);
+    result.motions = unsupported_.free_motions(*rows_, free.resisting.sticks);
     result.springs = free.springs;
-    take_forces_of_springs(result);
+    find_spring_forces(result);
     find_mass(result);
     return result;
   }
@@ -521,14 +525,14 @@ namespace abut::solve
                                  la::Vector &increment)
   {
     const Combination motion = driven(free);
-    const double way = way_to_touch(motion, request, free.slips);
+    const double way = distance_to_contact(motion, request, free.slips);
     const double to_stick =
-        free.slips ? way_to_stick(motion, request) : infinite;
+        free.slips ? distance_to_stick(motion, request) : infinite;
     if (to_stick < infinite && to_stick <= way)
     {
       move(motion,
            std::max(0., to_stick) * (1. + beyond_distance)
-               + beyond_slip * floating_.smallest_radius(),
+               + beyond_slip * unsupported_.smallest_radius(),
            request, increment);
       return;
     }
@@ -538,7 +542,7 @@ namespace abut::solve
         approach(motion, way, request, increment);
       move(motion,
            std::max(0., way) * beyond_distance
-               + beyond_size * floating_.smallest_radius(),
+               + beyond_size * unsupported_.smallest_radius(),
            request, increment);
       return;
     }
@@ -548,10 +552,10 @@ namespace abut::solve
     else if (iteration_.turns && !free.slips)
       deferred_ = {motion};
     else if (!free.slips || !pivot.motions.empty())
-      floating_.fail_in_contact(free.works && free.motions.size() > 1
-                                    ? Combinations{motion}
-                                    : free.motions,
-                                n_resisting(*rows_, free.resisting.now));
+      unsupported_.fail_in_contact(free.works && free.motions.size() > 1
+                                       ? Combinations{motion}
+                                       : free.motions,
+                                   n_resisting(*rows_, free.resisting.now));
     else
       slipping_ = motion;
   }
@@ -562,7 +566,7 @@ namespace abut::solve
     la::Vector moved(moved_);
     moved += increment;
     std::vector<double> products, work, right;
-    floating_.project(moved, products, work);
+    unsupported_.project(moved, products, work);
     for (const Combination &motion : free.motions)
     {
       double sum = 0.;
@@ -572,7 +576,7 @@ namespace abut::solve
     }
     const Combination motion =
         combine(free.motions, divide_by_mass(free, right));
-    const double way = way_to_touch(motion, request, false);
+    const double way = distance_to_contact(motion, request, false);
     move(motion, std::max(0., std::min(1., way)), request, increment);
   }
 
@@ -583,15 +587,15 @@ namespace abut::solve
   {
     slipping_.clear();
     deferred_.clear();
-    if (floating_.empty())
+    if (unsupported_.empty())
       return inner_->solve(given_residual, request, smallest_residual,
                            increment);
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
     if (!has_begun_)
     {
-      check_unfelt(given_residual);
-      floating_.check(*rows_, local_, request, row_stiffness_);
+      check_uncoupled(given_residual);
+      unsupported_.check(*rows_, local_, request, row_stiffness_);
       return inner_->solve(given_residual, request, smallest_residual,
                            increment);
     }
@@ -599,12 +603,12 @@ namespace abut::solve
       moved_.reinit(increment);
     no_work_ = work_tolerance();
     la::Vector forces(given_residual);
-    if (check_unfelt(forces))
+    if (check_uncoupled(forces))
     {
-      Free unfelt;
-      unfelt.motions = unfelt_;
-      find_work(forces, unfelt);
-      forces = balanced(unfelt, forces);
+      Free uncoupled;
+      uncoupled.motions = uncoupled_;
+      find_work(forces, uncoupled);
+      forces = balanced(uncoupled, forces);
     }
     const la::Vector &residual = forces;
     Free free = find_free(residual, request);
@@ -617,7 +621,7 @@ namespace abut::solve
           free, free.slips ? residual : balanced(free, residual), request,
           smallest_residual, increment, free.springs);
       if (free.slips)
-        take_forces_of_springs(free);
+        find_spring_forces(free);
       if (free.works)
         advance(free, request, increment);
       else
@@ -638,15 +642,15 @@ namespace abut::solve
   std::vector<BodyMotion>
   FreeMotionSolver::rigid_motions(const la::Vector &displacement) const
   {
-    return floating_.rigid_part(displacement);
+    return unsupported_.rigid_part(displacement);
   }
 
   std::vector<FreeMotion>
   FreeMotionSolver::end_iteration(const abut_request &request)
   {
     if (!slipping_.empty())
-      floating_.fail_slipping(slipping_);
-    if (floating_.empty())
+      unsupported_.fail_slipping(slipping_);
+    if (unsupported_.empty())
       return {};
     double weight = 0.;
     for (int i = 0; i < rows_->n_rows(); ++i)
@@ -667,11 +671,12 @@ namespace abut::solve
     }
     const double pressed = std::count(resists.begin(), resists.end(), 1);
     if (!deferred_.empty() && MPI::sum(pressed, rows_->communicator()) == 0.)
-      floating_.fail_in_contact(deferred_, 0.);
+      unsupported_.fail_in_contact(deferred_, 0.);
     std::vector<FreeMotion> result;
     for (const Combination &motion :
-         unresisted(floating_.free_motions(*rows_, resists)))
-      result.push_back({floating_.body(motion), floating_.describe(motion)});
+         unresisted(unsupported_.free_motions(*rows_, resists)))
+      result.push_back(
+          {unsupported_.body(motion), unsupported_.describe(motion)});
     return result;
   }
 } // namespace abut::solve

@@ -2,8 +2,8 @@
 #ifndef ABUT_SOLVE_FREE_MOTION_SOLVER_H
 #define ABUT_SOLVE_FREE_MOTION_SOLVER_H
 
-#include "floating_bodies.h"
 #include "row_solver.h"
+#include "unsupported_bodies.h"
 
 #include <memory>
 #include <optional>
@@ -47,14 +47,14 @@ namespace abut::solve
                        la::Vector &increment) override;
 
   private:
-    using Combination = FloatingBodies::Combination;
+    using Combination = UnsupportedBodies::Combination;
     using Combinations = std::vector<Combination>;
 
     /** The motions that the present request leaves free. */
     struct Free
     {
       Combinations motions;
-      FloatingBodies::Resisting resisting;
+      UnsupportedBodies::Resisting resisting;
       bool slips = false;          ///< friction acts along some of them
       std::vector<double> forces;  ///< [motions] work of the loads
       std::vector<double> springs; ///< [rows] forces of springs, with slips
@@ -62,15 +62,16 @@ namespace abut::solve
       std::vector<double> mass;    ///< [motions x motions]
     };
 
-    const Stiffness &take(const Stiffness &stiffness, const PointOperator &rows,
-                          const std::vector<double> &row_stiffness);
-    void fix_unfelt(const Stiffness &stiffness);
+    const Stiffness &set_stiffness(const Stiffness &stiffness,
+                                   const PointOperator &rows,
+                                   const std::vector<double> &row_stiffness);
+    void fix_uncoupled(const Stiffness &stiffness);
     void find_turning(const Stiffness &stiffness);
     /** The parts of these motions that forces which turn do not resist. */
     Combinations unresisted(const Combinations &motions) const;
     /** Returns whether loads do work along motions without a resisting row,
      * which are an error unless the next iteration may resist them. */
-    bool check_unfelt(const la::Vector &residual);
+    bool check_uncoupled(const la::Vector &residual);
     Free find_free(const la::Vector &residual,
                    const abut_request &request) const;
     /** Work of the loads along the motions. Collective. */
@@ -83,7 +84,7 @@ namespace abut::solve
     solve_with_springs(const Free &free, const la::Vector &residual,
                        const abut_request &request, double smallest_residual,
                        la::Vector &increment, std::vector<double> &force);
-    void take_forces_of_springs(Free &free) const;
+    void find_spring_forces(Free &free) const;
     /** Motions that sticking points leave free, if springs in the place of
      * slipping points work along them. Collective. */
     Free pivots(const Free &free) const;
@@ -97,12 +98,12 @@ namespace abut::solve
     /** How far a motion may go until an open row closes, infinite if none
      * does; with @p others rows of pairs without closed rows alone count.
      * Collective. */
-    double way_to_touch(const Combination &motion, const abut_request &request,
-                        bool others) const;
+    double distance_to_contact(const Combination &motion,
+                               const abut_request &request, bool others) const;
     /** How far a motion may go until the slip of a point is reversed, infinite
      * if it is never. Collective. */
-    double way_to_stick(const Combination &motion,
-                        const abut_request &request) const;
+    double distance_to_stick(const Combination &motion,
+                             const abut_request &request) const;
     void move(const Combination &motion, double distance,
               const abut_request &request, la::Vector &increment) const;
     /** The same until bodies touch: slips of groups without closed rows begin
@@ -117,18 +118,18 @@ namespace abut::solve
      * internal forces, whose work along rigid motions is 0. Collective. */
     double work_tolerance() const;
     /** The parts of these motions that rows resist. */
-    Combinations felt(const Combinations &motions) const;
+    Combinations coupled(const Combinations &motions) const;
 
     std::unique_ptr<RowSolver> inner_;
     NearNullSpace space_;
-    FloatingBodies floating_;
-    Combinations unfelt_;             ///< motions without a resisting row
+    UnsupportedBodies unsupported_;
+    Combinations uncoupled_;          ///< motions without a resisting row
     std::optional<Stiffness> bodies_; ///< without forces that turn
     std::vector<double> turning_;     ///< [motions x motions] their stiffness
     std::vector<double> diagonal_;
     const PointOperator *rows_ = nullptr;
     std::vector<double> row_stiffness_;
-    la::Matrix fixed_; ///< the matrix with springs against unfelt motions
+    la::Matrix fixed_; ///< the matrix with springs against uncoupled motions
     Stiffness stiffness_;
     LocalElimination local_;
     ContactIteration iteration_;

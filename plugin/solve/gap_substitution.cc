@@ -109,7 +109,7 @@ namespace abut::solve
       }
 
       /** The sum, which is empty afterwards. */
-      std::vector<std::pair<std::size_t, double>> take()
+      std::vector<std::pair<std::size_t, double>> release()
       {
         for (const auto &entry : entries_)
           place_[entry.first] = nowhere;
@@ -293,11 +293,11 @@ namespace abut::solve
       for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
         if (const auto *const line = of[rows.column[k]])
           factor.add(line->first, rows.value[k] * line->second);
-      for (const auto &[l, each] : factor.take())
+      for (const auto &[l, each] : factor.release())
         for (std::size_t k = 0; k < place[l].size(); ++k)
           sum.add(place[l][k], each * lines.line[l][k].second);
       Line line;
-      for (const auto &[k, value] : sum.take())
+      for (const auto &[k, value] : sum.release())
         line.emplace_back(column[k], value);
       if (!line.empty())
         result.emplace_back(la::global_column(matrix, i), std::move(line));

@@ -148,12 +148,13 @@ namespace abut::solve
                            : "geometric multigrid failed on another rank"));
   }
 
-  void GeometricMultigrid::hold(const std::vector<std::uint8_t> &held,
-                                const std::vector<double> &added)
+  void
+  GeometricMultigrid::set_constrained(const std::vector<std::uint8_t> &held,
+                                      const std::vector<double> &added)
   {
-    check(abut_multigrid_hold(multigrid_.get(),
-                              held.empty() ? nullptr : held.data(),
-                              added.empty() ? nullptr : added.data()));
+    check(abut_multigrid_set_constrained(
+        multigrid_.get(), held.empty() ? nullptr : held.data(),
+        added.empty() ? nullptr : added.data()));
   }
 
   void GeometricMultigrid::vmult(la::Vector &dst, const la::Vector &src) const

@@ -20,9 +20,9 @@ namespace abut::solve
   public:
     using Index = dealii::types::global_dof_index;
 
-    /** A copy of @p matrix is made; hold() comes next. @p touched are unknowns
-     * of other ranks that terms will have in addition to the unknowns of the
-     * matrix; owned ones do no harm. */
+    /** A copy of @p matrix is made; set_constrained() comes next. @p touched
+     * are unknowns of other ranks that terms will have in addition to the
+     * unknowns of the matrix; owned ones do no harm. */
     GeometricMultigrid(const la::Matrix &matrix, const MeshHierarchy &meshes,
                        const std::vector<Index> &touched = {});
 
@@ -31,18 +31,19 @@ namespace abut::solve
     bool knows(const la::Matrix &matrix,
                const std::vector<Index> &touched) const;
 
-    /** Another matrix on the same meshes, copied; hold() comes next. */
+    /** Another matrix on the same meshes, copied; set_constrained() comes next.
+     */
     void set_matrix(const la::Matrix &matrix);
 
     /** Set the terms added to the matrix in a few of its rows from the next
-     * hold() on, instead of the previous ones; any rank may have any part of
-     * it. Closes it. */
+     * set_constrained() on, instead of the previous ones; any rank may have any
+     * part of it. Closes it. */
     void set_terms(LocalMatrix &terms);
 
     /** [owned] nonzero where an unknown is held, and what is added to the
      * diagonal; empty: nothing. Costs what is near the changes. */
-    void hold(const std::vector<std::uint8_t> &held,
-              const std::vector<double> &added);
+    void set_constrained(const std::vector<std::uint8_t> &held,
+                         const std::vector<double> &added);
 
     void vmult(la::Vector &dst, const la::Vector &src) const override;
 

@@ -24,11 +24,11 @@ namespace abut::solve
     prescribed_ = space.prescribed;
   }
 
-  void HostSolver::take_host(const Stiffness &stiffness,
-                             const PointOperator &rows)
+  void HostSolver::set_host(const Stiffness &stiffness,
+                            const PointOperator &rows)
   {
     stiffness_ = stiffness;
-    take(stiffness, rows);
+    set_stiffness(stiffness, rows);
     check_diagonal(stiffness, diagonal_);
     scaled_ = stiffness.make_vector();
   }
@@ -36,7 +36,7 @@ namespace abut::solve
   void HostSolver::reinit(const Stiffness &stiffness, const PointOperator &rows,
                           const std::vector<double> &)
   {
-    take_host(stiffness, rows);
+    set_host(stiffness, rows);
     check_entry(stiffness, diagonal_, rows);
     if (MPI::logical_or(!prescribed_.empty(), rows.communicator()))
       check_prescribed(stiffness, diagonal_, prescribed_);
@@ -45,7 +45,7 @@ namespace abut::solve
   void HostSolver::renew(const Stiffness &stiffness, const PointOperator &rows,
                          const std::vector<double> &)
   {
-    take_host(stiffness, rows);
+    set_host(stiffness, rows);
   }
 
   LinearReport HostSolver::prepare(const Condensate &condensate)
@@ -66,7 +66,7 @@ namespace abut::solve
       if (rows_->end(i) - rows_->begin(i) == 1)
         held[rows_->column(pivot)] = 1;
     }
-    stiffness_.host().hold(held);
+    stiffness_.host().constrain(held);
     report.method = krylov_method() + ", preconditioner of the host";
     report.setup_seconds = timer.wall_time();
     return report;

@@ -43,7 +43,7 @@ namespace abut::solve
     void precondition(la::Vector &dst, const la::Vector &src) const override;
 
   private:
-    void take_host(const Stiffness &stiffness, const PointOperator &rows);
+    void set_host(const Stiffness &stiffness, const PointOperator &rows);
 
     SolverParameters parameters_;
     CommonArray<std::uint8_t> prescribed_; ///< [owned]; empty: not known

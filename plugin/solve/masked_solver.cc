@@ -42,14 +42,14 @@ namespace abut::solve
 
   void MaskedSolver::reinit(const la::Matrix &matrix)
   {
-    take(matrix);
+    set_stiffness(matrix);
     keeper_.forget();
     amg_.reset();
     geometric_.reset();
     direct_.reset();
   }
 
-  void MaskedSolver::take(const la::Matrix &matrix)
+  void MaskedSolver::set_stiffness(const la::Matrix &matrix)
   {
     matrix_ = &matrix;
     diagonal_ = la::diagonal(la::local_rows(matrix));
@@ -140,12 +140,12 @@ namespace abut::solve
   void MaskedSolver::build(const Mask &mask)
   {
     built_mask_ = mask;
-    keeper_.note_built();
+    keeper_.record_build();
     if (choice_.is_geometric())
     {
       geometric_ =
           std::make_unique<GeometricMultigrid>(*matrix_, *space_.meshes);
-      geometric_->hold(mask.held, mask.diagonal);
+      geometric_->set_constrained(mask.held, mask.diagonal);
       cut_ = mask.held;
       return;
     }
@@ -245,7 +245,7 @@ namespace abut::solve
       iterate(mask, residual, tolerance, parameters_.max_iterations, correction,
               report, n_iterations);
     }
-    keeper_.note_speed(digits, n_iterations);
+    keeper_.record_speed(digits, n_iterations);
   }
 
   PreconditionerState MaskedSolver::state() const
@@ -269,7 +269,7 @@ namespace abut::solve
     if (choice_.is_geometric() && geometric_ != nullptr)
     {
       const dealii::Timer timer;
-      geometric_->hold(mask.held, mask.diagonal);
+      geometric_->set_constrained(mask.held, mask.diagonal);
       built_mask_ = mask;
       cut_ = mask.held;
       report.setup_seconds = timer.wall_time();

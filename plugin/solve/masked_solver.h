@@ -185,7 +185,7 @@ namespace abut::solve
     }
 
   private:
-    void take(const la::Matrix &matrix);
+    void set_stiffness(const la::Matrix &matrix);
     bool is_outdated(const Mask &mask) const;
     bool is_plain(const Mask &mask) const;
     void cut_off(const std::vector<std::uint8_t> &held, const Mask &mask,

@@ -72,10 +72,10 @@ namespace abut::solve
 
     /** Takes the couplings between different bodies out of a matrix and, when
      * this goes, puts them back. */
-    class Apart
+    class DecoupledBodies
     {
     public:
-      Apart(const la::Matrix &matrix, const NearNullSpace &space)
+      DecoupledBodies(const la::Matrix &matrix, const NearNullSpace &space)
           : rows_(la::local_rows(matrix))
       {
         const MPI_Comm communicator = matrix.get_mpi_communicator();
@@ -95,10 +95,10 @@ namespace abut::solve
         any_ = !taken_.empty();
       }
 
-      Apart(const Apart &) = delete;
-      Apart &operator=(const Apart &) = delete;
+      DecoupledBodies(const DecoupledBodies &) = delete;
+      DecoupledBodies &operator=(const DecoupledBodies &) = delete;
 
-      ~Apart()
+      ~DecoupledBodies()
       {
         for (const auto &[entry, value] : taken_)
           rows_.value[entry] = value;
@@ -126,7 +126,7 @@ namespace abut::solve
       // Below this part of the diagonal entries count as none.
       constexpr double nothing = 1e-12;
       {
-        const Apart apart(matrix, space);
+        const DecoupledBodies apart(matrix, space);
         options.keeps_aggregates = apart.any();
         if (options.keeps_aggregates)
           options.threshold = nothing;

@@ -17,7 +17,7 @@ namespace abut::solve
     std::vector<global_dof_index> column;
     std::vector<double> value;
 
-    void take(const PointOperator &rows, const int i, const double factor)
+    void add_row(const PointOperator &rows, const int i, const double factor)
     {
       if (factor == 0.)
         return;
@@ -86,12 +86,12 @@ namespace abut::solve
     model_.set_near_null_space(space);
   }
 
-  void NitscheSolver::find_floating_bodies()
+  void NitscheSolver::find_unsupported_bodies()
   {
     // Rigid motions have no stress: what resists them is what does elsewhere.
     if (dealii::Utilities::MPI::logical_or(rows_->has_tangents(),
                                            rows_->communicator()))
-      floating_.reinit(*stiffness_, *rows_, space_);
+      unsupported_.reinit(*stiffness_, *rows_, space_);
   }
 
   void NitscheSolver::reinit(const Stiffness &stiffness,
@@ -101,7 +101,7 @@ namespace abut::solve
     stiffness_ = &stiffness.matrix();
     rows_ = &rows;
     model_.reinit(stiffness, rows, row_stiffness);
-    find_floating_bodies();
+    find_unsupported_bodies();
   }
 
   void NitscheSolver::renew(const Stiffness &stiffness,
@@ -111,7 +111,7 @@ namespace abut::solve
     stiffness_ = &stiffness.matrix();
     rows_ = &rows;
     model_.renew(stiffness, rows, row_stiffness);
-    find_floating_bodies();
+    find_unsupported_bodies();
   }
 
   la::Vector NitscheSolver::right_hand_side(const la::Vector &residual) const
@@ -131,8 +131,8 @@ namespace abut::solve
                                           const double part) const
   {
     Line result;
-    result.take(*rows_, row, 1.);
-    result.take(terms_.stress, row, part * terms_.compliance[row]);
+    result.add_row(*rows_, row, 1.);
+    result.add_row(terms_.stress, row, part * terms_.compliance[row]);
     return result;
   }
 
@@ -164,7 +164,7 @@ namespace abut::solve
                             terms_.theta != 0. && i < rows_->n_rows(); ++i)
                        {
                          Line stress;
-                         stress.take(terms_.stress, i, 1.);
+                         stress.add_row(terms_.stress, i, 1.);
                          visit_product(-terms_.theta * rows_->weight(i)
                                            * terms_.compliance[i],
                                        stress, stress, visit);
@@ -218,7 +218,7 @@ namespace abut::solve
     local_.reinit(request, rows_->n_rows(), rows_->weights(),
                   rows_->communicator());
     if (!local_.blocks().empty())
-      floating_.check(*rows_, local_, request, model_.row_stiffness());
+      unsupported_.check(*rows_, local_, request, model_.row_stiffness());
     const la::Vector rhs = right_hand_side(residual);
     const la::Matrix matrix = assemble();
     const double norm = rhs.l2_norm();

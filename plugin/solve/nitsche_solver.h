@@ -3,9 +3,9 @@
 #define ABUT_SOLVE_NITSCHE_SOLVER_H
 
 #include "condensed_solver.h"
-#include "floating_bodies.h"
 #include "local_elimination.h"
 #include "row_solver.h"
+#include "unsupported_bodies.h"
 
 namespace abut::solve
 {
@@ -55,7 +55,7 @@ namespace abut::solve
   private:
     struct Line;
 
-    void find_floating_bodies();
+    void find_unsupported_bodies();
     la::Vector right_hand_side(const la::Vector &residual) const;
     /** Row @p row of B + part S/gamma. */
     Line line(int row, double part) const;
@@ -73,7 +73,7 @@ namespace abut::solve
     const PointOperator *rows_ = nullptr;
     LocalElimination local_;
     NearNullSpace space_;
-    FloatingBodies floating_; ///< with friction only
+    UnsupportedBodies unsupported_; ///< with friction only
     /** K and the springs alone, symmetric and positive definite as multigrid
      * wants it. */
     CondensedSolver model_;

@@ -21,7 +21,7 @@ namespace abut::solve
                                  const std::vector<double> &)
   {
     solver_.reinit(stiffness.matrix());
-    take(stiffness.matrix(), rows);
+    set_stiffness(stiffness.matrix(), rows);
   }
 
   void NodalCondensation::renew(const Stiffness &stiffness,
@@ -29,11 +29,11 @@ namespace abut::solve
                                 const std::vector<double> &)
   {
     solver_.renew(stiffness.matrix());
-    take(stiffness.matrix(), rows);
+    set_stiffness(stiffness.matrix(), rows);
   }
 
-  void NodalCondensation::take(const la::Matrix &stiffness,
-                               const PointOperator &rows)
+  void NodalCondensation::set_stiffness(const la::Matrix &stiffness,
+                                        const PointOperator &rows)
   {
     stiffness_ = &stiffness;
     rows_ = &rows;

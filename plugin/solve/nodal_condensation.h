@@ -46,7 +46,7 @@ namespace abut::solve
       return rows_->coefficient(rows_->begin(row));
     }
 
-    void take(const la::Matrix &stiffness, const PointOperator &rows);
+    void set_stiffness(const la::Matrix &stiffness, const PointOperator &rows);
     void fill_mask();
     void fill_right_hand_side(const la::Vector &residual,
                               la::Vector &rhs) const;

@@ -15,7 +15,7 @@ namespace abut::solve
     constexpr double rebuild_factor = 3.;
   } // namespace
 
-  void PreconditionerKeeper::note_built()
+  void PreconditionerKeeper::record_build()
   {
     // How long the last one took to converge stays the measure of patience
     // until this one has been used.
@@ -24,8 +24,8 @@ namespace abut::solve
     speed_when_built_ = 0.;
   }
 
-  void PreconditionerKeeper::note_speed(const double digits,
-                                        const unsigned int n_iterations)
+  void PreconditionerKeeper::record_speed(const double digits,
+                                          const unsigned int n_iterations)
   {
     const double speed = digits / std::max(1u, n_iterations);
     if (speed_when_built_ == 0.)

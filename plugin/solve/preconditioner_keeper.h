@@ -35,17 +35,17 @@ namespace abut::solve
     }
 
     /** It has just been built. */
-    void note_built();
+    void record_build();
 
     /** It is used for a matrix once more; the next solve may find out that it
      * should not be. */
-    void note_kept()
+    void record_reuse()
     {
       is_kept_ = is_built_;
     }
 
     /** How fast a solve was: decides whether it is kept for the next. */
-    void note_speed(double digits, unsigned int n_iterations);
+    void record_speed(double digits, unsigned int n_iterations);
 
     /** Whether there is a preconditioner at all. */
     bool is_built() const

@@ -40,22 +40,22 @@ namespace abut::solve
     const std::size_t n_rotations = mode.size() - dim;
     for (std::size_t r = 0; r < n_rotations; ++r)
       rotation[n_rotations == 1 ? 2 : r] = mode[dim + r];
-    const double spin = rotation.norm();
-    if (spin * far_axis <= translation.norm())
+    const double angle = rotation.norm();
+    if (angle * far_axis <= translation.norm())
       return "slide along "
              + triple_in_words(translation / translation.norm(), dim, 1.);
     // v = t + w x (x - c) / r is along w where x - c = r w x t / w^2.
-    const Triple axis = rotation / spin;
+    const Triple axis = rotation / angle;
     const dealii::Point<3> place =
         center
-        + cross_product_3d(rotation, translation) * (radius / (spin * spin));
+        + cross_product_3d(rotation, translation) * (radius / (angle * angle));
     if (dim == 2)
       return "rotate about " + triple_in_words(place, 2, radius);
     const double pitch = translation * axis;
     return "rotate about the axis through " + triple_in_words(place, 3, radius)
            + " along " + triple_in_words(axis, 3, 1.)
-           + (std::abs(pitch) > no_digit * spin ? " while it moves along it"
-                                                : "");
+           + (std::abs(pitch) > no_digit * angle ? " while it moves along it"
+                                                 : "");
   }
 
   std::string rigid_displacement_in_words(

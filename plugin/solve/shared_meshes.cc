@@ -115,7 +115,7 @@ namespace abut::solve
     return result;
   }
 
-  void SharedMeshes::take_weights(const MeshHierarchy::Mesh &own,
+  void SharedMeshes::copy_weights(const MeshHierarchy::Mesh &own,
                                   MeshHierarchy::Mesh &mesh) const
   {
     const NodeCopies &copies = copies_.back();
@@ -176,7 +176,7 @@ namespace abut::solve
     mesh.n_all = own.n_all;
     copies_.emplace_back(std::move(nodes), first_of_rank(own, communicator_),
                          communicator_);
-    take_weights(own, mesh);
+    copy_weights(own, mesh);
     local_.meshes.push_back(std::move(mesh));
   }
 

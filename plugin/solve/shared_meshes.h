@@ -65,7 +65,7 @@ namespace abut::solve
                      const Words &place_of_ghost);
     void add_mesh(const MeshHierarchy &meshes, int l,
                   std::vector<std::int32_t> nodes);
-    void take_weights(const MeshHierarchy::Mesh &own,
+    void copy_weights(const MeshHierarchy::Mesh &own,
                       MeshHierarchy::Mesh &mesh) const;
 
     dealii::IndexSet owned_;

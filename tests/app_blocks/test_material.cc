@@ -548,7 +548,7 @@ namespace
     for (const MaterialNumber &number : kind.numbers)
     {
       data.numbers.push_back(std::stod(number.value));
-      Expect::that(abut_limit_holds(&number.range, data.numbers.back()),
+      Expect::that(abut_limit_contains(&number.range, data.numbers.back()),
                    "default in its range");
     }
     const auto material = kind.make<dim>(data);

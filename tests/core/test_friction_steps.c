@@ -96,7 +96,7 @@ make_points(const masses *m, int64_t *id)
 static void
 read_history(const masses *m, const int64_t *id, double *p, uint8_t *state)
 {
-  const abut_history_past past = {sizeof(past), p, state, NULL};
+  const abut_history_values past = {sizeof(past), p, state, NULL};
   assert_ok(abut_history_get(m->history, ABUT_HISTORY_COMMITTED,
                              m->n * m->dimension, id, &past));
 }

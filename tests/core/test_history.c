@@ -149,7 +149,7 @@ later_entries_replace_and_interleave(void **unused)
   }
   double pressure[most];
   uint8_t state[most], known[most];
-  const abut_history_past past = {sizeof(past), pressure, state, known};
+  const abut_history_values past = {sizeof(past), pressure, state, known};
   assert_ok(abut_history_get(s.history, ABUT_HISTORY_TRIAL, 200, id, &past));
   assert_int_equal(view_of(s.history, ABUT_HISTORY_TRIAL).n, n);
   for (int i = 0; i < 200; ++i)
@@ -228,7 +228,7 @@ nearest_looks_among_the_points_of_a_facet(void **unused)
   const double place[] = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0, 0, 0, 0.5, 0.5, 0.5};
   double pressure[4];
   uint8_t found[4];
-  const abut_history_past past = {sizeof(past), pressure, NULL, found};
+  const abut_history_values past = {sizeof(past), pressure, NULL, found};
   assert_ok(abut_history_nearest(s.history, ABUT_HISTORY_TRIAL, 4, begin, end,
                                  place, &past));
   for (int k = 0; k < 3; ++k)
@@ -411,7 +411,7 @@ wrong_arguments_are_refused(void **unused)
   assert_int_equal(
       abut_history_set_problem(s.history, ABUT_HISTORY_TRIAL, &problem),
       ABUT_INVALID_ARGUMENT);
-  const abut_history_past past = {sizeof(past), NULL, NULL, NULL};
+  const abut_history_values past = {sizeof(past), NULL, NULL, NULL};
   assert_int_equal(
       abut_history_get(s.history, (abut_history_version)2, 0, NULL, &past),
       ABUT_INVALID_ARGUMENT);

@@ -62,7 +62,7 @@ iterations(int32_t degree, int32_t dim, int32_t block, int32_t level, set which)
   abut_context *context = fixture_context();
   abut_multigrid *mg = open_multigrid(context, &g);
   uint8_t *held = make_set(&g, which, 3);
-  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_ok(abut_multigrid_set_constrained(mg, held, NULL));
   const int32_t result = grid_iterations(&g, mg, held, 1e-10);
   assert_ok(abut_multigrid_destroy(&mg));
   assert_ok(abut_context_destroy(&context));
@@ -118,7 +118,7 @@ test_cycle_is_symmetric_and_leaves_held(void **state)
   abut_context *context = fixture_context();
   abut_multigrid *mg = open_multigrid(context, &g);
   uint8_t *held = make_set(&g, FEW, 5);
-  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_ok(abut_multigrid_set_constrained(mg, held, NULL));
   const size_t n = (size_t)g.n;
   double *a = calloc(4 * n, sizeof(double));
   double *b = a + n, *ma = b + n, *mb = ma + n;
@@ -180,7 +180,7 @@ test_coarse_matrix_is_that_of_galerkin(void **state)
   abut_context *context = fixture_context();
   abut_multigrid *mg = open_multigrid(context, &g);
   uint8_t *held = make_set(&g, MANY, 17);
-  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_ok(abut_multigrid_set_constrained(mg, held, NULL));
   const abut_node_rows *rows = &mg->level[1].matrix;
   int32_t n_nonzero = 0;
   for (int32_t k = 0; k < g.mesh[1].n_nodes; ++k)
@@ -221,11 +221,11 @@ test_what_changed_is_made_anew_and_no_more(void **state)
   abut_context *context = fixture_context();
   abut_multigrid *mg = open_multigrid(context, &g);
   uint8_t *held = make_set(&g, FEW, 23);
-  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_ok(abut_multigrid_set_constrained(mg, held, NULL));
   abut_multigrid_report report = {sizeof(report), 0, 0, 0, 0, {0}};
   assert_ok(abut_multigrid_describe_sized(mg, &report));
   const int64_t all = report.n_renewed;
-  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_ok(abut_multigrid_set_constrained(mg, held, NULL));
   assert_ok(abut_multigrid_describe_sized(mg, &report));
   assert_int_equal(report.n_renewed, 0);
 
@@ -233,11 +233,11 @@ test_what_changed_is_made_anew_and_no_more(void **state)
   held[middle] = !held[middle];
   double *added = calloc((size_t)g.n, sizeof(double));
   added[g.n / 3] = 2.5;
-  assert_ok(abut_multigrid_hold(mg, held, added));
+  assert_ok(abut_multigrid_set_constrained(mg, held, added));
   assert_ok(abut_multigrid_describe_sized(mg, &report));
   assert_in_range(report.n_renewed, 2, all / 4);
   abut_multigrid *fresh = open_multigrid(context, &g);
-  assert_ok(abut_multigrid_hold(fresh, held, added));
+  assert_ok(abut_multigrid_set_constrained(fresh, held, added));
   assert_same_levels(mg, fresh);
 
   free(added);
@@ -329,14 +329,14 @@ test_coarse_rows_have_all_columns(void **state)
   couple(&g, p, q, &coupled);
   abut_multigrid *plain = open_multigrid(context, &g);
   abut_multigrid *mg = open_multigrid(context, &coupled);
-  assert_ok(abut_multigrid_hold(plain, NULL, NULL));
+  assert_ok(abut_multigrid_set_constrained(plain, NULL, NULL));
   assert_galerkin(&g, plain);
   /* While one of them is held nothing is missing. */
   uint8_t *held = calloc((size_t)g.n, 1);
   held[p] = 1;
-  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_ok(abut_multigrid_set_constrained(mg, held, NULL));
   assert_in_range(grid_iterations(&coupled, mg, held, 1e-10), 5, 12);
-  assert_ok(abut_multigrid_hold(mg, NULL, NULL));
+  assert_ok(abut_multigrid_set_constrained(mg, NULL, NULL));
   assert_galerkin(&coupled, mg);
   assert_in_range(grid_iterations(&coupled, mg, NULL, 1e-10), 5, 12);
 
@@ -432,27 +432,27 @@ test_terms_are_part_of_the_matrix(void **state)
     abut_multigrid *whole = open_multigrid(context, &g);
     abut_multigrid *parts = open_multigrid(context, &h.less);
     assert_ok(abut_multigrid_set_terms(parts, &h.more));
-    assert_ok(abut_multigrid_hold(whole, NULL, NULL));
-    assert_ok(abut_multigrid_hold(parts, NULL, NULL));
+    assert_ok(abut_multigrid_set_constrained(whole, NULL, NULL));
+    assert_ok(abut_multigrid_set_constrained(parts, NULL, NULL));
     assert_same_cycle(&g, whole, parts);
 
     uint8_t *held = make_set(&g, MANY, 41);
-    assert_ok(abut_multigrid_hold(parts, held, NULL));
+    assert_ok(abut_multigrid_set_constrained(parts, held, NULL));
     assert_in_range(grid_iterations(&g, parts, held, 1e-10), 5, 14);
     abut_multigrid *fresh = open_multigrid(context, &h.less);
     assert_ok(abut_multigrid_set_terms(fresh, &h.more));
-    assert_ok(abut_multigrid_hold(fresh, held, NULL));
+    assert_ok(abut_multigrid_set_constrained(fresh, held, NULL));
     assert_same_levels(parts, fresh);
     assert_same_cycle(&g, parts, fresh);
 
     assert_ok(abut_multigrid_set_terms(parts, NULL));
-    assert_ok(abut_multigrid_hold(parts, held, NULL));
+    assert_ok(abut_multigrid_set_constrained(parts, held, NULL));
     abut_multigrid *less = open_multigrid(context, &h.less);
-    assert_ok(abut_multigrid_hold(less, held, NULL));
+    assert_ok(abut_multigrid_set_constrained(less, held, NULL));
     assert_same_levels(parts, less);
     assert_same_cycle(&g, parts, less);
     assert_ok(abut_multigrid_set_matrix(parts, &g.matrix));
-    assert_ok(abut_multigrid_hold(parts, NULL, NULL));
+    assert_ok(abut_multigrid_set_constrained(parts, NULL, NULL));
     assert_same_levels(parts, whole);
 
     free(held);
@@ -513,7 +513,7 @@ test_one_rank_is_none(void **state)
     {
       assert_ok(
           abut_multigrid_set_terms(both[k], which == FEW ? NULL : &h.more));
-      assert_ok(abut_multigrid_hold(both[k], held, NULL));
+      assert_ok(abut_multigrid_set_constrained(both[k], held, NULL));
     }
     assert_same_cycle(&g, alone, ranked);
     free(held);
@@ -538,11 +538,11 @@ test_one_mesh_is_solved(void **state)
   abut_context *context = fixture_context();
   abut_multigrid *mg = open_multigrid(context, &g);
   uint8_t *held = make_set(&g, DISC, 1);
-  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_ok(abut_multigrid_set_constrained(mg, held, NULL));
   assert_true(grid_iterations(&g, mg, held, 1e-5) < 3);
   /* All held: nothing to do. */
   memset(held, 1, (size_t)g.n);
-  assert_ok(abut_multigrid_hold(mg, held, NULL));
+  assert_ok(abut_multigrid_set_constrained(mg, held, NULL));
   double *x = calloc(2 * (size_t)g.n, sizeof(double));
   x[0] = x[g.n - 1] = 1;
   assert_ok(abut_multigrid_cycle(mg, x, x + g.n));
@@ -586,8 +586,8 @@ test_unknowns_in_any_order(void **state)
   reversed.matrix.column = column;
   reversed.matrix.value = value;
   abut_multigrid *other = open_multigrid(context, &reversed);
-  assert_ok(abut_multigrid_hold(mg, NULL, NULL));
-  assert_ok(abut_multigrid_hold(other, NULL, NULL));
+  assert_ok(abut_multigrid_set_constrained(mg, NULL, NULL));
+  assert_ok(abut_multigrid_set_constrained(other, NULL, NULL));
   assert_ok(abut_multigrid_cycle(mg, r, r + g.n));
   assert_ok(abut_multigrid_cycle(other, r + 2 * g.n, r + 3 * g.n));
   for (int32_t i = 0; i < g.n; ++i)
@@ -629,7 +629,8 @@ test_mistakes_are_told(void **state)
 
   assert_ok(abut_multigrid_create(context, &g.hierarchy, &mg));
   double *x = calloc((size_t)g.n, sizeof(double));
-  assert_int_equal(abut_multigrid_hold(mg, NULL, NULL), ABUT_INVALID_ARGUMENT);
+  assert_int_equal(abut_multigrid_set_constrained(mg, NULL, NULL),
+                   ABUT_INVALID_ARGUMENT);
   assert_int_equal(abut_multigrid_cycle(mg, x, x), ABUT_INVALID_ARGUMENT);
   g.matrix.n -= 1;
   assert_int_equal(abut_multigrid_set_matrix(mg, &g.matrix),
@@ -640,7 +641,8 @@ test_mistakes_are_told(void **state)
   g.value[3] = 1;
   assert_ok(abut_multigrid_set_matrix(mg, &g.matrix));
   x[2] = -1;
-  assert_int_equal(abut_multigrid_hold(mg, NULL, x), ABUT_INVALID_ARGUMENT);
+  assert_int_equal(abut_multigrid_set_constrained(mg, NULL, x),
+                   ABUT_INVALID_ARGUMENT);
   free(x);
   assert_ok(abut_multigrid_destroy(&mg));
   assert_ok(abut_context_destroy(&context));
@@ -655,7 +657,8 @@ test_too_many_unknowns_to_factorise(void **state)
   grid_open(&g, 2, 1, 6, 6);
   abut_context *context = fixture_context();
   abut_multigrid *mg = open_multigrid(context, &g);
-  assert_int_equal(abut_multigrid_hold(mg, NULL, NULL), ABUT_UNSUPPORTED);
+  assert_int_equal(abut_multigrid_set_constrained(mg, NULL, NULL),
+                   ABUT_UNSUPPORTED);
   assert_ok(abut_multigrid_destroy(&mg));
   assert_ok(abut_context_destroy(&context));
   grid_close(&g);

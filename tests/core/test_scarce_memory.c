@@ -595,9 +595,9 @@ multigrids(world *w)
   for (int32_t i = 0; i < 81; ++i)
     r[i] = i % 5;
   held[40] = 1;
-  TRY(abut_multigrid_hold(w->multigrid, held, NULL));
+  TRY(abut_multigrid_set_constrained(w->multigrid, held, NULL));
   held[31] = 1;
-  TRY(abut_multigrid_hold(w->multigrid, held, NULL));
+  TRY(abut_multigrid_set_constrained(w->multigrid, held, NULL));
   TRY(abut_multigrid_cycle(w->multigrid, r, x));
   for (int32_t i = 0; i < 81; ++i)
     note(w, x[i]);

@@ -291,9 +291,9 @@ older_callers_remember(void **unused)
   require(abut_history_set(h, old));
   uint8_t found = 77;
   double p = 0;
-  const abut_history_past past = {sizeof(past), &p, NULL, &found};
-  abut_history_past *old_past =
-      resized(&past, sizeof(past), offsetof(abut_history_past, found));
+  const abut_history_values past = {sizeof(past), &p, NULL, &found};
+  abut_history_values *old_past =
+      resized(&past, sizeof(past), offsetof(abut_history_values, found));
   require(abut_history_get(h, ABUT_HISTORY_TRIAL, 1, &id, old_past));
   assert_true(p == 2 && found == 77);
   old->struct_size = 8;

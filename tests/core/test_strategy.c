@@ -165,12 +165,12 @@ limits_are_those_of_the_check(void **unused)
       const bool legal = k == 0   ? !limit->low_open
                          : k == 1 ? !limit->high_open
                                   : false;
-      assert_int_equal(abut_limit_holds(limit, tries[k]), legal);
+      assert_int_equal(abut_limit_contains(limit, tries[k]), legal);
       assert_int_equal(abut_strategy_create(context, &options, &strategy),
                        legal ? ABUT_SUCCESS : ABUT_INVALID_ARGUMENT);
       assert_ok(abut_strategy_destroy(&strategy));
     }
-    assert_false(abut_limit_holds(limit, NAN));
+    assert_false(abut_limit_contains(limit, NAN));
     *numbers[i].number = kept;
   }
   assert_null(abut_strategy_limit("no such option"));

@@ -192,15 +192,15 @@ namespace
         const ContactExamination seen =
             blocks.contact().examine(turned(blocks, u, angle));
         const PairResult<2> pair = blocks.contact().pair_results()[0];
-        expect(std::abs(pair.turn - std::abs(angle)) < 1e-9
-                   && std::abs(pair.largest_turn - std::abs(angle)) < 1e-9,
-               "a turn of " + std::to_string(pair.turn) + " instead of "
+        expect(std::abs(pair.rotation - std::abs(angle)) < 1e-9
+                   && std::abs(pair.largest_rotation - std::abs(angle)) < 1e-9,
+               "a turn of " + std::to_string(pair.rotation) + " instead of "
                    + std::to_string(angle));
         const dealii::Tensor<1, 2> &force = pair.secondary_force;
         const dealii::Tensor<1, 2> change(
             {(std::cos(angle) - 1.) * force[0] - std::sin(angle) * force[1],
              std::sin(angle) * force[0] + (std::cos(angle) - 1.) * force[1]});
-        expect((pair.turned_force - change).norm() < 1e-9 * force.norm(),
+        expect((pair.rotated_force - change).norm() < 1e-9 * force.norm(),
                "what the force changes by in a turn of "
                    + std::to_string(angle));
         // A resultant that was upright has a part to the side from a fiftieth.

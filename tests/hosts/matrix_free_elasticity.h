@@ -377,7 +377,7 @@ namespace abut::hosts
 
     /** Only noted, because levels are marked together with other ranks: these
      * must have noted theirs, too, when precondition() is called. */
-    void hold(const std::vector<std::uint8_t> &held) override
+    void constrain(const std::vector<std::uint8_t> &held) override
     {
       if (heeds_holding_)
         held_ = held;

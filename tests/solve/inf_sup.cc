@@ -2,8 +2,8 @@
 #include "inf_sup.h"
 
 #include "solve/condensed_solver.h"
-#include "solve/floating_bodies.h"
 #include "solve/row_stiffness.h"
+#include "solve/unsupported_bodies.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -48,7 +48,7 @@ namespace abut::solve
             factor_[i] = std::sqrt(springs.stiffness[i]);
             resists[i] = 1;
           }
-        FloatingBodies floating;
+        UnsupportedBodies floating;
         floating.reinit(stiffness, rows_, space);
         floating.check(rows_, resists);
         solver_.prepare(springs);

@@ -257,24 +257,24 @@ namespace
     using solve::PreconditionerKeeper;
     PreconditionerKeeper keeper(0.5);
     Expect::that(keeper.must_build(), "nothing is built at first");
-    keeper.note_kept();
+    keeper.record_reuse();
     Expect::that(!keeper.is_kept(), "nothing is kept at first");
-    keeper.note_built();
-    keeper.note_speed(4., 8);
+    keeper.record_build();
+    keeper.record_speed(4., 8);
     Expect::that(keeper.patience() == 44, "patience after 8 iterations");
     Expect::that(!keeper.must_build() && !keeper.is_kept(), "new");
-    keeper.note_kept();
-    keeper.note_speed(4., 16);
+    keeper.record_reuse();
+    keeper.record_speed(4., 16);
     Expect::that(!keeper.must_build() && keeper.is_kept(), "half as fast");
-    keeper.note_speed(4., 17);
+    keeper.record_speed(4., 17);
     Expect::that(keeper.must_build(), "less than half as fast");
-    keeper.note_built();
+    keeper.record_build();
     Expect::that(!keeper.must_build() && !keeper.is_kept(), "built anew");
     keeper.forget();
     Expect::that(keeper.must_build(), "forgotten");
 
     PreconditionerKeeper never = PreconditionerKeeper::never();
-    never.note_built();
+    never.record_build();
     Expect::that(never.must_build(), "some keep nothing");
 
     for (const double factor : {2.9, 3.1})
@@ -382,7 +382,7 @@ namespace
         la::data(dst)[i] += 0.3 * la::data(src)[i - 1];
     }
 
-    void hold(const std::vector<std::uint8_t> &now) override
+    void constrain(const std::vector<std::uint8_t> &now) override
     {
       held = now;
     }

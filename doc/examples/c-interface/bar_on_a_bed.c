@@ -84,7 +84,7 @@ take_step(double end_force)
   double mu[NODES], p[N], traction[NODES];
   for (int i = 0; i < N; ++i)
     id[i] = i;
-  const abut_history_past past = {sizeof(past), p, state, found};
+  const abut_history_values past = {sizeof(past), p, state, found};
   require(abut_history_get(history, ABUT_HISTORY_COMMITTED, N, id, &past));
   for (int i = 0; i < NODES; ++i)
   {

@@ -152,12 +152,12 @@ namespace abut
      * radian, by the last examine(): the mean, weighted with the forces; 0
      * where points move. It is about the part of the forces that is beside
      * their present directions. */
-    double turn = 0.;
+    double rotation = 0.;
     /** The largest of these rotations, radian. */
-    double largest_turn = 0.;
+    double largest_rotation = 0.;
     /** Change of the resultant on the secondary side if the forces had their
      * current directions. */
-    dealii::Tensor<1, dim> turned_force;
+    dealii::Tensor<1, dim> rotated_force;
     /** Against obstacles: how deep they are in deformed facets without any
      * contact, length >= 0, by the last examine(); @ref between_rows has all
      * facets. */
@@ -236,9 +236,9 @@ namespace abut
                             length >= 0 */
     double facet = 0.; /**< to compare it with: median size of the side with
                             the smaller ones; 0: an obstacle, which has none */
-    double turn = 0.;  /**< of facets in contact, or of the obstacle's normal,
-                            radian >= 0; updated kinematics only */
-    bool stays = false; /**< from the reference, not from the step */
+    double rotation = 0.; /**< of facets in contact, or of the obstacle's
+                           normal, radian >= 0; updated kinematics only */
+    bool stays = false;   /**< from the reference, not from the step */
   };
 
   /** A point of the secondary that has penetrated without a row. */
@@ -249,9 +249,9 @@ namespace abut
     double depth = 0.;        /**< length > 0 */
     bool on_primary = false;  /**< found by a node of the primary surface that
                                    is in a facet without rows */
-    bool same_way = false;    /**< the outward normals of surface and obstacle
-                                   point the same way there: nothing can touch
-                                   from this side */
+    bool same_direction = false; /**< the outward normals of surface and
+                                obstacle point the same way there: nothing can
+                                touch from this side */
     bool same_side = false; /**< self contact: both parts are on one of the two
                                sides, which does not see itself */
   };

@@ -812,11 +812,11 @@ namespace abut
     bool stop_missing(const std::vector<Penetration<dim>> &missed)
     {
       double depth = 0.;
-      std::size_t n_same_way = 0, n_same_side = 0;
+      std::size_t n_same_direction = 0, n_same_side = 0;
       for (const Penetration<dim> &node : missed)
       {
         depth = std::max(depth, node.depth);
-        n_same_way += node.same_way;
+        n_same_direction += node.same_direction;
         n_same_side += node.same_side;
       }
       const std::string seen =
@@ -832,14 +832,14 @@ namespace abut
                           "as where three flanks close. Give parts that touch "
                           "each other boundary ids and pairs of their own.",
                     ABUT_FAILURE_NO_PARTNER);
-      if (2 * n_same_way <= missed.size())
+      if (2 * n_same_direction <= missed.size())
         return stop(NewtonReason::missed_nodes,
                     seen
                         + ": use smaller load steps, or a larger reach of the "
                           "pair.",
                     ABUT_FAILURE_NO_PARTNER);
       return stop(NewtonReason::missed_nodes,
-                  seen + ". At " + std::to_string(n_same_way)
+                  seen + ". At " + std::to_string(n_same_direction)
                       + " the outward normals of the surface and of the "
                         "obstacle point the same way: its material is where "
                         "the body is, or nodes have come out of it on its far "

@@ -19,8 +19,8 @@ namespace abut
    *
    * K is that of the unconstrained system with what AffineConstraints eliminate
    * taken out: rows and columns of such unknowns are zero but for a positive
-   * diagonal. Vectors have no ghosts. All functions but hold() are collective;
-   * vectors in and out are never the same. */
+   * diagonal. Vectors have no ghosts. All functions but constrain() are
+   * collective; vectors in and out are never the same. */
   class HostOperator
   {
   public:
@@ -44,7 +44,7 @@ namespace abut
      * axis. Its part of the result of precondition() is set to zero in any
      * case; one that holds it on its coarser levels, too, needs fewer
      * iterations. By default nothing is done. Not collective. */
-    virtual void hold(const std::vector<std::uint8_t> &held)
+    virtual void constrain(const std::vector<std::uint8_t> &held)
     {
       static_cast<void>(held);
     }

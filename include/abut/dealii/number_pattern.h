@@ -50,7 +50,7 @@ namespace abut
       double value;
       return dealii::Patterns::Double().match(text)
              && (std::istringstream(text) >> value)
-             && abut_limit_holds(&limit, value);
+             && abut_limit_contains(&limit, value);
     }
 
     /** The range in words, such as "[Number above 0 and below 1]". */

@@ -89,8 +89,8 @@ abut_fail(abut_context *context, abut_status status, const char *call,
 }
 
 abut_status
-abut_take(abut_context *context, const char *call, void *taken, size_t size,
-          const void *given)
+abut_copy_in(abut_context *context, const char *call, void *taken, size_t size,
+             const void *given)
 {
   const char *fault =
       given != NULL ? abut_sized_read(taken, size, given) : NULL;
@@ -99,8 +99,8 @@ abut_take(abut_context *context, const char *call, void *taken, size_t size,
 }
 
 abut_status
-abut_give(abut_context *context, const char *call, void *result, size_t size,
-          const void *source)
+abut_copy_out(abut_context *context, const char *call, void *result,
+              size_t size, const void *source)
 {
   const char *fault = abut_sized_write(result, size, source);
   return fault == NULL ? ABUT_SUCCESS

@@ -28,12 +28,12 @@ abut_status abut_fail(abut_context *context, abut_status status,
 
 /* Take a struct that begins with its size from the caller, see base/sized.h:
  * `taken` holds the defaults, `given` may be NULL. */
-abut_status abut_take(abut_context *context, const char *call, void *taken,
-                      size_t size, const void *given);
+abut_status abut_copy_in(abut_context *context, const char *call, void *taken,
+                         size_t size, const void *given);
 
 /* Give one to the caller. */
-abut_status abut_give(abut_context *context, const char *call, void *result,
-                      size_t size, const void *source);
+abut_status abut_copy_out(abut_context *context, const char *call, void *result,
+                          size_t size, const void *source);
 
 /* Begin a message "call: " of several pieces (see text.h); finish by returning
  * the status. The context must exist. */

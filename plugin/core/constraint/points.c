@@ -338,7 +338,7 @@ abut_points_append(abut_points *points, const abut_point *point)
                      "point is NULL");
   abut_point taken = abut_point_defaults();
   const abut_status status =
-      abut_take(points->context, call, &taken, sizeof(taken), point);
+      abut_copy_in(points->context, call, &taken, sizeof(taken), point);
   return status == ABUT_SUCCESS ? append(points, &taken) : status;
 }
 
@@ -504,5 +504,6 @@ abut_points_get_sized(const abut_points *points, abut_points_view *view)
       p->start.data,
       p->node.data,
       p->coefficient.data};
-  return abut_give(p->context, "abut_points_get", view, sizeof(made), &made);
+  return abut_copy_out(p->context, "abut_points_get", view, sizeof(made),
+                       &made);
 }

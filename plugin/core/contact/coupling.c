@@ -238,7 +238,7 @@ abut_coupling_create_any(abut_context *context, const char *call,
 {
   abut_coupling_options chosen = abut_coupling_defaults();
   abut_status status =
-      abut_take(context, call, &chosen, sizeof(chosen), options);
+      abut_copy_in(context, call, &chosen, sizeof(chosen), options);
   if (status != ABUT_SUCCESS)
     return status;
   const char *fault = fault_of(&chosen, secondary->view.dimension);
@@ -320,8 +320,8 @@ abut_coupling_get_sized(const abut_coupling *coupling, abut_coupling_view *view)
 {
   if (coupling == NULL || view == NULL)
     return ABUT_INVALID_ARGUMENT;
-  return abut_give(coupling->context, "abut_coupling_get", view,
-                   sizeof(coupling->view), &coupling->view);
+  return abut_copy_out(coupling->context, "abut_coupling_get", view,
+                       sizeof(coupling->view), &coupling->view);
 }
 
 abut_status
@@ -330,7 +330,7 @@ abut_coupling_get_statistics_sized(const abut_coupling *coupling,
 {
   if (coupling == NULL || statistics == NULL)
     return ABUT_INVALID_ARGUMENT;
-  return abut_give(coupling->context, "abut_coupling_get_statistics",
-                   statistics, sizeof(coupling->statistics),
-                   &coupling->statistics);
+  return abut_copy_out(coupling->context, "abut_coupling_get_statistics",
+                       statistics, sizeof(coupling->statistics),
+                       &coupling->statistics);
 }

@@ -315,7 +315,7 @@ abut_coupling_follows(const abut_coupling *c)
 
 /* Whether rows of mortar have derivatives. */
 static inline bool
-abut_coupling_turns(const abut_coupling *c)
+abut_coupling_has_current_directions(const abut_coupling *c)
 {
   return c->kinematics->directions == ABUT_CONFIGURATION_CURRENT
          && abut_coupling_is_mortar(c);
@@ -400,33 +400,36 @@ abut_status abut_coupling_follow(abut_coupling *c, int32_t primary,
 /* The vector [3] of unit length that tangents are made of in space: of the
  * point of a share, or sum of shares, with a unit normal. Returns the facet of
  * the secondary that it rotates with; -1: it is an axis. */
-int32_t abut_coupling_guide(const abut_coupling *c,
-                            const abut_coupling_share *share,
-                            const double *normal, double *guide);
+int32_t abut_coupling_auxiliary_vector(const abut_coupling *c,
+                                       const abut_coupling_share *share,
+                                       const double *normal, double *auxiliary);
 
 /* How such a facet turns the tangents of a unit normal about that, radian, by
- * the places of its corners: node[n], spin[n][3]. Returns n. */
-int abut_coupling_spin(const abut_coupling *c, int32_t facet,
-                       const double *normal, const int32_t **node,
-                       double (*spin)[3]);
+ * the places of its corners: node[n], rotation[n][3]. Returns n. */
+int abut_coupling_tangent_rotation(const abut_coupling *c, int32_t facet,
+                                   const double *normal, const int32_t **node,
+                                   double (*rotation)[3]);
 
 /* The tangents of a unit normal; see abut_coupling_target. */
 void abut_coupling_tangents(int32_t dim, const double *normal,
-                            const double *guide, double *tangents);
+                            const double *auxiliary, double *tangents);
 
 /* Derivatives of the rows of the tangents of a point that moves, from its unit
  * normal: n unknowns, shape functions of its n / dim - 1 primary nodes, Hessian
- * [n^2] of the gap; turning [(dim - 1) n^2]. The guide counts as constant. */
-void abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
-                        const double *guide, const double *shape,
-                        const double *hessian, double *turning);
+ * [n^2] of the gap; turning [(dim - 1) n^2]. The auxiliary vector counts as
+ * constant. */
+void abut_coupling_tangent_derivatives(int32_t dim, int32_t n,
+                                       const double *normal,
+                                       const double *auxiliary,
+                                       const double *shape,
+                                       const double *hessian, double *turning);
 
 /* The same of a point of mortar with a unit normal: of its matrix by the normal
  * [dim n_lines][n_columns], minus the derivatives of n c_l, that by its
- * tangents [dim - 1], of t c_l. The guide counts as constant. */
-void abut_coupling_turn_lines(int32_t dim, int32_t n_lines, int64_t n_columns,
-                              const double *normal, const double *guide,
-                              const double *block, double *turning);
+ * tangents [dim - 1], of t c_l. The auxiliary vector counts as constant. */
+void abut_coupling_tangent_derivatives_of_lines(
+    int32_t dim, int32_t n_lines, int64_t n_columns, const double *normal,
+    const double *auxiliary, const double *block, double *turning);
 
 struct abut_linear_patch;
 
@@ -484,10 +487,10 @@ void abut_coupling_gap(const abut_coupling *c, const int64_t *list, int64_t n,
                        bool present, double *gap);
 
 /* Note how the force of the next point changes; see abut_coupling_view. */
-abut_status abut_coupling_note_block(abut_coupling *c, const int64_t *list,
-                                     int64_t n,
-                                     const abut_coupling_share *total,
-                                     const abut_coupling_direction *direction);
+abut_status
+abut_coupling_record_block(abut_coupling *c, const int64_t *list, int64_t n,
+                           const abut_coupling_share *total,
+                           const abut_coupling_direction *direction);
 
 /* Number that a node of a side has in the set of points. */
 static inline int32_t
@@ -502,13 +505,14 @@ abut_coupling_number(const abut_coupling *c, int side, int32_t node)
 
 /* Number the points of the segments of a facet, and take their opposite points
  * along the facet's normal. */
-void abut_coupling_aim(abut_coupling *c, const abut_coupling_facet *facet);
+void abut_coupling_find_opposites(abut_coupling *c,
+                                  const abut_coupling_facet *facet);
 
 /* Whether the line from x along a unit normal meets one of the candidates;
  * gap [3]: from there to the nearest of them. */
-bool abut_coupling_look(const abut_coupling *c, const double *x,
-                        const double *normal, int32_t n_candidates,
-                        double *gap);
+bool abut_coupling_intersect_line(const abut_coupling *c, const double *x,
+                                  const double *normal, int32_t n_candidates,
+                                  double *gap);
 
 /* Whether the gaps of the build are those of the interpolants at nodes. */
 bool abut_coupling_interpolates(const abut_coupling *c);

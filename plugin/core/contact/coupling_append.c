@@ -178,7 +178,7 @@ normal_of(abut_coupling *c, const abut_coupling_share *total, double *n)
 
 /* The second derivatives of a point that moves, and what its tangents do. */
 static abut_status
-note_hessian(abut_coupling *c, const abut_coupling_share *total)
+record_hessian(abut_coupling *c, const abut_coupling_share *total)
 {
   const int64_t i = c->view.n_points;
   const int32_t dim = c->secondary->view.dimension,
@@ -203,20 +203,21 @@ note_hessian(abut_coupling *c, const abut_coupling_share *total)
   const abut_coupling_entry *e =
       (const abut_coupling_entry *)c->sum.entries.data + total->first
       + total->n_secondary;
-  double shape[ABUT_FACET_MAX_NODES], normal[3], unit[3], guide[3];
+  double shape[ABUT_FACET_MAX_NODES], normal[3], unit[3], auxiliary[3];
   for (int32_t a = 0; a < n_nodes; ++a)
     shape[a] = e[a].value / total->weight;
   for (int d = 0; d < 3; ++d)
     unit[d] = normal[d] = total->normal[d] / total->weight;
   unit3(unit, 0.);
-  (void)abut_coupling_guide(c, total, unit, guide);
-  abut_coupling_turn(dim, n, normal, guide, shape, hessian, hessian + n * n);
+  (void)abut_coupling_auxiliary_vector(c, total, unit, auxiliary);
+  abut_coupling_tangent_derivatives(dim, n, normal, auxiliary, shape, hessian,
+                                    hessian + n * n);
   return ABUT_SUCCESS;
 }
 
 /* Remember what the set does not hold. */
 static abut_status
-note_point(abut_coupling *c, const abut_coupling_share *total, double full)
+record_point(abut_coupling *c, const abut_coupling_share *total, double full)
 {
   const int64_t i = c->view.n_points, dim = c->secondary->view.dimension;
   struct
@@ -246,7 +247,7 @@ note_point(abut_coupling *c, const abut_coupling_share *total, double full)
   ((double *)c->made.least.data)[i] = total->least;
   memcpy((double *)c->made.position.data + i * dim, position,
          sizeof(double) * (size_t)dim);
-  return abut_coupling_moves(c) ? note_hessian(c, total) : ABUT_SUCCESS;
+  return abut_coupling_moves(c) ? record_hessian(c, total) : ABUT_SUCCESS;
 }
 
 static int64_t
@@ -300,11 +301,11 @@ add_tangents(const abut_coupling *c, const abut_coupling_share *total,
              const double *unit, double *frame)
 {
   const int32_t dim = c->secondary->view.dimension;
-  double guide[3];
+  double auxiliary[3];
   if (!c->target->tangents)
     return 1;
-  (void)abut_coupling_guide(c, total, unit, guide);
-  abut_coupling_tangents(dim, unit, guide, frame + dim);
+  (void)abut_coupling_auxiliary_vector(c, total, unit, auxiliary);
+  abut_coupling_tangents(dim, unit, auxiliary, frame + dim);
   return dim;
 }
 
@@ -317,7 +318,7 @@ fill_turning(abut_coupling *c, const int64_t *list, int64_t n,
   abut_coupling_direction direction;
   abut_status status = abut_coupling_direct(c, list, n, total, &direction);
   if (status == ABUT_SUCCESS)
-    status = abut_coupling_note_block(c, list, n, total, &direction);
+    status = abut_coupling_record_block(c, list, n, total, &direction);
   if (status != ABUT_SUCCESS)
     return status;
   memcpy(frame, direction.normal,
@@ -366,14 +367,14 @@ add_point(abut_coupling *c, const int64_t *list, int64_t n,
           const abut_coupling_share *total, double full)
 {
   double frame[9], gap[3];
-  abut_status status = note_point(c, total, full);
+  abut_status status = record_point(c, total, full);
   if (status != ABUT_SUCCESS)
     return status;
   abut_point point = abut_point_defaults();
   point.id = id_of(c, total);
   point.kind = c->target->tie_axes == 0 ? ABUT_POINT_CONTACT : ABUT_POINT_TIE;
   point.n_components = 1;
-  if (abut_coupling_turns(c))
+  if (abut_coupling_has_current_directions(c))
     status = fill_turning(c, list, n, total, frame, gap, &point.n_components);
   else
     point.n_components = fill_components(c, total, frame, gap);
@@ -507,7 +508,7 @@ abut_coupling_append(abut_coupling *c)
   v->point = c->made.number.data;
   v->full_weight = c->made.full.data;
   v->position = c->made.position.data;
-  const bool turns = abut_coupling_turns(c),
+  const bool turns = abut_coupling_has_current_directions(c),
              moves = turns || abut_coupling_moves(c);
   v->hessian = moves ? c->made.hessian.data : NULL;
   v->hessian_start = moves ? c->made.hessian_start.data : NULL;

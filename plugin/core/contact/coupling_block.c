@@ -279,14 +279,15 @@ fill(matrix *m, const int64_t *list, int64_t n,
 /* Add the rotation of the tangents t[2] of the point about its normal, to the
  * matrices behind that of the normal. */
 static void
-add_spin(matrix *m, const int64_t *list, int64_t n,
-         const abut_coupling_share *total, int32_t facet, const double *normal,
-         double (*t)[3])
+add_tangent_rotation(matrix *m, const int64_t *list, int64_t n,
+                     const abut_coupling_share *total, int32_t facet,
+                     const double *normal, double (*t)[3])
 {
   const int64_t size = (int64_t)m->lines.n * m->columns.n * m->dim * m->dim;
   const int32_t *corner;
-  double spin[4][3];
-  const int n_corners = abut_coupling_spin(m->c, facet, normal, &corner, spin);
+  double rotation[4][3];
+  const int n_corners =
+      abut_coupling_tangent_rotation(m->c, facet, normal, &corner, rotation);
   for (int64_t i = 0; i < n; ++i)
   {
     const abut_coupling_share *s = share_at(m->c, list[i]);
@@ -304,15 +305,15 @@ add_spin(matrix *m, const int64_t *list, int64_t n,
           double *to = at(m, line, d, m->columns.place[corner[a]] - 1);
           for (int f = 0; f < 3; ++f)
           {
-            to[size + f] += share * t[1][d] * spin[a][f];
-            to[2 * size + f] -= share * t[0][d] * spin[a][f];
+            to[size + f] += share * t[1][d] * rotation[a][f];
+            to[2 * size + f] -= share * t[0][d] * rotation[a][f];
           }
         }
     }
   }
 }
 
-/* Enter the facet that a guide rotates with. */
+/* Enter the facet that an auxiliary vector rotates with. */
 static abut_status
 enter_facet(matrix *m, int32_t facet)
 {
@@ -328,17 +329,18 @@ enter_facet(matrix *m, int32_t facet)
 static void
 fill_tangents(matrix *m, const int64_t *list, int64_t n,
               const abut_coupling_share *total, const double *normal,
-              const double *guide, int32_t facet)
+              const double *auxiliary, int32_t facet)
 {
   double t[2][3];
   const int64_t n_columns = (int64_t)m->columns.n * m->dim,
                 size = m->lines.n * m->dim * n_columns;
-  abut_coupling_turn_lines(m->dim, m->lines.n, n_columns, normal, guide,
-                           m->value, m->value + size);
+  abut_coupling_tangent_derivatives_of_lines(m->dim, m->lines.n, n_columns,
+                                             normal, auxiliary, m->value,
+                                             m->value + size);
   if (facet < 0)
     return;
-  abut_coupling_tangents(m->dim, normal, guide, t[0]);
-  add_spin(m, list, n, total, facet, normal, t);
+  abut_coupling_tangents(m->dim, normal, auxiliary, t[0]);
+  add_tangent_rotation(m, list, n, total, facet, normal, t);
 }
 
 /* The next matrix begins where the last one ends. */
@@ -364,9 +366,9 @@ end_at(abut_coupling *c, abut_array *start, int64_t n)
 }
 
 abut_status
-abut_coupling_note_block(abut_coupling *c, const int64_t *list, int64_t n,
-                         const abut_coupling_share *total,
-                         const abut_coupling_direction *direction)
+abut_coupling_record_block(abut_coupling *c, const int64_t *list, int64_t n,
+                           const abut_coupling_share *total,
+                           const abut_coupling_direction *direction)
 {
   matrix m = {.c = c, .dim = c->view.dimension};
   m.lines = (node_list){c, c->change.line_place.data, &c->made.line, 0, 0};
@@ -382,11 +384,10 @@ abut_coupling_note_block(abut_coupling *c, const int64_t *list, int64_t n,
     status = enter_direction(&m, direction);
   if (status == ABUT_SUCCESS)
     status = enter_shares(&m, list, n);
-  double guide[3];
-  const int32_t facet =
-      c->target->tangents
-          ? abut_coupling_guide(c, total, direction->normal, guide)
-          : -1;
+  double auxiliary[3];
+  const int32_t facet = c->target->tangents ? abut_coupling_auxiliary_vector(
+                            c, total, direction->normal, auxiliary)
+                                            : -1;
   if (status == ABUT_SUCCESS && facet >= 0)
     status = enter_facet(&m, facet);
   const int64_t size = (int64_t)m.lines.n * m.columns.n * m.dim * m.dim,
@@ -400,7 +401,7 @@ abut_coupling_note_block(abut_coupling *c, const int64_t *list, int64_t n,
     memset(m.value, 0, sizeof(double) * (size_t)size);
     status = fill(&m, list, n, total, direction);
     if (c->target->tangents)
-      fill_tangents(&m, list, n, total, direction->normal, guide, facet);
+      fill_tangents(&m, list, n, total, direction->normal, auxiliary, facet);
   }
   finish(&m.lines);
   finish(&m.columns);

@@ -180,7 +180,7 @@ build(abut_coupling *c, double motion)
     abut_coupling_set_purpose(c);
     status = search(c, motion);
   }
-  if (status == ABUT_SUCCESS && abut_coupling_turns(c))
+  if (status == ABUT_SUCCESS && abut_coupling_has_current_directions(c))
     status = begin_turning(c);
   if (status == ABUT_SUCCESS && c->of_node.drops)
     status = abut_coupling_drop(c);
@@ -269,9 +269,9 @@ abut_coupling_build(abut_coupling *coupling, const abut_coupling_nodes *nodes,
   abut_coupling_nodes chosen = abut_coupling_nodes_defaults();
   abut_coupling_target place = abut_coupling_target_defaults(NULL);
   abut_status status =
-      abut_take(c->context, call, &chosen, sizeof(chosen), nodes);
+      abut_copy_in(c->context, call, &chosen, sizeof(chosen), nodes);
   if (status == ABUT_SUCCESS)
-    status = abut_take(c->context, call, &place, sizeof(place), target);
+    status = abut_copy_in(c->context, call, &place, sizeof(place), target);
   if (status != ABUT_SUCCESS)
     return status;
   const char *fault = fault_of_target(c, &place);

@@ -283,6 +283,6 @@ abut_coupling_make_points(abut_coupling *c, const abut_coupling_facet *facet,
                                  ? abut_coupling_segments2(c, facet, final)
                                  : abut_coupling_segments3(c, facet, final);
   if (status == ABUT_SUCCESS && !abut_coupling_is_mortar(c))
-    abut_coupling_aim(c, facet);
+    abut_coupling_find_opposites(c, facet);
   return status;
 }

@@ -18,7 +18,7 @@
 
 /* Cosine of normals that point the same way beyond doubt: flanks of a body that
  * is pushed into a wide obstacle are no such places. */
-static const double same_way = 0.5;
+static const double same_direction = 0.5;
 
 /* Distance, in extents of the surface, at which a point has come out. */
 static const double at_surface = 1e-12;
@@ -68,7 +68,7 @@ collect(abut_coupling *c, int64_t *n)
     double cosine = 0.;
     for (int d = 0; d < dim; ++d)
       cosine += gradient[i * dim + d] * normal[i * dim + d];
-    if (!(distance[i] < 0. && cosine > same_way))
+    if (!(distance[i] < 0. && cosine > same_direction))
       continue;
     const abut_status status = abut_array_reserve(
         c->context, &c->answer.walkers, *n * (int64_t)sizeof(walker),

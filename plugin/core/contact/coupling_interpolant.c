@@ -56,8 +56,8 @@ abut_coupling_find_node_gaps(abut_coupling *c, const abut_coupling_facet *facet,
       continue;
     }
     abut_coupling_node_normal(c, facet, node, normal);
-    gaps->found[l] = abut_coupling_look(c, position + dim * node, normal,
-                                        n_candidates, gaps->gap[l]);
+    gaps->found[l] = abut_coupling_intersect_line(
+        c, position + dim * node, normal, n_candidates, gaps->gap[l]);
   }
   return ABUT_SUCCESS;
 }

@@ -218,7 +218,7 @@ abut_coupling_rate3(abut_coupling *c, const abut_coupling_facet *facet,
   const int32_t n_m = abut_facet_n_nodes(kind), n_s = facet->n,
                 n_columns = abut_coupling_columns(c, n_s, n_m);
   double nodes[3 * ABUT_FACET_MAX_NODES], x[3], y[3], r[3], t[2][3], way[2][3],
-      normal[3], turn[3][3 * ABUT_FACET_MAX_NODES];
+      normal[3], rotation[3][3 * ABUT_FACET_MAX_NODES];
   abut_shape at;
   patch_shape on_s, on_m;
   double *rate = new_rate(c, p, n_m, n_columns);
@@ -228,7 +228,7 @@ abut_coupling_rate3(abut_coupling *c, const abut_coupling_facet *facet,
   abut_shape3(kind, opposite[0], opposite[1], &at);
   shape_on(facet->kind, s, p->local, &on_s);
   shape_on(kind, m, opposite, &on_m);
-  normal_of_patch(facet->kind, plane, normal, turn);
+  normal_of_patch(facet->kind, plane, normal, rotation);
   combine(n_s, on_s.share, facet->x, x);
   combine(n_m, on_m.share, nodes, y);
   for (int k = 0; k < 2; ++k)
@@ -246,7 +246,7 @@ abut_coupling_rate3(abut_coupling *c, const abut_coupling_facet *facet,
       {
         double sum = on_s.share[b] * way[k][e];
         for (int d = 0; d < 3; ++d)
-          sum += gap * way[k][d] * turn[d][3 * b + e];
+          sum += gap * way[k][d] * rotation[d][3 * b + e];
         add_column(rate, n_m, n_columns, 3 * b + e, at.d[k], sum / det);
       }
     for (int32_t b = 0; b < n_m; ++b)

@@ -72,8 +72,9 @@ find_opposite(const abut_coupling *c, const double *direction, double (*e)[3],
 }
 
 bool
-abut_coupling_look(const abut_coupling *c, const double *x,
-                   const double *normal, int32_t n_candidates, double *gap)
+abut_coupling_intersect_line(const abut_coupling *c, const double *x,
+                             const double *normal, int32_t n_candidates,
+                             double *gap)
 {
   double e[2][3];
   abut_coupling_point p = {.primary = -1};
@@ -86,7 +87,7 @@ abut_coupling_look(const abut_coupling *c, const double *x,
 }
 
 void
-abut_coupling_aim(abut_coupling *c, const abut_coupling_facet *facet)
+abut_coupling_find_opposites(abut_coupling *c, const abut_coupling_facet *facet)
 {
   double e[2][3];
   abut_coupling_point *p = c->work.points.data;

@@ -16,8 +16,8 @@
  *
  *     d(t c_l) = t dc_l + c_l dt .
  *
- * In space tangents are made of a guide, which rotates with the secondary: that
- * rotates them about the normal, too. */
+ * In space tangents are made of an auxiliary vector, which rotates with the
+ * secondary: that rotates them about the normal, too. */
 #include "contact/coupling.h"
 #include "geometry/vector.h"
 
@@ -26,7 +26,7 @@
 /* Two vectors that make a frame with the unit normal; see abut_coupling_target.
  */
 static void
-tangents_of(int dim, const double *n, const double *guide, double (*t)[3])
+tangents_of(int dim, const double *n, const double *auxiliary, double (*t)[3])
 {
   memset(t, 0, 2 * sizeof(*t));
   if (dim == 2)
@@ -35,7 +35,7 @@ tangents_of(int dim, const double *n, const double *guide, double (*t)[3])
     t[0][1] = n[0];
     return;
   }
-  axpy3(guide, -dot3(guide, n), n, t[0]);
+  axpy3(auxiliary, -dot3(auxiliary, n), n, t[0]);
   unit3(t[0], 0.);
   cross3(n, t[0], t[1]);
 }
@@ -53,7 +53,7 @@ typedef struct facet_direction
   const int32_t *node;
   double share[2][4];        /* of the corners in the coordinates' directions */
   double t[2][3], length[2]; /* these, of unit length */
-  double n[3], guide[3];
+  double n[3], auxiliary[3];
 } facet_direction;
 
 static void
@@ -79,29 +79,29 @@ look_along(const abut_coupling *c, int32_t f, facet_direction *d)
   cross3(d->t[0], d->t[1], d->n);
   unit3(d->n, 0.);
   cross3(d->t[1], d->n, turned);
-  axpy3(d->t[0], 1., turned, d->guide);
-  unit3(d->guide, 0.);
+  axpy3(d->t[0], 1., turned, d->auxiliary);
+  unit3(d->auxiliary, 0.);
 }
 
-/* Whether a facet is near the tangent plane of a unit normal; then the guide is
- * its direction. */
+/* Whether a facet is near the tangent plane of a unit normal; then the
+ * auxiliary vector is its direction. */
 static bool
-take_guide(const abut_coupling *c, int32_t f, const double *normal,
-           double *guide)
+auxiliary_of_facet(const abut_coupling *c, int32_t f, const double *normal,
+                   double *auxiliary)
 {
   facet_direction d;
   look_along(c, f, &d);
   if (!(fabs(dot3(d.n, normal)) > steepest))
     return false;
-  memcpy(guide, d.guide, sizeof(d.guide));
+  memcpy(auxiliary, d.auxiliary, sizeof(d.auxiliary));
   return true;
 }
 
 /* The facet of a node with the smallest number, so that it is the same wherever
  * the node goes; -1: there is none. */
 static int32_t
-guide_of_node(const abut_coupling *c, int32_t node, const double *normal,
-              double *guide)
+auxiliary_of_node(const abut_coupling *c, int32_t node, const double *normal,
+                  double *auxiliary)
 {
   const abut_surface_view *v = &c->secondary->view;
   int64_t least = INT64_MAX;
@@ -110,7 +110,7 @@ guide_of_node(const abut_coupling *c, int32_t node, const double *normal,
   {
     const int32_t f = v->node_facet[e];
     const int64_t id = abut_surface_facet_id(c->secondary, f);
-    if (id >= least || !take_guide(c, f, normal, guide))
+    if (id >= least || !auxiliary_of_facet(c, f, normal, auxiliary))
       continue;
     least = id;
     found = f;
@@ -119,78 +119,83 @@ guide_of_node(const abut_coupling *c, int32_t node, const double *normal,
 }
 
 int32_t
-abut_coupling_guide(const abut_coupling *c, const abut_coupling_share *share,
-                    const double *normal, double *guide)
+abut_coupling_auxiliary_vector(const abut_coupling *c,
+                               const abut_coupling_share *share,
+                               const double *normal, double *auxiliary)
 {
   int32_t facet = -1;
-  memset(guide, 0, 3 * sizeof(*guide));
+  memset(auxiliary, 0, 3 * sizeof(*auxiliary));
   if (c->secondary->view.dimension == 2)
     return -1;
   if (c->kinematics->directions != ABUT_CONFIGURATION_REFERENCE)
-    facet = share->node >= 0 ? guide_of_node(c, share->node, normal, guide)
-            : take_guide(c, share->facet, normal, guide) ? share->facet
-                                                         : -1;
+    facet =
+        share->node >= 0 ? auxiliary_of_node(c, share->node, normal, auxiliary)
+        : auxiliary_of_facet(c, share->facet, normal, auxiliary) ? share->facet
+                                                                 : -1;
   if (facet >= 0)
     return facet;
   int axis = 0;
   for (int d = 1; d < 3; ++d)
     if (fabs(normal[d]) < fabs(normal[axis]))
       axis = d;
-  guide[axis] = 1.;
+  auxiliary[axis] = 1.;
   return -1;
 }
 
 /* With the directions a and b of the coordinates, the facet's normal N and the
- * guide g = p a + q b, dg is half the rotations of a and b about N, and the
- * part p da . N + q db . N along N. Tangents rotate by t2 . dg / |g - n n . g|.
+ * auxiliary vector g = p a + q b, dg is half the rotations of a and b about N,
+ * and the part p da . N + q db . N along N. Tangents rotate by t2 . dg / |g - n
+ * n . g|.
  */
 int
-abut_coupling_spin(const abut_coupling *c, int32_t facet, const double *normal,
-                   const int32_t **node, double (*spin)[3])
+abut_coupling_tangent_rotation(const abut_coupling *c, int32_t facet,
+                               const double *normal, const int32_t **node,
+                               double (*rotation)[3])
 {
   facet_direction d;
   double t[2][3], across[3], turned[3], by[2][3] = {{0.}, {0.}};
   look_along(c, facet, &d);
-  tangents_of(3, normal, d.guide, t);
-  axpy3(d.guide, -dot3(d.guide, normal), normal, across);
+  tangents_of(3, normal, d.auxiliary, t);
+  axpy3(d.auxiliary, -dot3(d.auxiliary, normal), normal, across);
   const double length = norm3(across);
-  cross3(d.n, d.guide, across);
+  cross3(d.n, d.auxiliary, across);
   const double half = 0.5 * dot3(t[1], across), out = dot3(t[1], d.n);
   cross3(d.t[0], d.t[1], turned);
   const double det = dot3(turned, d.n);
   for (int k = 0; k < 2; ++k)
   {
-    cross3(d.guide, d.t[1 - k], turned);
+    cross3(d.auxiliary, d.t[1 - k], turned);
     const double part = (k == 0 ? 1. : -1.) * dot3(turned, d.n) / det;
     cross3(d.n, d.t[k], turned);
     axpy3(by[k], half / (d.length[k] * length), turned, by[k]);
     axpy3(by[k], part * out / (d.length[k] * length), d.n, by[k]);
   }
-  memset(spin, 0, (size_t)d.n_corners * sizeof(*spin));
+  memset(rotation, 0, (size_t)d.n_corners * sizeof(*rotation));
   for (int a = 0; a < d.n_corners; ++a)
     for (int k = 0; k < 2; ++k)
-      axpy3(spin[a], d.share[k][a], by[k], spin[a]);
+      axpy3(rotation[a], d.share[k][a], by[k], rotation[a]);
   *node = d.node;
   return d.n_corners;
 }
 
 void
-abut_coupling_tangents(int32_t dim, const double *normal, const double *guide,
-                       double *tangents)
+abut_coupling_tangents(int32_t dim, const double *normal,
+                       const double *auxiliary, double *tangents)
 {
   double t[2][3];
-  tangents_of(dim, normal, guide, t);
+  tangents_of(dim, normal, auxiliary, t);
   for (int k = 0; k < dim - 1; ++k)
     memcpy(tangents + k * dim, t[k], sizeof(double) * (size_t)dim);
 }
 
-/* How they change as the unit normal does, while their guide stays. */
+/* How they change as the unit normal does, while their auxiliary vector stays.
+ */
 static void
-turn_tangents(int dim, const double *n, const double *guide, const double *dn,
-              double (*dt)[3])
+differentiate_tangents(int dim, const double *n, const double *auxiliary,
+                       const double *dn, double (*dt)[3])
 {
   double t[2][3], a[3], b[3];
-  tangents_of(dim, n, guide, t);
+  tangents_of(dim, n, auxiliary, t);
   memset(dt, 0, 2 * sizeof(*dt));
   if (dim == 2)
   {
@@ -199,8 +204,8 @@ turn_tangents(int dim, const double *n, const double *guide, const double *dn,
     return;
   }
   /* Derivative of v = e - (e . n) n, which is made a unit vector. */
-  const double along = dot3(guide, n), change = dot3(guide, dn);
-  axpy3(guide, -along, n, a);
+  const double along = dot3(auxiliary, n), change = dot3(auxiliary, dn);
+  axpy3(auxiliary, -along, n, a);
   const double length = norm3(a);
   for (int d = 0; d < 3; ++d)
     dt[0][d] = -(change * n[d] + along * dn[d]) / length;
@@ -211,13 +216,13 @@ turn_tangents(int dim, const double *n, const double *guide, const double *dn,
 }
 
 void
-abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
-                   const double *guide, const double *shape,
-                   const double *hessian, double *turning)
+abut_coupling_tangent_derivatives(int32_t dim, int32_t n, const double *normal,
+                                  const double *auxiliary, const double *shape,
+                                  const double *hessian, double *turning)
 {
   double unit[3] = {0., 0., 0.}, t[2][3];
   memcpy(unit, normal, sizeof(double) * (size_t)dim);
-  tangents_of(dim, unit, guide, t);
+  tangents_of(dim, unit, auxiliary, t);
   for (int32_t u = 0; u < n; ++u)
   {
     /* The normal is minus the gradient. */
@@ -225,7 +230,7 @@ abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
     for (int d = 0; d < dim; ++d)
       dn[d] = -hessian[d * n + u];
     axpy3(dn, -dot3(dn, unit), unit, dn);
-    turn_tangents(dim, unit, guide, dn, dt);
+    differentiate_tangents(dim, unit, auxiliary, dn, dt);
     for (int32_t a = 0; a < n / dim; ++a)
     {
       double share = 1., change = 0.;
@@ -242,14 +247,16 @@ abut_coupling_turn(int32_t dim, int32_t n, const double *normal,
 }
 
 void
-abut_coupling_turn_lines(int32_t dim, int32_t n_lines, int64_t n_columns,
-                         const double *normal, const double *guide,
-                         const double *block, double *turning)
+abut_coupling_tangent_derivatives_of_lines(int32_t dim, int32_t n_lines,
+                                           int64_t n_columns,
+                                           const double *normal,
+                                           const double *auxiliary,
+                                           const double *block, double *turning)
 {
   double unit[3] = {0., 0., 0.}, t[2][3];
   const int64_t size = n_lines * dim * n_columns;
   memcpy(unit, normal, sizeof(double) * (size_t)dim);
-  tangents_of(dim, unit, guide, t);
+  tangents_of(dim, unit, auxiliary, t);
   for (int32_t l = 0; l < n_lines; ++l)
     for (int64_t u = 0; u < n_columns; ++u)
     {
@@ -259,7 +266,7 @@ abut_coupling_turn_lines(int32_t dim, int32_t n_lines, int64_t n_columns,
         way[d] = -block[first + d * n_columns];
       const double change = dot3(unit, way);
       axpy3(way, -change, unit, way);
-      turn_tangents(dim, unit, guide, way, dt);
+      differentiate_tangents(dim, unit, auxiliary, way, dt);
       for (int k = 0; k < dim - 1; ++k)
         for (int d = 0; d < dim; ++d)
           turning[k * size + first + d * n_columns] =

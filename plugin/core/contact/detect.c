@@ -138,7 +138,7 @@ abut_detection_create(abut_context *context, abut_surface *secondary,
                      "the surfaces have different dimensions");
   abut_detection_options chosen = abut_detection_defaults();
   abut_status status =
-      abut_take(context, call, &chosen, sizeof(chosen), options);
+      abut_copy_in(context, call, &chosen, sizeof(chosen), options);
   if (status != ABUT_SUCCESS)
     return status;
   const char *fault = fault_of(&chosen);
@@ -380,8 +380,8 @@ abut_detection_get_sized(const abut_detection *detection,
 {
   if (detection == NULL || view == NULL)
     return ABUT_INVALID_ARGUMENT;
-  return abut_give(detection->context, "abut_detection_get", view,
-                   sizeof(detection->view), &detection->view);
+  return abut_copy_out(detection->context, "abut_detection_get", view,
+                       sizeof(detection->view), &detection->view);
 }
 
 const abut_search *

@@ -101,8 +101,8 @@ abut_discretisation_describe_sized(abut_discretisation discretisation,
       abut_discretisation_methods_get(discretisation);
   if (m == NULL || info == NULL)
     return ABUT_INVALID_ARGUMENT;
-  return abut_give(NULL, "abut_discretisation_describe", info, sizeof(m->info),
-                   &m->info);
+  return abut_copy_out(NULL, "abut_discretisation_describe", info,
+                       sizeof(m->info), &m->info);
 }
 
 const char *

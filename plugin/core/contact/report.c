@@ -71,6 +71,6 @@ abut_detection_make_report_sized(abut_detection *detection,
   cover(d, &z);
   if (primary.median > 0)
     z.size_ratio = secondary.median / primary.median;
-  return abut_give(d->context, "abut_detection_make_report", report, sizeof(z),
-                   &z);
+  return abut_copy_out(d->context, "abut_detection_make_report", report,
+                       sizeof(z), &z);
 }

@@ -421,7 +421,7 @@ abut_surface_split_sized(abut_context *context, abut_surface *surface,
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "context, surface or result is NULL");
   abut_status status =
-      abut_take(context, call, &w.options, sizeof(w.options), options);
+      abut_copy_in(context, call, &w.options, sizeof(w.options), options);
   if (status != ABUT_SUCCESS)
     return status;
   const char *fault = fault_of(&w.options);
@@ -433,5 +433,5 @@ abut_surface_split_sized(abut_context *context, abut_surface *surface,
   release(&w);
   if (status != ABUT_SUCCESS || report == NULL)
     return status;
-  return abut_give(context, call, report, sizeof(w.report), &w.report);
+  return abut_copy_out(context, call, report, sizeof(w.report), &w.report);
 }

@@ -210,7 +210,7 @@ assemble_hessian(stages *s, double *hessian)
 
 /* The terms that are added where n rotates about an edge or a corner. */
 static int
-add_turn(const stages *s, double *hessian)
+add_normal_rotation(const stages *s, double *hessian)
 {
   const int32_t dim = s->dimension;
   double p[3][3];
@@ -293,7 +293,8 @@ abut_facet_distance_derivatives(abut_facet_kind kind, const double *nodes,
   if (!(distance > 0.) || !take_edge(&s, kind, projection->local))
     return ABUT_UNSUPPORTED;
   load(&s, kind, nodes, projection->local, normal, side * distance);
-  if (hessian && (!assemble_hessian(&s, hessian) || !add_turn(&s, hessian)))
+  if (hessian
+      && (!assemble_hessian(&s, hessian) || !add_normal_rotation(&s, hessian)))
     return ABUT_UNSUPPORTED;
   fill_gradient(&s, gradient);
   return ABUT_SUCCESS;

@@ -133,8 +133,8 @@ abut_obstacle_get_sized(const abut_obstacle *obstacle, abut_obstacle_view *view)
 {
   if (obstacle == NULL || view == NULL)
     return ABUT_INVALID_ARGUMENT;
-  return abut_give(obstacle->context, "abut_obstacle_get", view,
-                   sizeof(obstacle->view), &obstacle->view);
+  return abut_copy_out(obstacle->context, "abut_obstacle_get", view,
+                       sizeof(obstacle->view), &obstacle->view);
 }
 
 abut_status
@@ -297,8 +297,8 @@ prepare(abut_obstacle *o, int32_t n, const double *points, const double **local,
 
 /* The opposite sign of everything: the material is outside. */
 static void
-turn(int64_t n, int64_t dimension, double *distance, double *gradient,
-     double *hessian)
+invert(int64_t n, int64_t dimension, double *distance, double *gradient,
+       double *hessian)
 {
   negate(n, distance);
   if (gradient != NULL)
@@ -336,7 +336,7 @@ ask(abut_obstacle *o, bool moving, int32_t n, const double *points,
   if (o->placed && hessian != NULL)
     rotate_hessians(&o->view, n, hessian);
   if (o->view.hollow)
-    turn(n, o->view.dimension, distance, gradient, hessian);
+    invert(n, o->view.dimension, distance, gradient, hessian);
   return ABUT_SUCCESS;
 }
 

@@ -242,7 +242,7 @@ abut_obstacle_create_function(abut_context *context,
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "function is NULL");
   abut_obstacle_function chosen = abut_obstacle_function_defaults();
   const abut_status status =
-      abut_take(context, call, &chosen, sizeof(chosen), function);
+      abut_copy_in(context, call, &chosen, sizeof(chosen), function);
   if (status != ABUT_SUCCESS)
     return status;
   if (chosen.dimension != 2 && chosen.dimension != 3)

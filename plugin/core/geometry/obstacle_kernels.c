@@ -201,8 +201,8 @@ off_axis(const abut_shape_data *s, double *e)
 }
 
 void
-abut_turned_distance(const abut_shape_data *s, const double *x,
-                     abut_shape_distance *d)
+abut_revolved_distance(const abut_shape_data *s, const double *x,
+                       abut_shape_distance *d)
 {
   double v[3], a[3], e[3];
   clear(d);

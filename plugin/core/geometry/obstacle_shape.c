@@ -78,7 +78,7 @@ static const shape_entry shapes[ABUT_OBSTACLE_N_KINDS] = {
                               sphere_extents, true, NULL},
     [ABUT_OBSTACLE_CYLINDER] = {ABUT_SHAPE_AXIS | ABUT_SHAPE_RADIUS
                                     | ABUT_SHAPE_LENGTH,
-                                abut_turned_distance, prepare_cylinder,
+                                abut_revolved_distance, prepare_cylinder,
                                 cylinder_extents, false,
                                 "a cylinder exists in 3 dimensions only; in 2, "
                                 "its section is a sphere or a box"},
@@ -86,7 +86,7 @@ static const shape_entry shapes[ABUT_OBSTACLE_N_KINDS] = {
                            box_extents, false, NULL},
     [ABUT_OBSTACLE_CONE] = {
         ABUT_SHAPE_AXIS | ABUT_SHAPE_LENGTH | ABUT_SHAPE_ANGLE,
-        abut_turned_distance, prepare_cone, NULL, false, NULL}};
+        abut_revolved_distance, prepare_cone, NULL, false, NULL}};
 
 uint32_t
 abut_obstacle_fields(abut_obstacle_kind kind)
@@ -247,7 +247,8 @@ abut_obstacle_create_shape(abut_context *context,
   if (given == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "shape is NULL");
   abut_obstacle_shape taken = abut_obstacle_shape_defaults();
-  abut_status status = abut_take(context, call, &taken, sizeof(taken), given);
+  abut_status status =
+      abut_copy_in(context, call, &taken, sizeof(taken), given);
   const abut_obstacle_shape *shape = &taken;
   if (status == ABUT_SUCCESS)
     status = check(context, call, shape);

@@ -36,7 +36,7 @@ void abut_sphere_distance(const abut_shape_data *s, const double *x,
 void abut_box_distance(const abut_shape_data *s, const double *x,
                        abut_shape_distance *d);
 /* Cylinder and cone (2D: wedge). */
-void abut_turned_distance(const abut_shape_data *s, const double *x,
-                          abut_shape_distance *d);
+void abut_revolved_distance(const abut_shape_data *s, const double *x,
+                            abut_shape_distance *d);
 
 #endif

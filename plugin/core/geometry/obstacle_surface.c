@@ -192,7 +192,7 @@ abut_obstacle_create_surface(abut_context *context, abut_surface *surface,
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
                      "context, surface or result is NULL");
   abut_status status =
-      abut_take(context, call, &chosen, sizeof(chosen), options);
+      abut_copy_in(context, call, &chosen, sizeof(chosen), options);
   if (status != ABUT_SUCCESS)
     return status;
   if (!(chosen.limit >= 0. && chosen.limit <= ABUT_FACET_LIMIT))

@@ -43,8 +43,8 @@ release_all(abut_surface *s)
 
 /* Copy n elements into the array, or borrow them: *use is what to read. */
 static abut_status
-take(abut_surface *s, abut_array *array, const void *from, int64_t n,
-     const void **use)
+copy_or_borrow(abut_surface *s, abut_array *array, const void *from, int64_t n,
+               const void **use)
 {
   *use = from;
   if (from == NULL || s->borrow)
@@ -110,7 +110,7 @@ take_arrays(abut_surface *s, const abut_surface_data *data)
       {&s->group, data->group, n}};
   for (int i = 0; i < 5; ++i)
   {
-    status = take(s, list[i].array, list[i].from, list[i].n, &use[i]);
+    status = copy_or_borrow(s, list[i].array, list[i].from, list[i].n, &use[i]);
     if (status != ABUT_SUCCESS)
       return status;
   }
@@ -150,8 +150,8 @@ abut_surface_create(abut_context *context, const abut_surface_data *given,
                      "data is NULL");
   abut_surface_data taken = abut_surface_data_defaults();
   const abut_surface_data *data = &taken;
-  abut_status status =
-      abut_take(context, "abut_surface_create", &taken, sizeof(taken), given);
+  abut_status status = abut_copy_in(context, "abut_surface_create", &taken,
+                                    sizeof(taken), given);
   if (status == ABUT_SUCCESS)
     status = abut_surface_check_data(context, data);
   if (status != ABUT_SUCCESS)
@@ -221,6 +221,6 @@ abut_surface_get_sized(const abut_surface *surface, abut_surface_view *view)
 {
   if (surface == NULL || view == NULL)
     return ABUT_INVALID_ARGUMENT;
-  return abut_give(surface->context, "abut_surface_get", view,
-                   sizeof(surface->view), &surface->view);
+  return abut_copy_out(surface->context, "abut_surface_get", view,
+                       sizeof(surface->view), &surface->view);
 }

@@ -177,5 +177,6 @@ abut_surface_measure_sized(abut_surface *surface, abut_surface_sizes *sizes)
     z.largest = kth_smallest(size, n, n - 1);
   }
   count_sides(s, &z);
-  return abut_give(s->context, "abut_surface_measure", sizes, sizeof(z), &z);
+  return abut_copy_out(s->context, "abut_surface_measure", sizes, sizeof(z),
+                       &z);
 }

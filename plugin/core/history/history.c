@@ -274,7 +274,8 @@ abut_history_set(abut_history *history, const abut_history_entries *entries)
   abut_history_entries given = {.struct_size = sizeof(given)};
   if (entries == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "entries is NULL");
-  abut_status status = abut_take(context, call, &given, sizeof(given), entries);
+  abut_status status =
+      abut_copy_in(context, call, &given, sizeof(given), entries);
   if (status != ABUT_SUCCESS)
     return status;
   if (given.n < 0
@@ -313,19 +314,19 @@ version_of(const abut_history *history, abut_history_version version)
 /* The places for answers that a caller gave. */
 static abut_status
 take_past(const abut_history *history, const char *call,
-          const abut_history_past *past, abut_history_past *taken)
+          const abut_history_values *past, abut_history_values *taken)
 {
-  *taken = (abut_history_past){.struct_size = sizeof(*taken)};
-  return past == NULL
-             ? abut_fail(history->context, ABUT_INVALID_ARGUMENT, call,
-                         "past is NULL")
-             : abut_take(history->context, call, taken, sizeof(*taken), past);
+  *taken = (abut_history_values){.struct_size = sizeof(*taken)};
+  return past == NULL ? abut_fail(history->context, ABUT_INVALID_ARGUMENT, call,
+                                  "past is NULL")
+                      : abut_copy_in(history->context, call, taken,
+                                     sizeof(*taken), past);
 }
 
 /* Give out entry i of a set as the k-th answer; i < 0: none. */
 static void
-tell(const abut_entry_set *set, int64_t i, int64_t k,
-     const abut_history_past *past)
+write_entry(const abut_entry_set *set, int64_t i, int64_t k,
+            const abut_history_values *past)
 {
   if (past->found != NULL)
     past->found[k] = i >= 0;
@@ -337,13 +338,13 @@ tell(const abut_entry_set *set, int64_t i, int64_t k,
 
 abut_status
 abut_history_get(const abut_history *history, abut_history_version version,
-                 int64_t n, const int64_t *id, const abut_history_past *past)
+                 int64_t n, const int64_t *id, const abut_history_values *past)
 {
   static const char call[] = "abut_history_get";
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
   const abut_entry_set *set = version_of(history, version);
-  abut_history_past taken;
+  abut_history_values taken;
   if (set == NULL || n < 0 || (n > 0 && id == NULL))
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT, call,
                      "an argument is NULL, or a size or the version is wrong");
@@ -353,7 +354,7 @@ abut_history_get(const abut_history *history, abut_history_version version,
   for (int64_t k = 0; k < n; ++k)
   {
     const int64_t i = lower_bound(set, id[k]);
-    tell(set, i < set->n && ids(set)[i] == id[k] ? i : -1, k, &taken);
+    write_entry(set, i < set->n && ids(set)[i] == id[k] ? i : -1, k, &taken);
   }
   return ABUT_SUCCESS;
 }
@@ -370,13 +371,13 @@ distance_square(const double *a, const double *b)
 abut_status
 abut_history_nearest(const abut_history *history, abut_history_version version,
                      int64_t n, const int64_t *first_id, const int64_t *end_id,
-                     const double *place, const abut_history_past *past)
+                     const double *place, const abut_history_values *past)
 {
   static const char call[] = "abut_history_nearest";
   if (history == NULL)
     return ABUT_INVALID_ARGUMENT;
   const abut_entry_set *set = version_of(history, version);
-  abut_history_past taken;
+  abut_history_values taken;
   if (set == NULL || n < 0
       || (n > 0 && (first_id == NULL || end_id == NULL || place == NULL)))
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT, call,
@@ -398,7 +399,7 @@ abut_history_nearest(const abut_history *history, abut_history_version version,
         best = i;
       }
     }
-    tell(set, best, k, &taken);
+    write_entry(set, best, k, &taken);
   }
   return ABUT_SUCCESS;
 }
@@ -419,8 +420,8 @@ abut_history_view_sized(const abut_history *history,
       sizeof(view),    set->n,
       set->id.data,    set->pressure.data,
       set->state.data, set->has_places ? set->place.data : NULL};
-  return abut_give(history->context, "abut_history_view", entries, sizeof(view),
-                   &view);
+  return abut_copy_out(history->context, "abut_history_view", entries,
+                       sizeof(view), &view);
 }
 
 abut_status
@@ -435,7 +436,7 @@ abut_history_set_problem(abut_history *history, abut_history_version version,
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT, call,
                      "problem is NULL, or the version is wrong");
   const abut_status status =
-      abut_take(history->context, call, &taken, sizeof(taken), problem);
+      abut_copy_in(history->context, call, &taken, sizeof(taken), problem);
   if (status != ABUT_SUCCESS)
     return status;
   if (memchr(taken.law, 0, sizeof(taken.law)) == NULL
@@ -462,8 +463,8 @@ abut_history_get_problem_sized(const abut_history *history,
     return abut_fail(history->context, ABUT_INVALID_ARGUMENT,
                      "abut_history_get_problem",
                      "problem is NULL, or the version is wrong");
-  return abut_give(history->context, "abut_history_get_problem", problem,
-                   sizeof(set->problem), &set->problem);
+  return abut_copy_out(history->context, "abut_history_get_problem", problem,
+                       sizeof(set->problem), &set->problem);
 }
 
 abut_status

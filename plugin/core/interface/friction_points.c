@@ -31,7 +31,7 @@ begin(work *w, const char *call, const abut_points *points,
   if (places == NULL)
     return abut_fail(w->context, ABUT_INVALID_ARGUMENT, call, "places is NULL");
   const abut_status taken =
-      abut_take(w->context, call, &w->places, sizeof(w->places), places);
+      abut_copy_in(w->context, call, &w->places, sizeof(w->places), places);
   if (taken != ABUT_SUCCESS)
     return taken;
   const abut_point_places *p = &w->places;

@@ -218,7 +218,7 @@ abut_missed_contact_sized(abut_context *context, abut_surface *secondary,
   memset(&w, 0, sizeof(w));
   w.options = abut_missed_defaults();
   abut_status status =
-      abut_take(context, call_name, &w.options, sizeof(w.options), options);
+      abut_copy_in(context, call_name, &w.options, sizeof(w.options), options);
   if (status != ABUT_SUCCESS)
     return status;
   const char *fault = fault_of(&w.options);
@@ -236,5 +236,5 @@ abut_missed_contact_sized(abut_context *context, abut_surface *secondary,
   abut_array_release(context, &w.found);
   if (status != ABUT_SUCCESS)
     return status;
-  return abut_give(context, call_name, report, sizeof(w.report), &w.report);
+  return abut_copy_out(context, call_name, report, sizeof(w.report), &w.report);
 }

@@ -354,7 +354,8 @@ abut_dense_model_solve_sized(abut_context *context,
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "model is NULL");
   abut_dense_model taken;
   memset(&taken, 0, sizeof(taken));
-  abut_status status = abut_take(context, call, &taken, sizeof(taken), given);
+  abut_status status =
+      abut_copy_in(context, call, &taken, sizeof(taken), given);
   const abut_dense_model *model = &taken;
   if (status == ABUT_SUCCESS)
     status = check_model(context, model);

@@ -204,11 +204,11 @@ reserve(abut_multigrid *mg, const abut_multigrid_level *level)
 {
   abut_envelope *f = &mg->factor;
   const int64_t n = (int64_t)level->n * mg->block;
-  f->first = abut_pool_take(&mg->coarsest, n, sizeof(int32_t));
-  f->place = abut_pool_take(&mg->coarsest, n, sizeof(int32_t));
-  f->source = abut_pool_take(&mg->coarsest, n, sizeof(int32_t));
-  f->start = abut_pool_take(&mg->coarsest, n + 1, sizeof(int64_t));
-  f->x = abut_pool_take(&mg->coarsest, n, sizeof(double));
+  f->first = abut_pool_allocate(&mg->coarsest, n, sizeof(int32_t));
+  f->place = abut_pool_allocate(&mg->coarsest, n, sizeof(int32_t));
+  f->source = abut_pool_allocate(&mg->coarsest, n, sizeof(int32_t));
+  f->start = abut_pool_allocate(&mg->coarsest, n + 1, sizeof(int64_t));
+  f->x = abut_pool_allocate(&mg->coarsest, n, sizeof(double));
   for (int64_t u = 0; u < n && f->place != NULL; ++u)
     f->place[u] = -1;
   return mg->coarsest.failed ? ABUT_OUT_OF_MEMORY : ABUT_SUCCESS;
@@ -217,7 +217,7 @@ reserve(abut_multigrid *mg, const abut_multigrid_level *level)
 abut_status
 abut_multigrid_factorise(abut_multigrid *mg)
 {
-  static const char call[] = "abut_multigrid_hold";
+  static const char call[] = "abut_multigrid_set_constrained";
   const abut_multigrid_level *level = &mg->level[mg->n_levels - 1];
   abut_envelope *f = &mg->factor;
   abut_pool_release(&mg->coarsest);
@@ -228,12 +228,13 @@ abut_multigrid_factorise(abut_multigrid *mg)
       || (level->ranks != NULL
           && abut_multigrid_gather_coarsest(mg) != ABUT_SUCCESS))
     return abut_fail(mg->context, ABUT_OUT_OF_MEMORY, call, "no memory");
-  int32_t *list = abut_pool_take(&mg->coarsest, level->n, sizeof(int32_t));
-  uint8_t *seen = abut_pool_take(&mg->coarsest, level->n, 1);
+  int32_t *list = abut_pool_allocate(&mg->coarsest, level->n, sizeof(int32_t));
+  uint8_t *seen = abut_pool_allocate(&mg->coarsest, level->n, 1);
   if (!mg->coarsest.failed)
   {
     make_rows(mg, level, list, order(mg, level, list, seen));
-    f->value = abut_pool_take(&mg->coarsest, f->start[f->n], sizeof(double));
+    f->value =
+        abut_pool_allocate(&mg->coarsest, f->start[f->n], sizeof(double));
   }
   if (mg->coarsest.failed)
     return abut_fail(mg->context, ABUT_OUT_OF_MEMORY, call, "no memory");

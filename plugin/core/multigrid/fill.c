@@ -9,8 +9,8 @@ abut_multigrid_number(abut_multigrid *mg, abut_pool *work,
                       abut_host_numbers *host)
 {
   const int32_t n = mg->level[0].n, b = mg->block;
-  host->node = abut_pool_take(work, (int64_t)n * b, sizeof(int32_t));
-  host->component = abut_pool_take(work, (int64_t)n * b, 1);
+  host->node = abut_pool_allocate(work, (int64_t)n * b, sizeof(int32_t));
+  host->component = abut_pool_allocate(work, (int64_t)n * b, 1);
   if (work->failed)
     return false;
   for (int32_t i = 0; i < n; ++i)
@@ -65,8 +65,9 @@ take_starts(abut_multigrid *mg)
 {
   abut_multigrid_level *level = &mg->level[0];
   level->matrix.start =
-      abut_pool_take(&mg->matrices, (int64_t)level->n + 1, sizeof(int64_t));
-  level->diagonal = abut_pool_take(&mg->matrices, level->n, sizeof(int64_t));
+      abut_pool_allocate(&mg->matrices, (int64_t)level->n + 1, sizeof(int64_t));
+  level->diagonal =
+      abut_pool_allocate(&mg->matrices, level->n, sizeof(int64_t));
   return !mg->matrices.failed;
 }
 
@@ -76,7 +77,7 @@ take_entries(abut_multigrid *mg)
 {
   abut_node_rows *rows = &mg->level[0].matrix;
   const int64_t n = rows->start[mg->level[0].n];
-  rows->node = abut_pool_take(&mg->matrices, n, sizeof(int32_t));
+  rows->node = abut_pool_allocate(&mg->matrices, n, sizeof(int32_t));
   return !mg->matrices.failed;
 }
 
@@ -84,7 +85,7 @@ take_entries(abut_multigrid *mg)
 static bool
 take_blocks(abut_multigrid *mg, int64_t n)
 {
-  mg->level[0].matrix.weight = abut_pool_take(
+  mg->level[0].matrix.weight = abut_pool_allocate(
       &mg->matrices, n * mg->block * mg->block + 1, sizeof(float));
   return !mg->matrices.failed;
 }
@@ -130,8 +131,8 @@ take_half(abut_multigrid *mg)
   }
   const int64_t n = (int64_t)level->n * mg->block;
   int64_t *upper =
-      abut_pool_take(&mg->matrices, (int64_t)level->n + 1, sizeof(int64_t));
-  level->below = abut_pool_take(&mg->matrices, n + 1, sizeof(float));
+      abut_pool_allocate(&mg->matrices, (int64_t)level->n + 1, sizeof(int64_t));
+  level->below = abut_pool_allocate(&mg->matrices, n + 1, sizeof(float));
   if (mg->matrices.failed)
     return;
   level->upper = upper;

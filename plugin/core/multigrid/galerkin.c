@@ -145,9 +145,9 @@ make_pattern(abut_multigrid *mg, int32_t l, const row_set *set, int32_t n,
         diagonal[q] = e;
   }
   pool->failed |= status != ABUT_SUCCESS;
-  rows->node = abut_pool_take(pool, n_columns, sizeof(int32_t));
-  rows->weight = abut_pool_take(pool, n_columns * size + 1, sizeof(float));
-  *sum = abut_pool_take(pool, most * size, sizeof(float));
+  rows->node = abut_pool_allocate(pool, n_columns, sizeof(int32_t));
+  rows->weight = abut_pool_allocate(pool, n_columns * size + 1, sizeof(float));
+  *sum = abut_pool_allocate(pool, most * size, sizeof(float));
   if (!pool->failed && n_columns > 0)
     memcpy(rows->node, columns.data, (size_t)n_columns * sizeof(int32_t));
   abut_array_release(mg->context, &columns);
@@ -174,8 +174,8 @@ abut_galerkin_pattern(abut_multigrid *mg, int32_t l)
   abut_multigrid_level *coarse = &mg->level[l + 1];
   abut_pool *pool = &mg->matrices;
   coarse->matrix.start =
-      abut_pool_take(pool, (int64_t)coarse->n + 1, sizeof(int64_t));
-  coarse->diagonal = abut_pool_take(pool, coarse->n, sizeof(int64_t));
+      abut_pool_allocate(pool, (int64_t)coarse->n + 1, sizeof(int64_t));
+  coarse->diagonal = abut_pool_allocate(pool, coarse->n, sizeof(int64_t));
   /* Copies have parts of rows, which may have other columns. */
   const bool alone = mg->level[l].ranks == NULL && are_middles(&mg->level[l]);
   const row_set set = matrix_of(&mg->level[l]);
@@ -189,7 +189,7 @@ number_terms(abut_multigrid *mg, const abut_multigrid_level *fine,
              abut_multigrid_level *coarse)
 {
   abut_node_terms *terms = &coarse->terms;
-  terms->at = abut_pool_take(&mg->terms, coarse->n, sizeof(int32_t));
+  terms->at = abut_pool_allocate(&mg->terms, coarse->n, sizeof(int32_t));
   for (int32_t q = 0; q < fine->terms.n && terms->at != NULL; ++q)
   {
     const int32_t i = fine->terms.row[q];
@@ -200,10 +200,10 @@ number_terms(abut_multigrid *mg, const abut_multigrid_level *fine,
   terms->n = 0;
   for (int32_t k = 0; k < coarse->n && terms->at != NULL; ++k)
     terms->at[k] = terms->at[k] ? terms->n++ : -1;
-  terms->row = abut_pool_take(&mg->terms, terms->n, sizeof(int32_t));
-  terms->diagonal = abut_pool_take(&mg->terms, terms->n, sizeof(int64_t));
+  terms->row = abut_pool_allocate(&mg->terms, terms->n, sizeof(int32_t));
+  terms->diagonal = abut_pool_allocate(&mg->terms, terms->n, sizeof(int64_t));
   terms->rows.start =
-      abut_pool_take(&mg->terms, (int64_t)terms->n + 1, sizeof(int64_t));
+      abut_pool_allocate(&mg->terms, (int64_t)terms->n + 1, sizeof(int64_t));
   for (int32_t k = 0; k < coarse->n && !mg->terms.failed; ++k)
     if (terms->at[k] >= 0)
       terms->row[terms->at[k]] = k;
@@ -412,9 +412,9 @@ complete_pattern(abut_multigrid *mg, int32_t l)
   abut_multigrid_level *coarse = &mg->level[l + 1];
   abut_pool *pool = &mg->matrices;
   abut_node_rows rows = {
-      abut_pool_take(pool, (int64_t)coarse->n + 1, sizeof(int64_t)), NULL,
+      abut_pool_allocate(pool, (int64_t)coarse->n + 1, sizeof(int64_t)), NULL,
       NULL};
-  int64_t *diagonal = abut_pool_take(pool, coarse->n, sizeof(int64_t));
+  int64_t *diagonal = abut_pool_allocate(pool, coarse->n, sizeof(int64_t));
   float *sum = NULL;
   const row_set set = matrix_of(&mg->level[l]);
   make_pattern(mg, l, &set, coarse->n, NULL, pool, &rows, diagonal, &sum,

@@ -11,7 +11,7 @@ enum
 };
 
 static const char create_call[] = "abut_multigrid_create";
-static const char hold_call[] = "abut_multigrid_hold";
+static const char hold_call[] = "abut_multigrid_set_constrained";
 
 static const char *
 wrong_mesh(const abut_multigrid_hierarchy *h, int32_t l)
@@ -77,9 +77,9 @@ take_parents(abut_pool *pool, const abut_multigrid_mesh *mesh,
              abut_node_rows *rows)
 {
   const int64_t n = mesh->n_nodes, m = mesh->start[n];
-  rows->start = abut_pool_take(pool, n + 1, sizeof(int64_t));
-  rows->node = abut_pool_take(pool, m, sizeof(int32_t));
-  rows->weight = abut_pool_take(pool, m, sizeof(float));
+  rows->start = abut_pool_allocate(pool, n + 1, sizeof(int64_t));
+  rows->node = abut_pool_allocate(pool, m, sizeof(int32_t));
+  rows->weight = abut_pool_allocate(pool, m, sizeof(float));
   if (pool->failed)
     return;
   memcpy(rows->start, mesh->start, (size_t)(n + 1) * sizeof(int64_t));
@@ -96,9 +96,9 @@ transpose(abut_pool *pool, const abut_node_rows *rows, int32_t n, int32_t n_new,
           abut_node_rows *result)
 {
   const int64_t m = rows->start[n];
-  result->start = abut_pool_take(pool, (int64_t)n_new + 2, sizeof(int64_t));
-  result->node = abut_pool_take(pool, m, sizeof(int32_t));
-  result->weight = abut_pool_take(pool, m, sizeof(float));
+  result->start = abut_pool_allocate(pool, (int64_t)n_new + 2, sizeof(int64_t));
+  result->node = abut_pool_allocate(pool, m, sizeof(int32_t));
+  result->weight = abut_pool_allocate(pool, m, sizeof(float));
   if (pool->failed)
     return;
   /* Counted two places ahead, so that filling leaves the right beginnings. */
@@ -130,8 +130,8 @@ take_own(abut_multigrid *mg, const abut_multigrid_ranks *ranks, int32_t l)
   level->ranks = &mg->ranks;
   level->first_own = ranks->first_own[l];
   level->end_own = level->first_own + ranks->n_own[l];
-  level->product = abut_pool_take(&mg->structure, (int64_t)level->n * mg->block,
-                                  sizeof(float));
+  level->product = abut_pool_allocate(
+      &mg->structure, (int64_t)level->n * mg->block, sizeof(float));
 }
 
 static void
@@ -142,13 +142,13 @@ take_mesh(abut_multigrid *mg, const abut_multigrid_mesh *mesh, int32_t l)
   const int32_t b = mg->block;
   const int64_t n = (int64_t)mesh->n_nodes * b;
   level->n = mesh->n_nodes;
-  level->fixed = abut_pool_take(pool, n, 1);
-  level->held = abut_pool_take(pool, n, 1);
-  level->dirty = abut_pool_take(pool, mesh->n_nodes, 1);
-  level->inverse = abut_pool_take(pool, n * b, sizeof(float));
-  level->x = abut_pool_take(pool, n + 1, sizeof(float));
-  level->r = abut_pool_take(pool, n + 1, sizeof(float));
-  level->z = abut_pool_take(pool, n + 1, sizeof(float));
+  level->fixed = abut_pool_allocate(pool, n, 1);
+  level->held = abut_pool_allocate(pool, n, 1);
+  level->dirty = abut_pool_allocate(pool, mesh->n_nodes, 1);
+  level->inverse = abut_pool_allocate(pool, n * b, sizeof(float));
+  level->x = abut_pool_allocate(pool, n + 1, sizeof(float));
+  level->r = abut_pool_allocate(pool, n + 1, sizeof(float));
+  level->z = abut_pool_allocate(pool, n + 1, sizeof(float));
   if (!pool->failed && mesh->fixed != NULL)
     for (int64_t u = 0; u < n; ++u)
       level->fixed[u] = mesh->fixed[u] != 0;
@@ -206,20 +206,20 @@ build(abut_multigrid *mg, const abut_multigrid_hierarchy *h)
     most = most > h->mesh[l].n_nodes ? most : h->mesh[l].n_nodes;
   }
   const int64_t n = (int64_t)mg->level[0].n * mg->block;
-  mg->unknown = abut_pool_take(&mg->structure, n, sizeof(int32_t));
-  mg->held = abut_pool_take(&mg->structure, n, 1);
-  mg->added = abut_pool_take(&mg->structure, n, sizeof(double));
-  mg->plain = abut_pool_take(&mg->structure, n, sizeof(float));
-  mg->moved = abut_pool_take(&mg->structure, h->mesh[0].n_nodes, 1);
-  mg->place = abut_pool_take(&mg->structure, most, sizeof(int32_t));
-  mg->fine_place = abut_pool_take(&mg->structure, most, sizeof(int32_t));
-  mg->list = abut_pool_take(&mg->structure, most, sizeof(int32_t));
+  mg->unknown = abut_pool_allocate(&mg->structure, n, sizeof(int32_t));
+  mg->held = abut_pool_allocate(&mg->structure, n, 1);
+  mg->added = abut_pool_allocate(&mg->structure, n, sizeof(double));
+  mg->plain = abut_pool_allocate(&mg->structure, n, sizeof(float));
+  mg->moved = abut_pool_allocate(&mg->structure, h->mesh[0].n_nodes, 1);
+  mg->place = abut_pool_allocate(&mg->structure, most, sizeof(int32_t));
+  mg->fine_place = abut_pool_allocate(&mg->structure, most, sizeof(int32_t));
+  mg->list = abut_pool_allocate(&mg->structure, most, sizeof(int32_t));
   if (h->ranks != NULL)
   {
     mg->ranks = *h->ranks;
     mg->ranks.first_own = mg->ranks.n_own = NULL; /* the levels have them */
-    mg->changed = abut_pool_take(&mg->structure, h->mesh[0].n_nodes, 1);
-    mg->blocks = abut_pool_take(
+    mg->changed = abut_pool_allocate(&mg->structure, h->mesh[0].n_nodes, 1);
+    mg->blocks = abut_pool_allocate(
         &mg->structure, (int64_t)most * mg->block * mg->block, sizeof(float));
   }
   if (mg->structure.failed)
@@ -244,7 +244,7 @@ abut_multigrid_create(abut_context *context,
                      "an argument is NULL");
   abut_multigrid_hierarchy taken = {sizeof(taken), 1, 0, NULL, NULL, NULL};
   abut_status status =
-      abut_take(context, create_call, &taken, sizeof(taken), hierarchy);
+      abut_copy_in(context, create_call, &taken, sizeof(taken), hierarchy);
   if (status != ABUT_SUCCESS)
     return status;
   const char *what = wrong_hierarchy(&taken);
@@ -308,7 +308,7 @@ abut_multigrid_set_matrix(abut_multigrid *mg,
   abut_status status =
       matrix == NULL
           ? abut_fail(mg->context, ABUT_INVALID_ARGUMENT, call, "no matrix")
-          : abut_take(mg->context, call, &taken, sizeof(taken), matrix);
+          : abut_copy_in(mg->context, call, &taken, sizeof(taken), matrix);
   if (status != ABUT_SUCCESS)
     return status;
   mg->is_ready = mg->has_matrix = false;
@@ -472,8 +472,8 @@ holds_numbers(const abut_multigrid *mg, const double *added)
 }
 
 abut_status
-abut_multigrid_hold(abut_multigrid *mg, const uint8_t *held,
-                    const double *added)
+abut_multigrid_set_constrained(abut_multigrid *mg, const uint8_t *held,
+                               const double *added)
 {
   if (mg == NULL)
     return ABUT_INVALID_ARGUMENT;
@@ -546,8 +546,9 @@ abut_multigrid_cycle(abut_multigrid *mg, const double *r, double *x)
   const bool lacks_vector = n_own_rows(mg) > 0 && (r == NULL || x == NULL);
   if (!mg->is_ready || lacks_vector)
     return abut_fail(mg->context, ABUT_INVALID_ARGUMENT, call,
-                     mg->is_ready ? "a vector is NULL"
-                                  : "abut_multigrid_hold() comes first");
+                     mg->is_ready
+                         ? "a vector is NULL"
+                         : "abut_multigrid_set_constrained() comes first");
   abut_multigrid_level *level = &mg->level[0];
   const int64_t first = (int64_t)level->first_own * mg->block;
   const int64_t end = (int64_t)level->end_own * mg->block;
@@ -593,6 +594,6 @@ abut_multigrid_describe_sized(const abut_multigrid *mg,
   }
   return report == NULL ? abut_fail(mg->context, ABUT_INVALID_ARGUMENT,
                                     "abut_multigrid_describe", "no report")
-                        : abut_give(mg->context, "abut_multigrid_describe",
-                                    report, sizeof(made), &made);
+                        : abut_copy_out(mg->context, "abut_multigrid_describe",
+                                        report, sizeof(made), &made);
 }

@@ -29,7 +29,7 @@ typedef struct abut_pool
 
 /* Zeroed memory for n elements; NULL, and the pool has failed, if there is
  * none. */
-void *abut_pool_take(abut_pool *pool, int64_t n, size_t element);
+void *abut_pool_allocate(abut_pool *pool, int64_t n, size_t element);
 
 void abut_pool_release(abut_pool *pool);
 
@@ -109,7 +109,7 @@ struct abut_multigrid
   abut_envelope factor;
   abut_node_rows
       gathered;   /* of the coarsest level, of all ranks; one: unused */
-  uint8_t *held;  /* [n * block] by the last hold() */
+  uint8_t *held;  /* [n * block] by the last abut_multigrid_set_constrained() */
   double *added;  /* [n * block] to the diagonal */
   float *plain;   /* [n * block] diagonal without what is added */
   uint8_t *moved; /* [n] nodes whose terms have changed since the last hold */

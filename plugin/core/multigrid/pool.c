@@ -10,7 +10,7 @@ typedef struct piece
 } piece;
 
 void *
-abut_pool_take(abut_pool *pool, int64_t n, size_t element)
+abut_pool_allocate(abut_pool *pool, int64_t n, size_t element)
 {
   pool->pieces.element = sizeof(piece);
   const size_t bytes = (size_t)(n > 0 ? n : 1) * element;

@@ -118,8 +118,8 @@ copy_gathered(abut_multigrid *mg, int32_t n, const abut_array *nodes,
 {
   abut_node_rows *rows = &mg->gathered;
   const int64_t size = (int64_t)mg->block * mg->block, m = rows->start[n];
-  rows->node = abut_pool_take(&mg->coarsest, m, sizeof(int32_t));
-  rows->weight = abut_pool_take(&mg->coarsest, m * size, sizeof(float));
+  rows->node = abut_pool_allocate(&mg->coarsest, m, sizeof(int32_t));
+  rows->weight = abut_pool_allocate(&mg->coarsest, m * size, sizeof(float));
   if (mg->coarsest.failed)
     return;
   for (int64_t e = 0; e < m; ++e)
@@ -141,9 +141,9 @@ abut_multigrid_gather_coarsest(abut_multigrid *mg)
   abut_array nodes = {NULL, 0, sizeof(int32_t)};
   abut_array weights = {NULL, 0, sizeof(float)};
   double *dense =
-      abut_pool_take(&mg->coarsest, n_at_once * length, sizeof(double));
+      abut_pool_allocate(&mg->coarsest, n_at_once * length, sizeof(double));
   mg->gathered.start =
-      abut_pool_take(&mg->coarsest, (int64_t)n + 1, sizeof(int64_t));
+      abut_pool_allocate(&mg->coarsest, (int64_t)n + 1, sizeof(int64_t));
   if (!mg->coarsest.failed
       && gather_rows(mg, level, dense, n_at_once, &nodes, &weights)
              == ABUT_SUCCESS)

@@ -26,7 +26,7 @@ number(abut_multigrid *mg, const abut_multigrid_matrix *a,
        abut_node_terms *terms)
 {
   const int32_t n = mg->level[0].n, b = mg->block;
-  terms->at = abut_pool_take(&mg->terms, n, sizeof(int32_t));
+  terms->at = abut_pool_allocate(&mg->terms, n, sizeof(int32_t));
   if (terms->at == NULL)
     return;
   for (int32_t i = 0; i < n; ++i)
@@ -39,10 +39,10 @@ number(abut_multigrid *mg, const abut_multigrid_matrix *a,
     }
     terms->at[i] = any ? terms->n++ : -1;
   }
-  terms->row = abut_pool_take(&mg->terms, terms->n, sizeof(int32_t));
-  terms->diagonal = abut_pool_take(&mg->terms, terms->n, sizeof(int64_t));
+  terms->row = abut_pool_allocate(&mg->terms, terms->n, sizeof(int32_t));
+  terms->diagonal = abut_pool_allocate(&mg->terms, terms->n, sizeof(int64_t));
   terms->rows.start =
-      abut_pool_take(&mg->terms, (int64_t)terms->n + 1, sizeof(int64_t));
+      abut_pool_allocate(&mg->terms, (int64_t)terms->n + 1, sizeof(int64_t));
   for (int32_t i = 0; i < n && !mg->terms.failed; ++i)
     if (terms->at[i] >= 0)
     {
@@ -84,9 +84,9 @@ fill(abut_multigrid *mg, const abut_multigrid_matrix *a,
         rows->start[q]
         + abut_multigrid_collect(mg, a, host, terms->row[q], NULL);
   const int64_t n = rows->start[terms->n];
-  rows->node = abut_pool_take(&mg->terms, n, sizeof(int32_t));
-  rows->weight =
-      abut_pool_take(&mg->terms, n * mg->block * mg->block + 1, sizeof(float));
+  rows->node = abut_pool_allocate(&mg->terms, n, sizeof(int32_t));
+  rows->weight = abut_pool_allocate(&mg->terms, n * mg->block * mg->block + 1,
+                                    sizeof(float));
   if (mg->terms.failed)
     return;
   abut_multigrid_clear_places(mg, mg->level[0].n);
@@ -106,7 +106,7 @@ abut_multigrid_set_terms(abut_multigrid *mg, const abut_multigrid_matrix *terms)
   if (terms != NULL)
   {
     abut_status status =
-        abut_take(mg->context, call, &taken, sizeof(taken), terms);
+        abut_copy_in(mg->context, call, &taken, sizeof(taken), terms);
     if (status == ABUT_SUCCESS)
       status = abut_multigrid_check(mg, &taken, call);
     if (status != ABUT_SUCCESS)

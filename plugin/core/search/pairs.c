@@ -61,8 +61,8 @@ abut_pairs_get_sized(const abut_pairs *pairs, abut_pairs_view *view)
 {
   if (pairs == NULL || view == NULL)
     return ABUT_INVALID_ARGUMENT;
-  return abut_give(pairs->context, "abut_pairs_get", view, sizeof(pairs->view),
-                   &pairs->view);
+  return abut_copy_out(pairs->context, "abut_pairs_get", view,
+                       sizeof(pairs->view), &pairs->view);
 }
 
 static void

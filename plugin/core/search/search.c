@@ -82,8 +82,8 @@ abut_search_create(abut_context *context, abut_surface *surface,
     return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_search_create",
                      "context, surface or result is NULL");
   abut_search_options chosen = abut_search_defaults();
-  const abut_status status = abut_take(context, "abut_search_create", &chosen,
-                                       sizeof(chosen), options);
+  const abut_status status = abut_copy_in(context, "abut_search_create",
+                                          &chosen, sizeof(chosen), options);
   if (status != ABUT_SUCCESS)
     return status;
   const char *fault = fault_of(&chosen);
@@ -486,6 +486,6 @@ abut_search_get_statistics_sized(const abut_search *search,
                   + bytes_of(&s->list.slot) + bytes_of(&s->query_box)
                   + bytes_of(&s->block.step) + bytes_of(&s->block.exact)
                   + bytes_of(&s->block.value) + bytes_of(&s->block.keyed);
-  return abut_give(s->context, "abut_search_get_statistics", statistics,
-                   sizeof(z), &z);
+  return abut_copy_out(s->context, "abut_search_get_statistics", statistics,
+                       sizeof(z), &z);
 }

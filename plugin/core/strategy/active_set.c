@@ -245,7 +245,7 @@ flip(abut_strategy *s, const findings *found, bool all)
       change = s->state[i] == ABUT_STATE_OPEN ? 1 : -1;
       s->state[i] = s->trial_state[i];
     }
-  abut_friction_take_states(s, all, found->last_bad);
+  abut_friction_accept_states(s, all, found->last_bad);
   s->matrix_changed = true;
   if (all)
   {
@@ -354,7 +354,7 @@ static abut_status
 begin(abut_strategy *s)
 {
   abut_active_set_reset(&s->active_set);
-  return abut_strategy_ask_solve(s, tolerance_of(s), false);
+  return abut_strategy_request_solve(s, tolerance_of(s), false);
 }
 
 static abut_status
@@ -366,7 +366,7 @@ solved(abut_strategy *s)
                               && !abut_friction_row_is_free(s, i)
                           ? -s->residual[i] / s->d_pressure[i]
                           : s->dp[i];
-  return abut_strategy_ask_move(s, 1);
+  return abut_strategy_request_move(s, 1);
 }
 
 /* No state of stick and slip was found, which does not mean that there is none.
@@ -394,7 +394,8 @@ settle_friction(abut_strategy *s, abut_reason reason)
   if (!goes_on)
     return abut_strategy_stop(s, reason);
   abut_active_set_reset(&s->active_set);
-  return abut_strategy_ask_solve(s, s->options.final_linear_tolerance, false);
+  return abut_strategy_request_solve(s, s->options.final_linear_tolerance,
+                                     false);
 }
 
 /* The law must hold, too, when the set has settled: a user's law need not be
@@ -408,7 +409,7 @@ finish(abut_strategy *s, const findings *found, abut_reason reason)
   if (s->request.linear_tolerance > final)
   {
     set->defect = INFINITY;
-    return abut_strategy_ask_solve(s, final, true);
+    return abut_strategy_request_solve(s, final, true);
   }
   if (found->defect <= limit
       && found->traction_defect <= traction_noise * found->max_pressure)
@@ -417,15 +418,15 @@ finish(abut_strategy *s, const findings *found, abut_reason reason)
         || found->traction_defect <= sharp_traction * found->max_pressure)
       return settle_friction(s, reason);
     set->polished = true;
-    return abut_strategy_ask_solve(s, final, s->request.final_solve);
+    return abut_strategy_request_solve(s, final, s->request.final_solve);
   }
   const double defect = found->defect + found->traction_defect;
   set->n_defect = defect > 0.5 * set->defect ? set->n_defect + 1 : 0;
   set->defect = defect;
   s->friction.steps += 1;
   if (set->n_defect < MAX_DEFECT_SOLVES)
-    return abut_strategy_ask_solve(s, fmin(final, s->options.linear_tolerance),
-                                   s->request.final_solve);
+    return abut_strategy_request_solve(
+        s, fmin(final, s->options.linear_tolerance), s->request.final_solve);
   if (abut_friction_has_ladder(&s->friction))
   {
     bool goes_on = false;
@@ -433,7 +434,7 @@ finish(abut_strategy *s, const findings *found, abut_reason reason)
     abut_active_set_reset(set);
     if (status != ABUT_SUCCESS)
       return status;
-    return goes_on ? abut_strategy_ask_solve(s, final, false)
+    return goes_on ? abut_strategy_request_solve(s, final, false)
                    : stop_without_state(s);
   }
   abut_text text = abut_strategy_remark(s);
@@ -473,7 +474,7 @@ settled(abut_strategy *s, const findings *found)
     return abut_strategy_stop(s, ABUT_REASON_STEP_LIMIT);
   }
   abut_active_set_reset(&s->active_set);
-  return abut_strategy_ask_solve(s, tolerance_of(s), false);
+  return abut_strategy_request_solve(s, tolerance_of(s), false);
 }
 
 static abut_status
@@ -500,7 +501,7 @@ moved(abut_strategy *s)
     change_set(s, &found);
   if (status != ABUT_SUCCESS)
     return status;
-  return goes_on ? abut_strategy_ask_solve(s, tolerance_of(s), false)
+  return goes_on ? abut_strategy_request_solve(s, tolerance_of(s), false)
                  : stop_without_state(s);
 }
 

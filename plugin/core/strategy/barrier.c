@@ -81,8 +81,9 @@ ask(abut_strategy *s, bool tight)
   const double final =
       fmin(options->final_linear_tolerance, options->linear_tolerance);
   s->matrix_changed = true;
-  return abut_strategy_ask_solve(s, tight ? final : options->linear_tolerance,
-                                 tight && final < options->linear_tolerance);
+  return abut_strategy_request_solve(
+      s, tight ? final : options->linear_tolerance,
+      tight && final < options->linear_tolerance);
 }
 
 static abut_status

@@ -142,7 +142,7 @@ abut_strategy_linearise(abut_strategy *s)
 }
 
 abut_status
-abut_strategy_ask_solve(abut_strategy *s, double tolerance, bool final)
+abut_strategy_request_solve(abut_strategy *s, double tolerance, bool final)
 {
   if (s->progress.step >= s->options.max_steps)
   {
@@ -155,7 +155,7 @@ abut_strategy_ask_solve(abut_strategy *s, double tolerance, bool final)
   const abut_status status = abut_strategy_agree(s, abut_strategy_linearise(s));
   if (status != ABUT_SUCCESS)
     return status;
-  abut_friction_keep_directions(&s->friction);
+  abut_friction_store_directions(&s->friction);
   s->coefficients_changed = false;
   s->progress.step += 1;
   s->request.action = ABUT_ACTION_SOLVE;
@@ -167,7 +167,7 @@ abut_strategy_ask_solve(abut_strategy *s, double tolerance, bool final)
 }
 
 abut_status
-abut_strategy_ask_move(abut_strategy *s, double step_length)
+abut_strategy_request_move(abut_strategy *s, double step_length)
 {
   s->request.action = ABUT_ACTION_MOVE;
   s->request.step_length = step_length;

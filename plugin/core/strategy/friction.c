@@ -574,7 +574,7 @@ abut_friction_find_states(abut_strategy *s, double pressure_noise,
 }
 
 void
-abut_friction_take_states(abut_strategy *s, bool all, double only)
+abut_friction_accept_states(abut_strategy *s, bool all, double only)
 {
   abut_friction_rows *f = &s->friction;
   if (!abut_friction_is_on(f))
@@ -586,7 +586,7 @@ abut_friction_take_states(abut_strategy *s, bool all, double only)
 }
 
 void
-abut_friction_keep_directions(abut_friction_rows *f)
+abut_friction_store_directions(abut_friction_rows *f)
 {
   if (abut_friction_is_on(f) && f->m > 0)
     memcpy(f->direction, f->turned, (size_t)f->m * sizeof(double));

@@ -113,10 +113,10 @@ abut_status abut_friction_find_states(abut_strategy *s, double pressure_noise,
 
 /* The states found become those of the next linearisation, of all points or of
  * the one whose normal has the number @p only; normals were flipped before. */
-void abut_friction_take_states(abut_strategy *s, bool all, double only);
+void abut_friction_accept_states(abut_strategy *s, bool all, double only);
 
 /* Directions of slip are those of the linearisation from here on. */
-void abut_friction_keep_directions(abut_friction_rows *f);
+void abut_friction_store_directions(abut_friction_rows *f);
 
 /* Whether row i is a tangent that does not stick. */
 bool abut_friction_row_is_free(const abut_strategy *s, int32_t i);

@@ -173,7 +173,7 @@ abut_strategy_set_friction(abut_strategy *strategy,
     return ABUT_SUCCESS;
   abut_strategy_friction taken = {.struct_size = sizeof(taken)};
   abut_status status =
-      abut_take(s->context, call, &taken, sizeof(taken), friction);
+      abut_copy_in(s->context, call, &taken, sizeof(taken), friction);
   if (status != ABUT_SUCCESS)
     return status;
   if (taken.law == NULL)

@@ -34,7 +34,7 @@ abut_interior_move(abut_strategy *s, double alpha, double *slack)
    * one and what the linear solver left. */
   interior->imbalance *= 1 - alpha * (1 - s->request.linear_tolerance);
   interior->alpha = alpha;
-  return abut_strategy_ask_move(s, alpha);
+  return abut_strategy_request_move(s, alpha);
 }
 
 abut_status

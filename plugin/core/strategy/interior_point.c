@@ -52,7 +52,7 @@ predict(abut_strategy *s)
   s->mu = 0;
   s->interior.corrector = false;
   s->matrix_changed = true;
-  return abut_strategy_ask_solve(
+  return abut_strategy_request_solve(
       s, fmax(final, options->linear_tolerance * fmin(progress, 1)), false);
 }
 

@@ -117,7 +117,7 @@ abut_strategy_check_options(abut_context *context,
   for (size_t i = 0; i < sizeof(entries) / sizeof(entries[0]); ++i)
   {
     const double value = value_of(&entries[i], options);
-    if (!abut_limit_holds(&entries[i].limit, value))
+    if (!abut_limit_contains(&entries[i].limit, value))
       return fail_range(context, &entries[i].limit, value, call);
   }
   if (options->friction_iteration < ABUT_FRICTION_PRIMAL_DUAL

@@ -39,7 +39,7 @@ abut_strategy_run(abut_strategy *strategy, const abut_host *given,
   abut_strategy *s = strategy;
   abut_host taken = {0};
   abut_status status =
-      abut_take(s->context, call, &taken, sizeof(taken), given);
+      abut_copy_in(s->context, call, &taken, sizeof(taken), given);
   if (status != ABUT_SUCCESS)
     return status;
   const abut_host *host = &taken;

@@ -97,8 +97,8 @@ abut_strategy_create(abut_context *context,
     return abut_fail(context, ABUT_INVALID_ARGUMENT, "abut_strategy_create",
                      "an argument is NULL");
   abut_strategy_options taken = abut_strategy_defaults();
-  abut_status status = abut_take(context, "abut_strategy_create", &taken,
-                                 sizeof(taken), options);
+  abut_status status = abut_copy_in(context, "abut_strategy_create", &taken,
+                                    sizeof(taken), options);
   if (status == ABUT_SUCCESS && taken.law == NULL)
     taken.law = abut_law_find("lagrange");
   if (status == ABUT_SUCCESS)
@@ -150,8 +150,8 @@ abut_strategy_progress_sized(const abut_strategy *strategy,
   if (strategy->phase == ABUT_PHASE_CREATED)
     return abut_fail(strategy->context, ABUT_WRONG_ORDER,
                      "abut_strategy_progress", "the strategy is not started");
-  return abut_give(strategy->context, "abut_strategy_progress", progress,
-                   sizeof(strategy->progress), &strategy->progress);
+  return abut_copy_out(strategy->context, "abut_strategy_progress", progress,
+                       sizeof(strategy->progress), &strategy->progress);
 }
 
 /* Whether all ranks' values are finite; y may be NULL. */
@@ -227,8 +227,8 @@ abut_strategy_next_sized(abut_strategy *strategy, const double *gap,
   else if (running)
     status = take_changes(s);
   if (status == ABUT_SUCCESS)
-    status = abut_give(s->context, "abut_strategy_next", request,
-                       sizeof(s->request), &s->request);
+    status = abut_copy_out(s->context, "abut_strategy_next", request,
+                           sizeof(s->request), &s->request);
   /* After a failure the arrays may be half way: only a new start helps. */
   if (status != ABUT_SUCCESS)
     s->phase = ABUT_PHASE_CREATED;

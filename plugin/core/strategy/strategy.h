@@ -76,11 +76,11 @@ abut_law_points abut_strategy_points(const abut_strategy *s);
 abut_status abut_strategy_linearise(abut_strategy *s);
 
 /* Linearise and request a solve, or stop at the limit of steps. */
-abut_status abut_strategy_ask_solve(abut_strategy *s, double tolerance,
-                                    bool final);
+abut_status abut_strategy_request_solve(abut_strategy *s, double tolerance,
+                                        bool final);
 
 /* Request a move by step_length times the last increment. */
-abut_status abut_strategy_ask_move(abut_strategy *s, double step_length);
+abut_status abut_strategy_request_move(abut_strategy *s, double step_length);
 
 /* Stop. */
 abut_status abut_strategy_stop(abut_strategy *s, abut_reason reason);

@@ -50,7 +50,7 @@ abut_time_judge(const abut_time_scheme *given, const abut_time_energy *energy,
                 abut_time_balance *balance, abut_time_verdict *verdict)
 {
   abut_time_scheme scheme;
-  const abut_status status = abut_time_scheme_take(given, &scheme);
+  const abut_status status = abut_time_scheme_copy_in(given, &scheme);
   if (status != ABUT_SUCCESS)
     return status;
   abut_time_energy now = {.struct_size = sizeof(now)};

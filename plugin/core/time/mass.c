@@ -325,7 +325,8 @@ abut_mass_modify(abut_context *context, const abut_mass_matrix *mass,
   redistribution r = {.context = context,
                       .mass = {.struct_size = sizeof(r.mass)},
                       .candidate = candidate};
-  abut_status status = abut_take(context, call, &r.mass, sizeof(r.mass), mass);
+  abut_status status =
+      abut_copy_in(context, call, &r.mass, sizeof(r.mass), mass);
   if (status == ABUT_SUCCESS)
     status = check_matrix(context, &r.mass, candidate, rule);
   if (status == ABUT_SUCCESS)

@@ -143,7 +143,8 @@ abut_time_scheme_make_sized(const abut_time_options *options,
 }
 
 abut_status
-abut_time_scheme_take(const abut_time_scheme *given, abut_time_scheme *scheme)
+abut_time_scheme_copy_in(const abut_time_scheme *given,
+                         abut_time_scheme *scheme)
 {
   *scheme = table[0].scheme;
   if (given == NULL || abut_sized_read(scheme, sizeof(*scheme), given) != NULL)
@@ -177,7 +178,7 @@ abut_time_weigh_sized(const abut_time_scheme *given, double dt,
                       abut_time_stage stage, abut_time_weights *weights)
 {
   abut_time_scheme scheme;
-  const abut_status status = abut_time_scheme_take(given, &scheme);
+  const abut_status status = abut_time_scheme_copy_in(given, &scheme);
   if (status != ABUT_SUCCESS)
     return status;
   if (!(dt > 0) || !isfinite(dt) || weights == NULL

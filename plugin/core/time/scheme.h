@@ -7,7 +7,7 @@
 
 /* Take a scheme from the caller; INVALID_ARGUMENT if it is NULL, of no known
  * size, or has numbers out of range. */
-abut_status abut_time_scheme_take(const abut_time_scheme *given,
-                                  abut_time_scheme *scheme);
+abut_status abut_time_scheme_copy_in(const abut_time_scheme *given,
+                                     abut_time_scheme *scheme);
 
 #endif

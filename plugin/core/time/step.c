@@ -13,7 +13,7 @@ typedef struct step
 } step;
 
 static abut_status
-take(const abut_time_state *given, step *taken)
+copy_in(const abut_time_state *given, step *taken)
 {
   taken->state = (abut_time_state){.struct_size = sizeof(taken->state)};
   if (given == NULL
@@ -25,7 +25,7 @@ take(const abut_time_state *given, step *taken)
           && (s->displacement == NULL || s->velocity == NULL
               || s->acceleration == NULL)))
     return ABUT_INVALID_ARGUMENT;
-  return abut_time_scheme_take(s->scheme, &taken->scheme);
+  return abut_time_scheme_copy_in(s->scheme, &taken->scheme);
 }
 
 /* u + dt v + dt^2 (1/2 - beta) a. */
@@ -43,7 +43,7 @@ abut_status
 abut_time_begin(const abut_time_state *state, double *predicted)
 {
   step s;
-  const abut_status status = take(state, &s);
+  const abut_status status = copy_in(state, &s);
   if (status != ABUT_SUCCESS)
     return status;
   if (s.state.n > 0 && predicted == NULL)
@@ -58,7 +58,7 @@ abut_time_project(const abut_time_state *state, const double *predicted,
                   const double *projected)
 {
   step s;
-  const abut_status status = take(state, &s);
+  const abut_status status = copy_in(state, &s);
   if (status != ABUT_SUCCESS)
     return status;
   if (s.state.n > 0 && (predicted == NULL || projected == NULL))
@@ -104,7 +104,7 @@ abut_time_evaluate(const abut_time_state *state, const double *unknown,
                    const abut_time_arguments *arguments)
 {
   step s;
-  abut_status status = take(state, &s);
+  abut_status status = copy_in(state, &s);
   if (status != ABUT_SUCCESS)
     return status;
   abut_time_arguments out = {.struct_size = sizeof(out)};
@@ -132,7 +132,7 @@ abut_status
 abut_time_end(const abut_time_state *state, const double *unknown)
 {
   step s;
-  const abut_status status = take(state, &s);
+  const abut_status status = copy_in(state, &s);
   if (status != ABUT_SUCCESS)
     return status;
   if (s.state.n > 0 && unknown == NULL)

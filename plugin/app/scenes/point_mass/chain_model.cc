@@ -146,8 +146,8 @@ namespace abut::app
     const std::size_t per_mass = id.size() / chain.n;
     std::vector<double> pressure(id.size()), reference;
     std::vector<std::uint8_t> state(id.size());
-    const abut_history_past past = {sizeof(past), pressure.data(), state.data(),
-                                    nullptr};
+    const abut_history_values past = {sizeof(past), pressure.data(),
+                                      state.data(), nullptr};
     shim::check(context.get(),
                 abut_history_get(history.get(), ABUT_HISTORY_COMMITTED,
                                  static_cast<std::int64_t>(id.size()),

@@ -14,7 +14,7 @@ namespace abut::app
   {
     /** How far surfaces in contact may go in a step, whose points are those of
      * its beginning: parts of a facet, and radian. */
-    constexpr double largest_slip = 0.5, largest_turn = 5. * M_PI / 180.;
+    constexpr double largest_slip = 0.5, largest_rotation = 5. * M_PI / 180.;
   } // namespace
 
   template <int dim> MotionWords SolidModel<dim>::motion_words() const
@@ -62,7 +62,7 @@ namespace abut::app
         continue;
       // The normals of the two sides of an obstacle, or of one that has gone
       // by.
-      if (pair.turn > M_PI / 2. && pairs->obstacle_of(p))
+      if (pair.rotation > M_PI / 2. && pairs->obstacle_of(p))
         return coded(
             ABUT_FAILURE_NO_PARTNER,
             parameters.pairs[p].section
@@ -75,7 +75,7 @@ namespace abut::app
                   "its velocity, the forces on it).");
       const bool slides =
           pair.facet > 0. && pair.slip > largest_slip * pair.facet;
-      if (!slides && pair.turn <= largest_turn)
+      if (!slides && pair.rotation <= largest_rotation)
         continue;
       return coded(
           ABUT_FAILURE_SLIDING,
@@ -85,7 +85,7 @@ namespace abut::app
                        "each other by "
                            + short_number(pair.slip / pair.facet, 3) + " facets"
                      : ": in this time step the normals in contact turn by "
-                           + short_number(pair.turn * 180. / M_PI, 3)
+                           + short_number(pair.rotation * 180. / M_PI, 3)
                            + " degrees")
               + ", but contact is that of its beginning. Make Time/Step "
                 "shorter.");

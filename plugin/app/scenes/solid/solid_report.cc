@@ -269,7 +269,7 @@ namespace abut::app
         report.set(key + "_penetration_by_facet", pair.penetration / facet);
       report.set(key + "_turned_force",
                  components(dealii::Tensor<1, dim>(pair.secondary_force
-                                                   + pair.turned_force)));
+                                                   + pair.rotated_force)));
       if (has_friction)
       {
         report_exceptions(key, pair);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_SOLVE_FLOATING_BODIES_H
-#define ABUT_SOLVE_FLOATING_BODIES_H
+#ifndef ABUT_SOLVE_UNSUPPORTED_BODIES_H
+#define ABUT_SOLVE_UNSUPPORTED_BODIES_H
 
 #include "local_elimination.h"
 #include "near_null_space.h"
@@ -21,7 +21,7 @@ namespace abut::solve
    * constraint rows do. A system with such a motion left has no solution, or
    * many; iterations and factorisations then fail without an explanation, or
    * not at all. */
-  class FloatingBodies
+  class UnsupportedBodies
   {
   public:
     /** A combination of the motions that K leaves free: a coefficient for

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "floating_bodies.h"
+#include "unsupported_bodies.h"
 
 #include "rigid_motion_words.h"
 
@@ -248,8 +248,8 @@ namespace abut::solve
     /** Whether prescribed values alone stop all motions of all bodies, and not
      * by nodes that are next to each other only: then stiffness need not be
      * examined. Collective. */
-    bool supports_hold(const Motions &motions, const NearNullSpace &space,
-                       const MPI_Comm communicator)
+    bool supports_suffice(const Motions &motions, const NearNullSpace &space,
+                          const MPI_Comm communicator)
     {
       constexpr double well_held = 1e-4;
       const unsigned int n = motions.n_modes();
@@ -280,9 +280,9 @@ namespace abut::solve
     }
   } // namespace
 
-  void FloatingBodies::reinit(const Stiffness &stiffness,
-                              const PointOperator &rows,
-                              const NearNullSpace &space)
+  void UnsupportedBodies::reinit(const Stiffness &stiffness,
+                                 const PointOperator &rows,
+                                 const NearNullSpace &space)
   {
     motions_.clear();
     gap_.clear();
@@ -296,7 +296,7 @@ namespace abut::solve
     const unsigned int n = n_modes_ = motions.n_modes();
     center_ = motions.centers();
     radius_ = motions.radii();
-    if (supports_hold(motions, space, communicator))
+    if (supports_suffice(motions, space, communicator))
       return;
 
     // Per body: energies of pairs of modes, then their products.
@@ -373,15 +373,16 @@ namespace abut::solve
     }
   }
 
-  bool FloatingBodies::are_supported(const NearNullSpace &space,
-                                     const MPI_Comm communicator)
+  bool UnsupportedBodies::are_supported(const NearNullSpace &space,
+                                        const MPI_Comm communicator)
   {
     return space.n_components == 1
-           || supports_hold(Motions(space, communicator), space, communicator);
+           || supports_suffice(Motions(space, communicator), space,
+                               communicator);
   }
 
   std::vector<double>
-  FloatingBodies::gap_change(const Combination &combination) const
+  UnsupportedBodies::gap_change(const Combination &combination) const
   {
     std::vector<double> result(gap_.empty() ? 0 : gap_[0].size(), 0.);
     for (std::size_t k = 0; k < gap_.size(); ++k)
@@ -390,14 +391,14 @@ namespace abut::solve
     return result;
   }
 
-  void FloatingBodies::add(const Combination &combination,
-                           la::Vector &displacement) const
+  void UnsupportedBodies::add(const Combination &combination,
+                              la::Vector &displacement) const
   {
     for (std::size_t k = 0; k < motions_.size(); ++k)
       displacement.add(combination[k], motions_[k].displacement);
   }
 
-  std::vector<double> FloatingBodies::work(const la::Vector &forces) const
+  std::vector<double> UnsupportedBodies::work(const la::Vector &forces) const
   {
     std::vector<double> result;
     for (const Motion &motion : motions_)
@@ -405,10 +406,10 @@ namespace abut::solve
     return result;
   }
 
-  std::vector<FloatingBodies::Combination>
-  FloatingBodies::along_which_works(const std::vector<Combination> &motions,
-                                    const la::Vector &residual,
-                                    const double tolerance) const
+  std::vector<UnsupportedBodies::Combination>
+  UnsupportedBodies::along_which_works(const std::vector<Combination> &motions,
+                                       const la::Vector &residual,
+                                       const double tolerance) const
   {
     std::vector<Combination> result;
     if (motions.empty())
@@ -422,9 +423,9 @@ namespace abut::solve
     return result;
   }
 
-  void FloatingBodies::project(const la::Vector &displacement,
-                               std::vector<double> &products,
-                               std::vector<double> &right) const
+  void UnsupportedBodies::project(const la::Vector &displacement,
+                                  std::vector<double> &products,
+                                  std::vector<double> &right) const
   {
     const std::size_t n = motions_.size();
     std::vector<double> sums(n * n + n, 0.);
@@ -447,8 +448,8 @@ namespace abut::solve
   }
 
   std::vector<double>
-  FloatingBodies::divide(const std::vector<double> &products,
-                         const std::vector<double> &right)
+  UnsupportedBodies::divide(const std::vector<double> &products,
+                            const std::vector<double> &right)
   {
     const std::size_t n = right.size();
     dealii::FullMatrix<double> inverse(n, n);
@@ -464,7 +465,7 @@ namespace abut::solve
   }
 
   std::vector<BodyMotion>
-  FloatingBodies::rigid_part(const la::Vector &displacement) const
+  UnsupportedBodies::rigid_part(const la::Vector &displacement) const
   {
     if (empty())
       return {};
@@ -494,13 +495,13 @@ namespace abut::solve
     return result;
   }
 
-  std::string FloatingBodies::name(const unsigned int body) const
+  std::string UnsupportedBodies::name(const unsigned int body) const
   {
     return space_.names.empty() ? "body " + std::to_string(body + 1)
                                 : "the body '" + space_.names[body] + "'";
   }
 
-  double FloatingBodies::smallest_radius() const
+  double UnsupportedBodies::smallest_radius() const
   {
     double result = 0.;
     for (const Motion &motion : motions_)
@@ -510,7 +511,7 @@ namespace abut::solve
   }
 
   std::vector<RigidMotion>
-  FloatingBodies::of_bodies(const Combination &combination) const
+  UnsupportedBodies::of_bodies(const Combination &combination) const
   {
     std::vector<RigidMotion> result(space_.n_bodies);
     const unsigned int dim = space_.n_components;
@@ -535,7 +536,7 @@ namespace abut::solve
     return result;
   }
 
-  unsigned int FloatingBodies::body(const Combination &combination) const
+  unsigned int UnsupportedBodies::body(const Combination &combination) const
   {
     std::vector<double> weight(space_.n_bodies, 0.);
     for (std::size_t k = 0; k < motions_.size(); ++k)
@@ -544,7 +545,7 @@ namespace abut::solve
         std::max_element(weight.begin(), weight.end()) - weight.begin());
   }
 
-  std::string FloatingBodies::describe(const Combination &combination) const
+  std::string UnsupportedBodies::describe(const Combination &combination) const
   {
     const unsigned int which = body(combination);
     std::vector<double> mode(n_modes_, 0.);
@@ -557,18 +558,18 @@ namespace abut::solve
                                    radius_[which]);
   }
 
-  void FloatingBodies::check(const PointOperator &rows,
-                             const std::vector<std::uint8_t> &resists) const
+  void UnsupportedBodies::check(const PointOperator &rows,
+                                const std::vector<std::uint8_t> &resists) const
   {
     const auto free = free_motions(rows, resists);
     if (!free.empty())
       fail_in_contact(free, n_resisting(rows, resists));
   }
 
-  void FloatingBodies::check(const PointOperator &rows,
-                             const LocalElimination &local,
-                             const abut_request &request,
-                             const std::vector<double> &row_stiffness) const
+  void UnsupportedBodies::check(const PointOperator &rows,
+                                const LocalElimination &local,
+                                const abut_request &request,
+                                const std::vector<double> &row_stiffness) const
   {
     const Resisting resisting_rows =
         resisting(rows, local, request, row_stiffness);
@@ -581,7 +582,7 @@ namespace abut::solve
     fail_in_contact(free, n_resisting(rows, resisting_rows.now));
   }
 
-  FloatingBodies::Resisting FloatingBodies::resisting(
+  UnsupportedBodies::Resisting UnsupportedBodies::resisting(
       const PointOperator &rows, const LocalElimination &local,
       const abut_request &request, const std::vector<double> &row_stiffness)
   {
@@ -601,9 +602,8 @@ namespace abut::solve
     return result;
   }
 
-  std::vector<FloatingBodies::Combination>
-  FloatingBodies::free_motions(const PointOperator &rows,
-                               const std::vector<std::uint8_t> &resists) const
+  std::vector<UnsupportedBodies::Combination> UnsupportedBodies::free_motions(
+      const PointOperator &rows, const std::vector<std::uint8_t> &resists) const
   {
     const unsigned int n = size();
     if (n == 0)
@@ -635,15 +635,15 @@ namespace abut::solve
         rows.communicator());
   }
 
-  void FloatingBodies::fail_in_contact(const std::vector<Combination> &free,
-                                       const double n_rows) const
+  void UnsupportedBodies::fail_in_contact(const std::vector<Combination> &free,
+                                          const double n_rows) const
   {
     fail(free, n_rows, "rows in contact",
          "tie it, or begin with the bodies in contact: a smaller initial gap, "
          "or a prescribed displacement in place of a force");
   }
 
-  void FloatingBodies::fail_slipping(const Combination &free) const
+  void UnsupportedBodies::fail_slipping(const Combination &free) const
   {
     throw_failure(free,
                   coded(ABUT_FAILURE_FREE_SLIDING,
@@ -654,9 +654,9 @@ namespace abut::solve
                               "coefficient of friction."));
   }
 
-  void FloatingBodies::fail(const std::vector<Combination> &free,
-                            const double n_rows, const std::string &which,
-                            const std::string &or_else) const
+  void UnsupportedBodies::fail(const std::vector<Combination> &free,
+                               const double n_rows, const std::string &which,
+                               const std::string &or_else) const
   {
     std::ostringstream text;
     text << "Nothing holds the bodies: " << describe(free[0]);
@@ -672,8 +672,8 @@ namespace abut::solve
     throw_failure(free[0], coded(ABUT_FAILURE_FLOATING_BODY, text.str()));
   }
 
-  void FloatingBodies::throw_failure(const Combination &free,
-                                     Message message) const
+  void UnsupportedBodies::throw_failure(const Combination &free,
+                                        Message message) const
   {
     message.body = static_cast<int>(body(free));
     throw SolverFailure(message);
