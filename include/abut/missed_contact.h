@@ -42,10 +42,10 @@ extern "C"
      * interference. Default 0. */
     double gap;
     double tolerance; /**< allowed depth, length >= 0; default 0 */
-    /** Thickness of the primary's and of the secondary's body, length >= 0.
-     * Nodes deeper than half of it are near the wrong skin. 0 (default): not
-     * known. */
-    double primary_thickness, secondary_thickness;
+    /** Thickness of the primary's body, length >= 0. Nodes deeper than half of
+     * it are near the wrong skin. 0 (default): not known. */
+    double primary_thickness;
+    double secondary_thickness; /**< the same of the secondary's body */
     /** Constraints cover whole facets of the secondary: nodes of the primary
      * in a facet without one are missed. Default false: constraints at single
      * nodes, between which the primary may enter. */
@@ -57,7 +57,8 @@ extern "C"
     /** [n_nodes * dimension] Positions at the beginning of the step. If no node
      * is found inside, paths from there through a facet are looked for. NULL
      * (default): they are not. */
-    const double *secondary_start, *primary_start;
+    const double *secondary_start;
+    const double *primary_start; /**< the same of the primary */
   } abut_missed_options;
 
   /** Default options. */

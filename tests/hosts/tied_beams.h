@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace abut::hosts
@@ -60,6 +61,23 @@ namespace abut::hosts
   };
   // clang-format on
 
+  /** The corners of a tetrahedron in an order with positive volume. */
+  inline std::array<unsigned int, 4>
+  right_handed(std::array<unsigned int, 4> cell)
+  {
+    double e[3][3];
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int d = 0; d < 3; ++d)
+        e[k][d] =
+            tied_beam_nodes[cell[k + 1]].x[d] - tied_beam_nodes[cell[0]].x[d];
+    const double volume = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1])
+                          - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0])
+                          + e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    if (volume < 0.)
+      std::swap(cell[2], cell[3]);
+    return cell;
+  }
+
   /** Four unit cubes in a row, each of twelve tetrahedra between its faces,
    * which a diagonal cuts in two, and a node inside. The beams share no nodes:
    * the first two cubes come before the others. */
@@ -92,8 +110,8 @@ namespace abut::hosts
         const unsigned int bit = 1U << (face / 2), side = face % 2 * bit;
         for (unsigned int third = 0; third < 8; ++third)
           if ((third & bit) == side && third != ends[0] && third != ends[1])
-            beams.cells.push_back(
-                {{center[cube], node(ends[0]), node(ends[1]), node(third)}});
+            beams.cells.push_back(right_handed(
+                {{center[cube], node(ends[0]), node(ends[1]), node(third)}}));
       }
     }
     return beams;
