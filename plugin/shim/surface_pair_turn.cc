@@ -98,7 +98,8 @@ namespace abut::shim
         const Direction since = pair.is_displaced()
                                     ? u[n] - rows_.made_at(static_cast<Node>(n))
                                     : u[n];
-        way.insert(way.end(), since.begin_raw(), since.end_raw());
+        for (unsigned int d = 0; d < dim; ++d)
+          way.push_back(since[d]);
       }
       const std::vector<double> since = sums(ABUT_SIDE_SECONDARY, way);
       std::vector<dealii::Point<dim>> now(position_);
