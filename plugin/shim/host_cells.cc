@@ -48,8 +48,7 @@ namespace abut::shim
              "parallel::fullydistributed::Triangulation.";
     if (fe.base_element(0).degree > 2)
       return "Contact of triangles and tetrahedra needs FE_SimplexP of degree "
-             "1 "
-             "or 2, not "
+             "1 or 2, not "
              + fe.get_name() + ".";
     if (dim == 3
         && dealii::Utilities::MPI::logical_or(

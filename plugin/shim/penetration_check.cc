@@ -3,6 +3,8 @@
 #include "surface_pair_rows.h"
 
 #include "agree.h"
+#include "coordinates.h"
+#include "facet_grid.h"
 #include "passage_check.h"
 #include "stopwatch.h"
 
@@ -40,43 +42,6 @@ namespace abut::shim
       return result;
     }
 
-    /** Weights of the corners of a facet at points inside, as far apart as the
-     * facet by @p n, and no more than 16 in each direction; none if n <= 1. */
-    template <int dim>
-    std::vector<std::vector<double>>
-    samples_of_facet(const unsigned int nodes_per_facet, const double n)
-    {
-      constexpr double most = 16.;
-      std::vector<std::vector<double>> result;
-      if (!(n > 1.))
-        return result;
-      const double step = 1. / std::ceil(std::min(n, most));
-      const bool is_triangle =
-          dim == 3 && (nodes_per_facet == 3 || nodes_per_facet == 6);
-      for (double x = 0.5 * step; x < 1.; x += step)
-        for (double y = 0.5 * step; y < (dim == 2 ? step : 1.); y += step)
-          if (dim == 2)
-            result.push_back({1. - x, x});
-          else if (!is_triangle)
-            result.push_back(
-                {(1. - x) * (1. - y), x * (1. - y), (1. - x) * y, x * y});
-          else if (x + y < 1.)
-            result.push_back({1. - x - y, x, y});
-      return result;
-    }
-
-    /** [points * dim] */
-    template <int dim>
-    std::vector<double>
-    coordinates_of(const std::vector<dealii::Point<dim>> &points)
-    {
-      std::vector<double> result;
-      for (const dealii::Point<dim> &point : points)
-        for (unsigned int d = 0; d < dim; ++d)
-          result.push_back(point[d]);
-      return result;
-    }
-
     /** Results for points on straight paths past an obstacle. */
     template <int dim>
     std::vector<abut_obstacle_path>
@@ -85,10 +50,9 @@ namespace abut::shim
                 const std::vector<dealii::Point<dim>> &to)
     {
       std::vector<abut_obstacle_path> result(from.size());
-      if (abut_obstacle_follow(obstacle.handle(),
-                               static_cast<std::int32_t>(from.size()),
-                               coordinates_of(from).data(),
-                               coordinates_of(to).data(), result.data())
+      if (abut_obstacle_follow(
+              obstacle.handle(), static_cast<std::int32_t>(from.size()),
+              coordinates(from).data(), coordinates(to).data(), result.data())
           != ABUT_SUCCESS)
         throw ContactError(obstacle.failure());
       return result;
@@ -343,22 +307,30 @@ namespace abut::shim
         if (rows_.is_owned(node))
           add_path(begin[node], present_[node], !is_held(node));
       // An obstacle smaller than facets passes between nodes.
-      const auto me = MPI::this_mpi_process(rows_.communicator_);
-      for (const std::int32_t f : pair.secondary.facet)
-        if (rows_.surface_.facets[f].owner == me)
-          for (const std::vector<double> &weight : samples_of_facet<dim>(
-                   rows_.surface_.nodes_per_facet(),
-                   pair.secondary.everywhere.largest / obstacle.depth()))
+      constexpr double most = 16.; // in each direction
+      const double n_widths =
+          pair.secondary.everywhere.largest / obstacle.depth();
+      if (n_widths > 1.)
+      {
+        const FacetGrid<dim> grid(
+            rows_.surface_.kind,
+            static_cast<unsigned int>(std::ceil(std::min(n_widths, most))));
+        const auto me = MPI::this_mpi_process(rows_.communicator_);
+        for (const std::int32_t f : pair.secondary.facet)
+        {
+          const auto &facet = rows_.surface_.facets[f];
+          if (facet.owner != me)
+            continue;
+          const auto at = [&](const Points &position)
           {
-            dealii::Point<dim> start, end;
-            for (std::size_t a = 0; a < weight.size(); ++a)
-            {
-              const Node node = rows_.surface_.facets[f].node[a];
-              start += weight[a] * begin[node];
-              end += weight[a] * present_[node];
-            }
-            add_path(start, end, false);
-          }
+            return grid.points([&](const unsigned int a)
+                               { return position[facet.node[a]]; });
+          };
+          const Points start = at(begin), end = at(present_);
+          for (std::size_t q = 0; q < start.size(); ++q)
+            add_path(start[q], end[q], false);
+        }
+      }
       const std::vector<abut_obstacle_path> met =
           follow_past(obstacle, from, to);
       double way = 0.;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "shim/coordinates.h"
 #include "shim/handles.h"
 
 #include <abut/dealii/rigid_obstacle.h>
@@ -361,10 +362,8 @@ namespace abut
                                std::vector<double> &distances,
                                std::vector<Tensor<1, dim>> *gradients) const
   {
-    std::vector<double> numbers, slopes;
-    for (const Point<dim> &point : points)
-      for (unsigned int d = 0; d < dim; ++d)
-        numbers.push_back(point[d]);
+    const std::vector<double> numbers = shim::coordinates(points);
+    std::vector<double> slopes;
     if (implementation->function != nullptr)
       implementation->function->thrown = nullptr;
     distances.resize(points.size());

@@ -4,6 +4,7 @@
 #include "surface_pair_rows.h"
 
 #include "agree.h"
+#include "coordinates.h"
 
 #include <abut/dealii/rigid_obstacle.h>
 #include <abut/obstacle_edge.h>
@@ -45,19 +46,15 @@ namespace abut::shim
                   const std::vector<double> &into,
                   const std::vector<double> &size)
     {
-      std::vector<double> distance, place, result;
+      std::vector<double> distance;
       std::vector<dealii::Tensor<1, dim>> gradient;
       obstacle.distance(points, distance, &gradient);
-      for (std::size_t i = 0; i < points.size(); ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          place.push_back(points[i][d]);
-          result.push_back(gradient[i][d]);
-        }
+      std::vector<double> result = coordinates(gradient);
       if (abut_obstacle_face(obstacle.handle(), false,
                              static_cast<std::int32_t>(points.size()),
-                             place.data(), into.data(), size.data(),
-                             distance.data(), result.data(), nullptr)
+                             coordinates(points).data(), into.data(),
+                             size.data(), distance.data(), result.data(),
+                             nullptr)
           != ABUT_SUCCESS)
         throw ContactError(obstacle.failure());
       return result;
@@ -92,16 +89,12 @@ namespace abut::shim
                          const std::vector<Direction> &u) const
     {
       const std::size_t n_nodes = rows_.surface_.nodes.size();
-      std::vector<double> way, into, size;
-      for (std::size_t n = 0; n < n_nodes; ++n)
-      {
-        const Direction since = pair.is_displaced()
-                                    ? u[n] - rows_.made_at(static_cast<Node>(n))
-                                    : u[n];
-        for (unsigned int d = 0; d < dim; ++d)
-          way.push_back(since[d]);
-      }
-      const std::vector<double> since = sums(ABUT_SIDE_SECONDARY, way);
+      std::vector<double> into, size;
+      std::vector<Direction> displacement(u);
+      for (std::size_t n = 0; n < n_nodes && pair.is_displaced(); ++n)
+        displacement[n] -= rows_.made_at(static_cast<Node>(n));
+      const std::vector<double> since =
+          sums(ABUT_SIDE_SECONDARY, coordinates(displacement));
       std::vector<dealii::Point<dim>> now(position_);
       // For a height along an axis, too, whose force is along the axis by
       // choice: the change of its slope does not count.

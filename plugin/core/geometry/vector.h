@@ -43,6 +43,33 @@ axpy3(const double *a, double s, const double *b, double *c)
   c[2] = a[2] + s * b[2];
 }
 
+/* Vector i of values [.. * dimension]; x[2] = 0 in the plane. */
+static inline void
+load3(const double *values, int32_t dimension, int32_t i, double *x)
+{
+  x[2] = 0.;
+  for (int32_t d = 0; d < dimension; ++d)
+    x[d] = values[(int64_t)dimension * i + d];
+}
+
+/* Outward normal of a facet by its first corners, of any length: two in the
+ * plane, three in space. */
+static inline void
+corner_normal3(int32_t dimension, double (*corner)[3], double *n)
+{
+  double a[3], b[3];
+  sub3(corner[1], corner[0], a);
+  if (dimension == 2)
+  {
+    n[0] = a[1];
+    n[1] = -a[0];
+    n[2] = 0.;
+    return;
+  }
+  sub3(corner[2], corner[0], b);
+  cross3(a, b, n);
+}
+
 static inline double
 norm3(const double *a)
 {

@@ -46,15 +46,6 @@ abut_points_sum(const abut_points *points, abut_point_sides sides, int32_t n,
   return ABUT_SUCCESS;
 }
 
-static void
-get_unit(const double *values, int32_t dimension, int32_t i, double *x)
-{
-  x[2] = 0.;
-  for (int32_t d = 0; d < dimension; ++d)
-    x[d] = values[(int64_t)dimension * i + d];
-  (void)unit3(x, 0.);
-}
-
 abut_status
 abut_direction_change_add(int32_t dimension, int32_t n, const double *magnitude,
                           const double *before, const double *after,
@@ -66,8 +57,10 @@ abut_direction_change_add(int32_t dimension, int32_t n, const double *magnitude,
   for (int32_t i = 0; i < n; ++i)
   {
     double a[3], b[3], d[3];
-    get_unit(before, dimension, i, a);
-    get_unit(after, dimension, i, b);
+    load3(before, dimension, i, a);
+    load3(after, dimension, i, b);
+    (void)unit3(a, 0.);
+    (void)unit3(b, 0.);
     sub3(b, a, d);
     const double angle = 2. * asin(0.5 * min2(2., norm3(d)));
     change->force += magnitude[i];
@@ -78,28 +71,16 @@ abut_direction_change_add(int32_t dimension, int32_t n, const double *magnitude,
   return ABUT_SUCCESS;
 }
 
-/* Normal of facet f by its first corners, of any length. */
 static void
-normal_by_corners(const abut_surface *s, int32_t f, const double *position,
-                  double *n)
+facet_normal(const abut_surface *s, int32_t f, const double *position,
+             double *n)
 {
   const int32_t dim = s->view.dimension;
-  const int32_t *c = s->view.connectivity + s->view.facet_start[f];
-  double a[3] = {0.}, b[3] = {0.};
-  for (int32_t d = 0; d < dim; ++d)
-    a[d] =
-        position[(int64_t)dim * c[1] + d] - position[(int64_t)dim * c[0] + d];
-  if (dim == 2)
-  {
-    n[0] = a[1];
-    n[1] = -a[0];
-    n[2] = 0.;
-    return;
-  }
-  for (int32_t d = 0; d < dim; ++d)
-    b[d] =
-        position[(int64_t)dim * c[2] + d] - position[(int64_t)dim * c[0] + d];
-  cross3(a, b, n);
+  double corner[3][3];
+  for (int32_t k = 0; k < dim; ++k)
+    load3(position, dim, s->view.connectivity[s->view.facet_start[f] + k],
+          corner[k]);
+  corner_normal3(dim, corner, n);
 }
 
 static bool
@@ -129,8 +110,8 @@ abut_surface_rotation(const abut_surface *surface, const uint8_t *marked,
     double a[3], b[3];
     if (!has_marked_node(surface, f, marked))
       continue;
-    normal_by_corners(surface, f, before, a);
-    normal_by_corners(surface, f, after, b);
+    facet_normal(surface, f, before, a);
+    facet_normal(surface, f, after, b);
     const double size = norm3(a) * norm3(b);
     if (size > 0.)
       *angle = max2(*angle, acos(clamp(dot3(a, b) / size, -1., 1.)));

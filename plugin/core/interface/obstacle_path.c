@@ -99,12 +99,9 @@ begin(work *w, int32_t n, const double *from, const double *to)
     traveller t;
     memset(&t, 0, sizeof(t));
     t.index = i;
-    for (int32_t d = 0; d < w->dimension; ++d)
-    {
-      const int64_t k = (int64_t)w->dimension * i + d;
-      t.from[d] = from[k];
-      t.way[d] = to[k] - from[k];
-    }
+    load3(from, w->dimension, i, t.from);
+    load3(to, w->dimension, i, t.way);
+    sub3(t.way, t.from, t.way);
     t.length = norm3(t.way);
     t.least = fmin(part_of_way * t.length, part_of_depth * half);
     if (end[i] < t.length)
@@ -128,9 +125,8 @@ advance(work *w, int step, abut_obstacle_path *path)
   int32_t n = 0;
   for (int32_t k = 0; k < w->n; ++k)
   {
-    double outward[3] = {0.};
-    for (int32_t d = 0; d < w->dimension; ++d)
-      outward[d] = gradient[w->dimension * (int64_t)k + d];
+    double outward[3];
+    load3(gradient, w->dimension, k, outward);
     if (go_on(&t[k], distance[k], outward, step, &path[t[k].index]))
       t[n++] = t[k];
   }

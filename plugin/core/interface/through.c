@@ -31,22 +31,14 @@ typedef struct work
   abut_inside *deepest;    /* of each node */
 } work;
 
-static void
-get(const double *values, int32_t dimension, int32_t i, double *x)
-{
-  x[2] = 0.;
-  for (int32_t d = 0; d < dimension; ++d)
-    x[d] = values[(int64_t)dimension * i + d];
-}
-
 /* Displacement of a node of a surface from its start. */
 static void
 displacement_of(const abut_surface *s, const double *start, int32_t i,
                 double *u)
 {
   double from[3];
-  get(start, s->view.dimension, i, from);
-  get(s->view.position, s->view.dimension, i, u);
+  load3(start, s->view.dimension, i, from);
+  load3(s->view.position, s->view.dimension, i, u);
   sub3(u, from, u);
 }
 
@@ -105,8 +97,8 @@ make_boxes(work *w, const double *mean, const double *margin)
   for (int32_t i = 0; i < s->view.n_nodes; ++i)
   {
     double from[3], to[3];
-    get(w->start.nodes, s->view.dimension, i, from);
-    get(s->view.position, s->view.dimension, i, to);
+    load3(w->start.nodes, s->view.dimension, i, from);
+    load3(s->view.position, s->view.dimension, i, to);
     for (int d = 0; d < 3; ++d)
     {
       const double a = from[d] + mean[d], b = to[d];
@@ -117,23 +109,6 @@ make_boxes(work *w, const double *mean, const double *margin)
       box[i][3 + d] = max2(a, b) + slack;
     }
   }
-}
-
-/* Outward normal of a line (2D) or triangle, of any length. */
-static void
-outward(int32_t dimension, double (*corner)[3], double *n)
-{
-  double a[3], b[3];
-  sub3(corner[1], corner[0], a);
-  if (dimension == 2)
-  {
-    n[0] = a[1];
-    n[1] = -a[0];
-    n[2] = 0.;
-    return;
-  }
-  sub3(corner[2], corner[0], b);
-  cross3(a, b, n);
 }
 
 /* Whether a point of the plane of a line or triangle is on it. */
@@ -147,7 +122,7 @@ is_on(int32_t dimension, double (*corner)[3], const double *x)
     sub3(x, corner[1], b);
     return dot3(a, b) <= 0.;
   }
-  outward(dimension, corner, n);
+  corner_normal3(dimension, corner, n);
   for (int k = 0; k < 3; ++k)
   {
     sub3(corner[(k + 1) % 3], corner[k], a);
@@ -167,7 +142,7 @@ depth_behind_part(int32_t dimension, double (*corner)[3], const double *x,
                   const double *u, const double *normal)
 {
   double n[3], to[3], a[3], b[3], crossing[3];
-  outward(dimension, corner, n);
+  corner_normal3(dimension, corner, n);
   const double length = norm3(n);
   if (length == 0.)
     return 0.;
@@ -196,9 +171,9 @@ depth_behind(const work *w, int32_t i, int32_t f)
   const int32_t dimension = s->view.dimension, m = n_corners(s, f);
   double corner[4][3], part[3][3], x[3], u[3], normal[3], depth = 0.;
   for (int32_t k = 0; k < m; ++k)
-    get(w->start.facets, dimension, corner_node(s, f, k), corner[k]);
-  get(w->start.nodes, dimension, i, x);
-  get(w->normal, dimension, i, normal);
+    load3(w->start.facets, dimension, corner_node(s, f, k), corner[k]);
+  load3(w->start.nodes, dimension, i, x);
+  load3(w->normal, dimension, i, normal);
   displacement_of(w->nodes, w->start.nodes, i, u);
   sub3(u, ((const double(*)[3])w->displacement.data)[f], u);
   if (m < 4)
