@@ -212,6 +212,8 @@ namespace abut
     i.has_new_gaps = false;
     i.has_rows = false;
     i.raised.clear();
+    i.unopened.clear();
+    i.may_limit_raises = false;
     i.n_raises = 0;
     i.check_approach(displacement);
     i.find_rows_in_reach(displacement);
@@ -259,7 +261,7 @@ namespace abut
                                             "elastic bodies: do not call "
                                             "linearise() with it."));
     if (i.moves())
-      i.move_rows(displacement);
+      i.move_rows(displacement, i.row_values());
     else if (i.is_started)
     {
       i.record_present();

@@ -3,11 +3,15 @@
 // a part of each facet, make the weighted gap W of mortar less than the least
 // gap m around the row. The law of such a row is that of max(W, m), by a
 // constant c = max(0, m - W) that is added to W and renewed between solves:
-// derivatives, forces and symmetry are those of W.
+// derivatives, forces and symmetry are those of W. Where a pair touches
+// nowhere, W and m at a displacement by false forces are far from those without
+// forces: its rows are opened altogether at first, unless nothing else then
+// holds a body.
 #include "contact_implementation.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace abut
 {
@@ -50,7 +54,7 @@ namespace abut
     MPI::max(touches, communicator, touches);
     const double visible =
         std::max(least, visible_part * deformation(displacement));
-    bool changed = false;
+    bool changed = false, opens = false;
     for (int row = 0; row < coefficients.n_rows(); ++row)
     {
       const double m = clearance[row];
@@ -71,14 +75,37 @@ namespace abut
                                      : before.less(m, gap[row], presses(row));
       if (std::abs(wanted - before.value) <= least)
         continue;
-      raised[coefficients.ids()[row]] = {wanted, before.value, m,
-                                         request.pressure[row]};
+      shim::GapRaise &raise = raised[coefficients.ids()[row]];
+      raise = {wanted, before.value, m, request.pressure[row]};
+      if (n_raises == 0)
+        unopened[coefficients.ids()[row]] = raise;
+      if (n_raises == 0 && touches[pair_of[row]] == 0)
+      {
+        raise.value += surfaces->facet_size();
+        opens = true;
+      }
       changed = true;
     }
     if (!MPI::logical_or(changed, communicator))
       return false;
-    ++n_raises;
+    if (n_raises++ == 0)
+    {
+      before_raises = row_values();
+      may_limit_raises = MPI::logical_or(opens, communicator);
+    }
     compute_gap(displacement);
+    return true;
+  }
+
+  template <int dim>
+  bool ContactAssembler<dim>::Implementation::limit_raises(
+      const la::Vector &displacement)
+  {
+    if (!std::exchange(may_limit_raises, false))
+      return false;
+    raised = unopened;
+    move_rows(displacement, before_raises);
+    is_started = false;
     return true;
   }
 
@@ -123,8 +150,20 @@ namespace abut
         i.checked_vector("raise_gaps()", "displacement", given_displacement));
   }
 
+  template <int dim>
+  bool
+  ContactAssembler<dim>::limit_raises(const la::VectorView &given_displacement)
+  {
+    Implementation &i = *implementation;
+    i.check_rows("limit_raises()");
+    return i.limit_raises(
+        i.checked_vector("limit_raises()", "displacement", given_displacement));
+  }
+
 #define ABUT_INSTANTIATE(dim)                                                  \
   template bool ContactAssembler<dim>::Implementation::raise_gaps(             \
+      const la::Vector &);                                                     \
+  template bool ContactAssembler<dim>::Implementation::limit_raises(           \
       const la::Vector &);                                                     \
   template bool ContactAssembler<dim>::Implementation::presses(int) const;     \
   template bool ContactAssembler<dim>::Implementation::raises_end_early()      \
@@ -133,7 +172,8 @@ namespace abut
       const la::Vector &) const;                                               \
   template void ContactAssembler<dim>::Implementation::add_raises(             \
       const solve::PointOperator &, std::vector<double> &) const;              \
-  template bool ContactAssembler<dim>::raise_gaps(const la::VectorView &);
+  template bool ContactAssembler<dim>::raise_gaps(const la::VectorView &);     \
+  template bool ContactAssembler<dim>::limit_raises(const la::VectorView &);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

@@ -42,9 +42,8 @@ namespace abut
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::move_rows(
-      const la::Vector &displacement)
+      const la::Vector &displacement, const RowValues &before)
   {
-    const RowValues before = row_values();
     record_present();
     is_restarted = is_restarted || is_started;
     find_points(displacement);
@@ -299,8 +298,10 @@ namespace abut
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template bool ContactAssembler<dim>::Implementation::moves() const;          \
+  template typename ContactAssembler<dim>::Implementation::RowValues           \
+  ContactAssembler<dim>::Implementation::row_values() const;                   \
   template void ContactAssembler<dim>::Implementation::move_rows(              \
-      const la::Vector &);                                                     \
+      const la::Vector &, const RowValues &);                                  \
   template void ContactAssembler<dim>::Implementation::find_geometry();        \
   template const la::Matrix &                                                  \
   ContactAssembler<dim>::Implementation::with_geometry(const la::Matrix &);    \

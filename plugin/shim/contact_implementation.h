@@ -141,8 +141,8 @@ namespace abut
     };
     RowValues row_values() const;
     /** Make rows at this displacement, which start from what those of the same
-     * number have. Collective. */
-    void move_rows(const la::Vector &displacement);
+     * number have had. Collective. */
+    void move_rows(const la::Vector &displacement, const RowValues &before);
     /** Take the rows to this displacement, if they are the same there.
      * Collective. */
     void follow(const la::Vector &displacement);
@@ -181,6 +181,8 @@ namespace abut
     double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
     /** See ContactAssembler::raise_gaps(). Collective. */
     bool raise_gaps(const la::Vector &displacement);
+    /** See ContactAssembler::limit_raises(). Collective. */
+    bool limit_raises(const la::Vector &displacement);
     /** Whether that has stopped before all such rows were open. */
     bool raises_end_early() const;
     /** From how far on surfaces are apart for that, length. Collective. */
@@ -334,6 +336,11 @@ namespace abut
      * the number of the row, and how often they have been since detect(). */
     std::map<std::int64_t, shim::GapRaise> raised;
     unsigned int n_raises = 0;
+    /** The first of them if no row is opened altogether, values of rows before,
+     * and whether any row was opened. */
+    std::map<std::int64_t, shim::GapRaise> unopened;
+    bool may_limit_raises = false;
+    RowValues before_raises;
     /** [pairs][bodies] what bodies have moved since then before the pair
      * touched; empty: nothing. */
     std::vector<std::vector<solve::RigidMotion>> approach;
