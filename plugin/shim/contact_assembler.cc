@@ -208,7 +208,7 @@ namespace abut
       i.create_source();
     }
     else if (i.has_new_gaps)
-      i.surfaces->set_gaps(i.pairs);
+      i.surfaces->set().set_gaps(i.pairs);
     i.has_new_gaps = false;
     i.has_rows = false;
     i.raised.clear();
@@ -495,11 +495,11 @@ namespace abut
     const double length = i.length_scale(displacement);
     // Obstacles may come to bodies that rest.
     const bool may_come = i.surfaces != nullptr
-                          && (i.surfaces->has_steps()
+                          && (i.surfaces->set().has_steps()
                               || std::any_of(i.pairs.begin(), i.pairs.end(),
                                              [](const ContactPair<dim> &pair)
                                              { return pair.may_be_apart; }));
-    return length == 0. && may_come ? i.surfaces->facet_size() : length;
+    return length == 0. && may_come ? i.surfaces->set().facet_size() : length;
   }
 
   template <int dim>

@@ -41,8 +41,10 @@ namespace abut
     if (!MPI::logical_or(any, communicator))
       return false;
     const double least = least_clearance(displacement);
-    const std::vector<double> clearance = surfaces->clearances(displacement);
-    const std::vector<int> pair_of = surfaces->row_pairs();
+    const std::vector<double> clearance = shim::clearances(
+        surfaces->points(),
+        surfaces->points().displacements_in_reach(displacement), true);
+    const std::vector<int> pair_of = surfaces->points().row_pairs();
     std::vector<int> touches(pairs.size(), 0);
     for (int row = 0; row < coefficients.n_rows(); ++row)
       if (clearance[row] <= least)
@@ -92,7 +94,7 @@ namespace abut
   double ContactAssembler<dim>::Implementation::least_clearance(
       const la::Vector &displacement) const
   {
-    return std::max(apart_part * surfaces->facet_size(),
+    return std::max(apart_part * surfaces->set().facet_size(),
                     round_off * displacement.linfty_norm());
   }
 

@@ -103,7 +103,7 @@ namespace abut
   {
     // A row that is far open does not close in this linearisation, or as if it
     // were straight: its lever would move its node by too much.
-    const double near = 0.3 * surfaces->facet_size();
+    const double near = 0.3 * surfaces->set().facet_size();
     std::vector<std::uint8_t> wanted(coefficients.n_rows());
     for (int row = 0; row < coefficients.n_rows(); ++row)
       wanted[row] = row_pressure(row) > 0. || gap[row] < near;
@@ -187,44 +187,29 @@ namespace abut
   {
     RowsElsewhere result;
     result.points = shim::create_points(context.get(), points_dimension);
-    surfaces->bring_in_reach(displacement);
-    const auto kept = surfaces->save_points();
-    try
-    {
-      surfaces->find(displacement, result.points.get());
-      // Tangents have their numbers by those of their point that stay.
-      abut_points_view there = {};
-      result.rows = make_operator(result.points.get(), there);
-      if (has_friction)
-        result.slip_reference = surfaces->slip_reference(committed);
-      record_changes(kept);
-    }
-    catch (...)
-    {
-      surfaces->restore_points(kept);
-      throw;
-    }
-    surfaces->restore_points(kept);
+    surfaces->points().displacements_in_reach(displacement);
+    surfaces->renew_points();
+    shim::PairPoints<dim> elsewhere(surfaces->set());
+    surfaces->find_elsewhere(displacement, result.points.get(), elsewhere);
+    // Tangents have their numbers by those of their point that stay.
+    abut_points_view there = {};
+    result.rows = make_operator(result.points.get(), there, &elsewhere);
+    if (has_friction)
+      result.slip_reference = surfaces->slip().reference(elsewhere, committed);
+    record_changes(elsewhere);
     return result;
   }
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::record_changes(
-      const typename shim::SurfacePairRows<dim>::SavedPoints &before)
+      const shim::PairPoints<dim> &elsewhere)
   {
     std::set<std::int64_t> pressing;
     for (int row = 0; row < coefficients.n_rows(); ++row)
       if (!coefficients.is_tangent(row) && request.pressure[row] > 0.)
         pressing.insert(coefficients.ids()[row]);
-    const auto now = surfaces->save_points();
-    const auto placed = [this](const auto &points)
-    {
-      shim::PlacedPoints<dim> result = {{}, points.places};
-      check(abut_points_get(points.points, &result.view));
-      return result;
-    };
     const PartnerChanges changes =
-        shim::count_changes<dim>(placed(before), placed(now), pressing);
+        shim::count_changes(surfaces->points(), elsewhere, pressing);
     partner_changes.lost = std::max(partner_changes.lost, changes.lost);
     partner_changes.jumped = std::max(partner_changes.jumped, changes.jumped);
   }
@@ -236,8 +221,8 @@ namespace abut
     const std::vector<std::int64_t> before = row_numbers();
     if (solver != nullptr)
       followed_motions = solver->rigid_motions(displacement);
-    surfaces->bring_in_reach(displacement);
-    auto kept = surfaces->save_points();
+    surfaces->points().displacements_in_reach(displacement);
+    shim::PairPoints<dim> kept = surfaces->points();
     shim::Handle<abut_points> old_points = std::move(points);
     find_points(displacement);
     set_up_rows();
@@ -246,7 +231,7 @@ namespace abut
     if (MPI::logical_or(before != row_numbers(), communicator))
     {
       points = std::move(old_points);
-      surfaces->restore_points(std::move(kept));
+      surfaces->restore(std::move(kept));
       set_up_rows();
       find_slip_reference();
       return;

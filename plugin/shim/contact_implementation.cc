@@ -7,10 +7,12 @@
 #include "fnv_hash.h"
 #include "host_cells.h"
 #include "nodal_obstacle_rows.h"
+#include "pair_detection.h"
 #include "solve/make_row_solver.h"
 #include "solve/row_stiffness.h"
 #include "solve/unsupported_bodies.h"
 #include "solver_space.h"
+#include "surface_stress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +42,9 @@ namespace abut
     {
       try
       {
-        static_cast<const shim::SurfacePairRows<dim> *>(user)->project(values);
+        static_cast<const shim::SurfaceRows<dim> *>(user)
+            ->multipliers()
+            .project(values);
       }
       catch (const std::exception &)
       {
@@ -222,18 +226,17 @@ namespace abut
     const bool has_obstacle = obstacle.lower || obstacle.upper;
     if (!pairs.empty() || (has_pairs && !has_obstacle))
     {
-      auto made = std::make_unique<shim::SurfacePairRows<dim>>(
-          *mapping, *dof_handler, *constraints, pairs,
-          typename shim::SurfacePairRows<dim>::Settings{method, search,
-                                                        axisymmetric},
-          context.get(), exchange, detection);
+      auto made = std::make_unique<shim::SurfaceRows<dim>>(
+          shim::PairHost<dim>{*mapping, *dof_handler, *constraints, method,
+                              search, axisymmetric, context.get(), detection},
+          pairs, exchange);
       surfaces = made.get();
-      surfaces->foresee_motion(foreseen_motion);
+      surfaces->set().foresee_motion(foreseen_motion);
       if (committed.size() > 0)
-        surfaces->record_commit(committed);
-      if (exchange != surfaces->exchange())
+        surfaces->set().record_commit(committed);
+      if (exchange != surfaces->set().exchange())
         count_messages();
-      exchange = surfaces->exchange();
+      exchange = surfaces->set().exchange();
       source = std::move(made);
     }
     else
@@ -278,19 +281,25 @@ namespace abut
   }
 
   template <int dim>
-  solve::PointOperator
-  ContactAssembler<dim>::Implementation::make_operator(abut_points *const made,
-                                                       abut_points_view &result)
+  solve::PointOperator ContactAssembler<dim>::Implementation::make_operator(
+      abut_points *const made, abut_points_view &result,
+      shim::PairPoints<dim> *const elsewhere)
   {
     check(abut_points_get(made, &result));
     // Rows between nodes that cannot move are no measure.
     std::vector<std::uint8_t> keep =
         solve::rows_with_columns(result, source->nodes());
-    source->drop_needless(keep);
+    if (elsewhere == nullptr)
+      source->drop_needless(keep);
+    else
+      shim::drop_needless(*elsewhere, keep);
     if (MPI::logical_or(std::count(keep.begin(), keep.end(), 0) > 0,
                         communicator))
     {
-      source->filter(keep);
+      if (elsewhere == nullptr)
+        source->filter(keep);
+      else
+        elsewhere->filter(keep);
       check(abut_points_get(made, &result));
     }
     return solve::PointOperator(dof_handler->locally_owned_dofs(), result,
@@ -311,10 +320,11 @@ namespace abut
     {
       check_committed(
           "Points of ABUT_KINEMATICS_UPDATED are made where bodies were at");
-      surfaces->set_place(committed);
+      surfaces->set().set_place(committed);
     }
     if (surfaces != nullptr)
-      surfaces->set_committed_poses(committed_poses, committed_times);
+      surfaces->set().obstacles().set_committed(committed_poses,
+                                                committed_times);
     try
     {
       return source->find(displacement, points.get());
@@ -403,13 +413,13 @@ namespace abut
     if (!has_friction)
       return;
     check_committed("Slips with friction are measured from");
-    surfaces->set_committed_poses(committed_poses, committed_times);
+    surfaces->set().obstacles().set_committed(committed_poses, committed_times);
     if (approach.size() != pairs.size())
       approach.clear();
     std::vector<la::Vector> way;
     for (const auto &motions : approach)
       way.push_back(motions.empty() ? la::Vector() : displacement_of(motions));
-    surfaces->set_approach(std::move(way));
+    surfaces->slip().set_approach(std::move(way));
     slip_reference = source->slip_reference(committed);
   }
 
@@ -524,7 +534,7 @@ namespace abut
                 ExcMessage("Method/Enforcement = nitsche needs the stress of "
                            "the bodies: call set_surface_traction() first."));
     const solve::NodeMap nodes =
-        surfaces->find_stress(*surface_traction, stress.get());
+        shim::find_stress(surfaces->points(), *surface_traction, stress.get());
     abut_points_view stress_view;
     check(abut_points_get(stress.get(), &stress_view));
     nitsche.stress = solve::PointOperator(dof_handler->locally_owned_dofs(),
@@ -569,7 +579,7 @@ namespace abut
         compliance = solve::compliance(*reference);
       law_compliance.swap(compliance);
       if (moves()) // directions turn, and the law must not
-        surfaces->make_isotropic(law_compliance);
+        surfaces->fields().make_isotropic(law_compliance);
     }
   }
 
@@ -591,11 +601,11 @@ namespace abut
   {
     stiffness = solve::row_stiffness(law_compliance, coefficients);
     if (surfaces != nullptr)
-      surfaces->spread_stiffness(stiffness);
+      surfaces->multipliers().spread_stiffness(stiffness);
     set_scales(matrix, residual);
     method.options.reduce = reduce_over_ranks;
     method.options.user = const_cast<MPI_Comm *>(&communicator);
-    const bool has_space = surfaces != nullptr && surfaces->has_points();
+    const bool has_space = surfaces != nullptr && surfaces->set().has_points();
     method.options.project = has_space ? project_on_nodes<dim> : nullptr;
     method.options.project_user = surfaces;
     abut_strategy_options options = method.options;
@@ -607,9 +617,9 @@ namespace abut
     set_friction();
 
     if (!is_nitsche() && surfaces != nullptr && is_penalty(*method.options.law))
-      surfaces->make_uniform(stiffness);
+      surfaces->multipliers().make_uniform(stiffness);
     if (surfaces != nullptr)
-      surfaces->copy_to_tangents(stiffness);
+      surfaces->multipliers().copy_to_tangents(stiffness);
     if (is_nitsche())
     {
       method.options.penalty = abut_strategy_first_penalty(&method.options);
@@ -622,7 +632,7 @@ namespace abut
       std::vector<double> scale(stiffness);
       for (double &c : scale)
         c *= method.options.complementarity;
-      start_state = surfaces->first_contact(
+      start_state = surfaces->multipliers().first_contact(
           gap, start_pressure, scale,
           touching * shim::smallest_body(near_null_space(), communicator));
     }
@@ -650,7 +660,7 @@ namespace abut
     result.start = &start_displacement;
     if (surfaces != nullptr)
     {
-      result.group = surfaces->row_pairs();
+      result.group = surfaces->points().row_pairs();
       result.n_groups = pairs.size();
     }
     result.approach = [this](const std::vector<solve::RigidMotion> &motions,
@@ -686,7 +696,8 @@ namespace abut
     if (next > 1.001 * last * size || size == 0.)
       return false;
     foreseen_motion = next;
-    surfaces->foresee_motion(next);
+    surfaces->renew_points();
+    surfaces->set().foresee_motion(next);
     return true;
   }
 

@@ -11,7 +11,7 @@
 #include "solve/local_elimination.h"
 #include "solve/nitsche_solver.h"
 #include "solve/row_solver.h"
-#include "surface_pair_rows.h"
+#include "surface_rows.h"
 
 #include <abut/dealii/contact_assembler.h>
 
@@ -60,10 +60,12 @@ namespace abut
     shim::RowSource::Change find_points(const la::Vector &displacement);
     /** Make all that belongs to new points. Collective. */
     void set_up_rows();
-    /** Take out the rows of the source's points, just made, that need none, and
-     * make the operator of the others. Collective. */
-    solve::PointOperator make_operator(abut_points *made,
-                                       abut_points_view &result);
+    /** Take out the rows of points, just made, that need none, and make the
+     * operator of the others. @p elsewhere: the points if they are not those of
+     * the source. Collective. */
+    solve::PointOperator
+    make_operator(abut_points *made, abut_points_view &result,
+                  shim::PairPoints<dim> *elsewhere = nullptr);
     /** Make what has been reached the trial version of the history. */
     void record_present();
     /** Find the pressures that the next solve starts from. */
@@ -156,9 +158,8 @@ namespace abut
     /** The rows at this displacement, while the present ones stay. Collective.
      */
     RowsElsewhere rows_at(const la::Vector &displacement);
-    /** Compare the surfaces' points with those of the rows. */
-    void record_changes(
-        const typename shim::SurfacePairRows<dim>::SavedPoints &before);
+    /** Compare other points with those of the rows. */
+    void record_changes(const shim::PairPoints<dim> &elsewhere);
     /** Find the change of the forces of the rows' pressures because rows move.
      * Collective. */
     void find_geometry();
@@ -274,7 +275,7 @@ namespace abut
     const dealii::AffineConstraints<double> *constraints = nullptr;
     std::unique_ptr<shim::RowSource> source;
     /** The same object if it makes rows of pairs, else null. */
-    shim::SurfacePairRows<dim> *surfaces = nullptr;
+    shim::SurfaceRows<dim> *surfaces = nullptr;
     /** The facets of pairs on this mesh, once they are found. */
     std::shared_ptr<shim::SurfaceExchange<dim>> exchange;
     CommunicationReport sent_before; ///< on earlier meshes

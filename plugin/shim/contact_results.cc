@@ -14,13 +14,13 @@ namespace abut
     /** At all unknowns, from pressures by row; as many as @p like has.
      * Collective. */
     template <int dim>
-    la::Vector forces_of(const shim::SurfacePairRows<dim> &surfaces,
+    la::Vector forces_of(const shim::SurfaceRows<dim> &surfaces,
                          const std::vector<double> &pressures,
                          const la::Vector &like)
     {
       la::Vector result(like);
       result = 0.;
-      surfaces.find_forces(pressures, result);
+      surfaces.fields().find_forces(pressures, result);
       return result;
     }
   } // namespace
@@ -51,7 +51,7 @@ namespace abut
     if (i.surfaces == nullptr)
       return {};
     const std::vector<std::uint8_t> states = i.row_states();
-    return i.surfaces->step_motion(displacement, states.data());
+    return shim::step_motion(i.surfaces->points(), displacement, states.data());
   }
 
   template <int dim>
@@ -84,7 +84,7 @@ namespace abut
       *count = MPI::max(*count, i.communicator);
     result.seconds = MPI::max(result.seconds, i.communicator);
     if (i.surfaces != nullptr && i.has_rows)
-      i.elements.compare(i.surfaces->contact_elements(), result,
+      i.elements.compare(i.surfaces->points().contact_elements(), result,
                          i.communicator);
     return result;
   }
@@ -137,7 +137,7 @@ namespace abut
     // what is left of them is a penalty.
     const bool is_closed =
         abut_law_updates_multipliers(law)
-        && (i.surfaces == nullptr || !i.surfaces->has_points());
+        && (i.surfaces == nullptr || !i.surfaces->set().has_points());
     if (!i.is_started || !abut_law_has_penalty(law) || is_closed)
       return 0.;
     const double penalty = progress().penalty;
@@ -297,7 +297,8 @@ namespace abut
   std::vector<PairCheck> ContactAssembler<dim>::pair_checks() const
   {
     const auto *surfaces = implementation->surfaces;
-    return surfaces == nullptr ? std::vector<PairCheck>() : surfaces->checks();
+    return surfaces == nullptr ? std::vector<PairCheck>()
+                               : surfaces->points().checks();
   }
 
   template <int dim>
@@ -309,7 +310,8 @@ namespace abut
       return {};
     const std::vector<double> pressure = i.row_pressures();
     const std::vector<std::uint8_t> state = i.row_states();
-    return i.surfaces->results(pressure.data(), i.gap.data(), state.data());
+    return i.surfaces->examination().results(pressure.data(), i.gap.data(),
+                                             state.data());
   }
 
   template <int dim>
@@ -320,8 +322,9 @@ namespace abut
     i.check_rows("transfer_errors()");
     const la::Vector &displacement = i.checked_vector(
         "transfer_errors()", "displacement", given_displacement);
-    return i.surfaces == nullptr ? std::vector<double>()
-                                 : i.surfaces->transfer_errors(displacement);
+    return i.surfaces == nullptr
+               ? std::vector<double>()
+               : shim::transfer_errors(i.surfaces->points(), displacement);
   }
 
   template <int dim>
@@ -334,7 +337,7 @@ namespace abut
         "check_penetration()", "displacement", given_displacement);
     if (i.surfaces == nullptr)
       return {};
-    return i.surfaces->penetrations(displacement, tolerance);
+    return shim::penetrations(i.surfaces->points(), displacement, tolerance);
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

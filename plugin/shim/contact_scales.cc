@@ -82,7 +82,7 @@ namespace abut
       return displacement.linfty_norm();
     return std::min(shim::largest_displacement(near_null_space(), displacement,
                                                communicator),
-                    surfaces->facet_size());
+                    surfaces->set().facet_size());
   }
 
   template <int dim>
@@ -95,7 +95,8 @@ namespace abut
   template <int dim>
   double ContactAssembler<dim>::Implementation::unmeasured_length() const
   {
-    const double facet = surfaces == nullptr ? 0. : surfaces->facet_size();
+    const double facet =
+        surfaces == nullptr ? 0. : surfaces->set().facet_size();
     return facet > 0. ? facet : 1.; // any: there is no row, or none has a gap
   }
 

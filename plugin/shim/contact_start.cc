@@ -171,9 +171,10 @@ namespace abut
     i.committed_load = std::max(i.committed_load, i.present_load);
     i.approach.clear();
     if (i.surfaces != nullptr && i.has_rows)
-      i.elements.commit(i.surfaces->contact_elements(), i.communicator);
+      i.elements.commit(i.surfaces->points().contact_elements(),
+                        i.communicator);
     if (i.surfaces != nullptr)
-      i.surfaces->record_commit(displacement);
+      i.surfaces->set().record_commit(displacement);
     // Pairs with friction may be out of reach of each other as yet. Pairs that
     // reach each other later need a reference of slips.
     const bool is_wanted = i.makes_points_at_commits()
@@ -201,7 +202,7 @@ namespace abut
     i.approach.clear();
     i.committed_is_lost = false;
     if (i.surfaces != nullptr)
-      i.surfaces->record_commit(displacement);
+      i.surfaces->set().record_commit(displacement);
     i.record_poses();
     if (i.has_rows)
       i.find_slip_reference();
@@ -219,7 +220,7 @@ namespace abut
     i.history.save(stream);
     i.elements.save(stream, i.communicator);
     if (i.surfaces != nullptr)
-      i.surfaces->save_sides(stream);
+      i.exchange->self_contact().save(stream);
     // Who loads has no preconditioner, nor points that were made earlier: then
     // neither should this run.
     i.solver.reset();
