@@ -475,7 +475,7 @@ namespace abut
     result.deformation = deformation(displacement);
     result.missed_depth = deepest.missed;
     double cell = 0.;
-    for (const auto &some : dof_handler->active_cell_iterators())
+    for (const auto &some : host.dof_handler().active_cell_iterators())
       cell = std::max(cell, some->diameter());
     const Scale scale{result.deformation, result.deformation,
                       round_off_of_places * MPI::max(cell, communicator)};
@@ -509,9 +509,9 @@ namespace abut
     if (can_touch)
       i.check_rows("examine()");
     else
-      i.check_mesh("examine()");
+      i.host.check_mesh("examine()");
     const la::Vector &displacement =
-        i.checked_vector("examine()", "displacement", given_displacement);
+        i.host.vector("examine()", "displacement", given_displacement);
     ContactExamination result;
     Findings findings(result);
     if (residual)
@@ -524,8 +524,8 @@ namespace abut
       i.examine_membrane(displacement, penetration(), result);
       return result;
     }
-    const shim::Strains strain =
-        shim::strains(*i.mapping, *i.dof_handler, displacement, i.axisymmetric);
+    const shim::Strains strain = shim::strains(
+        i.host.mapping(), i.host.dof_handler(), displacement, i.axisymmetric);
     result.strain = strain.largest;
     result.mean_strain = strain.mean;
     judge_strain(result, allow_large_strain, findings);
@@ -608,7 +608,7 @@ namespace abut
       if (is_obstacle && i.pairs[p].geometric_gap)
       {
         const auto inside = shim::find_obstacle_in_bodies(
-            *i.mapping, *i.dof_handler, displacement, i.pairs[p]);
+            i.host.mapping(), i.host.dof_handler(), displacement, i.pairs[p]);
         judge_inside(
             pairs[p].name, inside,
             inside.is_inside(checks[p].facet_size)
@@ -630,8 +630,8 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("missed_depth()");
     const la::Vector &displacement =
-        i.checked_vector("missed_depth()", "displacement", given_displacement);
-    depth.reinit(i.dof_handler->get_triangulation().n_active_cells());
+        i.host.vector("missed_depth()", "displacement", given_displacement);
+    depth.reinit(i.host.dof_handler().get_triangulation().n_active_cells());
     const double least_peak = useless * i.deformation(displacement);
     double largest = 0.;
     for (const shim::FacetPenetration &found :
@@ -653,7 +653,7 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("check_supports()");
     const solve::Stiffness stiffness =
-        i.stiffness_of("check_supports()", tangent);
+        i.host.stiffness("check_supports()", tangent);
     if (i.surfaces == nullptr)
       return;
     solve::UnsupportedBodies unsupported;
@@ -663,7 +663,7 @@ namespace abut
     if (given_residual)
     {
       const la::Vector &residual =
-          i.checked_vector("check_supports()", "residual", given_residual);
+          i.host.vector("check_supports()", "residual", given_residual);
       free = unsupported.along_which_works(free, residual,
                                            solve::UnsupportedBodies::no_work
                                                * residual.l1_norm());

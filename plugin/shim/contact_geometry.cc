@@ -27,16 +27,15 @@ namespace abut
   }
 
   template <int dim>
-  typename ContactAssembler<dim>::Implementation::RowValues
-  ContactAssembler<dim>::Implementation::row_values() const
+  shim::RowValues ContactAssembler<dim>::Implementation::row_values() const
   {
-    RowValues values;
-    values.has_states = is_started || !start_state.empty();
+    shim::RowValues values;
+    values.has_states = is_started || !start.state().empty();
     for (int row = 0; row < coefficients.n_rows(); ++row)
       values.of[coefficients.ids()[row]] = {
-          row_pressure(row), is_started            ? request.state[row]
-                             : start_state.empty() ? std::uint8_t(0)
-                                                   : start_state[row]};
+          row_pressure(row), is_started              ? request.state[row]
+                             : start.state().empty() ? std::uint8_t(0)
+                                                     : start.state()[row]};
     return values;
   }
 
@@ -44,33 +43,18 @@ namespace abut
   void ContactAssembler<dim>::Implementation::move_rows(
       const la::Vector &displacement)
   {
-    const RowValues before = row_values();
+    const shim::RowValues before = row_values();
     record_present();
-    is_restarted = is_restarted || is_started;
+    start.set_restarted(start.is_restarted() || is_started);
     find_points(displacement);
     set_up_rows();
     find_slip_reference();
-    start_pressure.assign(coefficients.n_rows(), 0.);
-    start_state.assign(before.has_states ? coefficients.n_rows() : 0,
-                       ABUT_STATE_OPEN);
-    for (int row = 0; row < coefficients.n_rows(); ++row)
-    {
-      const auto it = before.of.find(coefficients.ids()[row]);
-      if (it == before.of.end())
-        continue;
-      start_pressure[row] = it->second.first;
-      if (before.has_states)
-        start_state[row] = it->second.second;
-    }
-    limit_start();
+    start.go_on(start_rows(), before);
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::find_geometry()
   {
-    geometry.reset();
-    substitution.reset();
-    substituted_increment = la::Vector();
-    partner_changes = PartnerChanges();
+    moving.clear();
     if (!moves())
       return;
     // The solver keeps what it was made of until it gets the next one.
@@ -81,20 +65,7 @@ namespace abut
         source->geometric_lines(row_pressures().data());
     if (!MPI::logical_or(!lines.empty(), communicator))
       return;
-    const dealii::IndexSet &owned = dof_handler->locally_owned_dofs();
-    dealii::IndexSet ghosts(owned.size());
-    for (const shim::MatrixLine &line : lines)
-      if (!owned.is_element(line.row))
-        ghosts.add_index(line.row);
-    ghosts.compress();
-    geometry = std::make_unique<la::Matrix>(
-        la::assemble(owned, ghosts, communicator,
-                     [&](const auto &visit)
-                     {
-                       for (const shim::MatrixLine &line : lines)
-                         visit(line.row, line.column, line.value);
-                     }));
-    present_displacement = start_displacement;
+    moving.set_geometry(lines, start_displacement);
     find_substitution();
   }
 
@@ -107,64 +78,14 @@ namespace abut
     std::vector<std::uint8_t> wanted(coefficients.n_rows());
     for (int row = 0; row < coefficients.n_rows(); ++row)
       wanted[row] = row_pressure(row) > 0. || gap[row] < near;
-    const std::vector<solve::GapLine> lines = source->gap_lines(wanted);
-    if (!MPI::logical_or(std::any_of(lines.begin(), lines.end(),
-                                     [](const solve::GapLine &line)
-                                     { return !line.column.empty(); }),
-                         communicator))
-      return;
-    substitution =
-        std::make_unique<solve::GapSubstitution>(coefficients, lines);
-    substituted = start_displacement;
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::apply_substitution(
-      la::Vector &increment)
-  {
-    if (substitution == nullptr)
-      return;
-    substituted_increment = increment;
-    substitution->apply(increment);
+    moving.set_substitution(coefficients, source->gap_lines(wanted));
   }
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::update_gap(
       const la::Vector &displacement)
   {
-    if (substituted_increment.size() == 0) // the host has solved by itself
-      compute_gap(displacement);
-    else
-    {
-      substituted += substituted_increment;
-      compute_gap(substituted);
-    }
-  }
-
-  template <int dim>
-  const la::Matrix &
-  ContactAssembler<dim>::Implementation::with_geometry(const la::Matrix &matrix)
-  {
-    if (geometry == nullptr)
-      return matrix;
-    sum_with_geometry =
-        std::make_unique<la::Matrix>(la::sum(matrix, *geometry));
-    if (substitution != nullptr)
-      sum_with_geometry = std::make_unique<la::Matrix>(la::sum(
-          *sum_with_geometry, substitution->product(*sum_with_geometry)));
-    return *sum_with_geometry;
-  }
-
-  template <int dim>
-  la::Vector ContactAssembler<dim>::Implementation::with_geometry(
-      const la::Vector &residual) const
-  {
-    if (geometry == nullptr)
-      return residual;
-    la::Vector way(present_displacement), result(residual);
-    way -= start_displacement;
-    geometry->vmult_add(result, way);
-    return result;
+    compute_gap(moving.linear_displacement(displacement));
   }
 
   template <int dim>
@@ -195,23 +116,15 @@ namespace abut
     abut_points_view there = {};
     result.rows = make_operator(result.points.get(), there, &elsewhere);
     if (has_friction)
-      result.slip_reference = surfaces->slip().reference(elsewhere, committed);
-    record_changes(elsewhere);
-    return result;
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::record_changes(
-      const shim::PairPoints<dim> &elsewhere)
-  {
+      result.slip_reference =
+          surfaces->slip().reference(elsewhere, committed.displacement());
     std::set<std::int64_t> pressing;
     for (int row = 0; row < coefficients.n_rows(); ++row)
       if (!coefficients.is_tangent(row) && request.pressure[row] > 0.)
         pressing.insert(coefficients.ids()[row]);
-    const PartnerChanges changes =
-        shim::count_changes(surfaces->points(), elsewhere, pressing);
-    partner_changes.lost = std::max(partner_changes.lost, changes.lost);
-    partner_changes.jumped = std::max(partner_changes.jumped, changes.jumped);
+    moving.add_changes(
+        shim::count_changes(surfaces->points(), elsewhere, pressing));
+    return result;
   }
 
   template <int dim>
@@ -287,15 +200,9 @@ namespace abut
   template void ContactAssembler<dim>::Implementation::move_rows(              \
       const la::Vector &);                                                     \
   template void ContactAssembler<dim>::Implementation::find_geometry();        \
-  template const la::Matrix &                                                  \
-  ContactAssembler<dim>::Implementation::with_geometry(const la::Matrix &);    \
-  template la::Vector ContactAssembler<dim>::Implementation::with_geometry(    \
-      const la::Vector &) const;                                               \
   template void                                                                \
   ContactAssembler<dim>::Implementation::add_round_off_of_positions(           \
       la::Vector &) const;                                                     \
-  template void ContactAssembler<dim>::Implementation::apply_substitution(     \
-      la::Vector &);                                                           \
   template void ContactAssembler<dim>::Implementation::update_gap(             \
       const la::Vector &);                                                     \
   template void ContactAssembler<dim>::Implementation::follow(                 \

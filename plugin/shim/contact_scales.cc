@@ -26,8 +26,8 @@ namespace abut
     // Internal forces at the start measure the load when the residual is
     // small because the start is good.
     la::Vector internal(residual);
-    stiffness_matrix(matrix).vmult(internal, start_displacement);
-    constraints->set_zero(internal);
+    host.reference_or(matrix).vmult(internal, start_displacement);
+    host.constraints().set_zero(internal);
     smallest_residual = method.options.final_linear_tolerance
                         * std::max(residual.l2_norm(), internal.l2_norm());
 
