@@ -23,8 +23,8 @@ namespace abut::shim
     /** Throw if it is not known; @p what needs it. */
     void check(const std::string &what) const;
 
-    /** Record a commit(): the displacement, empty if nobody needs it, and where
-     * the obstacles of @p pairs are. */
+    /** Record a commit(): the displacement, empty if it is not needed, and the
+     * poses of the obstacles of @p pairs. */
     void record(const la::Vector &displacement, bool is_known,
                 const std::vector<ContactPair<dim>> &pairs);
 

@@ -51,8 +51,8 @@ namespace abut::shim
      * Collective. */
     void apply_substitution(la::Vector &increment);
 
-    /** What gaps are linear in, where an iteration has come to @p displacement
-     * by the last increment. */
+    /** The v that gaps are linear in, where an iteration has come to
+     * @p displacement by the last increment. */
     const la::Vector &linear_displacement(const la::Vector &displacement);
 
     /** The largest changes of partners of this rank. */
