@@ -113,8 +113,7 @@ namespace abut
     shim::PairPoints<dim> elsewhere(surfaces->set());
     surfaces->find_elsewhere(displacement, result.points.get(), elsewhere);
     // Tangents have their numbers by those of their point that stay.
-    abut_points_view there = {};
-    result.rows = make_operator(result.points.get(), there, &elsewhere);
+    result.rows = make_operator(result.points.get(), &elsewhere);
     if (has_friction)
       result.slip_reference =
           surfaces->slip().reference(elsewhere, committed.displacement());

@@ -240,13 +240,13 @@ namespace abut
 
   template <int dim>
   solve::PointOperator ContactAssembler<dim>::Implementation::make_operator(
-      abut_points *const made, abut_points_view &result,
-      shim::PairPoints<dim> *const elsewhere)
+      abut_points *const made, shim::PairPoints<dim> *const elsewhere)
   {
-    check(abut_points_get(made, &result));
+    abut_points_view view = {};
+    check(abut_points_get(made, &view));
     // Rows between nodes that cannot move are no measure.
     std::vector<std::uint8_t> keep =
-        solve::rows_with_columns(result, source->nodes());
+        solve::rows_with_columns(view, source->nodes());
     if (elsewhere == nullptr)
       source->drop_needless(keep);
     else
@@ -258,9 +258,9 @@ namespace abut
         source->filter(keep);
       else
         elsewhere->filter(keep);
-      check(abut_points_get(made, &result));
+      check(abut_points_get(made, &view));
     }
-    return solve::PointOperator(host.owned(), result, source->nodes(),
+    return solve::PointOperator(host.owned(), view, source->nodes(),
                                 communicator);
   }
 
@@ -290,14 +290,13 @@ namespace abut
     {
       // The remaining points are not the ones that these were made of.
       coefficients = solve::PointOperator();
-      view = {};
       throw;
     }
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::set_up_rows()
   {
-    coefficients = make_operator(points.get(), view);
+    coefficients = make_operator(points.get());
     n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
                       communicator);
     // A solver is kept as long as it would be made of the same rows: in the

@@ -58,7 +58,7 @@ namespace abut
      * operator of the others. @p elsewhere: the points if they are not those of
      * the source. Collective. */
     solve::PointOperator
-    make_operator(abut_points *made, abut_points_view &result,
+    make_operator(abut_points *made,
                   shim::PairPoints<dim> *elsewhere = nullptr);
     /** Make what has been reached the trial version of the history. */
     void record_present();
@@ -223,7 +223,6 @@ namespace abut
     shim::Handle<abut_points> points; ///< of the last detect()
     int points_dimension = 0;         ///< unknowns of their nodes
     shim::Handle<abut_strategy> strategy;
-    abut_points_view view = {};
     solve::PointOperator coefficients; ///< B, by component of the points
     dealii::types::global_dof_index n_rows = 0;
 
