@@ -49,7 +49,7 @@ namespace abut::shim
 
     /** A node that can move along a tangent only this little (1: freely) takes
      * part in stick by springs, and below the second number not at all. */
-    constexpr double least_freedom = 0.5, no_freedom = 1e-8;
+    constexpr double least_tangent_freedom = 0.5, no_freedom = 1e-8;
 
     /** Where points belong, as the core wants it. */
     struct PointPlaces
@@ -209,7 +209,7 @@ namespace abut::shim
       points.for_each_node(row.point, look);
       return {moves ? ABUT_TANGENT_FREE : ABUT_TANGENT_PRESCRIBED, -1};
     }
-    if (points.set().freedom(own, row.direction) >= least_freedom)
+    if (points.set().freedom(own, row.direction) >= least_tangent_freedom)
       return {};
     if (!is_fixed(own))
       return {ABUT_TANGENT_GUIDED, -1};
