@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Nodes of curved surfaces are on the curve, the middles of straight facets are
 // not: gaps of nodes that lie opposite a middle are wrong by as much.
-#include "surface_pair_rows.h"
+#include "pair_examination.h"
+
+#include <abut/strategy.h>
 
 #include <deal.II/grid/cell_id.h>
 #include <deal.II/grid/manifold.h>
@@ -53,44 +55,44 @@ namespace abut::shim
   } // namespace
 
   template <int dim>
-  double SurfacePairRows<dim>::chord_error(const std::size_t number,
-                                           const std::uint8_t *row_state,
-                                           const double least) const
+  double chord_error(const PairPoints<dim> &points, const std::size_t number,
+                     const std::uint8_t *row_state, const double least)
   {
-    const Pair &pair = pairs_[number];
-    const bool is_straight = surface_.kind == ABUT_FACET_LINE2
-                             || surface_.kind == ABUT_FACET_QUAD4
-                             || surface_.kind == ABUT_FACET_TRI3;
-    const std::size_t n_nodes = surface_.nodes.size();
+    const SurfacePair<dim> &pair = points.pairs()[number];
+    const bool is_straight = points.surface().kind == ABUT_FACET_LINE2
+                             || points.surface().kind == ABUT_FACET_QUAD4
+                             || points.surface().kind == ABUT_FACET_TRI3;
+    const std::size_t n_nodes = points.surface().nodes.size();
     if (!is_straight || pair.data.obstacle || !pair.data.geometric_gap)
       return 0.;
-    std::vector<std::uint8_t> touching = touching_nodes(row_state);
-    for_each_component(
-        [&](const Component &row)
+    std::vector<std::uint8_t> touching = points.touching_nodes(row_state);
+    points.for_each_component(
+        [&](const PointRow<dim> &row)
         {
           if (row_state != nullptr && row_state[row.row] != ABUT_STATE_OPEN)
-            for_each_primary(row.point,
-                             [&](const Node node, double) {
-                               touching[row.place.pair * n_nodes + node] = 1;
-                             });
+            points.for_each_primary(
+                row.point, [&](const NodeIndex node, double)
+                { touching[row.place.pair * n_nodes + node] = 1; });
         });
-    exchange_->merge_marks(surface_, touching);
+    points.exchange().merge_marks(points.surface(), touching);
     const std::uint8_t *marks = touching.data() + number * n_nodes;
-    const auto me = dealii::Utilities::MPI::this_mpi_process(communicator_);
+    const auto me =
+        dealii::Utilities::MPI::this_mpi_process(points.host().communicator);
     const auto worst =
         [&](const SurfaceSide<dim> &side, const SurfaceSide<dim> &other)
     {
       double error = 0.;
       std::vector<dealii::Point<dim>> opposite;
-      for (const Node node : other.node)
+      for (const NodeIndex node : other.node)
         if (marks[node] != 0)
-          opposite.push_back(surface_.nodes[node].point);
+          opposite.push_back(points.surface().nodes[node].point);
       for (const std::int32_t f : side.facet)
       {
-        const auto &facet = surface_.facets[f];
+        const auto &facet = points.surface().facets[f];
         if (facet.owner != me)
           continue;
-        const auto face = dof_handler_.get_triangulation()
+        const auto face = points.host()
+                              .dof_handler.get_triangulation()
                               .create_cell_iterator(dealii::CellId(facet.cell))
                               ->face(facet.face);
         Chord<dim> chord;
@@ -98,7 +100,7 @@ namespace abut::shim
         chord.to_curve = middle_on_manifold<dim>(face) - chord.middle;
         chord.size = face->diameter();
         bool touches = false;
-        for (unsigned int a = 0; a < surface_.nodes_per_facet(); ++a)
+        for (unsigned int a = 0; a < points.surface().nodes_per_facet(); ++a)
           touches = touches || marks[facet.node[a]] != 0;
         if (!touches || chord.to_curve.norm() <= least)
           continue;
@@ -110,13 +112,11 @@ namespace abut::shim
     const double error = std::max(worst(pair.secondary, pair.primary),
                                   worst(pair.primary, pair.secondary));
     return dealii::Utilities::MPI::max(error > least ? error : 0.,
-                                       communicator_);
+                                       points.host().communicator);
   }
 
-  template double SurfacePairRows<2>::chord_error(std::size_t,
-                                                  const std::uint8_t *,
-                                                  double) const;
-  template double SurfacePairRows<3>::chord_error(std::size_t,
-                                                  const std::uint8_t *,
-                                                  double) const;
+  template double chord_error(const PairPoints<2> &, std::size_t,
+                              const std::uint8_t *, double);
+  template double chord_error(const PairPoints<3> &, std::size_t,
+                              const std::uint8_t *, double);
 } // namespace abut::shim

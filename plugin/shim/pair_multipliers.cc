@@ -2,13 +2,14 @@
 // The space of the multipliers of rows at quadrature points. There are more
 // points than unknowns of the surface, so that values of their own would not be
 // unique; those of functions of the secondary's nodes are.
-#include "surface_pair_rows.h"
+#include "pair_multipliers.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace abut::shim
 {
+  namespace MPI = dealii::Utilities::MPI;
   using dealii::types::global_dof_index;
 
   namespace
@@ -91,45 +92,38 @@ namespace abut::shim
     }
   } // namespace
 
-  template <int dim> bool SurfacePairRows<dim>::has_points() const
-  {
-    return std::any_of(
-        pairs_.begin(), pairs_.end(),
-        [](const Pair &pair)
-        { return discretisation_info(pair.discretisation).row_per_point; });
-  }
-
   template <int dim>
   template <typename Function>
-  void SurfacePairRows<dim>::for_each_point_pair(const Function &function) const
+  void PairMultipliers<dim>::for_each_point_pair(const Function &function) const
   {
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {
       if (!discretisation_info(pairs_[p].discretisation).row_per_point)
         continue;
-      Interpolation points{dof_handler_.locally_owned_dofs(),
-                           dealii::IndexSet(dof_handler_.n_dofs()),
-                           communicator_,
+      Interpolation points{host_.dof_handler.locally_owned_dofs(),
+                           dealii::IndexSet(host_.dof_handler.n_dofs()),
+                           host_.communicator,
                            {},
                            {}};
       std::vector<std::size_t> rows;
       std::vector<global_dof_index> others;
-      for_each_component(
-          [&](const Component &component)
+      points_.for_each_component(
+          [&](const PointRow<dim> &component)
           {
             if (component.place.pair != p)
               return;
             rows.push_back(component.row);
-            points.weight.push_back(view_.weight[component.point]);
+            points.weight.push_back(points_.view().weight[component.point]);
             points.share.emplace_back();
-            for_each_secondary(component.point,
-                               [&](const Node node, const double c)
-                               {
-                                 const auto dof = surface_.nodes[node].dof[0];
-                                 points.share.back().push_back({dof, c});
-                                 if (!points.owned.is_element(dof))
-                                   others.push_back(dof);
-                               });
+            points_.for_each_secondary(
+                component.point,
+                [&](const NodeIndex node, const double c)
+                {
+                  const auto dof = points_.surface().nodes[node].dof[0];
+                  points.share.back().push_back({dof, c});
+                  if (!points.owned.is_element(dof))
+                    others.push_back(dof);
+                });
           });
       std::sort(others.begin(), others.end());
       points.needed.add_indices(others.begin(), others.end());
@@ -137,11 +131,12 @@ namespace abut::shim
     }
   }
 
-  template <int dim> void SurfacePairRows<dim>::project(double *value) const
+  template <int dim> void PairMultipliers<dim>::project(double *value) const
   {
-    const bool has_friction = std::any_of(
-        pairs_.begin(), pairs_.end(),
-        [](const Pair &pair) { return pair.data.friction != nullptr; });
+    const bool has_friction =
+        std::any_of(pairs_.begin(), pairs_.end(),
+                    [](const SurfacePair<dim> &pair)
+                    { return pair.data.friction != nullptr; });
     for_each_point_pair(
         [&](const Interpolation &points, const std::vector<std::size_t> &rows)
         {
@@ -159,22 +154,24 @@ namespace abut::shim
   template <int dim>
   template <typename Points>
   void
-  SurfacePairRows<dim>::project_tractions(const Points &points,
+  PairMultipliers<dim>::project_tractions(const Points &points,
                                           const std::vector<std::size_t> &rows,
                                           double *value) const
   {
     // As vectors: tangents of neighbours need not go together.
     const auto end = [&](const std::size_t row)
     {
-      const std::int32_t *const first = view_.component_start;
-      const auto next = std::upper_bound(first, first + view_.n_points + 1,
-                                         static_cast<std::int32_t>(row));
-      const bool slides = view_.kind[next - first - 1] == ABUT_POINT_CONTACT;
+      const std::int32_t *const first = points_.view().component_start;
+      const auto next =
+          std::upper_bound(first, first + points_.view().n_points + 1,
+                           static_cast<std::int32_t>(row));
+      const bool slides =
+          points_.view().kind[next - first - 1] == ABUT_POINT_CONTACT;
       return slides ? static_cast<std::size_t>(*next) : row + 1;
     };
     const auto along = [&](const std::size_t row, const unsigned int d)
-    { return view_.frame[row * std::size_t(dim) + d]; };
-    std::vector<Direction> projected(rows.size());
+    { return points_.view().frame[row * std::size_t(dim) + d]; };
+    std::vector<Direction<dim>> projected(rows.size());
     for (unsigned int d = 0; d < dim; ++d)
     {
       std::vector<double> part(rows.size(), 0.);
@@ -195,7 +192,7 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::spread_stiffness(std::vector<double> &value) const
+  void PairMultipliers<dim>::spread_stiffness(std::vector<double> &value) const
   {
     // Points of a whole linear facet have about this part of a node's area.
     constexpr double regular = dim == 2 ? 0.5 : 0.25;
@@ -211,12 +208,59 @@ namespace abut::shim
         });
   }
 
-  template bool SurfacePairRows<2>::has_points() const;
-  template bool SurfacePairRows<3>::has_points() const;
-  template void SurfacePairRows<2>::project(double *) const;
-  template void SurfacePairRows<3>::project(double *) const;
-  template void
-  SurfacePairRows<2>::spread_stiffness(std::vector<double> &) const;
-  template void
-  SurfacePairRows<3>::spread_stiffness(std::vector<double> &) const;
+  template <int dim>
+  void PairMultipliers<dim>::make_uniform(std::vector<double> &value) const
+  {
+    std::vector<double> sum(pairs_.size(), 0.), count(pairs_.size(), 0.);
+    points_.for_each_component(
+        [&](const PointRow<dim> &i)
+        {
+          sum[i.place.pair] += std::log(value[i.row]);
+          count[i.place.pair] += 1.;
+        });
+    MPI::sum(sum, host_.communicator, sum);
+    MPI::sum(count, host_.communicator, count);
+    points_.for_each_component(
+        [&](const PointRow<dim> &i)
+        { value[i.row] = std::exp(sum[i.place.pair] / count[i.place.pair]); });
+  }
+
+  template <int dim>
+  void PairMultipliers<dim>::copy_to_tangents(std::vector<double> &value) const
+  {
+    for (std::int32_t i = 0; i < points_.view().n_points; ++i)
+      for (std::int32_t row = points_.view().component_start[i] + 1;
+           row < points_.view().component_start[i + 1]
+           && points_.view().kind[i] == ABUT_POINT_CONTACT;
+           ++row)
+        value[row] = value[points_.view().component_start[i]];
+  }
+
+  template <int dim>
+  std::vector<std::uint8_t> PairMultipliers<dim>::first_contact(
+      const std::vector<double> &gap, const std::vector<double> &pressure,
+      const std::vector<double> &scale, const double touching) const
+  {
+    if (std::none_of(pairs_.begin(), pairs_.end(),
+                     [](const auto &pair) { return pair.data.holds_body; }))
+      return {};
+    // Pressures of an earlier solve are better, and states of slip with them.
+    const bool is_pressed = std::any_of(pressure.begin(), pressure.end(),
+                                        [](const double p) { return p > 0.; });
+    if (dealii::Utilities::MPI::logical_or(is_pressed, host_.communicator))
+      return {};
+    std::vector<std::uint8_t> state(points_.view().n_components);
+    points_.for_each_component(
+        [&](const PointRow<dim> &component)
+        {
+          const std::size_t i = component.row;
+          const auto &pair = pairs_[component.place.pair].data;
+          state[i] = pair.tied || scale[i] * gap[i] < 0.
+                     || (pair.holds_body && gap[i] <= touching);
+        });
+    return state;
+  }
+
+  template class PairMultipliers<2>;
+  template class PairMultipliers<3>;
 } // namespace abut::shim

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Whether gaps that are added to those of the geometry leave anything that can
 // be touched: what is thinner than its gap lets everything through.
-#include "surface_pair_rows.h"
+#include "pair_set.h"
 
 #include "agree.h"
 #include "bodies.h"
 #include "self_contact.h"
 
 #include <abut/dealii/rigid_obstacle.h>
-#include <abut/dealii/versions.h>
 
 #include <cmath>
 #include <sstream>
@@ -72,60 +71,59 @@ namespace abut::shim
           }
       return MPI::max(high, communicator) - MPI::min(low, communicator);
     }
+
+    /** Throw where the gap of a pair leaves nothing of an obstacle or a body.
+     * Collective. */
+    template <int dim>
+    void check_gap(const PairHost<dim> &host, const SurfacePair<dim> &pair)
+    {
+      const ContactPair<dim> &data = pair.data;
+      const auto refuse = [&](const std::string &of, const double depth)
+      {
+        throw ContactError(about_pair(
+            data.name, nothing_left(data.gap, of, depth), PairField::gap));
+      };
+      if (!(data.gap > 0.) || !data.geometric_gap || data.tied)
+        return;
+      if (data.obstacle)
+      {
+        const double depth = data.obstacle->depth();
+        if (data.gap >= depth)
+          refuse("the obstacle", depth);
+        return;
+      }
+      // Nodes deeper than half of a thin body belong to its other side.
+      if (pair.thickness > 0. && data.gap >= pair.thickness / 2.)
+        refuse("the thinnest part of the primary's body", pair.thickness / 2.);
+      // Parts of one surface have one body, which reaches around what they meet
+      // in.
+      if (SelfContact<dim>::is_split(data))
+        return;
+      for (const bool is_primary : {true, false})
+      {
+        const SurfaceSide<dim> &side =
+            is_primary ? pair.primary : pair.secondary;
+        const double extent =
+            extent_behind(host.context, host.mapping, host.dof_handler, side,
+                          is_primary ? data.primary : data.secondary);
+        if (data.gap >= extent)
+          refuse(is_primary ? "the primary's body" : "the secondary's body",
+                 extent);
+      }
+    }
   } // namespace
 
-  template <int dim>
-  void SurfacePairRows<dim>::check_gap(const Pair &pair) const
-  {
-    const ContactPair<dim> &data = pair.data;
-    const auto refuse = [&](const std::string &of, const double depth)
-    {
-      throw ContactError(about_pair(
-          data.name, nothing_left(data.gap, of, depth), PairField::gap));
-    };
-    if (!(data.gap > 0.) || !data.geometric_gap || data.tied)
-      return;
-    if (data.obstacle)
-    {
-      const double depth = data.obstacle->depth();
-      if (data.gap >= depth)
-        refuse("the obstacle", depth);
-      return;
-    }
-    // Nodes deeper than half of a thin body belong to its other side.
-    if (pair.thickness > 0. && data.gap >= pair.thickness / 2.)
-      refuse("the thinnest part of the primary's body", pair.thickness / 2.);
-    // Parts of one surface have one body, which reaches around what they meet
-    // in.
-    if (SelfContact<dim>::is_split(data))
-      return;
-    for (const bool is_primary : {true, false})
-    {
-      const SurfaceSide<dim> &side = is_primary ? pair.primary : pair.secondary;
-      const double extent =
-          extent_behind(context_, mapping_, dof_handler_, side,
-                        is_primary ? data.primary : data.secondary);
-      if (data.gap >= extent)
-        refuse(is_primary ? "the primary's body" : "the secondary's body",
-               extent);
-    }
-  }
-
-  template <int dim> void SurfacePairRows<dim>::check_gaps()
+  template <int dim> void PairSet<dim>::check_gaps()
   {
     checked_gaps_.resize(pairs_.size(), 0.);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
       if (checked_gaps_[p] != pairs_[p].data.gap)
       {
-        check_gap(pairs_[p]);
+        check_gap(host_, pairs_[p]);
         checked_gaps_[p] = pairs_[p].data.gap;
       }
   }
 
-#define ABUT_INSTANTIATE(dim)                                                  \
-  template void SurfacePairRows<dim>::check_gap(const Pair &) const;           \
-  template void SurfacePairRows<dim>::check_gaps();
-
-  ABUT_INSTANTIATE(2)
-  ABUT_INSTANTIATE(3)
+  template void PairSet<2>::check_gaps();
+  template void PairSet<3>::check_gaps();
 } // namespace abut::shim

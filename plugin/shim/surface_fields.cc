@@ -1,55 +1,56 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Values of rows between surfaces as fields on the unknowns, and back.
-#include "surface_pair_rows.h"
+#include "surface_fields.h"
 
 #include <abut/strategy.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace abut::shim
 {
   using dealii::types::global_dof_index;
 
-  template <int dim> la::Vector SurfacePairRows<dim>::field() const
+  template <int dim> la::Vector SurfaceFields<dim>::field() const
   {
-    return la::Vector(dof_handler_.locally_owned_dofs(), communicator_);
+    return la::Vector(host_.dof_handler.locally_owned_dofs(),
+                      host_.communicator);
   }
 
   template <int dim>
   template <typename Function>
-  void SurfacePairRows<dim>::for_each_share_of(const Component &row,
-                                               const Function &function) const
+  void SurfaceFields<dim>::for_each_share_of(const PointRow<dim> &row,
+                                             const Function &function) const
   {
     if (row.place.node >= 0)
       function(row, row.place.node, 1.);
     else
-      for_each_secondary(row.point, [&](const Node node, const double share)
-                         { function(row, node, share); });
+      points_.for_each_secondary(row.point,
+                                 [&](const NodeIndex node, const double share)
+                                 { function(row, node, share); });
   }
 
   template <int dim>
   template <typename Function>
-  void SurfacePairRows<dim>::for_each_share(const Function &function) const
+  void SurfaceFields<dim>::for_each_share(const Function &function) const
   {
-    for_each_component([&](const Component &row)
-                       { for_each_share_of(row, function); });
+    points_.for_each_component([&](const PointRow<dim> &row)
+                               { for_each_share_of(row, function); });
   }
 
   template <int dim>
   std::vector<double>
-  SurfacePairRows<dim>::row_pressure(const la::Vector &field) const
+  SurfaceFields<dim>::row_pressure(const la::Vector &field) const
   {
-    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    const dealii::IndexSet &owned = host_.dof_handler.locally_owned_dofs();
     std::vector<global_dof_index> others;
     const auto for_each = [&](const auto &function)
     {
-      for_each_row([&](const Component &row)
-                   { for_each_share_of(row, function); });
+      points_.for_each_row([&](const PointRow<dim> &row)
+                           { for_each_share_of(row, function); });
     };
     for_each(
-        [&](const Component &, const Node node, double)
+        [&](const PointRow<dim> &, const NodeIndex node, double)
         {
           for (const auto dof : surface_.nodes[node].dof)
             if (!owned.is_element(dof))
@@ -58,12 +59,12 @@ namespace abut::shim
     std::sort(others.begin(), others.end());
     dealii::IndexSet needed(owned.size());
     needed.add_indices(others.begin(), others.end());
-    la::Vector ghosted(owned, needed, communicator_);
+    la::Vector ghosted(owned, needed, host_.communicator);
     ghosted = field;
 
-    std::vector<double> result(view_.n_components, 0.);
+    std::vector<double> result(points_.view().n_components, 0.);
     for_each(
-        [&](const Component &i, const Node node, const double share)
+        [&](const PointRow<dim> &i, const NodeIndex node, const double share)
         {
           for (unsigned int d = 0; d < dim; ++d)
             result[i.row] +=
@@ -73,16 +74,18 @@ namespace abut::shim
   }
 
   template <int dim>
-  la::Vector SurfacePairRows<dim>::pressure(const double *row_pressure) const
+  la::Vector SurfaceFields<dim>::pressure(const double *row_pressure) const
   {
     // At nodes as it is; from quadrature points by weighted means.
     la::Vector result = field(), weight = field();
     const auto add =
-        [&](const Component &i, const Node node, const double share)
+        [&](const PointRow<dim> &i, const NodeIndex node, const double share)
     {
-      const double w = i.place.node >= 0 ? 1. : share * view_.weight[i.point];
+      const double w =
+          i.place.node >= 0 ? 1. : share * points_.view().weight[i.point];
       const bool is_first =
-          static_cast<std::size_t>(view_.component_start[i.point]) == i.row;
+          static_cast<std::size_t>(points_.view().component_start[i.point])
+          == i.row;
       for (unsigned int d = 0; d < dim; ++d)
       {
         const auto dof = surface_.nodes[node].dof[d];
@@ -91,7 +94,8 @@ namespace abut::shim
           weight(dof) += w;
       }
     };
-    for_each_row([&](const Component &row) { for_each_share_of(row, add); });
+    points_.for_each_row([&](const PointRow<dim> &row)
+                         { for_each_share_of(row, add); });
     result.compress(dealii::VectorOperation::add);
     weight.compress(dealii::VectorOperation::add);
     double *p = la::data(result);
@@ -99,19 +103,19 @@ namespace abut::shim
     for (int i = 0; i < la::n_owned(result); ++i)
       if (w[i] > 0.)
         p[i] /= w[i];
-    exchange_->hanging().distribute(result);
+    points_.exchange().hanging().distribute(result);
     return result;
   }
 
   template <int dim>
-  la::Vector SurfacePairRows<dim>::gap(const double *row_gap) const
+  la::Vector SurfaceFields<dim>::gap(const double *row_gap) const
   {
     // The weighted mean of the rows of a node.
     la::Vector result = field(), weight = field();
     for_each_share(
-        [&](const Component &i, const Node node, const double share)
+        [&](const PointRow<dim> &i, const NodeIndex node, const double share)
         {
-          const double w = share * view_.weight[i.point];
+          const double w = share * points_.view().weight[i.point];
           for (const auto dof : surface_.nodes[node].dof)
           {
             result(dof) += w * row_gap[i.row];
@@ -125,17 +129,17 @@ namespace abut::shim
     for (int i = 0; i < la::n_owned(result); ++i)
       if (w[i] > 0.)
         g[i] /= w[i];
-    exchange_->hanging().distribute(result);
+    points_.exchange().hanging().distribute(result);
     return result;
   }
 
   template <int dim>
-  la::Vector SurfacePairRows<dim>::status(const std::uint8_t *row_state) const
+  la::Vector SurfaceFields<dim>::status(const std::uint8_t *row_state) const
   {
     // Rows and closed rows are counted, since counts add up over ranks.
     la::Vector present = field(), closed = field(), slipping = field();
     for_each_share(
-        [&](const Component &i, const Node node, double)
+        [&](const PointRow<dim> &i, const NodeIndex node, double)
         {
           const bool is_closed =
               row_state != nullptr && row_state[i.row] != ABUT_STATE_OPEN;
@@ -161,26 +165,16 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::vector<std::uint8_t>
-  SurfacePairRows<dim>::relax(const Tangent &, const la::Vector &,
-                              const std::vector<double> &, unsigned int,
-                              la::Vector &) const
-  {
-    // Rows over several unknowns are not relaxed one by one.
-    return {};
-  }
-
-  template <int dim>
-  bool SurfacePairRows<dim>::is_free(const Node node,
-                                     const unsigned int component) const
+  bool SurfaceFields<dim>::is_free(const NodeIndex node,
+                                   const unsigned int component) const
   {
     return surface_.map.is_itself(node, component,
                                   surface_.nodes[node].dof[component]);
   }
 
   template <int dim>
-  double SurfacePairRows<dim>::own_freedom(const Node node,
-                                           const Direction &direction) const
+  double SurfaceFields<dim>::own_freedom(const NodeIndex node,
+                                         const Direction<dim> &direction) const
   {
     double sum = 0.;
     for (unsigned int d = 0; d < dim; ++d)
@@ -190,24 +184,24 @@ namespace abut::shim
   }
 
   template <int dim>
-  void SurfacePairRows<dim>::push_inside(const std::vector<double> &gap,
-                                         std::vector<double> margin,
-                                         la::Vector &displacement) const
+  void SurfaceFields<dim>::push_inside(const std::vector<double> &gap,
+                                       const std::vector<double> &margin,
+                                       la::Vector &displacement) const
   {
     // Each row's own node steps back along the normal. Nodes around quadrature
     // points step back together, as far as the worst point needs.
     la::Vector step = field();
     double worst = 0.;
-    for_each_component(
-        [&](const Component &i)
+    points_.for_each_component(
+        [&](const PointRow<dim> &i)
         {
           if (i.place.node < 0)
             worst = std::max(worst, margin[i.row] - gap[i.row]);
         });
-    worst = dealii::Utilities::MPI::max(worst, communicator_);
+    worst = dealii::Utilities::MPI::max(worst, host_.communicator);
     la::Vector share_of_points = field();
     for_each_share(
-        [&](const Component &i, const Node node, double)
+        [&](const PointRow<dim> &i, const NodeIndex node, double)
         {
           double amount = margin[i.row] - gap[i.row], own = 1.;
           if (amount <= 0.)
@@ -215,8 +209,9 @@ namespace abut::shim
           if (i.place.node >= 0)
           {
             own = 0.;
-            for_each_secondary(i.point, [&](const Node other, const double c)
-                               { own += other == node ? c : 0.; });
+            points_.for_each_secondary(
+                i.point, [&](const NodeIndex other, const double c)
+                { own += other == node ? c : 0.; });
           }
           const double free = own * own_freedom(node, i.direction);
           if (free <= 0.)
@@ -231,7 +226,7 @@ namespace abut::shim
         });
     step.compress(dealii::VectorOperation::add);
     share_of_points.compress(dealii::VectorOperation::add);
-    const dealii::IndexSet &owned = dof_handler_.locally_owned_dofs();
+    const dealii::IndexSet &owned = host_.dof_handler.locally_owned_dofs();
     for (std::size_t n = 0; n < surface_.nodes.size(); ++n)
       for (unsigned int d = 0; d < dim; ++d)
         if (owned.is_element(surface_.nodes[n].dof[d]) && is_free(n, d))
@@ -243,23 +238,48 @@ namespace abut::shim
     displacement.compress(dealii::VectorOperation::insert);
   }
 
-#define ABUT_INSTANTIATE(dim)                                                  \
-  template la::Vector SurfacePairRows<dim>::field() const;                     \
-  template std::vector<double> SurfacePairRows<dim>::row_pressure(             \
-      const la::Vector &) const;                                               \
-  template la::Vector SurfacePairRows<dim>::pressure(const double *) const;    \
-  template la::Vector SurfacePairRows<dim>::gap(const double *) const;         \
-  template la::Vector SurfacePairRows<dim>::status(const std::uint8_t *)       \
-      const;                                                                   \
-  template std::vector<std::uint8_t> SurfacePairRows<dim>::relax(              \
-      const Tangent &, const la::Vector &, const std::vector<double> &,        \
-      unsigned int, la::Vector &) const;                                       \
-  template bool SurfacePairRows<dim>::is_free(Node, unsigned int) const;       \
-  template double SurfacePairRows<dim>::own_freedom(Node, const Direction &)   \
-      const;                                                                   \
-  template void SurfacePairRows<dim>::push_inside(                             \
-      const std::vector<double> &, std::vector<double>, la::Vector &) const;
+  template <int dim>
+  void SurfaceFields<dim>::find_forces(const std::vector<double> &row_pressure,
+                                       la::Vector &forces) const
+  {
+    std::vector<Direction<dim>> force(surface_.nodes.size());
+    points_.for_each_row(
+        [&](const PointRow<dim> &row)
+        {
+          const double p =
+              points_.view().weight[row.point] * row_pressure[row.row];
+          const auto add = [&](const NodeIndex node, const double c)
+          { force[node] -= p * c * row.direction; };
+          points_.for_each_secondary(row.point, add);
+          points_.for_each_primary(row.point, add);
+        });
+    for (std::size_t n = 0; n < force.size(); ++n)
+      for (const auto &parent : surface_.parents[n])
+        force[parent.index] += parent.factor * force[n];
+    for (std::size_t n = 0; n < force.size(); ++n)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (surface_.parents[n].empty() && force[n][d] != 0.)
+          forces(surface_.nodes[n].dof[d]) += force[n][d];
+    forces.compress(dealii::VectorOperation::add);
+  }
 
-  ABUT_INSTANTIATE(2)
-  ABUT_INSTANTIATE(3)
+  template <int dim>
+  void SurfaceFields<dim>::make_isotropic(la::Vector &value) const
+  {
+    const dealii::IndexSet &owned = host_.dof_handler.locally_owned_dofs();
+    double *const mine = la::data(value);
+    for (std::size_t n = 0; n < surface_.nodes.size(); ++n)
+    {
+      if (!points_.set().is_owned(static_cast<NodeIndex>(n)))
+        continue;
+      double sum = 0.;
+      for (const auto dof : surface_.nodes[n].dof)
+        sum += mine[owned.index_within_set(dof)];
+      for (const auto dof : surface_.nodes[n].dof)
+        mine[owned.index_within_set(dof)] = sum / dim;
+    }
+  }
+
+  template class SurfaceFields<2>;
+  template class SurfaceFields<3>;
 } // namespace abut::shim
