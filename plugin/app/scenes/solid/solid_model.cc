@@ -76,6 +76,8 @@ namespace abut::app
   {
     bodies.create(run.options, parameters.degree, parameters.refinement.level,
                   this->triangulation);
+    for (const std::string &warning : bodies.warnings())
+      run.report.warn(warning);
   }
 
   template <int dim> SearchParameters SolidModel<dim>::numbered_search() const
