@@ -3,15 +3,13 @@
 // a part of each facet, make the weighted gap W of mortar less than the least
 // gap m around the row. The law of such a row is that of max(W, m), by a
 // constant c = max(0, m - W) that is added to W and renewed between solves:
-// derivatives, forces and symmetry are those of W. Where a pair touches
-// nowhere, W and m at a displacement by false forces are far from those without
-// forces: its rows are opened altogether at first, unless nothing else then
-// holds a body.
+// derivatives, forces and symmetry are those of W. False forces may keep rows
+// closed, since they deform bodies until these touch. Where that may be, rows
+// are opened altogether, and stay open if nothing touches then.
 #include "contact_implementation.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace abut
 {
@@ -30,6 +28,9 @@ namespace abut
     /** Where a pair touches elsewhere, also of what bodies are deformed by:
      * rows at the rim of contact may be apart by less. */
     constexpr double visible_part = 0.02;
+
+    /** Part of their force that rows keep which are closed rightly. */
+    constexpr double kept_part = 0.6;
   } // namespace
 
   template <int dim>
@@ -37,12 +38,23 @@ namespace abut
       const la::Vector &displacement)
   {
     if (surfaces == nullptr || !is_started || !surfaces->moves()
-        || raises.n == most_raises)
+        || raises.is_final)
       return false;
     bool any = false;
     for (int row = 0; row < coefficients.n_rows(); ++row)
       any = any || presses(row) || raises.of.count(coefficients.ids()[row]) > 0;
-    if (!MPI::logical_or(any, communicator))
+    if (!MPI::logical_or(any, communicator)
+        || !(change_raises(displacement) || open_raised_rows(displacement)))
+      return false;
+    compute_gap(displacement);
+    return true;
+  }
+
+  template <int dim>
+  bool ContactAssembler<dim>::Implementation::change_raises(
+      const la::Vector &displacement)
+  {
+    if (raises.n == most_raises)
       return false;
     const double least = least_clearance(displacement);
     const std::vector<double> clearance = shim::clearances(
@@ -56,7 +68,7 @@ namespace abut
     MPI::max(touches, communicator, touches);
     const double visible =
         std::max(least, visible_part * deformation(displacement));
-    bool changed = false, opens = false;
+    bool changed = false;
     for (int row = 0; row < coefficients.n_rows(); ++row)
     {
       const double m = clearance[row];
@@ -77,36 +89,67 @@ namespace abut
                                      : before.less(m, gap[row], presses(row));
       if (std::abs(wanted - before.value) <= least)
         continue;
-      shim::GapRaise &raise = raises.of[coefficients.ids()[row]];
-      raise = {wanted, before.value, m, request.pressure[row]};
-      if (raises.n == 0)
-        raises.unopened[coefficients.ids()[row]] = raise;
-      if (raises.n == 0 && touches[pair_of[row]] == 0)
-      {
-        raise.value += surfaces->set().facet_size();
-        opens = true;
-      }
+      raises.of[coefficients.ids()[row]] = {wanted, before.value, m,
+                                            request.pressure[row]};
       changed = true;
     }
     if (!MPI::logical_or(changed, communicator))
       return false;
     if (raises.n++ == 0)
     {
-      raises.before = row_values();
-      raises.may_limit = MPI::logical_or(opens, communicator);
+      raises.touches = touches;
+      raises.force = force_without_touch();
     }
-    compute_gap(displacement);
     return true;
   }
 
   template <int dim>
-  bool ContactAssembler<dim>::Implementation::limit_raises(
+  double ContactAssembler<dim>::Implementation::force_without_touch() const
+  {
+    const std::vector<int> pair_of = surfaces->points().row_pairs();
+    double sum = 0.;
+    for (int row = 0; row < coefficients.n_rows(); ++row)
+      if (presses(row) && raises.touches[pair_of[row]] == 0)
+        sum += request.pressure[row];
+    return MPI::sum(sum, communicator);
+  }
+
+  template <int dim>
+  bool ContactAssembler<dim>::Implementation::open_raised_rows(
       const la::Vector &displacement)
   {
-    if (!std::exchange(raises.may_limit, false))
+    if (raises.n == 0 || raises.before_opening.size() > 0)
       return false;
+    const double force = force_without_touch();
+    if (force == 0.
+        || (force > kept_part * raises.force && !raises_end_early()))
+      return false;
+    raises.unopened = raises.of;
+    raises.values = row_values();
+    raises.before_opening = displacement;
+    const std::vector<int> pair_of = surfaces->points().row_pairs();
+    for (int row = 0; row < coefficients.n_rows(); ++row)
+      if (presses(row) && raises.touches[pair_of[row]] == 0)
+      {
+        const double value = raises.of[coefficients.ids()[row]].value;
+        raises.of[coefficients.ids()[row]] = {
+            value + surfaces->set().facet_size(), value, 0.,
+            request.pressure[row]};
+      }
+    raises.n = 1;
+    return true;
+  }
+
+  template <int dim>
+  bool
+  ContactAssembler<dim>::Implementation::limit_raises(la::Vector &displacement)
+  {
+    if (raises.before_opening.size() == 0 || raises.is_final)
+      return false;
+    raises.is_final = true;
     raises.of = raises.unopened;
-    move_rows(displacement, raises.before);
+    displacement = raises.before_opening;
+    move_rows(displacement, raises.values);
     is_started = false;
     return true;
   }
@@ -154,20 +197,26 @@ namespace abut
   }
 
   template <int dim>
-  bool
-  ContactAssembler<dim>::limit_raises(const la::VectorView &given_displacement)
+  bool ContactAssembler<dim>::limit_raises(
+      const la::MutableVectorView &given_displacement)
   {
     Implementation &i = *implementation;
     i.check_rows("limit_raises()");
-    return i.limit_raises(
-        i.host.vector("limit_raises()", "displacement", given_displacement));
+    return i.limit_raises(i.host.mutable_vector(
+        "limit_raises()", "displacement", given_displacement));
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template bool ContactAssembler<dim>::Implementation::raise_gaps(             \
       const la::Vector &);                                                     \
-  template bool ContactAssembler<dim>::Implementation::limit_raises(           \
+  template bool ContactAssembler<dim>::Implementation::change_raises(          \
       const la::Vector &);                                                     \
+  template bool ContactAssembler<dim>::Implementation::open_raised_rows(       \
+      const la::Vector &);                                                     \
+  template double ContactAssembler<dim>::Implementation::force_without_touch() \
+      const;                                                                   \
+  template bool ContactAssembler<dim>::Implementation::limit_raises(           \
+      la::Vector &);                                                           \
   template bool ContactAssembler<dim>::Implementation::presses(int) const;     \
   template bool ContactAssembler<dim>::Implementation::raises_end_early()      \
       const;                                                                   \
@@ -176,7 +225,8 @@ namespace abut
   template void ContactAssembler<dim>::Implementation::add_raises(             \
       const solve::PointOperator &, std::vector<double> &) const;              \
   template bool ContactAssembler<dim>::raise_gaps(const la::VectorView &);     \
-  template bool ContactAssembler<dim>::limit_raises(const la::VectorView &);
+  template bool ContactAssembler<dim>::limit_raises(                           \
+      const la::MutableVectorView &);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

@@ -148,7 +148,15 @@ namespace abut
     /** See ContactAssembler::raise_gaps(). Collective. */
     bool raise_gaps(const la::Vector &displacement);
     /** See ContactAssembler::limit_raises(). Collective. */
-    bool limit_raises(const la::Vector &displacement);
+    bool limit_raises(la::Vector &displacement);
+    /** Raise and lower gaps by what rows have pressed since; false: no row is
+     * to be changed. Collective. */
+    bool change_raises(const la::Vector &displacement);
+    /** Open the raised rows that still press, if that may be due to the forces
+     * of raised rows only, once; false: it is not. Collective. */
+    bool open_raised_rows(const la::Vector &displacement);
+    /** Sum of pressures in pairs that touched nowhere at first. Collective. */
+    double force_without_touch() const;
     /** Whether that has stopped before all such rows were open. */
     bool raises_end_early() const;
     /** From how far on surfaces are apart for that, length. Collective. */

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <vector>
 
 namespace abut::shim
 {
@@ -58,11 +59,14 @@ namespace abut::shim
   {
     std::map<std::int64_t, GapRaise> of; ///< length > 0, by number of the row
     unsigned int n = 0;                  ///< how often they have been changed
-    /** The first of them if no row is opened altogether, values of rows before
-     * that, and whether any row was opened. */
+    std::vector<int> touches; ///< [pairs] whether they touched at the first
+    double force = 0.; ///< of pairs that touched nowhere, before the first
+    /** Before rows were opened altogether: the displacement (empty: they were
+     * not), amounts, and values of rows. */
+    la::Vector before_opening;
     std::map<std::int64_t, GapRaise> unopened;
-    RowValues before;
-    bool may_limit = false;
+    RowValues values;
+    bool is_final = false;
   };
 } // namespace abut::shim
 

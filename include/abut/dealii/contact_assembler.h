@@ -591,12 +591,11 @@ namespace abut
      * ten times from there on. Collective. */
     virtual bool raise_gaps(const la::VectorView &displacement);
 
-    /** To be called where there is no solution after raise_gaps(), which opens
-     * rows altogether at first, and a body may have been held by nothing else.
-     * True: gaps are raised by the clearance only, and the step is to be solved
-     * on from the @p displacement of the first call of raise_gaps(). False: no
-     * row was opened. Collective. */
-    virtual bool limit_raises(const la::VectorView &displacement);
+    /** To be called where there is no solution after raise_gaps(): it may have
+     * opened rows altogether, and a body may have been held by nothing else.
+     * True: they are as before that, and so is the @p displacement, from which
+     * the step is to be solved on. False: no row was opened. Collective. */
+    virtual bool limit_raises(const la::MutableVectorView &displacement);
 
     /** examine() with the address of the residual, which may be null. */
     ContactExamination examine(const la::VectorView &displacement,

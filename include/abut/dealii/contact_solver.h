@@ -46,7 +46,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -141,29 +140,24 @@ namespace abut
     bool iterate_with_gaps(la::Vector &u)
     {
       bool has_answer = iterate(u);
-      std::optional<la::Vector> before;
       while (has_answer && contact_.raise_gaps(goal(u)))
-      {
-        if (!before)
-          before.emplace(u);
         try
         {
-          has_answer = iterate(u);
+          has_answer = iterate(u) || (contact_.limit_raises(u) && resume(u));
         }
         catch (const SolverFailure &)
         {
-          if (!contact_.limit_raises(goal(*before)))
+          if (!contact_.limit_raises(u))
             throw;
-          has_answer = iterate(u = *before);
-          continue;
+          has_answer = iterate(u);
         }
-        if (!has_answer && contact_.limit_raises(goal(*before)))
-        {
-          result_.reason = NewtonReason::converged;
-          has_answer = iterate(u = *before);
-        }
-      }
       return has_answer;
+    }
+
+    bool resume(la::Vector &u)
+    {
+      result_.reason = NewtonReason::converged;
+      return iterate(u);
     }
 
     /** Whether bodies without supports that nothing stops may meet others

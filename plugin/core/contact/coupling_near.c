@@ -126,18 +126,6 @@ continue_facet(const abut_surface *surface, int32_t facet, const double *nodes,
   return length <= 1e-8;
 }
 
-/* Which side of the surface x is on, by the nearest point. */
-static double
-side_of(const abut_surface *s, int32_t facet, const double *x,
-        const abut_projection *p)
-{
-  double normal[3], r[3] = {0., 0., 0.};
-  abut_pseudonormal(s, facet, p, normal);
-  for (int d = 0; d < s->view.dimension; ++d)
-    r[d] = x[d] - p->point[d];
-  return dot3(normal, r) < 0. ? -1. : 1.;
-}
-
 /* Make the derivatives of the gap at a projection. */
 static abut_status
 differentiate(const abut_coupling *c, int32_t facet, const double *nodes,
@@ -151,7 +139,7 @@ differentiate(const abut_coupling *c, int32_t facet, const double *nodes,
     p->inside = 1;
   if (!p->inside)
   {
-    side = side_of(c->primary, facet, x, p);
+    side = abut_side_of(c->primary, facet, x, p);
     p->gap = side * p->distance;
   }
   return abut_facet_distance_derivatives(kind, nodes, x, p, side, gradient,

@@ -106,3 +106,14 @@ abut_pseudonormal(const abut_surface *surface, int32_t f,
   if (unit3(sum, ABUT_TINY) > 1e-8)
     memcpy(normal, sum, sizeof(sum));
 }
+
+double
+abut_side_of(const abut_surface *surface, int32_t f, const double *x,
+             const abut_projection *p)
+{
+  double normal[3], r[3] = {0., 0., 0.};
+  abut_pseudonormal(surface, f, p, normal);
+  for (int d = 0; d < surface->view.dimension; ++d)
+    r[d] = x[d] - p->point[d];
+  return dot3(normal, r) < 0. ? -1. : 1.;
+}

@@ -13,6 +13,11 @@
 void abut_pseudonormal(const abut_surface *surface, int32_t f,
                        const abut_projection *p, double *normal);
 
+/* Which side of the surface x is on, by its nearest point on facet f: -1 behind
+ * it, 1. */
+double abut_side_of(const abut_surface *surface, int32_t f, const double *x,
+                    const abut_projection *p);
+
 /* Whether the nearest point of facet f is on a side where the surface ends, and
  * the point beyond it. */
 bool abut_beyond_border(const abut_surface *surface, int32_t f,

@@ -2,26 +2,36 @@
 /* Nodes inside a surface, by detection. */
 #include "interface/inside.h"
 
-/* The point nearest to a node inside is above it along a normal, or at a
- * reentrant corner between two normals. A node whose nearest point is a corner
- * far away along the facet is beside the surface: the facets nearer to it face
- * away from it. */
+#include "geometry/kernels.h"
+#include "geometry/pseudonormal.h"
+
+/* Whether the nearest point of the facet is a corner or an edge beside which
+ * the node is, though behind the plane of the facet. */
 static bool
-is_beside(const abut_contact *c)
+is_beside(const abut_surface *nodes, const abut_surface *facets, int32_t node,
+          int32_t facet)
 {
-  return c->distance * c->distance > 4. * c->gap * c->gap;
+  double x[3] = {0., 0., 0.}, y[3 * ABUT_FACET_MAX_NODES];
+  abut_projection p;
+  for (int d = 0; d < nodes->view.dimension; ++d)
+    x[d] = nodes->view.position[(int64_t)nodes->view.dimension * node + d];
+  abut_surface_gather(facets, facet, y);
+  abut_project((abut_facet_kind)facets->view.kinds[facet], y, x, &p);
+  return !p.inside && abut_side_of(facets, facet, x, &p) > 0.;
 }
 
 static int32_t
-select_deep(const abut_detection_view *view, double depth, double thickness,
+select_deep(const abut_surface *nodes, const abut_surface *facets,
+            const abut_detection_view *view, double depth, double thickness,
             abut_inside *found)
 {
   int32_t n = 0;
   for (int32_t i = 0; i < view->n_nodes; ++i)
   {
     const abut_contact *c = &view->contact[i];
-    if (c->facet < 0 || !(c->gap < -depth) || is_beside(c)
-        || (thickness > 0. && c->gap < -0.5 * thickness))
+    if (c->facet < 0 || !(c->gap < -depth)
+        || (thickness > 0. && c->gap < -0.5 * thickness)
+        || is_beside(nodes, facets, i, c->facet))
       continue;
     const abut_inside inside = {i, c->facet, -c->gap};
     found[n++] = inside;
@@ -47,7 +57,7 @@ abut_nodes_inside(abut_context *context, abut_surface *nodes,
   if (status == ABUT_SUCCESS)
     status = abut_detection_get(detection, &view);
   if (status == ABUT_SUCCESS)
-    *n = select_deep(&view, depth, thickness, found);
+    *n = select_deep(nodes, facets, &view, depth, thickness, found);
   (void)abut_detection_destroy(&detection);
   return status;
 }
