@@ -36,7 +36,10 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::create_mesh()
   {
-    app::create_mesh(parameters.mesh, run.options, this->triangulation);
+    dealii::Triangulation<dim> coarse;
+    app::create_mesh(parameters.mesh, run.options, coarse);
+    require_cubes(coarse, parameters.mesh, "scenes of kind 'obstacle'");
+    this->triangulation.copy_triangulation(coarse);
     const double factor =
         std::pow(2., dim * double(parameters.refinement.level));
     check_memory(dim, factor * this->triangulation.n_global_active_cells(),
