@@ -127,9 +127,9 @@ namespace abut
   } // namespace
 
   template <int dim>
-  unsigned int
-  limit_size_ratio(dealii::parallel::distributed::Triangulation<dim> &mesh,
-                   const std::vector<ContactSides> &pairs, const double limit)
+  unsigned int limit_size_ratio(dealii::Triangulation<dim> &mesh,
+                                const std::vector<ContactSides> &pairs,
+                                const double limit)
   {
     const MPI_Comm communicator = versions::communicator(mesh);
     const unsigned int rank = MPI::this_mpi_process(communicator);
@@ -169,8 +169,8 @@ namespace abut
       const dealii::DoFHandler<dim> &, const la::Vector &,                     \
       const std::set<dealii::types::boundary_id> &);                           \
   template unsigned int limit_size_ratio<dim>(                                 \
-      dealii::parallel::distributed::Triangulation<dim> &,                     \
-      const std::vector<ContactSides> &, double);
+      dealii::Triangulation<dim> &, const std::vector<ContactSides> &,         \
+      double);
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Bodies of triangles and tetrahedra from files of gmsh: patch tests, levels,
 displacements of another program, restart, files, and what is refused."""
+import itertools
 import math
 import re
 import shutil
@@ -158,6 +159,57 @@ def check_levels():
         least = min(quality([piece.points[v] for v in cell])
                     for cell in piece.cells)
         p.expect(least > 0.5, f"level {number}: quality {least}")
+
+
+def check_bisection():
+    """No hanging nodes, volume and area of an id as before, quality."""
+    summary = run("levels.prm", {"Refinement/Level": 0,
+                                 "Refinement/Adaptive cycles": 3})
+    p.close(summary["reaction_1"][2], 1., 1e-11, "volume, bisected")
+    p.close(summary["reaction_1"][0], -1., 1e-11, "area of an id, bisected")
+    piece, = pieces(p.folder / "out/fields_0000.0.vtu")
+    sides, worst = {}, 1.
+    for cell in piece.cells:
+        corners = [piece.points[v] for v in cell]
+        worst = min(worst, quality(corners))
+        for face in itertools.combinations(corners, 3):
+            key = tuple(sorted(tuple(round(x, 6) for x in c) for c in face))
+            sides[key] = sides.get(key, 0) + 1
+    p.expect(worst > 0.15, f"quality of bisected cells: {worst}")
+    hanging = [key for key, n in sides.items() if n != 2 and not any(
+        all(corner[d] == end for corner in key)
+        for d in range(3) for end in (0., 1.))]
+    p.expect(not hanging and len(piece.cells) > 200,
+             f"{len(hanging)} faces with one cell, {len(piece.cells)} cells")
+    summary, _ = p.solve_with("patch-3d.prm", {
+        **boxes(3), "Solid/Degree": 1, "Refinement/Level": 0,
+        "Refinement/Adaptive cycles": 2}, ranks=2)
+    below(summary["energy_norm_error"], 1e-9, "patch test, bisected")
+
+
+def check_estimate():
+    """An exact solution with a singularity (prm/elastic-signorini.prm)."""
+    p.write("signorini.msh", box((8, 4), (-1, 0), (1, 1), 0.2).gmsh())
+    settings = {"Body 1/Mesh/File": p.folder / "signorini.msh",
+                "Refinement/Level": 0, "Refinement/Adaptive cycles": 5}
+    errors = {}
+    for degree in (1, 2):
+        summary, rows = p.solve_with("elastic-signorini.prm",
+                                     {**settings, "Solid/Degree": degree})
+        first, last = rows[0], rows[-1]
+        order = -2. * (math.log(last["energy_norm_error"]
+                                / first["energy_norm_error"])
+                       / math.log(last["dofs"] / first["dofs"]))
+        errors[degree] = last["energy_norm_error"]
+        p.expect(1. < summary["effectivity"] < 9.,
+                 f"degree {degree}: {summary['effectivity']}")
+        p.expect(order > 0.8 * degree, f"degree {degree}: order {order}")
+    p.expect(errors[2] < 5e-4, f"errors {errors}")
+    del settings["Refinement/Adaptive cycles"], settings["Refinement/Level"]
+    summary, _ = p.solve_with("elastic-signorini.prm", {
+        **settings, "Solid/Degree": "auto", "Refinement/Target error": 0.01})
+    p.expect(summary["energy_norm_error"] < 0.01 * math.sqrt(2. * 0.22502),
+             f"target error: {summary['energy_norm_error']}")
 
 
 def rings():
@@ -402,10 +454,6 @@ def check_refusals():
     p.write("slider.prm", slider(3))
     file = "Body 1/Mesh/File"
     for settings, *texts in (
-            ({"Refinement/Adaptive cycles": 1}, "Refinement/Adaptive cycles",
-             "in all cells only"),
-            ({"Refinement/Target error": 0.1}, "Refinement/Target error",
-             "in all cells only"),
             ({"Body 2/Element": "mean dilatation", "Solid/Degree": 1},
              "Body 2/Element", "one strain in each cell"),
             ({"Method/Discretisation": "dual mortar"},
@@ -448,6 +496,8 @@ def check_surfaces():
 check_patch()
 check_large_strain()
 check_levels()
+check_bisection()
+check_estimate()
 check_curved_sides()
 check_tied_beams()
 check_stiffness()

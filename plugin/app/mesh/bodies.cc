@@ -6,8 +6,7 @@
 #include "app/input/parameters.h"
 #include "memory_check.h"
 #include "mesh_checks.h"
-#include "mesh_description.h"
-#include "red_refinement.h"
+#include "simplex_refinement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,6 +113,8 @@ namespace abut::app
              whole.faces.boundary_quads);
     }
     all.create_triangulation(whole.vertices, whole.cells, whole.faces);
+    if (coarse.are_simplices)
+      description = std::move(whole);
     for (const auto &[id, from] : manifolds)
       all.set_manifold(id, coarse.meshes[from.first].get_manifold(from.second));
   }
@@ -161,6 +162,24 @@ namespace abut::app
     triangulation.copy_triangulation(all);
     if (!coarse.are_simplices)
       refine_bodies(triangulation);
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  Bodies<dim>::refine(const std::vector<bool> &marked,
+                      dealii::Triangulation<dim> &triangulation)
+  {
+    std::vector<unsigned int> origin =
+        bisect(triangulation, marked, description);
+    Mesh all;
+    all.create_triangulation(description.vertices, description.cells,
+                             description.faces);
+    for (const auto id : triangulation.get_manifold_ids())
+      if (id != dealii::numbers::flat_manifold_id)
+        all.set_manifold(id, triangulation.get_manifold(id));
+    triangulation.clear();
+    triangulation.copy_triangulation(all);
+    return origin;
   }
 
   template <int dim>

@@ -7,6 +7,7 @@
  */
 
 #include "body_parameters.h"
+#include "mesh_description.h"
 
 #include <deal.II/distributed/tria.h>
 
@@ -60,6 +61,12 @@ namespace abut::app
                 unsigned int degree, unsigned int further_levels,
                 dealii::Triangulation<dim> &triangulation);
 
+    /** Bisect marked cells of the mesh that create() has made of triangles or
+     * tetrahedra, see bisect(); returns the old cell of each new one. Unknowns
+     * must be distributed anew. Collective. */
+    std::vector<unsigned int> refine(const std::vector<bool> &marked,
+                                     dealii::Triangulation<dim> &triangulation);
+
     unsigned int size() const
     {
       return static_cast<unsigned int>(parameters.size());
@@ -111,6 +118,7 @@ namespace abut::app
 
     const std::vector<BodyParameters> &parameters;
     const bool of_revolution;
+    MeshDescription<dim> description; ///< of triangles or tetrahedra
     std::vector<std::vector<BoundaryId>> user_ids;
     std::vector<std::pair<unsigned int, BoundaryId>> origin; ///< by number
     std::map<std::pair<unsigned int, BoundaryId>, BoundaryId> numbers;

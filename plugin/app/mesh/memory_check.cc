@@ -139,7 +139,8 @@ namespace abut::app
       }
     const MPI_Comm communicator = versions::communicator(mesh);
     check_memory(dim, dealii::Utilities::MPI::sum(n_cells, communicator),
-                 degree, communicator, parameter, n_components);
+                 degree, communicator, parameter, n_components,
+                 mesh.all_reference_cells_are_simplex());
   }
 
   template void check_memory_of_flags<2>(const dealii::Triangulation<2> &,

@@ -3,6 +3,7 @@
 
 #include "app/input/collective.h"
 #include "disk.h"
+#include "values_along_mesh.h"
 
 #include <abut/dealii/versions.h>
 
@@ -58,57 +59,6 @@ namespace abut::app
       return result;
     }
 
-    /** Call @p visit with each unknown that a cell of this rank has and its
-     * number along the mesh: by vertices and edges, of which all ranks have
-     * all. For elements with nodes nowhere else. */
-    template <int dim, class Visit>
-    void for_each_unknown(const dealii::DoFHandler<dim> &dof_handler,
-                          const Visit &visit)
-    {
-      const auto &fe = dof_handler.get_fe();
-      const std::size_t n_components = fe.n_components(),
-                        n_vertices =
-                            dof_handler.get_triangulation().n_vertices();
-      for (const auto &cell : dof_handler.active_cell_iterators())
-      {
-        if (!cell->is_locally_owned())
-          continue;
-        for (std::size_t c = 0; c < n_components; ++c)
-        {
-          for (const unsigned int v : cell->vertex_indices())
-            visit(cell->vertex_dof_index(v, c),
-                  cell->vertex_index(v) * n_components + c);
-          if (fe.n_dofs_per_line() > 0)
-            for (unsigned int l = 0; l < cell->n_lines(); ++l)
-              visit(cell->line(l)->dof_index(c),
-                    (n_vertices + cell->line(l)->index()) * n_components + c);
-        }
-      }
-    }
-
-    /** Values of a field by number along the mesh. Collective. */
-    template <int dim>
-    std::vector<double>
-    values_along_mesh(const dealii::DoFHandler<dim> &dof_handler,
-                      const la::Vector &field)
-    {
-      const auto &mesh = dof_handler.get_triangulation();
-      const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
-      std::vector<double> mine((mesh.n_vertices() + mesh.n_raw_lines())
-                               * dof_handler.get_fe().n_components());
-      for_each_unknown(dof_handler,
-                       [&](const auto dof, const std::size_t number)
-                       {
-                         if (owned.is_element(dof))
-                           mine[number] =
-                               la::data(field)[owned.index_within_set(dof)];
-                       });
-      std::vector<double> all(mine.size());
-      dealii::Utilities::MPI::sum(mine, versions::communicator(dof_handler),
-                                  all);
-      return all;
-    }
-
     template <int dim>
     void save_along_mesh(const std::filesystem::path &file,
                          const dealii::DoFHandler<dim> &dof_handler,
@@ -136,16 +86,9 @@ namespace abut::app
       std::vector<std::vector<double>> values;
       collective(versions::communicator(dof_handler),
                  [&] { from_bytes(read_from_disk(file), values); });
-      const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
       std::vector<la::Vector> fields = empty_fields(n_fields, dof_handler);
       for (unsigned int i = 0; i < n_fields; ++i)
-        for_each_unknown(dof_handler,
-                         [&](const auto dof, const std::size_t number)
-                         {
-                           if (owned.is_element(dof))
-                             la::data(fields[i])[owned.index_within_set(dof)] =
-                                 values.at(i).at(number);
-                         });
+        set_values_along_mesh(dof_handler, values.at(i), fields[i]);
       return fields;
     }
 

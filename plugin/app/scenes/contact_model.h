@@ -45,11 +45,21 @@ namespace abut::app
     /** Make the coarse mesh; throws InputError, also if the mesh of the level
      * asked for would not fit into memory. */
     virtual void create_mesh() = 0;
+    /** Bisect the marked cells of a mesh of triangles or tetrahedra, which then
+     * has no unknowns; returns the old cell of each new one. Collective. */
+    virtual std::vector<unsigned int> bisect(const std::vector<bool> &)
+    {
+      return {};
+    }
+    bool has_simplices() const
+    {
+      return triangulation.all_reference_cells_are_simplex();
+    }
     /** Refine the mesh that create_mesh() has made. One of triangles or
      * tetrahedra has its levels already. Collective. */
     void refine_mesh(const unsigned int levels)
     {
-      if (triangulation.all_reference_cells_are_hyper_cube())
+      if (!has_simplices())
         triangulation.refine_global(levels);
     }
 

@@ -30,6 +30,7 @@ namespace abut::app
 
     void create_functions() override;
     void create_mesh() override;
+    std::vector<unsigned int> bisect(const std::vector<bool> &marked) override;
     void set_data() override;
     void setup_mesh() override;
     void check_setup() override;
@@ -208,6 +209,7 @@ namespace abut::app
 
     const SearchParameters &search;
     BodyMeshes<dim> coarse; ///< until there is the mesh of all bodies
+    std::vector<std::vector<bool>> bisections; ///< marks of all so far
     ContactAssembler<dim> &assembler;
     std::vector<BodyPart<dim>> parts;
     std::vector<RigidFreedom> freedom; ///< by part

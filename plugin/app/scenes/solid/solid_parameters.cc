@@ -213,13 +213,6 @@ namespace abut::app
     const std::string cells = dim == 2 ? "triangles" : "tetrahedra";
     if (!has_degree)
       degree = 2;
-    if (refinement.has_target() || refinement.adaptive_cycles > 0)
-      throw InputError(refinement.has_target() ? "Refinement/Target error"
-                                               : "Refinement/Adaptive cycles",
-                       "meshes of " + cells
-                           + " are refined in all cells only: set it to 0, and "
-                             "refine by Refinement/Level or Body "
-                             "N/Refinements.");
     refinement.nested = false;
     for (const BodyParameters &body : bodies)
       if (body.volume == VolumeChange::of_cell)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_APP_RED_REFINEMENT_H
-#define ABUT_APP_RED_REFINEMENT_H
+#ifndef ABUT_APP_SIMPLEX_REFINEMENT_H
+#define ABUT_APP_SIMPLEX_REFINEMENT_H
 
 /** @file
- * Uniform refinement of triangles and tetrahedra.
+ * Refinement of triangles and tetrahedra, without hanging nodes.
  */
 
 #include "mesh_description.h"
@@ -23,6 +23,16 @@ namespace abut::app
   template <int dim>
   void refine_red(const dealii::Triangulation<dim> &mesh,
                   MeshDescription<dim> &description);
+
+  /** Bisect the marked cells of such a mesh at the middles of their longest
+   * edges, and the parts likewise, dim times, so that edges are about half as
+   * long, and as many others as are needed for a mesh without hanging nodes.
+   * Otherwise as refine_red().
+   * @return for each new cell the number of the old one that it is a part of */
+  template <int dim>
+  std::vector<unsigned int> bisect(const dealii::Triangulation<dim> &mesh,
+                                   const std::vector<bool> &marked,
+                                   MeshDescription<dim> &description);
 } // namespace abut::app
 
 #endif

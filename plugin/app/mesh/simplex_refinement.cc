@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Red refinement with the shortest diagonal: J. Bey, Tetrahedral grid
 // refinement, Computing 55 (1995); S. Zhang, Successive subdivisions of
-// tetrahedra, Houston J. Math. 21 (1995).
-#include "red_refinement.h"
+// tetrahedra, Houston J. Math. 21 (1995). Bisection of longest edges: M.-C.
+// Rivara, Int. J. Numer. Methods Eng. 20 (1984). Edges have an order, by length
+// and then by number. In each round edges are cut that are the longest one of
+// all cells around them: those that the longest edges of cells to bisect lead
+// to, from longest edge to longest edge. So there are never hanging nodes.
+#include "simplex_refinement.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -26,22 +31,51 @@ namespace abut::app
     /** Diagonals are equal if their lengths differ by less than this part. */
     constexpr double round_off = 1e-10;
 
-    template <int dim> class RedRefinement
+    template <int dim> class SimplexRefinement
     {
     public:
-      RedRefinement(const dealii::Triangulation<dim> &mesh,
-                    MeshDescription<dim> &description)
+      SimplexRefinement(const dealii::Triangulation<dim> &mesh,
+                        MeshDescription<dim> &description)
           : mesh(mesh), description(description), vertices(description.vertices)
       {
       }
 
-      void run()
+      void refine_red()
       {
         find_curved_edges(sides());
         refine(description.cells);
         refine(sides());
         if constexpr (dim == 3)
           list_boundary_edges();
+      }
+
+      /** One round of bisections.
+       * @param wanted of each cell, how often it is to be bisected yet
+       * @param origin becomes that of the parts
+       * @return whether any is */
+      bool bisect(std::vector<unsigned int> &wanted,
+                  std::vector<unsigned int> &origin)
+      {
+        find_cuts(wanted);
+        if (cuts.empty())
+          return false;
+        find_curved_edges(sides());
+        std::vector<unsigned int> wanted_yet, origin_of_parts;
+        cut(description.cells,
+            [&](const std::size_t parent, const unsigned int n_parts)
+            {
+              wanted_yet.insert(wanted_yet.end(), n_parts,
+                                wanted[parent]
+                                    - (wanted[parent] > 0 && n_parts > 1));
+              origin_of_parts.insert(origin_of_parts.end(), n_parts,
+                                     origin[parent]);
+            });
+        wanted.swap(wanted_yet);
+        origin.swap(origin_of_parts);
+        cut(sides(), [](std::size_t, unsigned int) {});
+        if constexpr (dim == 3)
+          list_boundary_edges();
+        return true;
       }
 
     private:
@@ -143,6 +177,101 @@ namespace abut::app
         return result;
       }
 
+      /** Whether an edge is cut before another one. */
+      bool is_before(const Edge &a, const Edge &b) const
+      {
+        const double of_a = length(a), of_b = length(b);
+        return of_a != of_b ? of_a > of_b : a < b;
+      }
+
+      double length(const Edge &edge) const
+      {
+        return (vertices[edge.first] - vertices[edge.second]).norm_square();
+      }
+
+      /** Call @p action with each edge of a cell or face. */
+      template <class Action>
+      static void for_each_edge(const std::vector<unsigned int> &corners,
+                                const Action &action)
+      {
+        for (std::size_t i = 0; i < corners.size(); ++i)
+          for (std::size_t j = 0; j < i; ++j)
+            action(edge_between(corners[i], corners[j]));
+      }
+
+      Edge longest(const std::vector<unsigned int> &corners) const
+      {
+        Edge result = edge_between(corners[0], corners[1]);
+        for_each_edge(corners,
+                      [&](const Edge &edge)
+                      {
+                        if (is_before(edge, result))
+                          result = edge;
+                      });
+        return result;
+      }
+
+      /** Fill the list of edges to cut in this round. */
+      void find_cuts(const std::vector<unsigned int> &wanted)
+      {
+        std::vector<Edge> first;
+        std::map<Edge, std::vector<unsigned int>> around;
+        std::vector<Edge> path;
+        for (unsigned int c = 0; c < description.cells.size(); ++c)
+        {
+          const auto &corners = description.cells[c].vertices;
+          for_each_edge(corners,
+                        [&](const Edge &edge) { around[edge].push_back(c); });
+          first.push_back(longest(corners));
+          if (wanted[c] > 0)
+            path.push_back(first.back());
+        }
+        std::set<Edge> seen;
+        while (!path.empty())
+        {
+          const Edge edge = path.back();
+          path.pop_back();
+          if (!seen.insert(edge).second)
+            continue;
+          bool is_first = true;
+          for (const unsigned int c : around.at(edge))
+            if (first[c] != edge)
+            {
+              is_first = false;
+              path.push_back(first[c]);
+            }
+          if (is_first)
+            cuts.insert(edge);
+        }
+      }
+
+      /** Replace the elements of a list by their parts; @p note is told the
+       * number of each element and how many parts it has. */
+      template <int structdim, class Note>
+      void cut(std::vector<dealii::CellData<structdim>> &list, const Note &note)
+      {
+        std::vector<dealii::CellData<structdim>> result;
+        for (std::size_t parent = 0; parent < list.size(); ++parent)
+        {
+          const Edge edge = longest(list[parent].vertices);
+          const bool is_cut = cuts.count(edge) > 0;
+          note(parent, is_cut ? 2 : 1);
+          if (!is_cut)
+          {
+            result.push_back(list[parent]);
+            continue;
+          }
+          const unsigned int between = middle(edge.first, edge.second);
+          for (const unsigned int end : {edge.first, edge.second})
+          {
+            result.push_back(list[parent]);
+            std::replace(result.back().vertices.begin(),
+                         result.back().vertices.end(), end, between);
+          }
+        }
+        list.swap(result);
+      }
+
       /** Give a cell a positive volume. */
       void orient(std::vector<unsigned int> &corners) const
       {
@@ -179,6 +308,7 @@ namespace abut::app
       MeshDescription<dim> &description;
       std::vector<dealii::Point<dim>> &vertices;
       std::map<Edge, unsigned int> middles;
+      std::set<Edge> cuts;
       std::map<Edge, dealii::types::manifold_id> curved;
     };
   } // namespace
@@ -187,9 +317,30 @@ namespace abut::app
   void refine_red(const dealii::Triangulation<dim> &mesh,
                   MeshDescription<dim> &description)
   {
-    RedRefinement<dim>(mesh, description).run();
+    SimplexRefinement<dim>(mesh, description).refine_red();
   }
 
+  template <int dim>
+  std::vector<unsigned int> bisect(const dealii::Triangulation<dim> &mesh,
+                                   const std::vector<bool> &marked,
+                                   MeshDescription<dim> &description)
+  {
+    std::vector<unsigned int> origin(description.cells.size()), wanted;
+    std::iota(origin.begin(), origin.end(), 0u);
+    for (const bool is_marked : marked)
+      wanted.push_back(is_marked ? dim : 0);
+    while (SimplexRefinement<dim>(mesh, description).bisect(wanted, origin))
+    {
+    }
+    return origin;
+  }
+
+  template std::vector<unsigned int> bisect(const dealii::Triangulation<2> &,
+                                            const std::vector<bool> &,
+                                            MeshDescription<2> &);
+  template std::vector<unsigned int> bisect(const dealii::Triangulation<3> &,
+                                            const std::vector<bool> &,
+                                            MeshDescription<3> &);
   template void refine_red(const dealii::Triangulation<2> &,
                            MeshDescription<2> &);
   template void refine_red(const dealii::Triangulation<3> &,
