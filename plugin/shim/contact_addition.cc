@@ -121,8 +121,9 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("add()");
     la::Vector &residual =
-        i.checked_mutable_vector("add()", "residual", given_residual);
-    const solve::Stiffness stiffness = i.stiffness_of("add()", Tangent(matrix));
+        i.host.mutable_vector("add()", "residual", given_residual);
+    const solve::Stiffness stiffness =
+        i.host.stiffness("add()", Tangent(matrix));
     AssertThrow(abut_law_has_penalty(i.method.options.law)
                     && !abut_law_needs_stress(i.method.options.law),
                 ExcMessage(std::string("The law '") + i.method.options.law->name
@@ -133,11 +134,11 @@ namespace abut
       i.find_row_stiffness(stiffness);
       i.begin(stiffness, residual);
     }
-    if (i.geometry != nullptr)
+    if (i.moving.has_geometry())
     {
-      residual = i.with_geometry(residual);
+      residual = i.moving.with_geometry(residual);
       for (const shim::MatrixLine &line :
-           i.source->geometric_lines(i.start_pressure.data()))
+           i.source->geometric_lines(i.start.pressure().data()))
         matrix.add(line.row, line.column, line.value);
     }
     const solve::PointOperator &rows = i.coefficients;

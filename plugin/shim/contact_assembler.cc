@@ -131,7 +131,7 @@ namespace abut
   void ContactAssembler<dim>::set_surface_traction(
       std::shared_ptr<const SurfaceTraction<dim>> traction)
   {
-    implementation->surface_traction = std::move(traction);
+    implementation->nitsche.set_traction(std::move(traction));
   }
 
   template <int dim>
@@ -163,13 +163,10 @@ namespace abut
     i.record_present();
     i.history.leave_ranks();
     i.elements.forget();
-    i.is_forgotten = true;
+    i.start.forget_history();
     i.rows_mesh = 0;
     i.has_rows = false;
-    i.n_unknowns = dof_handler.n_dofs();
-    i.mapping = &mapping;
-    i.dof_handler = &dof_handler;
-    i.constraints = &constraints;
+    i.host.reinit(mapping, dof_handler, constraints);
     i.clear_source();
     i.solver.reset();
     i.kept_preconditioner.clear();
@@ -177,13 +174,8 @@ namespace abut
     // the number of unknowns is the same.
     i.abandon_iteration();
     i.start_displacement = la::Vector();
-    i.committed_is_lost = i.committed_is_lost || i.committed.size() > 0;
-    i.committed = la::Vector();
+    i.committed.leave_mesh();
     i.slip_reference = {};
-    i.start_pressure.clear();
-    i.reference.reset();
-    i.copied.clear();
-    i.copied_reference.clear();
     i.law_compliance = la::Vector();
     i.report = LinearReport();
   }
@@ -192,32 +184,30 @@ namespace abut
   void ContactAssembler<dim>::detect(const la::VectorView &given_displacement)
   {
     Implementation &i = *implementation;
-    i.check_mesh("detect()");
+    i.host.check_mesh("detect()");
     const la::Vector &displacement =
-        i.checked_vector("detect()", "displacement", given_displacement);
+        i.host.vector("detect()", "displacement", given_displacement);
     // The pressures reached so far are the start of the next solve.
     i.record_present();
-    if (i.is_started || i.is_restarted)
-    {
-      i.given_field = la::Vector();
-      i.is_forgotten = false;
-    }
+    if (i.is_started || i.start.is_restarted())
+      i.start.use_history();
     if (i.source_is_outdated)
     {
-      i.keep_field();
+      if (i.source != nullptr && i.rows_mesh != 0)
+        i.start.keep_field(*i.source, i.row_pressures());
       i.create_source();
     }
     else if (i.has_new_gaps)
-      i.surfaces->set_gaps(i.pairs);
+      i.surfaces->set().set_gaps(i.pairs);
     i.has_new_gaps = false;
     i.has_rows = false;
-    i.raised.clear();
-    i.n_raises = 0;
-    i.check_approach(displacement);
+    i.raises = shim::GapRaises();
+    i.committed.check_approach(displacement, [&](const auto &motions)
+                               { return i.displacement_of(motions); });
     i.find_rows_in_reach(displacement);
     i.has_rows = true;
-    i.start_state.clear();
-    i.is_restarted = false;
+    i.start.set_state({});
+    i.start.set_restarted(false);
     i.iteration_tolerance = 0.;
     i.begin_at(displacement);
   }
@@ -228,8 +218,8 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_rows("search_farther()");
-    const la::Vector &displacement = i.checked_vector(
-        "search_farther()", "displacement", given_displacement);
+    const la::Vector &displacement =
+        i.host.vector("search_farther()", "displacement", given_displacement);
     const auto n_rows = [&]
     {
       return dealii::Utilities::MPI::sum(double(i.coefficients.n_rows()),
@@ -254,12 +244,12 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("linearise()");
     const la::Vector &displacement =
-        i.checked_vector("linearise()", "displacement", given_displacement);
+        i.host.vector("linearise()", "displacement", given_displacement);
     AssertThrow(!i.is_nitsche(), ExcMessage("Nitsche's method is for linear "
                                             "elastic bodies: do not call "
                                             "linearise() with it."));
     if (i.moves())
-      i.move_rows(displacement);
+      i.move_rows(displacement, i.row_values());
     else if (i.is_started)
     {
       i.record_present();
@@ -276,7 +266,7 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("follow()");
     const la::Vector &displacement =
-        i.checked_vector("follow()", "displacement", given_displacement);
+        i.host.vector("follow()", "displacement", given_displacement);
     if (i.moves())
       i.follow(displacement);
   }
@@ -290,9 +280,9 @@ namespace abut
   void ContactAssembler<dim>::set_pressure(const la::VectorView &pressure)
   {
     const Implementation &i = *implementation;
-    i.check_mesh("set_pressure()");
-    implementation->given_field =
-        i.checked_vector("set_pressure()", "pressure", pressure);
+    i.host.check_mesh("set_pressure()");
+    implementation->start.give_field(
+        i.host.vector("set_pressure()", "pressure", pressure));
   }
 
   template <int dim>
@@ -305,16 +295,17 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("relax()");
     const la::Vector &residual =
-        i.checked_vector("relax()", "residual", given_residual);
+        i.host.vector("relax()", "residual", given_residual);
     la::Vector &displacement =
-        i.checked_mutable_vector("relax()", "displacement", given_displacement);
+        i.host.mutable_vector("relax()", "displacement", given_displacement);
     AssertThrow(!i.is_started, ExcMessage("Call relax() between detect() and "
                                           "the first solve()."));
     if (abut_law_needs_open_start(i.method.options.law))
       i.push_inside(displacement);
     else
-      i.start_state = i.source->relax(i.stiffness_of("relax()", tangent),
-                                      residual, i.gap, n_sweeps, displacement);
+      i.start.set_state(i.source->relax(i.host.stiffness("relax()", tangent),
+                                        residual, i.gap, n_sweeps,
+                                        displacement));
     i.start_displacement = displacement;
     i.compute_gap(displacement);
   }
@@ -327,11 +318,11 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_rows("solve()");
-    const solve::Stiffness matrix = i.stiffness_of("solve()", tangent);
+    const solve::Stiffness matrix = i.host.stiffness("solve()", tangent);
     const la::Vector &residual =
-        i.checked_vector("solve()", "residual", given_residual);
+        i.host.vector("solve()", "residual", given_residual);
     la::Vector &increment =
-        i.checked_mutable_vector("solve()", "increment", given_increment);
+        i.host.mutable_vector("solve()", "increment", given_increment);
     i.prepare_solver(matrix);
     AssertThrow(!i.is_started || i.request.action == ABUT_ACTION_SOLVE,
                 ExcMessage("The contact iteration has stopped: call detect() "
@@ -341,9 +332,9 @@ namespace abut
     if (!i.is_started)
       i.begin(matrix, residual);
     la::Vector moved;
-    if (i.geometry != nullptr)
-      moved = i.with_geometry(residual);
-    const la::Vector &forces = i.geometry != nullptr ? moved : residual;
+    if (i.moving.has_geometry())
+      moved = i.moving.with_geometry(residual);
+    const la::Vector &forces = i.moving.has_geometry() ? moved : residual;
     LinearReport report;
     double tolerance = 0.;
     while (i.request.action == ABUT_ACTION_SOLVE
@@ -357,7 +348,7 @@ namespace abut
     }
     if (i.request.action == ABUT_ACTION_MOVE && i.request.step_length != 1.)
       increment *= i.request.step_length;
-    i.apply_substitution(increment);
+    i.moving.apply_substitution(increment);
     report.tolerance = tolerance;
     i.report += report;
     return report;
@@ -369,13 +360,12 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("update()");
     const la::Vector &displacement =
-        i.checked_vector("update()", "displacement", given_displacement);
+        i.host.vector("update()", "displacement", given_displacement);
     AssertThrow(i.is_started,
                 ExcMessage("Call solve() or add() before update()."));
     if (i.request.action == ABUT_ACTION_STOP)
       return false;
-    if (i.geometry != nullptr)
-      i.present_displacement = displacement;
+    i.moving.move_to(displacement);
     std::vector<double> before;
     if (i.was_added)
       before.swap(i.gap);
@@ -400,7 +390,7 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("add_contact_forces()");
     la::Vector &forces =
-        i.checked_mutable_vector("add_contact_forces()", "force", given_forces);
+        i.host.mutable_vector("add_contact_forces()", "force", given_forces);
     AssertThrow(!i.is_nitsche(), ExcMessage("The forces of Nitsche's method "
                                             "are not those of its pressures "
                                             "alone."));
@@ -415,10 +405,11 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("solve_linearised()");
     const la::Vector &residual =
-        i.checked_vector("solve_linearised()", "residual", given_residual);
+        i.host.vector("solve_linearised()", "residual", given_residual);
     la::Vector &step =
-        i.checked_mutable_vector("solve_linearised()", "step", given_step);
-    const Tangent tangent = i.stiffness_of("solve_linearised()", given_tangent);
+        i.host.mutable_vector("solve_linearised()", "step", given_step);
+    const Tangent tangent =
+        i.host.stiffness("solve_linearised()", given_tangent);
     const la::Vector start(i.start_displacement);
     la::Vector end(start);
     const LinearReport cost =
@@ -429,9 +420,9 @@ namespace abut
                           way -= start;
                           tangent.vmult(forces, way);
                           forces += residual;
-                          i.constraints->set_zero(forces);
+                          i.host.constraints().set_zero(forces);
                         });
-    i.constraints->distribute(end);
+    i.host.constraints().distribute(end);
     step = end;
     step -= start;
     return cost;
@@ -445,9 +436,9 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("evaluate()");
     const la::Vector &displacement =
-        i.checked_vector("evaluate()", "displacement", given_displacement);
+        i.host.vector("evaluate()", "displacement", given_displacement);
     la::Vector &forces =
-        i.checked_mutable_vector("evaluate()", "force", given_forces);
+        i.host.mutable_vector("evaluate()", "force", given_forces);
     AssertThrow(i.is_started, ExcMessage("Call solve() before evaluate()."));
     if (i.moves())
       return implementation->evaluate_moved(displacement, forces);
@@ -469,9 +460,8 @@ namespace abut
   void ContactAssembler<dim>::set_reference_stiffness(const Tangent &tangent)
   {
     Implementation &i = *implementation;
-    i.check_mesh("set_reference_stiffness()");
-    i.reference = i.stiffness_of("set_reference_stiffness()", tangent,
-                                 &i.copied_reference);
+    i.host.check_mesh("set_reference_stiffness()");
+    i.host.set_reference("set_reference_stiffness()", tangent);
     i.law_compliance = la::Vector();
     i.has_new_matrix = true;
   }
@@ -491,15 +481,15 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("length_scale()");
     const la::Vector &displacement =
-        i.checked_vector("length_scale()", "displacement", given_displacement);
+        i.host.vector("length_scale()", "displacement", given_displacement);
     const double length = i.length_scale(displacement);
     // Obstacles may come to bodies that rest.
     const bool may_come = i.surfaces != nullptr
-                          && (i.surfaces->has_steps()
+                          && (i.surfaces->set().has_steps()
                               || std::any_of(i.pairs.begin(), i.pairs.end(),
                                              [](const ContactPair<dim> &pair)
                                              { return pair.may_be_apart; }));
-    return length == 0. && may_come ? i.surfaces->facet_size() : length;
+    return length == 0. && may_come ? i.surfaces->set().facet_size() : length;
   }
 
   template <int dim>
@@ -507,7 +497,7 @@ namespace abut
   {
     const Implementation &i = *implementation;
     i.check_rows("candidate_nodes()");
-    const dealii::IndexSet &owned = i.dof_handler->locally_owned_dofs();
+    const dealii::IndexSet &owned = i.host.owned();
     la::Vector count(owned, i.communicator);
     const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
     i.coefficients.add_counts(all.data(), count);
@@ -596,6 +586,23 @@ namespace abut
   const LinearReport &ContactAssembler<dim>::linear_report() const
   {
     return implementation->report;
+  }
+
+  template <int dim>
+  Tangent ContactAssembler<dim>::copy_of(const Tangent &tangent) const
+  {
+    const Implementation &i = *implementation;
+    i.host.check_mesh("copy_of()");
+    return tangent.other() == nullptr ? tangent
+                                      : i.host.stiffness("copy_of()", tangent);
+  }
+
+  template <int dim>
+  la::Vector ContactAssembler<dim>::copy_of(const la::VectorView &vector) const
+  {
+    const Implementation &i = *implementation;
+    i.host.check_mesh("copy_of()");
+    return i.host.vector("copy_of()", "vector", vector);
   }
 
   template class ContactAssembler<2>;

@@ -5,6 +5,7 @@
 
 #include "deformation.h"
 #include "obstacle_in_bodies.h"
+#include "obstacle_width.h"
 #include "solve/unsupported_bodies.h"
 
 #include <abut/dealii/coded.h>
@@ -474,7 +475,7 @@ namespace abut
     result.deformation = deformation(displacement);
     result.missed_depth = deepest.missed;
     double cell = 0.;
-    for (const auto &some : dof_handler->active_cell_iterators())
+    for (const auto &some : host.dof_handler().active_cell_iterators())
       cell = std::max(cell, some->diameter());
     const Scale scale{result.deformation, result.deformation,
                       round_off_of_places * MPI::max(cell, communicator)};
@@ -508,9 +509,9 @@ namespace abut
     if (can_touch)
       i.check_rows("examine()");
     else
-      i.check_mesh("examine()");
+      i.host.check_mesh("examine()");
     const la::Vector &displacement =
-        i.checked_vector("examine()", "displacement", given_displacement);
+        i.host.vector("examine()", "displacement", given_displacement);
     ContactExamination result;
     Findings findings(result);
     if (residual)
@@ -523,8 +524,8 @@ namespace abut
       i.examine_membrane(displacement, penetration(), result);
       return result;
     }
-    const shim::Strains strain =
-        shim::strains(*i.mapping, *i.dof_handler, displacement, i.axisymmetric);
+    const shim::Strains strain = shim::strains(
+        i.host.mapping(), i.host.dof_handler(), displacement, i.axisymmetric);
     result.strain = strain.largest;
     result.mean_strain = strain.mean;
     judge_strain(result, allow_large_strain, findings);
@@ -542,11 +543,14 @@ namespace abut
                                          : i.followed_motions;
     const std::vector<shim::FacetPenetration> facet_penetrations =
         i.find_facet_penetrations(displacement);
-    i.surfaces->examine(displacement, i.row_pressures().data(), i.gap.data(),
-                        i.row_states().data(), facet_penetrations);
+    i.surfaces->examination().examine(displacement, i.row_pressures().data(),
+                                      i.gap.data(), i.row_states().data(),
+                                      facet_penetrations);
     result.deformation = i.deformation(displacement);
     const std::vector<PairCheck> checks = pair_checks();
     const std::vector<PairResult<dim>> pairs = pair_results();
+    const std::vector<shim::SurfacePair<dim>> &surface_pairs =
+        i.surfaces->set().pairs();
     std::vector<Scale> scales;
     std::vector<double> visible;
     for (std::size_t p = 0; p < pairs.size(); ++p)
@@ -559,8 +563,9 @@ namespace abut
       visible.push_back(i.raises_end_early() ? i.least_clearance(displacement)
                                              : scales[p].limit(useless));
     }
-    const std::vector<shim::SeparatedRows> apart = i.surfaces->apart(
-        visible, i.row_pressures().data(), i.gap.data(), i.row_states().data());
+    const std::vector<shim::SeparatedRows> apart =
+        i.surfaces->examination().apart(visible, i.row_pressures().data(),
+                                        i.gap.data(), i.row_states().data());
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
       const bool is_obstacle = i.pairs[p].obstacle != nullptr;
@@ -569,13 +574,13 @@ namespace abut
                                == ABUT_CONFIGURATION_CURRENT
                            && !i.pairs[p].tied && !is_obstacle;
       if (!follows)
-        judge_sliding(pairs[p], checks[p], i.surfaces->gap_error_place(p),
+        judge_sliding(pairs[p], checks[p], surface_pairs[p].gap_error_place,
                       is_obstacle, i.pairs[p].secondary == i.pairs[p].primary,
-                      i.surfaces->has_mean_gaps(p), scale, findings);
+                      surface_pairs[p].has_mean_gaps(), scale, findings);
       judge_rotation(pairs[p], allow_large_strain, findings);
       judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
                    findings);
-      const auto &narrowest = i.surfaces->narrowest(p);
+      const auto &narrowest = surface_pairs[p].narrowest;
       judge_between(pairs[p], p, is_obstacle,
                     Deepest(facet_penetrations, p, i.communicator).peak,
                     std::min(checks[p].facet_size, narrowest.width),
@@ -588,13 +593,14 @@ namespace abut
       // all motion.
       const Scale motion{scale.far, scale.far, scale.least};
       judge_chords(pairs[p].name,
-                   i.surfaces->chord_error(p, i.row_states().data(),
-                                           motion.limit(useless_chord)),
+                   shim::chord_error(i.surfaces->points(), p,
+                                     i.row_states().data(),
+                                     motion.limit(useless_chord)),
                    motion, findings);
       if (!is_obstacle)
-        judge_corners(pairs[p], checks[p], i.surfaces->held_in_the_mean(p),
+        judge_corners(pairs[p], checks[p], surface_pairs[p].held_in_the_mean,
                       scale, findings);
-      for (const Message &refused : i.surfaces->refused(p))
+      for (const Message &refused : surface_pairs[p].refused)
         findings.add(refused.failure, true,
                      pairs[p].name
                          + " would be refused; what was found is there to be "
@@ -602,12 +608,13 @@ namespace abut
       if (is_obstacle && i.pairs[p].geometric_gap)
       {
         const auto inside = shim::find_obstacle_in_bodies(
-            *i.mapping, *i.dof_handler, displacement, i.pairs[p]);
-        judge_inside(pairs[p].name, inside,
-                     inside.is_inside(checks[p].facet_size)
-                         ? i.surfaces->passed_between(p, inside.place)
-                         : shim::ObstacleWidth(),
-                     checks[p].facet_size, result.strain, scale, findings);
+            i.host.mapping(), i.host.dof_handler(), displacement, i.pairs[p]);
+        judge_inside(
+            pairs[p].name, inside,
+            inside.is_inside(checks[p].facet_size)
+                ? shim::passed_between(i.surfaces->points(), p, inside.place)
+                : shim::ObstacleWidth(),
+            checks[p].facet_size, result.strain, scale, findings);
       }
       result.missed_depth =
           std::max(result.missed_depth, pairs[p].missed_depth);
@@ -623,8 +630,8 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("missed_depth()");
     const la::Vector &displacement =
-        i.checked_vector("missed_depth()", "displacement", given_displacement);
-    depth.reinit(i.dof_handler->get_triangulation().n_active_cells());
+        i.host.vector("missed_depth()", "displacement", given_displacement);
+    depth.reinit(i.host.dof_handler().get_triangulation().n_active_cells());
     const double least_peak = useless * i.deformation(displacement);
     double largest = 0.;
     for (const shim::FacetPenetration &found :
@@ -646,7 +653,7 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("check_supports()");
     const solve::Stiffness stiffness =
-        i.stiffness_of("check_supports()", tangent);
+        i.host.stiffness("check_supports()", tangent);
     if (i.surfaces == nullptr)
       return;
     solve::UnsupportedBodies unsupported;
@@ -656,7 +663,7 @@ namespace abut
     if (given_residual)
     {
       const la::Vector &residual =
-          i.checked_vector("check_supports()", "residual", given_residual);
+          i.host.vector("check_supports()", "residual", given_residual);
       free = unsupported.along_which_works(free, residual,
                                            solve::UnsupportedBodies::no_work
                                                * residual.l1_norm());

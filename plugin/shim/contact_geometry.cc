@@ -27,50 +27,33 @@ namespace abut
   }
 
   template <int dim>
-  typename ContactAssembler<dim>::Implementation::RowValues
-  ContactAssembler<dim>::Implementation::row_values() const
+  shim::RowValues ContactAssembler<dim>::Implementation::row_values() const
   {
-    RowValues values;
-    values.has_states = is_started || !start_state.empty();
+    shim::RowValues values;
+    values.has_states = is_started || !start.state().empty();
     for (int row = 0; row < coefficients.n_rows(); ++row)
       values.of[coefficients.ids()[row]] = {
-          row_pressure(row), is_started            ? request.state[row]
-                             : start_state.empty() ? std::uint8_t(0)
-                                                   : start_state[row]};
+          row_pressure(row), is_started              ? request.state[row]
+                             : start.state().empty() ? std::uint8_t(0)
+                                                     : start.state()[row]};
     return values;
   }
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::move_rows(
-      const la::Vector &displacement)
+      const la::Vector &displacement, const shim::RowValues &before)
   {
-    const RowValues before = row_values();
     record_present();
-    is_restarted = is_restarted || is_started;
+    start.set_restarted(start.is_restarted() || is_started);
     find_points(displacement);
     set_up_rows();
     find_slip_reference();
-    start_pressure.assign(coefficients.n_rows(), 0.);
-    start_state.assign(before.has_states ? coefficients.n_rows() : 0,
-                       ABUT_STATE_OPEN);
-    for (int row = 0; row < coefficients.n_rows(); ++row)
-    {
-      const auto it = before.of.find(coefficients.ids()[row]);
-      if (it == before.of.end())
-        continue;
-      start_pressure[row] = it->second.first;
-      if (before.has_states)
-        start_state[row] = it->second.second;
-    }
-    limit_start();
+    start.go_on(start_rows(), before);
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::find_geometry()
   {
-    geometry.reset();
-    substitution.reset();
-    substituted_increment = la::Vector();
-    partner_changes = PartnerChanges();
+    moving.clear();
     if (!moves())
       return;
     // The solver keeps what it was made of until it gets the next one.
@@ -81,20 +64,7 @@ namespace abut
         source->geometric_lines(row_pressures().data());
     if (!MPI::logical_or(!lines.empty(), communicator))
       return;
-    const dealii::IndexSet &owned = dof_handler->locally_owned_dofs();
-    dealii::IndexSet ghosts(owned.size());
-    for (const shim::MatrixLine &line : lines)
-      if (!owned.is_element(line.row))
-        ghosts.add_index(line.row);
-    ghosts.compress();
-    geometry = std::make_unique<la::Matrix>(
-        la::assemble(owned, ghosts, communicator,
-                     [&](const auto &visit)
-                     {
-                       for (const shim::MatrixLine &line : lines)
-                         visit(line.row, line.column, line.value);
-                     }));
-    present_displacement = start_displacement;
+    moving.set_geometry(lines, start_displacement);
     find_substitution();
   }
 
@@ -103,68 +73,18 @@ namespace abut
   {
     // A row that is far open does not close in this linearisation, or as if it
     // were straight: its lever would move its node by too much.
-    const double near = 0.3 * surfaces->facet_size();
+    const double near = 0.3 * surfaces->set().facet_size();
     std::vector<std::uint8_t> wanted(coefficients.n_rows());
     for (int row = 0; row < coefficients.n_rows(); ++row)
       wanted[row] = row_pressure(row) > 0. || gap[row] < near;
-    const std::vector<solve::GapLine> lines = source->gap_lines(wanted);
-    if (!MPI::logical_or(std::any_of(lines.begin(), lines.end(),
-                                     [](const solve::GapLine &line)
-                                     { return !line.column.empty(); }),
-                         communicator))
-      return;
-    substitution =
-        std::make_unique<solve::GapSubstitution>(coefficients, lines);
-    substituted = start_displacement;
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::apply_substitution(
-      la::Vector &increment)
-  {
-    if (substitution == nullptr)
-      return;
-    substituted_increment = increment;
-    substitution->apply(increment);
+    moving.set_substitution(coefficients, source->gap_lines(wanted));
   }
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::update_gap(
       const la::Vector &displacement)
   {
-    if (substituted_increment.size() == 0) // the host has solved by itself
-      compute_gap(displacement);
-    else
-    {
-      substituted += substituted_increment;
-      compute_gap(substituted);
-    }
-  }
-
-  template <int dim>
-  const la::Matrix &
-  ContactAssembler<dim>::Implementation::with_geometry(const la::Matrix &matrix)
-  {
-    if (geometry == nullptr)
-      return matrix;
-    sum_with_geometry =
-        std::make_unique<la::Matrix>(la::sum(matrix, *geometry));
-    if (substitution != nullptr)
-      sum_with_geometry = std::make_unique<la::Matrix>(la::sum(
-          *sum_with_geometry, substitution->product(*sum_with_geometry)));
-    return *sum_with_geometry;
-  }
-
-  template <int dim>
-  la::Vector ContactAssembler<dim>::Implementation::with_geometry(
-      const la::Vector &residual) const
-  {
-    if (geometry == nullptr)
-      return residual;
-    la::Vector way(present_displacement), result(residual);
-    way -= start_displacement;
-    geometry->vmult_add(result, way);
-    return result;
+    compute_gap(moving.linear_displacement(displacement));
   }
 
   template <int dim>
@@ -187,46 +107,22 @@ namespace abut
   {
     RowsElsewhere result;
     result.points = shim::create_points(context.get(), points_dimension);
-    surfaces->bring_in_reach(displacement);
-    const auto kept = surfaces->save_points();
-    try
-    {
-      surfaces->find(displacement, result.points.get());
-      // Tangents have their numbers by those of their point that stay.
-      abut_points_view there = {};
-      result.rows = make_operator(result.points.get(), there);
-      if (has_friction)
-        result.slip_reference = surfaces->slip_reference(committed);
-      record_changes(kept);
-    }
-    catch (...)
-    {
-      surfaces->restore_points(kept);
-      throw;
-    }
-    surfaces->restore_points(kept);
-    return result;
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::record_changes(
-      const typename shim::SurfacePairRows<dim>::SavedPoints &before)
-  {
+    surfaces->points().displacements_in_reach(displacement);
+    surfaces->renew_points();
+    shim::PairPoints<dim> elsewhere(surfaces->set());
+    surfaces->find_elsewhere(displacement, result.points.get(), elsewhere);
+    // Tangents have their numbers by those of their point that stay.
+    result.rows = make_operator(result.points.get(), &elsewhere);
+    if (has_friction)
+      result.slip_reference =
+          surfaces->slip().reference(elsewhere, committed.displacement());
     std::set<std::int64_t> pressing;
     for (int row = 0; row < coefficients.n_rows(); ++row)
       if (!coefficients.is_tangent(row) && request.pressure[row] > 0.)
         pressing.insert(coefficients.ids()[row]);
-    const auto now = surfaces->save_points();
-    const auto placed = [this](const auto &points)
-    {
-      shim::PlacedPoints<dim> result = {{}, points.places};
-      check(abut_points_get(points.points, &result.view));
-      return result;
-    };
-    const PartnerChanges changes =
-        shim::count_changes<dim>(placed(before), placed(now), pressing);
-    partner_changes.lost = std::max(partner_changes.lost, changes.lost);
-    partner_changes.jumped = std::max(partner_changes.jumped, changes.jumped);
+    moving.add_changes(
+        shim::count_changes(surfaces->points(), elsewhere, pressing));
+    return result;
   }
 
   template <int dim>
@@ -236,8 +132,8 @@ namespace abut
     const std::vector<std::int64_t> before = row_numbers();
     if (solver != nullptr)
       followed_motions = solver->rigid_motions(displacement);
-    surfaces->bring_in_reach(displacement);
-    auto kept = surfaces->save_points();
+    surfaces->points().displacements_in_reach(displacement);
+    shim::PairPoints<dim> kept = surfaces->points();
     shim::Handle<abut_points> old_points = std::move(points);
     find_points(displacement);
     set_up_rows();
@@ -246,7 +142,7 @@ namespace abut
     if (MPI::logical_or(before != row_numbers(), communicator))
     {
       points = std::move(old_points);
-      surfaces->restore_points(std::move(kept));
+      surfaces->restore(std::move(kept));
       set_up_rows();
       find_slip_reference();
       return;
@@ -299,18 +195,14 @@ namespace abut
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template bool ContactAssembler<dim>::Implementation::moves() const;          \
+  template shim::RowValues ContactAssembler<dim>::Implementation::row_values() \
+      const;                                                                   \
   template void ContactAssembler<dim>::Implementation::move_rows(              \
-      const la::Vector &);                                                     \
+      const la::Vector &, const shim::RowValues &);                            \
   template void ContactAssembler<dim>::Implementation::find_geometry();        \
-  template const la::Matrix &                                                  \
-  ContactAssembler<dim>::Implementation::with_geometry(const la::Matrix &);    \
-  template la::Vector ContactAssembler<dim>::Implementation::with_geometry(    \
-      const la::Vector &) const;                                               \
   template void                                                                \
   ContactAssembler<dim>::Implementation::add_round_off_of_positions(           \
       la::Vector &) const;                                                     \
-  template void ContactAssembler<dim>::Implementation::apply_substitution(     \
-      la::Vector &);                                                           \
   template void ContactAssembler<dim>::Implementation::update_gap(             \
       const la::Vector &);                                                     \
   template void ContactAssembler<dim>::Implementation::follow(                 \

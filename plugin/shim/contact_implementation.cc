@@ -7,6 +7,7 @@
 #include "fnv_hash.h"
 #include "host_cells.h"
 #include "nodal_obstacle_rows.h"
+#include "pair_detection.h"
 #include "solve/make_row_solver.h"
 #include "solve/row_stiffness.h"
 #include "solve/unsupported_bodies.h"
@@ -40,7 +41,9 @@ namespace abut
     {
       try
       {
-        static_cast<const shim::SurfacePairRows<dim> *>(user)->project(values);
+        static_cast<const shim::SurfaceRows<dim> *>(user)
+            ->multipliers()
+            .project(values);
       }
       catch (const std::exception &)
       {
@@ -106,9 +109,7 @@ namespace abut
   double
   ContactAssembler<dim>::Implementation::row_pressure(const int row) const
   {
-    return is_started               ? request.pressure[row]
-           : start_pressure.empty() ? 0.
-                                    : start_pressure[row];
+    return is_started ? request.pressure[row] : start.pressure(row);
   }
 
   template <int dim>
@@ -137,15 +138,7 @@ namespace abut
   {
     if (is_started)
       return {request.state, request.state + coefficients.n_rows()};
-    std::vector<std::uint8_t> result(coefficients.n_rows(), ABUT_STATE_OPEN);
-    for (std::size_t row = 0; row < start_pressure.size(); ++row)
-      if (coefficients.bilateral()[row] != 0 || start_pressure[row] != 0.)
-        result[row] = ABUT_STATE_CLOSED;
-    // Tangents have the state of their normal.
-    for (std::size_t row = 1; row < start_pressure.size(); ++row)
-      if (coefficients.is_tangent(static_cast<int>(row)))
-        result[row] = result[row - 1];
-    return result;
+    return start.states(coefficients);
   }
 
   template <int dim>
@@ -174,46 +167,13 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::check_mesh(
-      const std::string &call) const
-  {
-    AssertThrow(dof_handler != nullptr,
-                ExcMessage("Call reinit() before " + call + "."));
-    check_unchanged(call);
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::check_unchanged(
-      const std::string &call) const
-  {
-    AssertThrow(dof_handler == nullptr || dof_handler->n_dofs() == n_unknowns,
-                ExcMessage("There are " + std::to_string(dof_handler->n_dofs())
-                           + " unknowns in " + call + ", but there were "
-                           + std::to_string(n_unknowns)
-                           + " in the last reinit(). Call reinit() and "
-                             "detect() after each change of the mesh."));
-  }
-
-  template <int dim>
   void ContactAssembler<dim>::Implementation::check_rows(
       const std::string &call) const
   {
-    check_mesh(call);
+    host.check_mesh(call);
     AssertThrow(has_rows, ExcMessage("Call detect() before " + call
                                      + ": there are no rows since the last "
                                        "reinit()."));
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::check_size(
-      const std::string &call, const std::string &what,
-      const global_dof_index size) const
-  {
-    AssertThrow(size == n_unknowns,
-                ExcMessage("The " + what + " given to " + call + " is of "
-                           + std::to_string(size) + " unknowns, but there are "
-                           + std::to_string(n_unknowns)
-                           + ". Make it anew after each change of the mesh."));
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::create_source()
@@ -222,18 +182,18 @@ namespace abut
     const bool has_obstacle = obstacle.lower || obstacle.upper;
     if (!pairs.empty() || (has_pairs && !has_obstacle))
     {
-      auto made = std::make_unique<shim::SurfacePairRows<dim>>(
-          *mapping, *dof_handler, *constraints, pairs,
-          typename shim::SurfacePairRows<dim>::Settings{method, search,
-                                                        axisymmetric},
-          context.get(), exchange, detection);
+      auto made = std::make_unique<shim::SurfaceRows<dim>>(
+          shim::PairHost<dim>{host.mapping(), host.dof_handler(),
+                              host.constraints(), method, search, axisymmetric,
+                              context.get(), detection},
+          pairs, exchange);
       surfaces = made.get();
-      surfaces->foresee_motion(foreseen_motion);
-      if (committed.size() > 0)
-        surfaces->record_commit(committed);
-      if (exchange != surfaces->exchange())
+      surfaces->set().foresee_motion(foreseen_motion);
+      if (committed.displacement().size() > 0)
+        surfaces->set().record_commit(committed.displacement());
+      if (exchange != surfaces->set().exchange())
         count_messages();
-      exchange = surfaces->exchange();
+      exchange = surfaces->set().exchange();
       source = std::move(made);
     }
     else
@@ -242,16 +202,17 @@ namespace abut
                   ExcMessage("There is nothing to touch: call set_obstacle() "
                              "or set_pairs() first."));
       AssertThrow(
-          dof_handler->get_fe().n_components() == 1,
-          ExcMessage("Obstacles need a scalar field: the finite element has "
-                     + std::to_string(dof_handler->get_fe().n_components())
-                     + " components."));
+          host.dof_handler().get_fe().n_components() == 1,
+          ExcMessage(
+              "Obstacles need a scalar field: the finite element has "
+              + std::to_string(host.dof_handler().get_fe().n_components())
+              + " components."));
       const Message reason = shim::obstacle_refusal(
-          dof_handler->get_fe(), !obstacle.boundary_ids.empty());
+          host.dof_handler().get_fe(), !obstacle.boundary_ids.empty());
       if (!reason.empty())
         throw ObstacleError(reason);
       source = std::make_unique<shim::NodalObstacleRows<dim>>(
-          *mapping, *dof_handler, *constraints, obstacle);
+          host.mapping(), host.dof_handler(), host.constraints(), obstacle);
     }
     source_is_outdated = false;
     bodies.reset();
@@ -278,23 +239,29 @@ namespace abut
   }
 
   template <int dim>
-  solve::PointOperator
-  ContactAssembler<dim>::Implementation::make_operator(abut_points *const made,
-                                                       abut_points_view &result)
+  solve::PointOperator ContactAssembler<dim>::Implementation::make_operator(
+      abut_points *const made, shim::PairPoints<dim> *const elsewhere)
   {
-    check(abut_points_get(made, &result));
+    abut_points_view view = {};
+    check(abut_points_get(made, &view));
     // Rows between nodes that cannot move are no measure.
     std::vector<std::uint8_t> keep =
-        solve::rows_with_columns(result, source->nodes());
-    source->drop_needless(keep);
+        solve::rows_with_columns(view, source->nodes());
+    if (elsewhere == nullptr)
+      source->drop_needless(keep);
+    else
+      shim::drop_needless(*elsewhere, keep);
     if (MPI::logical_or(std::count(keep.begin(), keep.end(), 0) > 0,
                         communicator))
     {
-      source->filter(keep);
-      check(abut_points_get(made, &result));
+      if (elsewhere == nullptr)
+        source->filter(keep);
+      else
+        elsewhere->filter(keep);
+      check(abut_points_get(made, &view));
     }
-    return solve::PointOperator(dof_handler->locally_owned_dofs(), result,
-                                source->nodes(), communicator);
+    return solve::PointOperator(host.owned(), view, source->nodes(),
+                                communicator);
   }
 
   template <int dim>
@@ -309,12 +276,12 @@ namespace abut
     }
     if (surfaces != nullptr && makes_points_at_commits())
     {
-      check_committed(
+      committed.check(
           "Points of ABUT_KINEMATICS_UPDATED are made where bodies were at");
-      surfaces->set_place(committed);
+      surfaces->set().set_place(committed.displacement());
     }
     if (surfaces != nullptr)
-      surfaces->set_committed_poses(committed_poses, committed_times);
+      committed.give_poses(surfaces->set().obstacles());
     try
     {
       return source->find(displacement, points.get());
@@ -323,14 +290,13 @@ namespace abut
     {
       // The remaining points are not the ones that these were made of.
       coefficients = solve::PointOperator();
-      view = {};
       throw;
     }
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::set_up_rows()
   {
-    coefficients = make_operator(points.get(), view);
+    coefficients = make_operator(points.get());
     n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
                       communicator);
     // A solver is kept as long as it would be made of the same rows: in the
@@ -355,12 +321,12 @@ namespace abut
       coefficients.renew_constants(source->nodes());
     if (is_nitsche())
     {
-      find_stress();
+      nitsche.find(surfaces, coefficients.n_rows(), method.nitsche_theta);
       solver.reset();
     }
     rows_mesh = points_mesh;
     find_slip_reference();
-    find_start();
+    start.find(start_rows(), history);
   }
 
   template <int dim>
@@ -385,32 +351,18 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::check_committed(
-      const std::string &what) const
-  {
-    AssertThrow(!committed_is_lost,
-                ExcMessage(what
-                           + " the last commit(), whose displacement is not "
-                             "known any more after reinit() or load(): tell it "
-                             "by set_committed() before detect()."));
-  }
-
-  template <int dim>
   void ContactAssembler<dim>::Implementation::find_slip_reference()
   {
     slip_reference = {};
     has_friction = MPI::logical_or(coefficients.has_tangents(), communicator);
     if (!has_friction)
       return;
-    check_committed("Slips with friction are measured from");
-    surfaces->set_committed_poses(committed_poses, committed_times);
-    if (approach.size() != pairs.size())
-      approach.clear();
-    std::vector<la::Vector> way;
-    for (const auto &motions : approach)
-      way.push_back(motions.empty() ? la::Vector() : displacement_of(motions));
-    surfaces->set_approach(std::move(way));
-    slip_reference = source->slip_reference(committed);
+    committed.check("Slips with friction are measured from");
+    committed.give_poses(surfaces->set().obstacles());
+    surfaces->slip().set_approach(
+        committed.approach(pairs.size(), [&](const auto &motions)
+                           { return displacement_of(motions); }));
+    slip_reference = source->slip_reference(committed.displacement());
   }
 
   template <int dim>
@@ -418,7 +370,7 @@ namespace abut
       const std::vector<solve::RigidMotion> &motions) const
   {
     const solve::NearNullSpace &space = near_null_space();
-    la::Vector result(dof_handler->locally_owned_dofs(), communicator);
+    la::Vector result(host.owned(), communicator);
     for (std::size_t i = 0; i < space.point.size(); ++i)
     {
       const solve::RigidMotion &motion =
@@ -441,36 +393,8 @@ namespace abut
   {
     if (!has_friction)
       return;
-    approach.resize(pairs.size());
-    for (std::size_t p = 0; p < pairs.size(); ++p)
-    {
-      if (is_apart[p] == 0)
-        continue;
-      approach[p].resize(motions.size());
-      for (std::size_t body = 0; body < motions.size(); ++body)
-      {
-        approach[p][body].translation += motions[body].translation;
-        approach[p][body].rotation += motions[body].rotation;
-      }
-    }
+    committed.add_approach(motions, is_apart);
     find_slip_reference();
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::check_approach(
-      const la::Vector &displacement)
-  {
-    for (auto &motions : approach)
-    {
-      if (motions.empty())
-        continue;
-      const la::Vector way = displacement_of(motions);
-      la::Vector moved(displacement);
-      if (committed.size() > 0)
-        moved -= committed;
-      if (way * moved < 0.5 * (way * way))
-        motions.clear();
-    }
   }
 
   template <int dim> void ContactAssembler<dim>::Implementation::set_friction()
@@ -514,26 +438,6 @@ namespace abut
     return abut_law_needs_stress(method.options.law);
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::find_stress()
-  {
-    AssertThrow(
-        surfaces != nullptr,
-        ExcMessage("Method/Enforcement = nitsche is for elastic bodies, "
-                   "not for membranes. Use lagrange."));
-    AssertThrow(surface_traction != nullptr,
-                ExcMessage("Method/Enforcement = nitsche needs the stress of "
-                           "the bodies: call set_surface_traction() first."));
-    const solve::NodeMap nodes =
-        surfaces->find_stress(*surface_traction, stress.get());
-    abut_points_view stress_view;
-    check(abut_points_get(stress.get(), &stress_view));
-    nitsche.stress = solve::PointOperator(dof_handler->locally_owned_dofs(),
-                                          stress_view, nodes, communicator);
-    nitsche.theta = method.nitsche_theta;
-    nitsche.compliance.assign(coefficients.n_rows(), 0.);
-    nitsche.present.assign(coefficients.n_rows(), 0.);
-  }
-
   template <int dim>
   void ContactAssembler<dim>::Implementation::compute_gap(
       const la::Vector &displacement)
@@ -543,18 +447,13 @@ namespace abut
     slip_reference.subtract_from(gap);
     add_raises(coefficients, gap);
     if (is_nitsche())
-      nitsche.stress.gap(displacement, nitsche.present.data());
+      nitsche.move_to(displacement);
   }
 
   template <int dim>
   const double *ContactAssembler<dim>::Implementation::law_gap()
   {
-    if (!is_nitsche())
-      return gap.data();
-    nitsche_gap.resize(coefficients.n_rows());
-    for (int i = 0; i < coefficients.n_rows(); ++i)
-      nitsche_gap[i] = gap[i] + nitsche.compliance[i] * nitsche.present[i];
-    return nitsche_gap.data();
+    return is_nitsche() ? nitsche.law_gap(gap) : gap.data();
   }
 
   template <int dim>
@@ -565,11 +464,11 @@ namespace abut
     row_stiffness = solve::row_stiffness(compliance, coefficients);
     if (law_compliance.size() == 0)
     {
-      if (reference)
-        compliance = solve::compliance(*reference);
+      if (host.reference())
+        compliance = solve::compliance(*host.reference());
       law_compliance.swap(compliance);
       if (moves()) // directions turn, and the law must not
-        surfaces->make_isotropic(law_compliance);
+        surfaces->fields().make_isotropic(law_compliance);
     }
   }
 
@@ -591,11 +490,11 @@ namespace abut
   {
     stiffness = solve::row_stiffness(law_compliance, coefficients);
     if (surfaces != nullptr)
-      surfaces->spread_stiffness(stiffness);
+      surfaces->multipliers().spread_stiffness(stiffness);
     set_scales(matrix, residual);
     method.options.reduce = reduce_over_ranks;
     method.options.user = const_cast<MPI_Comm *>(&communicator);
-    const bool has_space = surfaces != nullptr && surfaces->has_points();
+    const bool has_space = surfaces != nullptr && surfaces->set().has_points();
     method.options.project = has_space ? project_on_nodes<dim> : nullptr;
     method.options.project_user = surfaces;
     abut_strategy_options options = method.options;
@@ -607,38 +506,37 @@ namespace abut
     set_friction();
 
     if (!is_nitsche() && surfaces != nullptr && is_penalty(*method.options.law))
-      surfaces->make_uniform(stiffness);
+      surfaces->multipliers().make_uniform(stiffness);
     if (surfaces != nullptr)
-      surfaces->copy_to_tangents(stiffness);
+      surfaces->multipliers().copy_to_tangents(stiffness);
     if (is_nitsche())
     {
       method.options.penalty = abut_strategy_first_penalty(&method.options);
-      for (int i = 0; i < coefficients.n_rows(); ++i)
-        nitsche.compliance[i] = 1. / (method.options.penalty * stiffness[i]);
+      nitsche.set_penalty(method.options.penalty, stiffness);
     }
-    if (surfaces != nullptr && !is_restarted
+    if (surfaces != nullptr && !start.is_restarted()
         && !abut_law_is_interior(method.options.law))
     {
       std::vector<double> scale(stiffness);
       for (double &c : scale)
         c *= method.options.complementarity;
-      start_state = surfaces->first_contact(
-          gap, start_pressure, scale,
-          touching * shim::smallest_body(near_null_space(), communicator));
+      start.set_state(surfaces->multipliers().first_contact(
+          gap, start.pressure(), scale,
+          touching * shim::smallest_body(near_null_space(), communicator)));
     }
     if (solver != nullptr)
       solver->begin_iteration(iteration());
     check_law(abut_strategy_start(
         strategy.get(), coefficients.n_rows(), coefficients.ids(),
         coefficients.weights(), stiffness.data(), coefficients.bilateral(),
-        law_gap(), start_pressure.empty() ? nullptr : start_pressure.data(),
-        start_state.empty() ? nullptr : start_state.data()));
+        law_gap(), start.pressure().empty() ? nullptr : start.pressure().data(),
+        start.state().empty() ? nullptr : start.state().data()));
     next();
     const solve::RowBlocks blocks(request);
     for (int block = 0; !blocks.empty() && block < blocks.n_blocks(); ++block)
       for (int r = 0, k = blocks.size(block); r < k; ++r)
         diagonal.push_back(blocks.at[block] + std::int64_t(r) * (k + 1));
-    given_field = la::Vector(); // is in the history now
+    start.give_field(la::Vector()); // is in the history now
     is_started = true;
   }
 
@@ -650,17 +548,14 @@ namespace abut
     result.start = &start_displacement;
     if (surfaces != nullptr)
     {
-      result.group = surfaces->row_pairs();
+      result.group = surfaces->points().row_pairs();
       result.n_groups = pairs.size();
     }
     result.approach = [this](const std::vector<solve::RigidMotion> &motions,
                              const std::vector<std::uint8_t> &is_apart)
     { add_approach(motions, is_apart); };
-    const bool is_pressed =
-        std::any_of(start_pressure.begin(), start_pressure.end(),
-                    [](const double p) { return p > 0.; });
-    result.turns = moves() && method.turning_terms
-                   && !MPI::logical_or(is_pressed, communicator);
+    result.turns =
+        moves() && method.turning_terms && !start.is_pressed(communicator);
     result.load = std::max(present_load, committed_load);
     result.linear_tolerance = method.options.final_linear_tolerance;
     return result;
@@ -686,7 +581,8 @@ namespace abut
     if (next > 1.001 * last * size || size == 0.)
       return false;
     foreseen_motion = next;
-    surfaces->foresee_motion(next);
+    surfaces->renew_points();
+    surfaces->set().foresee_motion(next);
     return true;
   }
 
@@ -700,8 +596,9 @@ namespace abut
       SolverParameters parameters = solver_parameters;
       if (is_nitsche() || !solver_has_matrix)
         parameters.linear = SolverParameters::Linear::iterative;
-      bodies = shim::make_solver_space(*mapping, *dof_handler, *constraints,
-                                       surfaces != nullptr, parameters);
+      bodies = shim::make_solver_space(host.mapping(), host.dof_handler(),
+                                       host.constraints(), surfaces != nullptr,
+                                       parameters);
     }
     return *bodies;
   }
@@ -743,12 +640,12 @@ namespace abut
     has_new_matrix = false;
     find_row_stiffness(of_host);
     const solve::Stiffness matrix =
-        solver_has_matrix ? with_geometry(of_host.matrix()) : of_host;
+        solver_has_matrix ? moving.with_geometry(of_host.matrix()) : of_host;
     if (solver == nullptr)
     {
       if (is_nitsche())
-        solver =
-            std::make_unique<solve::NitscheSolver>(solver_parameters, nitsche);
+        solver = std::make_unique<solve::NitscheSolver>(solver_parameters,
+                                                        nitsche.terms());
       else
         solver = solve::make_row_solver(method.system, solver_parameters,
                                         coefficients, solver_has_matrix);
@@ -776,7 +673,7 @@ namespace abut
   {
     // On the path of the barrier p g = mu, as far as the start knows p.
     double largest = 0.;
-    for (const double p : start_pressure)
+    for (const double p : start.pressure())
       largest = std::max(largest, p);
     largest = MPI::max(largest, communicator);
     const bool warm = largest > 0.;
@@ -785,7 +682,7 @@ namespace abut
     std::vector<double> margin(coefficients.n_rows(), barrier * length_scale());
     if (warm)
       for (int i = 0; i < coefficients.n_rows(); ++i)
-        margin[i] *= largest / std::max(start_pressure[i], 1e-2 * largest);
+        margin[i] *= largest / std::max(start.pressure(i), 1e-2 * largest);
     source->push_inside(gap, margin, displacement);
   }
 

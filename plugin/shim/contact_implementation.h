@@ -2,16 +2,18 @@
 #ifndef ABUT_SHIM_CONTACT_IMPLEMENTATION_H
 #define ABUT_SHIM_CONTACT_IMPLEMENTATION_H
 
+#include "committed_state.h"
 #include "contact_history.h"
+#include "contact_host.h"
 #include "gap_raise.h"
 #include "handles.h"
-#include "host_matrix_copy.h"
+#include "moving_rows.h"
+#include "nitsche_rows.h"
 #include "row_source.h"
-#include "solve/gap_substitution.h"
 #include "solve/local_elimination.h"
-#include "solve/nitsche_solver.h"
 #include "solve/row_solver.h"
-#include "surface_pair_rows.h"
+#include "start_values.h"
+#include "surface_rows.h"
 
 #include <abut/dealii/contact_assembler.h>
 
@@ -25,7 +27,7 @@ namespace abut
   template <int dim> struct ContactAssembler<dim>::Implementation
   {
     explicit Implementation(const MPI_Comm communicator)
-        : communicator(communicator)
+        : communicator(communicator), host(communicator)
     {
       // Options without a law are those of lagrange.
       method.options.law = abut_law_find("lagrange");
@@ -37,16 +39,8 @@ namespace abut
     void check_law(const abut_status status) const;
     /** The source of the present rows; throws if there is none. */
     const shim::RowSource &present_source() const;
-    /** Throw, with the name of the @p call, unless there was a reinit() and
-     * the unknowns are as many as they were in it. */
-    void check_mesh(const std::string &call) const;
-    /** The same, but without reinit() there is nothing to throw about. */
-    void check_unchanged(const std::string &call) const;
-    /** The same as check_mesh(), and unless there are rows. */
+    /** As ContactHost::check_mesh(), and throw unless there are rows. */
     void check_rows(const std::string &call) const;
-    /** Throw if @p what is not of the present unknowns. */
-    void check_size(const std::string &call, const std::string &what,
-                    dealii::types::global_dof_index size) const;
     void create_source();
     /** Keep the counts of an exchange that is about to go. */
     void count_messages();
@@ -60,41 +54,30 @@ namespace abut
     shim::RowSource::Change find_points(const la::Vector &displacement);
     /** Make all that belongs to new points. Collective. */
     void set_up_rows();
-    /** Take out the rows of the source's points, just made, that need none, and
-     * make the operator of the others. Collective. */
-    solve::PointOperator make_operator(abut_points *made,
-                                       abut_points_view &result);
+    /** Take out the rows of points, just made, that need none, and make the
+     * operator of the others. @p elsewhere: the points if they are not those of
+     * the source. Collective. */
+    solve::PointOperator
+    make_operator(abut_points *made,
+                  shim::PairPoints<dim> *elsewhere = nullptr);
     /** Make what has been reached the trial version of the history. */
     void record_present();
-    /** Find the pressures that the next solve starts from. */
-    void find_start();
-    /** Keep the rows' pressures as a field, in case that other surfaces
-     * follow. */
-    void keep_field();
-    void start_from_field(const la::Vector &field);
-    void start_from_history();
-    /** No tension but of ties. */
-    void limit_start();
+    /** The present rows, for start values. */
+    shim::StartRows start_rows() const;
     /** Take up the penalty that was reached on other ranks. */
     void go_on_with_penalty(abut_strategy_options &options);
     /** Forget an iteration without its result. */
     void abandon_iteration();
     /** The same, and begin again with the trial version. */
     void return_to_history();
-    void find_stress();
     /** Gaps, and slips since the last commit(). */
     void compute_gap(const la::Vector &displacement);
-    /** Slips are measured from where obstacles are now. */
-    void record_poses();
     /** Find the reference of slips, with the present points. Collective. */
     void find_slip_reference();
     /** Note what bodies move before pairs touch, which is no slip. Collective.
      */
     void add_approach(const std::vector<solve::RigidMotion> &motions,
                       const std::vector<std::uint8_t> &is_apart);
-    /** Forget it where @p displacement has not gone that way, as at a new
-     * attempt. Collective. */
-    void check_approach(const la::Vector &displacement);
     /** A motion on the present mesh. */
     la::Vector
     displacement_of(const std::vector<solve::RigidMotion> &motions) const;
@@ -130,19 +113,12 @@ namespace abut
       return kinematics_info(method.kinematics).points
              == ABUT_CONFIGURATION_COMMITTED;
     }
-    /** Throws if the displacement of the last commit() is not known. */
-    void check_committed(const std::string &what) const;
-    /** Data of rows, by their numbers: pressures and, unless the iteration has
-     * none, states. */
-    struct RowValues
-    {
-      std::map<std::int64_t, std::pair<double, std::uint8_t>> of;
-      bool has_states = false;
-    };
-    RowValues row_values() const;
+    /** Pressures and states by the numbers of the rows. */
+    shim::RowValues row_values() const;
     /** Make rows at this displacement, which start from what those of the same
-     * number have. Collective. */
-    void move_rows(const la::Vector &displacement);
+     * number have had. Collective. */
+    void move_rows(const la::Vector &displacement,
+                   const shim::RowValues &before);
     /** Take the rows to this displacement, if they are the same there.
      * Collective. */
     void follow(const la::Vector &displacement);
@@ -156,21 +132,11 @@ namespace abut
     /** The rows at this displacement, while the present ones stay. Collective.
      */
     RowsElsewhere rows_at(const la::Vector &displacement);
-    /** Compare the surfaces' points with those of the rows. */
-    void record_changes(
-        const typename shim::SurfacePairRows<dim>::SavedPoints &before);
     /** Find the change of the forces of the rows' pressures because rows move.
      * Collective. */
     void find_geometry();
-    /** The host's matrix with that; lives until the next call. Collective. */
-    const la::Matrix &with_geometry(const la::Matrix &matrix);
-    /** The residual with that, as far as the iteration has come. */
-    la::Vector with_geometry(const la::Vector &residual) const;
     /** How gaps change because directions and partners do. Collective. */
     void find_substitution();
-    /** Make the displacements from the result of a solver, and store that.
-     * Collective. */
-    void apply_substitution(la::Vector &increment);
     /** Gaps where the iteration has come to. Collective. */
     void update_gap(const la::Vector &displacement);
     /** Add the part of the coordinates that stands for the round-off of gaps
@@ -181,6 +147,8 @@ namespace abut
     double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
     /** See ContactAssembler::raise_gaps(). Collective. */
     bool raise_gaps(const la::Vector &displacement);
+    /** See ContactAssembler::limit_raises(). Collective. */
+    bool limit_raises(const la::Vector &displacement);
     /** Whether that has stopped before all such rows were open. */
     bool raises_end_early() const;
     /** From how far on surfaces are apart for that, length. Collective. */
@@ -198,25 +166,6 @@ namespace abut
      * have to move. Returns whether it does. Collective. */
     bool widen_search();
     void begin(const solve::Stiffness &matrix, const la::Vector &residual);
-    /** The tangent with its unknowns. Throws where it is not of as many as in
-     * reinit(). */
-    /** The argument of a host in a @p call: the vector itself, or its view's
-     * copy. Throws, on all ranks, if it is not one of the present unknowns.
-     * Collective. */
-    const la::Vector &checked_vector(const std::string &call,
-                                     const std::string &what,
-                                     const la::VectorView &given) const;
-    la::Vector &
-    checked_mutable_vector(const std::string &call, const std::string &what,
-                           const la::MutableVectorView &given) const;
-    /** Unknowns of the displacement if they come before all others, else 0. */
-    dealii::types::global_dof_index displacement_block() const;
-    /** A matrix of another type is copied, to @p copy or the one of the present
-     * step. Throws, on all ranks, if it is not one of the present unknowns.
-     * Collective. */
-    solve::Stiffness stiffness_of(const std::string &call,
-                                  const Tangent &tangent,
-                                  shim::HostMatrixCopy *copy = nullptr) const;
     /** Throws if a matrix is needed. */
     void check_host() const;
     /** Made once for each mesh. Collective. */
@@ -245,12 +194,6 @@ namespace abut
     double soft_on_purpose() const;
     /** How far a row's pressure and a gap are from the law, length. */
     double law_defect(int row, double gap_there) const;
-    /** The one that penalties are multiples of. */
-    solve::Stiffness stiffness_matrix(const solve::Stiffness &present) const
-    {
-      return reference.value_or(present);
-    }
-
     const MPI_Comm communicator;
     Obstacle<dim> obstacle;
     std::vector<ContactPair<dim>> pairs;
@@ -260,21 +203,15 @@ namespace abut
     SearchParameters search;
     SolverParameters solver_parameters;
     bool constant_matrix = false;
-    std::optional<solve::Stiffness> reference; ///< none: the present one
-    /** Copies of hosts' matrices of other types: the present one, and
-     * reference. */
-    mutable shim::HostMatrixCopy copied, copied_reference;
     double given_length = 0.; ///< 0: none
 
     /** Before all that is made with it, and so destroyed after it. */
     shim::Handle<abut_context> context = shim::create_context();
 
-    const dealii::Mapping<dim> *mapping = nullptr;
-    const dealii::DoFHandler<dim> *dof_handler = nullptr;
-    const dealii::AffineConstraints<double> *constraints = nullptr;
+    shim::ContactHost<dim> host;
     std::unique_ptr<shim::RowSource> source;
     /** The same object if it makes rows of pairs, else null. */
-    shim::SurfacePairRows<dim> *surfaces = nullptr;
+    shim::SurfaceRows<dim> *surfaces = nullptr;
     /** The facets of pairs on this mesh, once they are found. */
     std::shared_ptr<shim::SurfaceExchange<dim>> exchange;
     CommunicationReport sent_before; ///< on earlier meshes
@@ -285,58 +222,27 @@ namespace abut
     mutable std::optional<solve::NearNullSpace> bodies;
     std::uint64_t points_mesh = 0; ///< signature of the points' mesh
     bool has_rows = false;         ///< since reinit(), by detect()
-    dealii::types::global_dof_index n_unknowns = 0; ///< in reinit()
 
     shim::Handle<abut_points> points; ///< of the last detect()
     int points_dimension = 0;         ///< unknowns of their nodes
     shim::Handle<abut_strategy> strategy;
-    abut_points_view view = {};
     solve::PointOperator coefficients; ///< B, by component of the points
     dealii::types::global_dof_index n_rows = 0;
 
-    std::shared_ptr<const SurfaceTraction<dim>> surface_traction;
-    shim::Handle<abut_points> stress = shim::create_points(context.get(), 1);
-    solve::NitscheTerms nitsche;
-    std::vector<double> nitsche_gap; ///< [rows] gap + stress / gamma
+    shim::NitscheRows<dim> nitsche{context.get()};
 
     shim::ContactHistory history{context.get(), communicator};
-    bool is_forgotten = false; ///< by reinit(), unless set_pressure() follows
-    la::Vector given_field;    ///< by set_pressure(); empty: none
-    la::Vector kept_field;     ///< of other surfaces; empty: none
-    std::vector<double> start_pressure;    ///< [rows] at least 0 unless
-                                           ///< bilateral; empty: 0
-    std::vector<std::uint8_t> start_state; ///< [rows]; empty: from p and g
-    bool is_restarted = false;             ///< from the last iteration's end
+    shim::StartValues start;
     std::uint64_t rows_mesh = 0; ///< signature of the rows' mesh; 0: no rows
     std::vector<shim::PlacedRow> placed_rows; ///< of the rows
     shim::ContactHistory::Penalty penalty;    ///< of this iteration
-    shim::ContactHistory::Penalty resumed;    ///< that it may go on with
     la::Vector start_displacement;
-    /** Stiffness of rows that move, with the pressures that an iteration starts
-     * from; null: none. */
-    std::unique_ptr<la::Matrix> geometry;
-    std::unique_ptr<la::Matrix> sum_with_geometry; ///< null: not made yet
-    /** Substitution for rows that move: solvers see its v; null: the
-     * displacement. */
-    std::unique_ptr<solve::GapSubstitution> substitution;
-    la::Vector substituted;           ///< v that the iteration has come to
-    la::Vector substituted_increment; ///< of the last solve(); empty: none
-    la::Vector present_displacement;  ///< with geometry
-    PartnerChanges partner_changes;   ///< of this rank, since linearise()
-    std::vector<double> gap;          ///< [rows] at the current displacement
-    bool has_friction = false;        ///< some pair has, on all ranks
-    la::Vector committed; ///< displacement of the last commit(); empty: 0
-    std::vector<RigidPose<dim>> committed_poses; ///< of obstacles; empty: first
-    std::vector<double> committed_times;         ///< of obstacles, likewise
-    bool committed_is_lost = false;              ///< of another mesh or run
+    shim::MovingRows moving;
+    std::vector<double> gap;   ///< [rows] at the current displacement
+    bool has_friction = false; ///< some pair has, on all ranks
+    shim::CommittedState<dim> committed;
     shim::RowSource::SlipReference slip_reference;
-    /** Amounts that gaps are raised by where surfaces are apart, length > 0, by
-     * the number of the row, and how often they have been since detect(). */
-    std::map<std::int64_t, shim::GapRaise> raised;
-    unsigned int n_raises = 0;
-    /** [pairs][bodies] what bodies have moved since then before the pair
-     * touched; empty: nothing. */
-    std::vector<std::vector<solve::RigidMotion>> approach;
+    shim::GapRaises raises;
     /** [rows] place of a row's own derivatives in those of the request. */
     std::vector<std::int64_t> diagonal;
     /** Compliance of each unknown of this rank, in the matrix that penalties

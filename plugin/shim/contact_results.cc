@@ -14,13 +14,13 @@ namespace abut
     /** At all unknowns, from pressures by row; as many as @p like has.
      * Collective. */
     template <int dim>
-    la::Vector forces_of(const shim::SurfacePairRows<dim> &surfaces,
+    la::Vector forces_of(const shim::SurfaceRows<dim> &surfaces,
                          const std::vector<double> &pressures,
                          const la::Vector &like)
     {
       la::Vector result(like);
       result = 0.;
-      surfaces.find_forces(pressures, result);
+      surfaces.fields().find_forces(pressures, result);
       return result;
     }
   } // namespace
@@ -28,7 +28,7 @@ namespace abut
   template <int dim> double ContactAssembler<dim>::contact_force() const
   {
     const Implementation &i = *implementation;
-    i.check_unchanged("contact_force()");
+    i.host.check_unchanged("contact_force()");
     double force = 0.;
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
       if (i.surfaces == nullptr)
@@ -47,17 +47,17 @@ namespace abut
     Implementation &i = *implementation;
     i.check_rows("step_motion()");
     const la::Vector &displacement =
-        i.checked_vector("step_motion()", "displacement", given_displacement);
+        i.host.vector("step_motion()", "displacement", given_displacement);
     if (i.surfaces == nullptr)
       return {};
     const std::vector<std::uint8_t> states = i.row_states();
-    return i.surfaces->step_motion(displacement, states.data());
+    return shim::step_motion(i.surfaces->points(), displacement, states.data());
   }
 
   template <int dim>
   PartnerChanges ContactAssembler<dim>::partner_changes() const
   {
-    PartnerChanges result = implementation->partner_changes;
+    PartnerChanges result = implementation->moving.changes();
     for (std::uint64_t *count : {&result.lost, &result.jumped})
       *count = MPI::sum(*count, implementation->communicator);
     return result;
@@ -84,7 +84,7 @@ namespace abut
       *count = MPI::max(*count, i.communicator);
     result.seconds = MPI::max(result.seconds, i.communicator);
     if (i.surfaces != nullptr && i.has_rows)
-      i.elements.compare(i.surfaces->contact_elements(), result,
+      i.elements.compare(i.surfaces->points().contact_elements(), result,
                          i.communicator);
     return result;
   }
@@ -92,7 +92,7 @@ namespace abut
   template <int dim> double ContactAssembler<dim>::complementarity() const
   {
     const Implementation &i = *implementation;
-    i.check_unchanged("complementarity()");
+    i.host.check_unchanged("complementarity()");
     double sums[2] = {0., 0.};
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {
@@ -109,7 +109,7 @@ namespace abut
   template <int dim> double ContactAssembler<dim>::complementarity_error() const
   {
     const Implementation &i = *implementation;
-    i.check_unchanged("complementarity_error()");
+    i.host.check_unchanged("complementarity_error()");
     double sum = 0.;
     for (int row = 0; row < i.coefficients.n_rows() && i.is_started; ++row)
     {
@@ -131,13 +131,13 @@ namespace abut
   template <int dim> double ContactAssembler<dim>::allowed_penetration() const
   {
     const Implementation &i = *implementation;
-    i.check_unchanged("allowed_penetration()");
+    i.host.check_unchanged("allowed_penetration()");
     const abut_law *law = i.method.options.law;
     // Multipliers shared by the nodes close gaps of points in the mean only;
     // what is left of them is a penalty.
     const bool is_closed =
         abut_law_updates_multipliers(law)
-        && (i.surfaces == nullptr || !i.surfaces->has_points());
+        && (i.surfaces == nullptr || !i.surfaces->set().has_points());
     if (!i.is_started || !abut_law_has_penalty(law) || is_closed)
       return 0.;
     const double penalty = progress().penalty;
@@ -158,13 +158,13 @@ namespace abut
   {
     const Implementation &i = *implementation;
     i.check_rows("add_forces_on_supports()");
-    la::Vector &forces = i.checked_mutable_vector("add_forces_on_supports()",
-                                                  "force", given_forces);
+    la::Vector &forces = i.host.mutable_vector("add_forces_on_supports()",
+                                               "force", given_forces);
     if (i.surfaces == nullptr)
       return;
     const la::Vector all = forces_of(*i.surfaces, i.row_pressures(), forces);
-    const dealii::IndexSet &owned = i.dof_handler->locally_owned_dofs();
-    for (const auto &line : i.constraints->get_lines())
+    const dealii::IndexSet &owned = i.host.owned();
+    for (const auto &line : i.host.constraints().get_lines())
       if (owned.is_element(line.index))
         forces(line.index) += all(line.index);
     forces.compress(dealii::VectorOperation::add);
@@ -176,8 +176,8 @@ namespace abut
   {
     const Implementation &i = *implementation;
     i.check_rows("add_pressure_forces()");
-    la::Vector &forces = i.checked_mutable_vector("add_pressure_forces()",
-                                                  "force", given_forces);
+    la::Vector &forces =
+        i.host.mutable_vector("add_pressure_forces()", "force", given_forces);
     if (i.surfaces == nullptr)
       return;
     std::vector<double> pressures = i.row_pressures();
@@ -190,7 +190,7 @@ namespace abut
   template <int dim> double ContactAssembler<dim>::penetration() const
   {
     const Implementation &i = *implementation;
-    i.check_unchanged("penetration()");
+    i.host.check_unchanged("penetration()");
     double largest = 0.;
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
       if (!i.coefficients.is_tangent(row))
@@ -203,21 +203,21 @@ namespace abut
   template <int dim> la::Vector ContactAssembler<dim>::pressure() const
   {
     const Implementation &i = *implementation;
-    i.check_unchanged("pressure()");
+    i.host.check_unchanged("pressure()");
     return i.present_source().pressure(i.row_pressures().data());
   }
 
   template <int dim> la::Vector ContactAssembler<dim>::gap() const
   {
     const Implementation &i = *implementation;
-    i.check_unchanged("gap()");
+    i.host.check_unchanged("gap()");
     return i.present_source().gap(i.gap.data());
   }
 
   template <int dim> la::Vector ContactAssembler<dim>::slip() const
   {
     const Implementation &i = *implementation;
-    i.check_unchanged("slip()");
+    i.host.check_unchanged("slip()");
     // The field has p n - tau, by the numbers of the rows.
     std::vector<double> values(i.coefficients.n_rows(), 0.);
     const std::vector<std::uint8_t> states = i.row_states();
@@ -230,7 +230,7 @@ namespace abut
   template <int dim> la::Vector ContactAssembler<dim>::status() const
   {
     const Implementation &i = *implementation;
-    i.check_unchanged("status()");
+    i.host.check_unchanged("status()");
     return i.present_source().status(i.row_states().data());
   }
 
@@ -241,7 +241,7 @@ namespace abut
     const Implementation &i = *implementation;
     i.check_rows("imbalance()");
     const la::Vector &residual =
-        i.checked_vector("imbalance()", "residual", given_residual);
+        i.host.vector("imbalance()", "residual", given_residual);
     la::Vector contact(residual);
     contact = 0.;
     i.add_forces(contact);
@@ -265,19 +265,19 @@ namespace abut
       const Tangent &tangent, const la::VectorView &given_displacement) const
   {
     const Implementation &i = *implementation;
-    i.check_mesh("size_of_forces()");
+    i.host.check_mesh("size_of_forces()");
     if (!tangent.has_matrix())
       return {};
     // One of Abut's type is that of a solve, which has examined it.
     const solve::Stiffness stiffness =
         tangent.other() == nullptr
             ? solve::Stiffness(tangent.matrix())
-            : i.stiffness_of("size_of_forces()", tangent);
-    la::Vector free(i.checked_vector("size_of_forces()", "displacement",
-                                     given_displacement));
+            : i.host.stiffness("size_of_forces()", tangent);
+    la::Vector free(
+        i.host.vector("size_of_forces()", "displacement", given_displacement));
     if (i.moves())
       i.add_round_off_of_positions(free);
-    i.constraints->set_zero(free);
+    i.host.constraints().set_zero(free);
     const la::LocalRows rows = la::local_rows(stiffness.matrix());
     const std::vector<double> u = la::gather(stiffness.matrix(), free);
     double sums[2] = {0., 0.};
@@ -297,19 +297,21 @@ namespace abut
   std::vector<PairCheck> ContactAssembler<dim>::pair_checks() const
   {
     const auto *surfaces = implementation->surfaces;
-    return surfaces == nullptr ? std::vector<PairCheck>() : surfaces->checks();
+    return surfaces == nullptr ? std::vector<PairCheck>()
+                               : surfaces->points().checks();
   }
 
   template <int dim>
   std::vector<PairResult<dim>> ContactAssembler<dim>::pair_results() const
   {
     const Implementation &i = *implementation;
-    i.check_unchanged("pair_results()");
+    i.host.check_unchanged("pair_results()");
     if (i.surfaces == nullptr)
       return {};
     const std::vector<double> pressure = i.row_pressures();
     const std::vector<std::uint8_t> state = i.row_states();
-    return i.surfaces->results(pressure.data(), i.gap.data(), state.data());
+    return i.surfaces->examination().results(pressure.data(), i.gap.data(),
+                                             state.data());
   }
 
   template <int dim>
@@ -318,10 +320,11 @@ namespace abut
   {
     const Implementation &i = *implementation;
     i.check_rows("transfer_errors()");
-    const la::Vector &displacement = i.checked_vector(
-        "transfer_errors()", "displacement", given_displacement);
-    return i.surfaces == nullptr ? std::vector<double>()
-                                 : i.surfaces->transfer_errors(displacement);
+    const la::Vector &displacement =
+        i.host.vector("transfer_errors()", "displacement", given_displacement);
+    return i.surfaces == nullptr
+               ? std::vector<double>()
+               : shim::transfer_errors(i.surfaces->points(), displacement);
   }
 
   template <int dim>
@@ -330,11 +333,11 @@ namespace abut
   {
     Implementation &i = *implementation;
     i.check_rows("check_penetration()");
-    const la::Vector &displacement = i.checked_vector(
+    const la::Vector &displacement = i.host.vector(
         "check_penetration()", "displacement", given_displacement);
     if (i.surfaces == nullptr)
       return {};
-    return i.surfaces->penetrations(displacement, tolerance);
+    return shim::penetrations(i.surfaces->points(), displacement, tolerance);
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

@@ -26,8 +26,8 @@ namespace abut
     // Internal forces at the start measure the load when the residual is
     // small because the start is good.
     la::Vector internal(residual);
-    stiffness_matrix(matrix).vmult(internal, start_displacement);
-    constraints->set_zero(internal);
+    host.reference_or(matrix).vmult(internal, start_displacement);
+    host.constraints().set_zero(internal);
     smallest_residual = method.options.final_linear_tolerance
                         * std::max(residual.l2_norm(), internal.l2_norm());
 
@@ -82,7 +82,7 @@ namespace abut
       return displacement.linfty_norm();
     return std::min(shim::largest_displacement(near_null_space(), displacement,
                                                communicator),
-                    surfaces->facet_size());
+                    surfaces->set().facet_size());
   }
 
   template <int dim>
@@ -95,7 +95,8 @@ namespace abut
   template <int dim>
   double ContactAssembler<dim>::Implementation::unmeasured_length() const
   {
-    const double facet = surfaces == nullptr ? 0. : surfaces->facet_size();
+    const double facet =
+        surfaces == nullptr ? 0. : surfaces->set().facet_size();
     return facet > 0. ? facet : 1.; // any: there is no row, or none has a gap
   }
 

@@ -35,73 +35,12 @@ namespace abut
     return {coefficients.ids(), coefficients.ids() + coefficients.n_rows()};
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::limit_start()
+  template <int dim>
+  shim::StartRows ContactAssembler<dim>::Implementation::start_rows() const
   {
     // A law of the user's may pull.
-    if (abut_law_find(method.options.law->name) != method.options.law)
-      return;
-    for (int i = 0; i < coefficients.n_rows(); ++i)
-      if (coefficients.bilateral()[i] == 0 && !coefficients.is_tangent(i))
-        start_pressure[i] = std::max(0., start_pressure[i]);
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::start_from_history()
-  {
-    start_pressure = history.pressures(row_numbers(), placed_rows);
-    resumed = history.penalty_to_resume();
-    limit_start();
-  }
-
-  template <int dim> void ContactAssembler<dim>::Implementation::keep_field()
-  {
-    if (source != nullptr && rows_mesh != 0 && !is_forgotten)
-      kept_field = source->pressure(row_pressures().data());
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::start_from_field(
-      const la::Vector &given)
-  {
-    start_pressure = source->row_pressure(given);
-    limit_start();
-    if (history.knows(ABUT_HISTORY_TRIAL, rows_mesh))
-    {
-      // The field that the rows' own values make stands for these values.
-      constexpr double same_field = 1e-8;
-      const std::vector<double> own =
-          history.pressures(row_numbers(), placed_rows);
-      const la::Vector field = source->pressure(own.data());
-      la::Vector difference(field);
-      difference = given;
-      difference -= field;
-      if (difference.linfty_norm() <= same_field * field.linfty_norm())
-      {
-        start_from_history();
-        return;
-      }
-    }
-    history.record(rows_mesh, row_numbers(), placed_rows, start_pressure,
-                   row_states(), shim::ContactHistory::Penalty());
-    // Only this can be restored from another mesh.
-    if (!history.knows(ABUT_HISTORY_COMMITTED, rows_mesh))
-      history.commit();
-  }
-
-  template <int dim> void ContactAssembler<dim>::Implementation::find_start()
-  {
-    start_pressure.clear();
-    resumed = shim::ContactHistory::Penalty();
-    if (given_field.size() > 0)
-      start_from_field(given_field);
-    else if (is_forgotten)
-      history.forget_trial();
-    else if (history.knows(ABUT_HISTORY_TRIAL, rows_mesh))
-      start_from_history();
-    else if (kept_field.size() > 0)
-      start_from_field(kept_field);
-    kept_field = la::Vector();
-    is_forgotten = false;
+    return {*source, coefficients, placed_rows, rows_mesh,
+            abut_law_find(method.options.law->name) != method.options.law};
   }
 
   template <int dim>
@@ -111,28 +50,25 @@ namespace abut
     penalty = {
         std::string(options.law->name).substr(0, ABUT_HISTORY_LAW_BYTES - 1),
         abut_strategy_first_penalty(&options), 0.};
-    if (resumed.reached > 0. && resumed.law == penalty.law
-        && resumed.first == penalty.first)
-      options.penalty = resumed.reached;
+    const double reached = start.resumed_penalty(penalty);
+    if (reached > 0.)
+      options.penalty = reached;
   }
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::start_from_present()
   {
-    start_pressure = row_pressures();
-    limit_start();
-    is_restarted = true;
-    start_state.clear();
+    std::vector<std::uint8_t> state;
     if (!abut_law_is_interior(method.options.law))
-      start_state.assign(request.state, request.state + coefficients.n_rows());
+      state = row_states();
+    start.go_on(start_rows(), row_pressures(), std::move(state));
   }
 
   template <int dim>
   void ContactAssembler<dim>::Implementation::abandon_iteration()
   {
-    is_started = is_restarted = was_added = false;
-    given_field = la::Vector();
-    start_state.clear();
+    is_started = was_added = false;
+    start.abandon();
     iteration_tolerance = 0.;
   }
 
@@ -140,22 +76,12 @@ namespace abut
   void ContactAssembler<dim>::Implementation::return_to_history()
   {
     abandon_iteration();
-    is_forgotten = false;
-    start_pressure.clear();
-    if (history.knows(ABUT_HISTORY_TRIAL, rows_mesh))
-      start_from_history();
-  }
-
-  template <int dim> void ContactAssembler<dim>::Implementation::record_poses()
-  {
-    committed_poses.clear();
-    committed_times.clear();
-    for (const ContactPair<dim> &pair : pairs)
+    if (source == nullptr)
+      start.return_to_history(nullptr, history);
+    else
     {
-      committed_poses.push_back(
-          pair.obstacle == nullptr ? RigidPose<dim>() : pair.obstacle->pose());
-      committed_times.push_back(
-          pair.obstacle == nullptr ? 0. : pair.obstacle->time());
+      const shim::StartRows rows = start_rows();
+      start.return_to_history(&rows, history);
     }
   }
 
@@ -163,26 +89,25 @@ namespace abut
   void ContactAssembler<dim>::commit(const la::VectorView &given_displacement)
   {
     Implementation &i = *implementation;
-    i.check_mesh("commit()");
+    i.host.check_mesh("commit()");
     const la::Vector &displacement =
-        i.checked_vector("commit()", "displacement", given_displacement);
+        i.host.vector("commit()", "displacement", given_displacement);
     i.record_present();
     i.history.commit();
     i.committed_load = std::max(i.committed_load, i.present_load);
-    i.approach.clear();
     if (i.surfaces != nullptr && i.has_rows)
-      i.elements.commit(i.surfaces->contact_elements(), i.communicator);
+      i.elements.commit(i.surfaces->points().contact_elements(),
+                        i.communicator);
     if (i.surfaces != nullptr)
-      i.surfaces->record_commit(displacement);
+      i.surfaces->set().record_commit(displacement);
     // Pairs with friction may be out of reach of each other as yet. Pairs that
     // reach each other later need a reference of slips.
     const bool is_wanted = i.makes_points_at_commits()
                            || std::any_of(i.pairs.begin(), i.pairs.end(),
                                           [](const ContactPair<dim> &pair)
                                           { return pair.friction != nullptr; });
-    i.committed = is_wanted ? displacement : la::Vector();
-    i.committed_is_lost = !is_wanted;
-    i.record_poses();
+    i.committed.record(is_wanted ? displacement : la::Vector(), is_wanted,
+                       i.pairs);
     if (!is_wanted)
       return;
     if (i.has_rows)
@@ -194,15 +119,12 @@ namespace abut
   ContactAssembler<dim>::set_committed(const la::VectorView &given_displacement)
   {
     Implementation &i = *implementation;
-    i.check_mesh("set_committed()");
+    i.host.check_mesh("set_committed()");
     const la::Vector &displacement =
-        i.checked_vector("set_committed()", "displacement", given_displacement);
-    i.committed = displacement;
-    i.approach.clear();
-    i.committed_is_lost = false;
+        i.host.vector("set_committed()", "displacement", given_displacement);
     if (i.surfaces != nullptr)
-      i.surfaces->record_commit(displacement);
-    i.record_poses();
+      i.surfaces->set().record_commit(displacement);
+    i.committed.record(displacement, true, i.pairs);
     if (i.has_rows)
       i.find_slip_reference();
   }
@@ -219,7 +141,7 @@ namespace abut
     i.history.save(stream);
     i.elements.save(stream, i.communicator);
     if (i.surfaces != nullptr)
-      i.surfaces->save_sides(stream);
+      i.exchange->self_contact().save(stream);
     // Who loads has no preconditioner, nor points that were made earlier: then
     // neither should this run.
     i.solver.reset();
@@ -230,7 +152,7 @@ namespace abut
   template <int dim> void ContactAssembler<dim>::load(std::istream &stream)
   {
     Implementation &i = *implementation;
-    i.check_mesh("load()");
+    i.host.check_mesh("load()");
     if (i.source_is_outdated)
       i.create_source();
     const std::uint64_t mesh = i.source->mesh_signature();
@@ -245,16 +167,18 @@ namespace abut
     i.elements = std::move(elements);
     // Displacements are the host's to keep: that of the commit() must come from
     // there, or slips would be measured from the reference configuration.
-    if (i.committed.size() == 0
+    if (i.committed.displacement().size() == 0
         && i.history.knows(ABUT_HISTORY_COMMITTED, mesh))
-      i.committed_is_lost = true;
+      i.committed.lose();
     i.return_to_history();
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
+  template std::vector<std::int64_t>                                           \
+  ContactAssembler<dim>::Implementation::row_numbers() const;                  \
+  template shim::StartRows ContactAssembler<dim>::Implementation::start_rows() \
+      const;                                                                   \
   template void ContactAssembler<dim>::Implementation::record_present();       \
-  template void ContactAssembler<dim>::Implementation::find_start();           \
-  template void ContactAssembler<dim>::Implementation::keep_field();           \
   template void ContactAssembler<dim>::Implementation::go_on_with_penalty(     \
       abut_strategy_options &);                                                \
   template void ContactAssembler<dim>::Implementation::start_from_present();   \

@@ -17,6 +17,11 @@
 
 namespace abut::shim
 {
+  /** Number of a node of a surface. */
+  using NodeIndex = std::int32_t;
+
+  template <int dim> using Direction = dealii::Tensor<1, dim>;
+
   /** The part of the contact surfaces that a rank knows: its own facets, those
    * around its nodes, and those that may touch one of these; with all data that
    * rows need of their nodes. Facets and nodes are sorted by numbers that do

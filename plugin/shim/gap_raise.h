@@ -2,7 +2,11 @@
 #ifndef ABUT_SHIM_GAP_RAISE_H
 #define ABUT_SHIM_GAP_RAISE_H
 
+#include "start_values.h"
+
 #include <algorithm>
+#include <cstdint>
+#include <map>
 
 namespace abut::shim
 {
@@ -47,6 +51,18 @@ namespace abut::shim
                              * last
                  : std::max(0., present_clearance - (gap - value));
     }
+  };
+
+  /** Amounts that gaps of rows are raised by, since detect(). */
+  struct GapRaises
+  {
+    std::map<std::int64_t, GapRaise> of; ///< length > 0, by number of the row
+    unsigned int n = 0;                  ///< how often they have been changed
+    /** The first of them if no row is opened altogether, values of rows before
+     * that, and whether any row was opened. */
+    std::map<std::int64_t, GapRaise> unopened;
+    RowValues before;
+    bool may_limit = false;
   };
 } // namespace abut::shim
 

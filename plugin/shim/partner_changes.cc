@@ -33,20 +33,20 @@ namespace abut::shim
   } // namespace
 
   template <int dim>
-  PartnerChanges count_changes(const PlacedPoints<dim> &before,
-                               const PlacedPoints<dim> &now,
+  PartnerChanges count_changes(const PairPoints<dim> &before,
+                               const PairPoints<dim> &now,
                                const std::set<std::int64_t> &pressing)
   {
     const auto first_id = [](const abut_points_view &view, std::int32_t point)
     { return view.component_id[view.component_start[point]]; };
     std::map<std::int64_t, std::int32_t> found;
-    for (std::int32_t i = 0; i < now.view.n_points; ++i)
-      found[first_id(now.view, i)] = i;
+    for (std::int32_t i = 0; i < now.view().n_points; ++i)
+      found[first_id(now.view(), i)] = i;
     PartnerChanges result;
-    for (std::int32_t i = 0; i < before.view.n_points; ++i)
+    for (std::int32_t i = 0; i < before.view().n_points; ++i)
     {
-      const std::vector<std::int32_t> &opposite = before.places[i].opposite;
-      const std::int64_t id = first_id(before.view, i);
+      const std::vector<std::int32_t> &opposite = before.places()[i].opposite;
+      const std::int64_t id = first_id(before.view(), i);
       if (opposite.empty() || pressing.count(id) == 0)
         continue;
       const auto other = found.find(id);
@@ -54,18 +54,18 @@ namespace abut::shim
         ++result.lost;
       else
         result.jumped +=
-            !have_common_node(opposite, now.places[other->second].opposite)
-            || unit_normal<dim>(before.view, i)
-                       * unit_normal<dim>(now.view, other->second)
+            !have_common_node(opposite, now.places()[other->second].opposite)
+            || unit_normal<dim>(before.view(), i)
+                       * unit_normal<dim>(now.view(), other->second)
                    < far_apart;
     }
     return result;
   }
 
-  template PartnerChanges count_changes(const PlacedPoints<2> &,
-                                        const PlacedPoints<2> &,
+  template PartnerChanges count_changes(const PairPoints<2> &,
+                                        const PairPoints<2> &,
                                         const std::set<std::int64_t> &);
-  template PartnerChanges count_changes(const PlacedPoints<3> &,
-                                        const PlacedPoints<3> &,
+  template PartnerChanges count_changes(const PairPoints<3> &,
+                                        const PairPoints<3> &,
                                         const std::set<std::int64_t> &);
 } // namespace abut::shim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The search on the deformed surfaces that finds what no row holds.
-#include "surface_pair_rows.h"
+#include "pair_examination.h"
 
 #include "agree.h"
 #include "coordinates.h"
@@ -57,395 +57,377 @@ namespace abut::shim
         throw ContactError(obstacle.failure());
       return result;
     }
+
+    /** Search for missed contact at one displacement. */
+    template <int dim> class MissedCheck
+    {
+    public:
+      using Points = std::vector<dealii::Point<dim>>;
+
+      /** Positions of all nodes, which must outlive this object, as the rows
+       * must: reference, at the last commit(), and current. Collective. */
+      MissedCheck(PairPoints<dim> &points, const Points &reference,
+                  const Points &committed, const Points &present,
+                  const double tolerance)
+          : points_(points),
+            reference_(reference),
+            committed_(committed),
+            present_(present),
+            tolerance_(tolerance),
+            held_(points.held_nodes())
+      {
+      }
+
+      /** Check a pair that has moved so far since its points were made. */
+      void check_pair(const std::size_t p, const double moved,
+                      const double reach)
+      {
+        SurfacePair<dim> &pair = points_.pairs()[p];
+        pair.measured.between_rows = pair.measured.held_inside = 0.;
+        pair.held_in_the_mean = 0.;
+        if (pair.data.tied || !pair.data.geometric_gap)
+          return;
+        held_of_pair_ = held_.data() + p * present_.size();
+        if (!pair.data.obstacle)
+        {
+          check_surfaces(pair, moved, reach);
+          return;
+        }
+        const std::size_t before = missed.size();
+        check_obstacle(pair);
+        if (missed.size() > before)
+          return;
+        // Where points do not step, those on straight ways round a corner are
+        // no failure: only what comes out on the far side is.
+        if (!pair.has_committed_points() && pair.data.may_be_apart)
+          check_path_past_obstacle(p, committed_);
+        if (!pair.has_committed_points() || points_.present().empty())
+          return;
+        check_path_past_obstacle(p, points_.present());
+        check_changing_obstacle(p);
+      }
+
+      std::vector<Penetration<dim>> missed;
+
+    private:
+      void add(const SurfacePair<dim> &pair, const dealii::Point<dim> &point,
+               const double depth)
+      {
+        missed.push_back({pair.data.name, point, depth, false, false});
+      }
+
+      bool is_held(const NodeIndex node) const
+      {
+        return held_of_pair_[node] != 0;
+      }
+
+      /** Whether a support keeps node @p n of the secondary from having a row.
+       */
+      bool is_supported(const SurfacePair<dim> &pair, const std::size_t n) const
+      {
+        const std::vector<std::uint8_t> &dropped =
+            points_.dropped(&pair - points_.pairs().data());
+        return n < dropped.size() && dropped[n] == of_supports;
+      }
+
+      void check_obstacle(SurfacePair<dim> &pair)
+      {
+        const double *normal = nullptr;
+        check(points_.host().context,
+              abut_surface_normals(pair.secondary.surface.get(), &normal));
+        Points points;
+        std::vector<Direction<dim>> outward;
+        std::vector<bool> supported;
+        for (std::size_t n = 0; n < pair.secondary.node.size(); ++n)
+        {
+          const NodeIndex node = pair.secondary.node[n];
+          const bool support = is_supported(pair, n);
+          if (!points_.set().is_owned(node) || (is_held(node) && !support))
+            continue;
+          points.push_back(present_[node]);
+          supported.push_back(support);
+          outward.emplace_back();
+          for (unsigned int d = 0; d < dim; ++d)
+            outward.back()[d] = normal[n * dim + d];
+        }
+        std::vector<double> distance;
+        std::vector<Direction<dim>> gradient;
+        pair.data.obstacle->distance(points, distance, &gradient);
+        for (std::size_t n = 0; n < points.size(); ++n)
+        {
+          const double depth = -distance[n] - pair.data.gap;
+          if (supported[n])
+            pair.measured.held_inside =
+                std::max(pair.measured.held_inside, depth);
+          else if (depth > tolerance_)
+            missed.push_back({pair.data.name, points[n], depth, false,
+                              outward[n] * gradient[n] > 0.});
+        }
+      }
+
+      /** Marks of abut_missed_contact(). */
+      std::vector<std::uint8_t> marks_of(const SurfacePair<dim> &pair,
+                                         const SurfaceSide<dim> &side) const
+      {
+        std::vector<std::uint8_t> marks(side.n_nodes(), 0);
+        for (std::size_t n = 0; n < marks.size(); ++n)
+        {
+          if (points_.set().is_owned(side.node[n]))
+            marks[n] |= ABUT_NODE_OWNED;
+          if (is_held(side.node[n]))
+            marks[n] |= ABUT_NODE_HELD;
+          if (&side == &pair.secondary && is_supported(pair, n))
+            marks[n] |= ABUT_NODE_PRESCRIBED;
+        }
+        return marks;
+      }
+
+      abut_missed_options options_of(const SurfacePair<dim> &pair,
+                                     const double reach) const
+      {
+        abut_missed_options options = abut_missed_defaults();
+        options.detection = points_.host().search.detection;
+        options.detection.search.reach =
+            std::max(options.detection.search.reach, reach);
+        options.gap = pair.data.gap;
+        options.tolerance = tolerance_;
+        options.primary_thickness = pair.thickness;
+        options.secondary_thickness = pair.own_thickness;
+        const auto kind = discretisation_info(pair.discretisation);
+        options.covers_facets = kind.is_weighted || kind.row_per_point;
+        if (SelfContact<dim>::is_split(pair.data))
+          for (const bool primary : {false, true})
+            // Another skin of the body is deeper.
+            options.side_thickness[primary] =
+                pair.thickness > 0.
+                    ? pair.thickness
+                    : 2.
+                          * (primary ? pair.primary : pair.secondary)
+                                .everywhere.largest;
+        return options;
+      }
+
+      /** Whether it goes farther than what had a row from the start. */
+      bool goes_far(const SurfacePair<dim> &pair, const double moved) const
+      {
+        const abut_search_options &search =
+            points_.host().search.detection.search;
+        const double smallest = std::min(pair.secondary.everywhere.smallest,
+                                         pair.primary.everywhere.smallest);
+        return pair.has_committed_points() && !points_.present().empty()
+               && moved > std::max({search.reach, pair.data.reach,
+                                    search.relative_reach * smallest});
+      }
+
+      void check_surfaces(SurfacePair<dim> &pair, const double moved,
+                          const double reach)
+      {
+        const DisplacedSides<dim> sides(points_.host().context, pair.secondary,
+                                        pair.primary, reference_, present_);
+        abut_missed_options options = options_of(pair, reach);
+        std::vector<double> start, primary_start;
+        if (goes_far(pair, moved))
+        {
+          start = places_of(pair.secondary.node, points_.present());
+          primary_start = places_of(pair.primary.node, points_.present());
+          options.secondary_start = start.data();
+          options.primary_start = primary_start.data();
+        }
+        std::vector<abut_missed_node> found(
+            2 * (pair.secondary.node.size() + pair.primary.node.size()));
+        abut_missed_report report;
+        check(points_.host().context,
+              abut_missed_contact(points_.host().context,
+                                  pair.secondary.surface.get(),
+                                  pair.primary.surface.get(),
+                                  marks_of(pair, pair.secondary).data(),
+                                  marks_of(pair, pair.primary).data(), &options,
+                                  found.data(), &report));
+        pair.measured.held_inside = report.prescribed;
+        pair.measured.between_rows = report.between_points;
+        pair.held_in_the_mean = report.held_in_mean;
+        for (std::int32_t k = 0; k < report.n; ++k)
+        {
+          const bool of_primary = found[k].on_primary != 0;
+          const auto &side = of_primary ? pair.primary : pair.secondary;
+          // On the side itself it is of no other surface.
+          const bool same_side = found[k].same_side != 0;
+          missed.push_back({pair.data.name, present_[side.node[found[k].node]],
+                            found[k].depth, of_primary && !same_side, false,
+                            same_side});
+        }
+      }
+
+      /** From the positions @p begin at the beginning of the step. */
+      void check_path_past_obstacle(const std::size_t p, const Points &begin)
+      {
+        const SurfacePair<dim> &pair = points_.pairs()[p];
+        const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
+        const RigidPose<dim> now = obstacle.pose();
+        const RigidPose<dim> then = points_.set().obstacles().before(true)[p];
+        Points from, to;
+        std::vector<bool> is_free;
+        const auto add_path = [&](const dealii::Point<dim> &start,
+                                  const dealii::Point<dim> &end,
+                                  const bool free)
+        {
+          // Where it was, seen from the obstacle.
+          const Direction<dim> own =
+              transpose(then.rotation) * (start - then.translation);
+          from.emplace_back(now.rotation * own + now.translation);
+          to.push_back(end);
+          is_free.push_back(free);
+        };
+        for (const NodeIndex node : pair.secondary.node)
+          if (points_.set().is_owned(node))
+            add_path(begin[node], present_[node], !is_held(node));
+        // An obstacle smaller than facets passes between nodes.
+        constexpr double most = 16.; // in each direction
+        const double n_widths =
+            pair.secondary.everywhere.largest / obstacle.depth();
+        if (n_widths > 1.)
+        {
+          const FacetGrid<dim> grid(
+              points_.surface().kind,
+              static_cast<unsigned int>(std::ceil(std::min(n_widths, most))));
+          const auto me = MPI::this_mpi_process(points_.host().communicator);
+          for (const std::int32_t f : pair.secondary.facet)
+          {
+            const auto &facet = points_.surface().facets[f];
+            if (facet.owner != me)
+              continue;
+            const auto at = [&](const Points &position)
+            {
+              return grid.points([&](const unsigned int a)
+                                 { return position[facet.node[a]]; });
+            };
+            const Points start = at(begin), end = at(present_);
+            for (std::size_t q = 0; q < start.size(); ++q)
+              add_path(start[q], end[q], false);
+          }
+        }
+        const std::vector<abut_obstacle_path> met =
+            follow_past(obstacle, from, to);
+        double way = 0.;
+        for (std::size_t i = 0; i < to.size(); ++i)
+        {
+          const double depth = met[i].depth - pair.data.gap;
+          if (met[i].through != 0)
+            way = std::max(way, (to[i] - from[i]).norm());
+          else if (pair.has_committed_points() && is_free[i]
+                   && depth > tolerance_)
+            add(pair, to[i], depth);
+        }
+        // No search finds surfaces that are apart again, and rows belong to the
+        // far side.
+        if (way > 0.)
+          throw ContactError(too_long_a_step(
+              pair.data, way,
+              "passes through it: they are apart again at the end, and nothing "
+              "resists."));
+      }
+
+      /** The check for an obstacle that is a function of time. */
+      void check_changing_obstacle(const std::size_t p)
+      {
+        // A node with a row does not penetrate at the end of the step: between,
+        // the rest is that of a step in time, unless it is seen next to a
+        // facet.
+        constexpr double visible = 0.05;
+        const SurfacePair<dim> &pair = points_.pairs()[p];
+        const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
+        const std::vector<double> &times =
+            points_.set().obstacles().committed_times();
+        if (obstacle.view().kind != ABUT_OBSTACLE_FUNCTION || p >= times.size()
+            || times[p] == obstacle.time())
+          return;
+        Points from, to;
+        std::vector<double> bearable;
+        for (const NodeIndex node : pair.secondary.node)
+          if (points_.set().is_owned(node))
+          {
+            from.push_back(points_.present()[node]);
+            to.push_back(present_[node]);
+            bearable.push_back(is_held(node)
+                                   ? visible * pair.secondary.everywhere.median
+                                   : tolerance_);
+          }
+        const std::vector<double> depth =
+            deepest_between(pair.data.obstacle, times[p],
+                            points_.set().obstacles().committed()[p], from, to);
+        for (std::size_t i = 0; i < to.size(); ++i)
+          if (depth[i] - pair.data.gap > bearable[i])
+            add(pair, to[i], depth[i] - pair.data.gap);
+      }
+
+      PairPoints<dim> &points_;
+      const Points &reference_, &committed_, &present_;
+      const double tolerance_;
+      const std::vector<std::uint8_t> held_; ///< [pairs][nodes]
+      const std::uint8_t *held_of_pair_ = nullptr;
+    };
   } // namespace
 
   template <int dim>
-  std::vector<std::uint8_t> SurfacePairRows<dim>::held_nodes()
+  std::vector<Penetration<dim>> penetrations(PairPoints<dim> &points,
+                                             const la::Vector &displacement,
+                                             const double tolerance)
   {
-    const std::size_t n_nodes = surface_.nodes.size();
-    std::vector<std::uint8_t> held(n_nodes * pairs_.size(), 0);
-    for (std::size_t i = 0; i < places_.size(); ++i)
-      for_each_secondary(i, [&](const Node node, double)
-                         { held[places_[i].pair * n_nodes + node] = 1; });
-    // Owners of nodes know all facets around them.
-    for (std::size_t p = 0; p < pairs_.size(); ++p)
-      for (std::size_t n = 0; n < pairs_[p].dropped.size(); ++n)
-      {
-        const Node node = pairs_[p].secondary.node[n];
-        if (pairs_[p].dropped[n] != 0 && is_owned(node))
-          held[p * n_nodes + node] = 1;
-      }
-    exchange_->merge_marks(surface_, held);
-    for (std::size_t p = 0; p < pairs_.size(); ++p)
-    {
-      std::uint8_t *marks = held.data() + p * n_nodes;
-      for (const Node node : pairs_[p].secondary.node)
-      {
-        bool parents = !surface_.parents[node].empty();
-        for (const auto &parent : surface_.parents[node])
-          parents = parents && marks[parent.index] != 0;
-        if (parents)
-          marks[node] = 1;
-      }
-    }
-    return held;
-  }
-
-  /** Search for missed contact at one displacement. */
-  template <int dim> class SurfacePairRows<dim>::MissedCheck
-  {
-  public:
-    using Points = std::vector<dealii::Point<dim>>;
-
-    /** Positions of all nodes, which must outlive this object, as the rows
-     * must: reference, at the last commit(), and current. Collective. */
-    MissedCheck(SurfacePairRows &rows, const Points &reference,
-                const Points &committed, const Points &present,
-                const double tolerance)
-        : rows_(rows),
-          reference_(reference),
-          committed_(committed),
-          present_(present),
-          tolerance_(tolerance),
-          held_(rows.held_nodes())
-    {
-    }
-
-    /** Check a pair that has moved so far since its points were made. */
-    void check_pair(const std::size_t p, const double moved, const double reach)
-    {
-      Pair &pair = rows_.pairs_[p];
-      pair.measured.between_rows = pair.measured.held_inside = 0.;
-      pair.held_in_the_mean = 0.;
-      if (pair.data.tied || !pair.data.geometric_gap)
-        return;
-      held_of_pair_ = held_.data() + p * present_.size();
-      if (!pair.data.obstacle)
-      {
-        check_surfaces(pair, moved, reach);
-        return;
-      }
-      const std::size_t before = missed.size();
-      check_obstacle(pair);
-      if (missed.size() > before)
-        return;
-      // Where points do not step, those on straight ways round a corner are no
-      // failure: only what comes out on the far side is.
-      if (!pair.has_committed_points() && pair.data.may_be_apart)
-        check_path_past_obstacle(p, committed_);
-      if (!pair.has_committed_points() || rows_.present_.empty())
-        return;
-      check_path_past_obstacle(p, rows_.present_);
-      check_changing_obstacle(p);
-    }
-
-    std::vector<Penetration<dim>> missed;
-
-  private:
-    void add(const Pair &pair, const dealii::Point<dim> &point,
-             const double depth)
-    {
-      missed.push_back({pair.data.name, point, depth, false, false});
-    }
-
-    bool is_held(const Node node) const
-    {
-      return held_of_pair_[node] != 0;
-    }
-
-    /** Whether a support keeps node @p n of the secondary from having a row. */
-    static bool is_supported(const Pair &pair, const std::size_t n)
-    {
-      return n < pair.dropped.size() && pair.dropped[n] == of_supports;
-    }
-
-    void check_obstacle(Pair &pair)
-    {
-      const double *normal = nullptr;
-      check(rows_.context_,
-            abut_surface_normals(pair.secondary.surface.get(), &normal));
-      Points points;
-      std::vector<Direction> outward;
-      std::vector<bool> supported;
-      for (std::size_t n = 0; n < pair.secondary.node.size(); ++n)
-      {
-        const Node node = pair.secondary.node[n];
-        const bool support = is_supported(pair, n);
-        if (!rows_.is_owned(node) || (is_held(node) && !support))
-          continue;
-        points.push_back(present_[node]);
-        supported.push_back(support);
-        outward.emplace_back();
-        for (unsigned int d = 0; d < dim; ++d)
-          outward.back()[d] = normal[n * dim + d];
-      }
-      std::vector<double> distance;
-      std::vector<Direction> gradient;
-      pair.data.obstacle->distance(points, distance, &gradient);
-      for (std::size_t n = 0; n < points.size(); ++n)
-      {
-        const double depth = -distance[n] - pair.data.gap;
-        if (supported[n])
-          pair.measured.held_inside =
-              std::max(pair.measured.held_inside, depth);
-        else if (depth > tolerance_)
-          missed.push_back({pair.data.name, points[n], depth, false,
-                            outward[n] * gradient[n] > 0.});
-      }
-    }
-
-    /** Marks of abut_missed_contact(). */
-    std::vector<std::uint8_t> marks_of(const Pair &pair,
-                                       const SurfaceSide<dim> &side) const
-    {
-      std::vector<std::uint8_t> marks(side.n_nodes(), 0);
-      for (std::size_t n = 0; n < marks.size(); ++n)
-      {
-        if (rows_.is_owned(side.node[n]))
-          marks[n] |= ABUT_NODE_OWNED;
-        if (is_held(side.node[n]))
-          marks[n] |= ABUT_NODE_HELD;
-        if (&side == &pair.secondary && is_supported(pair, n))
-          marks[n] |= ABUT_NODE_PRESCRIBED;
-      }
-      return marks;
-    }
-
-    abut_missed_options options_of(const Pair &pair, const double reach) const
-    {
-      abut_missed_options options = abut_missed_defaults();
-      options.detection = rows_.settings_.search.detection;
-      options.detection.search.reach =
-          std::max(options.detection.search.reach, reach);
-      options.gap = pair.data.gap;
-      options.tolerance = tolerance_;
-      options.primary_thickness = pair.thickness;
-      options.secondary_thickness = pair.own_thickness;
-      const auto kind = discretisation_info(pair.discretisation);
-      options.covers_facets = kind.is_weighted || kind.row_per_point;
-      if (SelfContact<dim>::is_split(pair.data))
-        for (const bool primary : {false, true})
-          // Another skin of the body is deeper.
-          options.side_thickness[primary] =
-              pair.thickness > 0.
-                  ? pair.thickness
-                  : 2.
-                        * (primary ? pair.primary : pair.secondary)
-                              .everywhere.largest;
-      return options;
-    }
-
-    /** Whether it goes farther than what had a row from the start. */
-    bool goes_far(const Pair &pair, const double moved) const
-    {
-      const abut_search_options &search =
-          rows_.settings_.search.detection.search;
-      const double smallest = std::min(pair.secondary.everywhere.smallest,
-                                       pair.primary.everywhere.smallest);
-      return pair.has_committed_points() && !rows_.present_.empty()
-             && moved > std::max({search.reach, pair.data.reach,
-                                  search.relative_reach * smallest});
-    }
-
-    void check_surfaces(Pair &pair, const double moved, const double reach)
-    {
-      const DisplacedSides<dim> sides(rows_.context_, pair.secondary,
-                                      pair.primary, reference_, present_);
-      abut_missed_options options = options_of(pair, reach);
-      std::vector<double> start, primary_start;
-      if (goes_far(pair, moved))
-      {
-        start = places_of(pair.secondary.node, rows_.present_);
-        primary_start = places_of(pair.primary.node, rows_.present_);
-        options.secondary_start = start.data();
-        options.primary_start = primary_start.data();
-      }
-      std::vector<abut_missed_node> found(
-          2 * (pair.secondary.node.size() + pair.primary.node.size()));
-      abut_missed_report report;
-      check(rows_.context_,
-            abut_missed_contact(rows_.context_, pair.secondary.surface.get(),
-                                pair.primary.surface.get(),
-                                marks_of(pair, pair.secondary).data(),
-                                marks_of(pair, pair.primary).data(), &options,
-                                found.data(), &report));
-      pair.measured.held_inside = report.prescribed;
-      pair.measured.between_rows = report.between_points;
-      pair.held_in_the_mean = report.held_in_mean;
-      for (std::int32_t k = 0; k < report.n; ++k)
-      {
-        const bool of_primary = found[k].on_primary != 0;
-        const auto &side = of_primary ? pair.primary : pair.secondary;
-        // On the side itself it is of no other surface.
-        const bool same_side = found[k].same_side != 0;
-        missed.push_back({pair.data.name, present_[side.node[found[k].node]],
-                          found[k].depth, of_primary && !same_side, false,
-                          same_side});
-      }
-    }
-
-    /** From the positions @p begin at the beginning of the step. */
-    void check_path_past_obstacle(const std::size_t p, const Points &begin)
-    {
-      const Pair &pair = rows_.pairs_[p];
-      const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
-      const RigidPose<dim> now = obstacle.pose();
-      const RigidPose<dim> then = rows_.poses_before(rows_.poses(), true)[p];
-      Points from, to;
-      std::vector<bool> is_free;
-      const auto add_path = [&](const dealii::Point<dim> &start,
-                                const dealii::Point<dim> &end, const bool free)
-      {
-        // Where it was, seen from the obstacle.
-        const Direction own =
-            transpose(then.rotation) * (start - then.translation);
-        from.emplace_back(now.rotation * own + now.translation);
-        to.push_back(end);
-        is_free.push_back(free);
-      };
-      for (const Node node : pair.secondary.node)
-        if (rows_.is_owned(node))
-          add_path(begin[node], present_[node], !is_held(node));
-      // An obstacle smaller than facets passes between nodes.
-      constexpr double most = 16.; // in each direction
-      const double n_widths =
-          pair.secondary.everywhere.largest / obstacle.depth();
-      if (n_widths > 1.)
-      {
-        const FacetGrid<dim> grid(
-            rows_.surface_.kind,
-            static_cast<unsigned int>(std::ceil(std::min(n_widths, most))));
-        const auto me = MPI::this_mpi_process(rows_.communicator_);
-        for (const std::int32_t f : pair.secondary.facet)
-        {
-          const auto &facet = rows_.surface_.facets[f];
-          if (facet.owner != me)
-            continue;
-          const auto at = [&](const Points &position)
-          {
-            return grid.points([&](const unsigned int a)
-                               { return position[facet.node[a]]; });
-          };
-          const Points start = at(begin), end = at(present_);
-          for (std::size_t q = 0; q < start.size(); ++q)
-            add_path(start[q], end[q], false);
-        }
-      }
-      const std::vector<abut_obstacle_path> met =
-          follow_past(obstacle, from, to);
-      double way = 0.;
-      for (std::size_t i = 0; i < to.size(); ++i)
-      {
-        const double depth = met[i].depth - pair.data.gap;
-        if (met[i].through != 0)
-          way = std::max(way, (to[i] - from[i]).norm());
-        else if (pair.has_committed_points() && is_free[i]
-                 && depth > tolerance_)
-          add(pair, to[i], depth);
-      }
-      // No search finds surfaces that are apart again, and rows belong to the
-      // far side.
-      if (way > 0.)
-        throw ContactError(too_long_a_step(
-            pair.data, way,
-            "passes through it: they are apart again at the end, and nothing "
-            "resists."));
-    }
-
-    /** The check for an obstacle that is a function of time. */
-    void check_changing_obstacle(const std::size_t p)
-    {
-      // A node with a row does not penetrate at the end of the step: between,
-      // the rest is that of a step in time, unless it is seen next to a facet.
-      constexpr double visible = 0.05;
-      const Pair &pair = rows_.pairs_[p];
-      const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
-      const std::vector<double> &times = rows_.committed_times_;
-      if (obstacle.view().kind != ABUT_OBSTACLE_FUNCTION || p >= times.size()
-          || times[p] == obstacle.time())
-        return;
-      Points from, to;
-      std::vector<double> bearable;
-      for (const Node node : pair.secondary.node)
-        if (rows_.is_owned(node))
-        {
-          from.push_back(rows_.present_[node]);
-          to.push_back(present_[node]);
-          bearable.push_back(is_held(node)
-                                 ? visible * pair.secondary.everywhere.median
-                                 : tolerance_);
-        }
-      const std::vector<double> depth = deepest_between(
-          pair.data.obstacle, times[p], rows_.committed_poses_[p], from, to);
-      for (std::size_t i = 0; i < to.size(); ++i)
-        if (depth[i] - pair.data.gap > bearable[i])
-          add(pair, to[i], depth[i] - pair.data.gap);
-    }
-
-    SurfacePairRows &rows_;
-    const Points &reference_, &committed_, &present_;
-    const double tolerance_;
-    const std::vector<std::uint8_t> held_; ///< [pairs][nodes]
-    const std::uint8_t *held_of_pair_ = nullptr;
-  };
-
-  template <int dim>
-  std::vector<Penetration<dim>>
-  SurfacePairRows<dim>::penetrations(const la::Vector &displacement,
-                                     const double tolerance)
-  {
-    const std::vector<Direction> u = displacements_in_reach(displacement);
-    const Stopwatch watch(detection_.seconds);
-    std::vector<dealii::Point<dim>> reference(surface_.nodes.size()),
-        present(surface_.nodes.size());
+    const std::vector<Direction<dim>> u =
+        points.displacements_in_reach(displacement);
+    const Stopwatch watch(points.host().detection.seconds);
+    std::vector<dealii::Point<dim>> reference(points.surface().nodes.size()),
+        present(points.surface().nodes.size());
     for (std::size_t n = 0; n < present.size(); ++n)
     {
-      reference[n] = surface_.nodes[n].point;
+      reference[n] = points.surface().nodes[n].point;
       present[n] = reference[n] + u[n];
     }
     std::vector<dealii::Point<dim>> committed(reference);
-    if (moves() && searched_from_.size() > 0)
+    PairSet<dim> &set = points.set();
+    if (set.moves() && set.searched_from().size() > 0)
     {
-      const std::vector<Direction> then =
-          exchange_->displacements_as_given(surface_, searched_from_);
+      const std::vector<Direction<dim>> then =
+          set.displacements_as_given(set.searched_from());
       for (std::size_t n = 0; n < present.size(); ++n)
         committed[n] += then[n];
     }
     const std::vector<double> moved =
-        motions(has_steps() ? displacement_since(u) : u);
+        set.motions(set.has_steps() ? points.displacement_since(u) : u);
 
-    MissedCheck missed(*this, reference, committed, present, tolerance);
+    MissedCheck<dim> missed(points, reference, committed, present, tolerance);
     Message message;
-    for (std::size_t p = 0; p < pairs_.size() && message.empty(); ++p)
+    for (std::size_t p = 0; p < points.pairs().size() && message.empty(); ++p)
       try
       {
         // A node that was missed earlier may be deeper than the last step went.
-        const Pair &pair = pairs_[p];
+        const SurfacePair<dim> &pair = points.pairs()[p];
         const double all = pair.has_current_points()
-                               ? std::min(1.5 * motion(pair, u), pair.reach)
+                               ? std::min(1.5 * set.motion(pair, u), pair.reach)
                                : 0.;
         missed.check_pair(p, moved[p],
                           std::max({pair.data.reach, 1.5 * moved[p], all}));
       }
       catch (const std::exception &error)
       {
-        message = about_pair(pairs_[p].data.name, message_of(error));
+        message = about_pair(points.pairs()[p].data.name, message_of(error));
       }
-    throw_everywhere<ContactError>(communicator_, message);
-    for (Pair &pair : pairs_)
-      pair.held_in_the_mean = MPI::max(pair.held_in_the_mean, communicator_);
-    const auto result = everywhere(missed.missed, communicator_);
+    throw_everywhere<ContactError>(points.host().communicator, message);
+    for (SurfacePair<dim> &pair : points.pairs())
+      pair.held_in_the_mean =
+          MPI::max(pair.held_in_the_mean, points.host().communicator);
+    const auto result = everywhere(missed.missed, points.host().communicator);
     // The next find() splits a surface again where one of its sides has met
     // itself.
     if (std::any_of(result.begin(), result.end(),
                     [](const Penetration<dim> &node)
                     { return node.same_side; }))
-      look_at_sides(displacement);
+      set.look_at_sides(displacement);
     return result;
   }
 
-  template std::vector<Penetration<2>>
-  SurfacePairRows<2>::penetrations(const la::Vector &, double);
-  template std::vector<Penetration<3>>
-  SurfacePairRows<3>::penetrations(const la::Vector &, double);
+  template std::vector<Penetration<2>> penetrations(PairPoints<2> &,
+                                                    const la::Vector &, double);
+  template std::vector<Penetration<3>> penetrations(PairPoints<3> &,
+                                                    const la::Vector &, double);
 } // namespace abut::shim

@@ -175,12 +175,14 @@ namespace abut::shim
 
     /** Improve the start by projected relaxation, if these rows allow it:
      * changes @p displacement and returns the states of the rows, or returns
-     * nothing and changes nothing. Rows that do need a matrix. Collective. */
-    virtual std::vector<std::uint8_t> relax(const Tangent &tangent,
-                                            const la::Vector &residual,
-                                            const std::vector<double> &gap,
-                                            unsigned int n_sweeps,
-                                            la::Vector &displacement) const = 0;
+     * nothing and changes nothing, as rows over several unknowns, which are not
+     * relaxed one by one. Rows that do need a matrix. Collective. */
+    virtual std::vector<std::uint8_t> relax(const Tangent &, const la::Vector &,
+                                            const std::vector<double> &,
+                                            unsigned int, la::Vector &) const
+    {
+      return {};
+    }
 
     /** Where obstacles are in the deformed surface of this rank, by samples
      * between its nodes; @p row_state may be null. Throws on all ranks.

@@ -37,7 +37,7 @@ namespace abut::shim
     std::string text() const;
   };
 
-  /** SurfacePair::dropped of a node that supports hold. */
+  /** PairPoints::dropped() of a node that supports hold. */
   constexpr std::uint8_t of_supports = 2;
 
   /** A pair with its two sides and their coupling. */
@@ -93,6 +93,17 @@ namespace abut::shim
       return directions != ABUT_CONFIGURATION_REFERENCE;
     }
 
+    /** Whether gaps are weighted means around its nodes. */
+    bool has_mean_gaps() const
+    {
+      return discretisation_info(discretisation).is_weighted;
+    }
+
+    double facet_size() const
+    {
+      return std::max(secondary.everywhere.median, primary.everywhere.median);
+    }
+
     abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
     SurfaceSide<dim> secondary, primary;
     Handle<abut_coupling> coupling;
@@ -102,12 +113,12 @@ namespace abut::shim
     double thickness = 0., own_thickness = 0.;
     /** Distances that the facets known here suffice for. */
     double reach = 0., margin = 0.;
-    /** [nodes of the secondary] without a multiplier in the present rows:
-     * 1 because of another pair, of_supports because of supports. */
-    std::vector<std::uint8_t> dropped;
     /** Parts of this rank, by the last examine() and check_penetration(). */
     PairResult<dim> measured;
-    double held_in_the_mean = 0.; ///< as the function
+    /** How deep nodes of the secondary that have rows are in the other side,
+     * length >= 0, by the last penetrations(): rows of mortar hold them in the
+     * mean of the facets around them alone. */
+    double held_in_the_mean = 0.;
     /** The deepest node in the other body, or in an obstacle that bodies fly
      * towards, before anything is displaced. */
     NodeInside<dim> first_inside;
@@ -115,10 +126,10 @@ namespace abut::shim
     double least_extent = 0.;
     /** Known failures that it was made with all the same. */
     std::vector<Message> refused;
-    dealii::Point<dim> gap_error_place;
+    dealii::Point<dim> gap_error_place; ///< of PairResult::gap_error
     /** Change of the directions of its forces since points were made. */
     abut_direction_change rotation = {};
-    ObstacleWidth narrowest;
+    ObstacleWidth narrowest; ///< for the facets, by the last examine()
   };
 
   /** Input of the points of a pair that may change from one find() to the next;

@@ -150,7 +150,7 @@ p.expect_error(p.call("check", p.source / "prm/cantilever.prm", "--output",
 
 # Boundary ids with their faces and places.
 result = p.call("check", p.source / "prm/pipe.prm")
-p.expect("body 1, boundary 2: 1 face, x = 0, y from 1 to 2" in result.stdout,
+p.expect("body 1, boundary 2: 1 face, length 1, x = 0, y from 1 to 2" in result.stdout,
          result.stdout)
 
 # Differences of a formula are as exact for a small pipe as for a large one.

@@ -81,19 +81,21 @@ namespace
   {
     dealii::Triangulation<2> mesh;
     dealii::GridGenerator::hyper_cube(mesh, 0, 1, true);
+    const auto ids = mesh.get_boundary_ids();
     const BoundaryExpressions<2> values("1, 3: x^2; *: if(y>0, 1, 2)", "BC");
-    const auto map = values.functions(mesh);
+    const auto map = values.functions(ids);
     Expect::near(double(map.size()), 4, 0, "number of ids");
     Expect::near(map.at(3)->value({3, 1}), 9, 0, "value on 3");
     Expect::near(map.at(0)->value({3, -1}), 2, 0, "value on 0");
-    Expect::near(double(values.functions(mesh, {0}).size()), 3, 0,
+    Expect::near(double(values.functions(ids, {0}).size()), 3, 0,
                  "number of ids without 0");
     const BoundaryExpressions<2> vectors("0: x, y; 1: 0, 5", "BC", 2);
-    Expect::near(vectors.functions(mesh).at(1)->value({0, 0}, 1), 5, 0,
+    Expect::near(vectors.functions(ids).at(1)->value({0, 0}, 1), 5, 0,
                  "second component on 1");
     const BoundaryExpressions<2> supports("0: max(x, y), free; *: 0, 0", "BC",
                                           2, true);
-    const auto conditions = supports.conditions({0, 1});
+    const auto conditions =
+        supports.conditions(std::vector<dealii::types::boundary_id>{0, 1});
     Expect::that(conditions.at(0).components[0]
                      && !conditions.at(0).components[1]
                      && conditions.at(1).components[1],
@@ -105,19 +107,46 @@ namespace
     Expect::input_error([]() { BoundaryExpressions<2>("0: 1, free", "BC", 2); },
                         "BC", {"free"});
     Expect::that(BoundaryExpressions<2>(" ", "BC").empty(), "empty list");
-    const auto ids = mesh.get_boundary_ids();
     Expect::that(parse_boundary_ids("0, 2", "B", ids).size() == 2
                      && parse_boundary_ids("*", "B", ids).size() == 4
                      && parse_boundary_ids("", "B", ids).empty(),
                  "lists of ids");
 
     Expect::input_error(
-        [&]() { BoundaryExpressions<2>("7: 0", "BC").functions(mesh); }, "BC",
+        [&]() { BoundaryExpressions<2>("7: 0", "BC").functions(ids); }, "BC",
         {"no boundary id 7", "0, 1, 2, 3"});
     Expect::input_error([]() { BoundaryExpressions<2>("x", "BC"); }, "BC",
                         {"id: formula"});
-    Expect::input_error([]() { BoundaryExpressions<2>("a: 1", "BC"); }, "BC",
-                        {"'a' is not a boundary id"});
+    Expect::input_error(
+        [&]() { BoundaryExpressions<2>("a: 1", "BC").functions(ids); }, "BC",
+        {"'a' is not a boundary id"});
+    Expect::input_error([]() { BoundaryExpressions<2>("-1: 1", "BC"); }, "BC",
+                        {"'-1' is not a boundary id"});
+    // Names of sets, one of two ids.
+    const BoundaryNames names(
+        {0, 1, 2, 3}, {{"Top", 3, {3, 2}}, {"left", 5, {0}}, {"gone", 7, {9}}},
+        {{"bar", "is a node set"}});
+    const BoundaryExpressions<2> worded("top: 1; left: 2; *: 3", "BC");
+    const auto by_name = worded.conditions(names);
+    Expect::near(by_name.at(2).function->value({0, 0}), 1, 0, "value on top");
+    Expect::near(by_name.at(0).function->value({0, 0}), 2, 0, "value left");
+    Expect::near(by_name.at(1).function->value({0, 0}), 3, 0, "value of *");
+    using Ids = std::set<dealii::types::boundary_id>;
+    Expect::that(parse_boundary_ids("3, 5", "B", names) == Ids{0, 2, 3}
+                     && parse_boundary_ids("2", "B", names) == Ids{2},
+                 "numbers of sets and of ids");
+    Expect::that(names.names_of(2) == "'Top'" && names.names_of(1).empty(),
+                 "names of ids");
+    Expect::input_error(
+        [&]()
+        { BoundaryExpressions<2>("Top: 1; 2: 0", "BC").conditions(names); },
+        "BC", {"'Top' and '2'", "id 2"});
+    Expect::input_error([&]() { names.find("tap", "B"); }, "B",
+                        {"no boundary 'tap'", "Names: Top, left", "'Top'"});
+    Expect::input_error([&]() { names.find("bar", "B"); }, "B",
+                        {"is a node set", "has 0, 1, 2, 3"});
+    Expect::input_error([&]() { names.find("gone", "B"); }, "B",
+                        {"no facet is left"});
     Expect::input_error([]() { BoundaryExpressions<2>("0: 1; 0: 2", "BC"); },
                         "BC", {"twice"});
     Expect::input_error([]() { BoundaryExpressions<2>("0: sin(", "BC"); }, "BC",

@@ -113,6 +113,50 @@ test_inside(void **state)
   scene_free(&block);
 }
 
+/* Two straight facets, over three points. */
+static void
+bend(const double *p, double u, double v, double *x)
+{
+  const double t = 2. * u - 1.;
+  (void)v;
+  for (int d = 0; d < 2; ++d)
+    x[d] = t < 0. ? p[2 + d] + t * (p[2 + d] - p[d])
+                  : p[2 + d] + t * (p[4 + d] - p[2 + d]);
+}
+
+/* A node beside a corner is not below the facet whose plane it is behind,
+ * though the facet that it is opposite to faces away from it; behind a
+ * reentrant corner it is. */
+static void
+test_beside(void **state)
+{
+  (void)state;
+  const double edge[6] = {1., -1., 1., 0., 0., 0.},
+               notch[6] = {0., 1., 0., 0., -1., 0.};
+  scene_mesh beside = level(1, 2.5, 3.5, -0.1, false),
+             behind = level(1, 0.05, 0.45, -0.05, false),
+             convex = scene_patch(ABUT_FACET_LINE2, 2, 1, bend, edge, false),
+             reentrant =
+                 scene_patch(ABUT_FACET_LINE2, 2, 1, bend, notch, false);
+  search s;
+  open_meshes(&s, &beside, &convex);
+  s.options.detection.search.reach = 10.;
+  run(&s);
+  assert_int_equal(s.report.n, 0);
+  close_surfaces(&s);
+  open_meshes(&s, &behind, &reentrant);
+  s.options.detection.search.reach = 10.;
+  run(&s);
+  assert_true(s.report.n >= 1);
+  assert_int_equal(s.found[0].node, 0);
+  near(s.found[0].depth, 0.05, 1e-15, "depth");
+  close_surfaces(&s);
+  scene_free(&beside);
+  scene_free(&behind);
+  scene_free(&convex);
+  scene_free(&reentrant);
+}
+
 /* Who is held, prescribed or of another process is not missed. */
 static void
 test_marks(void **state)
@@ -502,6 +546,7 @@ main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(test_inside, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_beside, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_marks, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_through, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_out, set_up, tear_down),

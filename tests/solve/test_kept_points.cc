@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What SurfacePairRows::find() makes anew, and what it leaves: points of the
+// What SurfaceRows::find() makes anew, and what it leaves: points of the
 // undeformed bodies are the same in each load step.
 #include "shim/handles.h"
-#include "shim/surface_pair_rows.h"
+#include "shim/surface_rows.h"
 
 #include <abut/dealii/versions.h>
 
@@ -115,10 +115,10 @@ namespace
     method.options.law = abut_law_find("augmented lagrangian");
     method.discretisation = discretisation;
     DetectionReport detection;
-    shim::SurfacePairRows<2> rows(squares.mapping, squares.dof_handler,
-                                  squares.constraints, squares.pairs(0.),
-                                  {method, SearchParameters(), false},
-                                  context.get(), nullptr, detection);
+    shim::SurfaceRows<2> rows({squares.mapping, squares.dof_handler,
+                               squares.constraints, method, SearchParameters(),
+                               false, context.get(), detection},
+                              squares.pairs(0.), nullptr);
     const auto find = [&](const Change wanted, const std::string &when)
     {
       const Change found = rows.find(squares.u, points.get());
@@ -147,7 +147,7 @@ namespace
     squares.u = 0.001;
     find(Change::none, "after a motion within half a facet");
     gap(distance, "after a motion");
-    rows.set_gaps(squares.pairs(0.02));
+    rows.set().set_gaps(squares.pairs(0.02));
     find(Change::points, "with another gap");
     gap(distance + 0.02, "with another gap");
     find(Change::none, "with the same gap");
@@ -155,7 +155,7 @@ namespace
     squares.prescribe(-0.2);
     find(Change::points, "after a motion beyond half a facet");
     find(Change::none, "after the same motion");
-    rows.penetrations(squares.u, 1e-3);
+    shim::penetrations(rows.points(), squares.u, 1e-3);
     find(Change::none, "after a look at the deformed surfaces");
   }
 } // namespace

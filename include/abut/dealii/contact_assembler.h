@@ -591,6 +591,13 @@ namespace abut
      * ten times from there on. Collective. */
     virtual bool raise_gaps(const la::VectorView &displacement);
 
+    /** To be called where there is no solution after raise_gaps(), which opens
+     * rows altogether at first, and a body may have been held by nothing else.
+     * True: gaps are raised by the clearance only, and the step is to be solved
+     * on from the @p displacement of the first call of raise_gaps(). False: no
+     * row was opened. Collective. */
+    virtual bool limit_raises(const la::VectorView &displacement);
+
     /** examine() with the address of the residual, which may be null. */
     ContactExamination examine(const la::VectorView &displacement,
                                const la::Vector *residual,

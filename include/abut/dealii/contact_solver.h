@@ -46,6 +46,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -129,13 +130,40 @@ namespace abut
         ++result_.n_searches;
         relax(u);
         enter(SolvePhase::solve);
-        bool has_answer = iterate(u);
-        while (has_answer && contact_.raise_gaps(goal(u)))
-          has_answer = iterate(u);
+        const bool has_answer = iterate_with_gaps(u);
         enter(SolvePhase::check);
         if (!has_answer || is_refused(u))
           break;
       } while (misses_nodes(u));
+    }
+
+    /** iterate() until no row presses where surfaces are apart. */
+    bool iterate_with_gaps(la::Vector &u)
+    {
+      bool has_answer = iterate(u);
+      std::optional<la::Vector> before;
+      while (has_answer && contact_.raise_gaps(goal(u)))
+      {
+        if (!before)
+          before.emplace(u);
+        try
+        {
+          has_answer = iterate(u);
+        }
+        catch (const SolverFailure &)
+        {
+          if (!contact_.limit_raises(goal(*before)))
+            throw;
+          has_answer = iterate(u = *before);
+          continue;
+        }
+        if (!has_answer && contact_.limit_raises(goal(*before)))
+        {
+          result_.reason = NewtonReason::converged;
+          has_answer = iterate(u = *before);
+        }
+      }
+      return has_answer;
     }
 
     /** Whether bodies without supports that nothing stops may meet others

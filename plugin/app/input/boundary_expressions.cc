@@ -15,38 +15,6 @@ namespace abut::app
   namespace
   {
     using Id = dealii::types::boundary_id;
-
-    std::string join(const std::vector<Id> &ids)
-    {
-      std::string text;
-      for (const Id id : ids)
-        text += (text.empty() ? "" : ", ") + std::to_string(id);
-      return text;
-    }
-
-    Id parse_id(const std::string &text, const std::string &parameter)
-    {
-      const bool digits =
-          !text.empty() && text.size() <= 9
-          && std::all_of(text.begin(), text.end(),
-                         [](unsigned char c) { return std::isdigit(c); });
-      if (!digits
-          || std::stoul(text) >= dealii::numbers::internal_face_boundary_id)
-        throw InputError(parameter,
-                         "'" + text
-                             + "' is not a boundary id; ids are whole numbers "
-                               "from 0, or * for all.");
-      return Id(std::stoul(text));
-    }
-
-    void check_id(const Id id, const std::vector<Id> &existing,
-                  const std::string &parameter)
-    {
-      if (std::find(existing.begin(), existing.end(), id) == existing.end())
-        throw InputError(parameter, "the mesh has no boundary id "
-                                        + std::to_string(id) + "; it has "
-                                        + join(existing) + ".");
-    }
   } // namespace
 
   template <int dim>
@@ -56,7 +24,7 @@ namespace abut::app
                                                 const bool may_be_free)
       : parameter(parameter)
   {
-    std::set<Id> seen;
+    std::set<std::string> seen;
     bool seen_others = false;
     for (const std::string &part : split_list(text, ';'))
     {
@@ -73,14 +41,16 @@ namespace abut::app
         if (word == "*")
           entry.others = true;
         else
-          entry.ids.insert(parse_id(word, parameter));
-      for (const Id id : entry.ids)
-        if (!seen.insert(id).second)
-          throw InputError(parameter, "boundary id " + std::to_string(id)
-                                          + " stands twice.");
+        {
+          BoundaryNames::check_word(word, parameter);
+          if (!seen.insert(word).second)
+            throw InputError(parameter,
+                             "boundary id " + word + " stands twice.");
+          entry.words.push_back(word);
+        }
       if (entry.others && seen_others)
         throw InputError(parameter, "* stands twice.");
-      if (!entry.others && entry.ids.empty())
+      if (!entry.others && entry.words.empty())
         throw InputError(parameter, "'" + part + "' has no boundary id.");
       seen_others = seen_others || entry.others;
       set_formulas(entry, dealii::Utilities::trim(part.substr(colon + 1)),
@@ -124,7 +94,7 @@ namespace abut::app
 
   template <int dim>
   std::map<Id, BoundaryCondition<dim>>
-  BoundaryExpressions<dim>::conditions(const std::vector<Id> &existing,
+  BoundaryExpressions<dim>::conditions(const BoundaryNames &existing,
                                        const std::set<Id> &without) const
   {
     std::map<Id, BoundaryCondition<dim>> result;
@@ -135,27 +105,33 @@ namespace abut::app
     };
     for (const Entry &entry : entries)
       if (entry.others)
-        for (const Id id : existing)
+        for (const Id id : existing.ids())
           if (without.count(id) == 0)
             set(id, entry);
+    std::map<Id, std::string> word_of;
     for (const Entry &entry : entries)
-      for (const Id id : entry.ids)
-      {
-        check_id(id, existing, parameter);
-        set(id, entry);
-      }
+      for (const std::string &word : entry.words)
+        for (const Id id : existing.find(word, parameter))
+        {
+          const auto [other, is_new] = word_of.emplace(id, word);
+          if (!is_new)
+            throw InputError(parameter, "'" + other->second + "' and '" + word
+                                            + "' have the boundary id "
+                                            + std::to_string(id)
+                                            + " in common; each facet can have "
+                                              "one formula only.");
+          set(id, entry);
+        }
     return result;
   }
 
   template <int dim>
   std::map<Id, const dealii::Function<dim> *>
-  BoundaryExpressions<dim>::functions(
-      const dealii::Triangulation<dim> &triangulation,
-      const std::set<Id> &without) const
+  BoundaryExpressions<dim>::functions(const BoundaryNames &existing,
+                                      const std::set<Id> &without) const
   {
     std::map<Id, const dealii::Function<dim> *> result;
-    for (const auto &[id, condition] :
-         conditions(triangulation.get_boundary_ids(), without))
+    for (const auto &[id, condition] : conditions(existing, without))
       result[id] = condition.checked;
     return result;
   }
@@ -173,28 +149,29 @@ namespace abut::app
                        { return entry.expression->depends_on_time(); });
   }
 
-  template <int dim> std::set<Id> BoundaryExpressions<dim>::named() const
+  template <int dim>
+  std::set<Id>
+  BoundaryExpressions<dim>::named(const BoundaryNames &existing) const
   {
     std::set<Id> ids;
     for (const Entry &entry : entries)
-      ids.insert(entry.ids.begin(), entry.ids.end());
+      for (const std::string &word : entry.words)
+        for (const Id id : existing.find(word, parameter))
+          ids.insert(id);
     return ids;
   }
 
   std::set<Id> parse_boundary_ids(const std::string &text,
                                   const std::string &parameter,
-                                  const std::vector<Id> &existing)
+                                  const BoundaryNames &existing)
   {
     std::set<Id> ids;
     for (const std::string &word : split_list(text, ','))
       if (word == "*")
-        ids.insert(existing.begin(), existing.end());
+        ids.insert(existing.ids().begin(), existing.ids().end());
       else
-      {
-        const Id id = parse_id(word, parameter);
-        check_id(id, existing, parameter);
-        ids.insert(id);
-      }
+        for (const Id id : existing.find(word, parameter))
+          ids.insert(id);
     return ids;
   }
 

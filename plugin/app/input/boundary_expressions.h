@@ -6,11 +6,11 @@
  * Boundary values of a scene file: formulas by boundary id.
  */
 
+#include "boundary_names.h"
 #include "expression.h"
 
 #include <deal.II/base/types.h>
 #include <deal.II/fe/component_mask.h>
-#include <deal.II/grid/tria.h>
 
 #include <map>
 #include <memory>
@@ -30,7 +30,8 @@ namespace abut::app
   };
 
   /** A list such as `0: 0; 1, 3: x^2; *: sin(pi*y)`: what stands for an id
-   * itself wins over `*`, which means all other ids of the mesh. Empty: none.
+   * itself wins over `*`, which means all other ids of the mesh; ids may be
+   * names. Empty: none.
    * The components of a vector are separated by commas, `0: x, y; 1: 0, 5`,
    * and the word `free` stands for one without condition, `2: 0, free`. */
   template <int dim> class BoundaryExpressions
@@ -43,17 +44,18 @@ namespace abut::app
                         bool may_be_free = false);
 
     /** Conditions by id; they live as long as this object. Throws InputError
-     * for an id that is not among @p existing, with those that are.
+     * for a word that is not among @p existing, with those that are, and for
+     * an id that several words mean.
      * @param without ids that `*` does not mean (those of other conditions) */
     std::map<dealii::types::boundary_id, BoundaryCondition<dim>>
-    conditions(const std::vector<dealii::types::boundary_id> &existing,
+    conditions(const BoundaryNames &existing,
                const std::set<dealii::types::boundary_id> &without = {}) const;
 
-    /** The functions of conditions() for the ids of a mesh, as deal.II's
+    /** The functions of conditions(), as deal.II's
      * interpolate_boundary_values() wants them; they throw InputError where
      * they are not finite. */
     std::map<dealii::types::boundary_id, const dealii::Function<dim> *>
-    functions(const dealii::Triangulation<dim> &triangulation,
+    functions(const BoundaryNames &existing,
               const std::set<dealii::types::boundary_id> &without = {}) const;
 
     /** Time of all formulas. */
@@ -62,8 +64,10 @@ namespace abut::app
     /** Whether any formula depends on time. */
     bool depends_on_time() const;
 
-    /** Ids that the list names themselves, not by `*`. */
-    std::set<dealii::types::boundary_id> named() const;
+    /** Ids that the list names themselves, not by `*`. Throws InputError for
+     * words that are not among @p existing. */
+    std::set<dealii::types::boundary_id>
+    named(const BoundaryNames &existing) const;
 
     bool empty() const
     {
@@ -73,8 +77,8 @@ namespace abut::app
   private:
     struct Entry
     {
-      bool others; /**< `*` */
-      std::set<dealii::types::boundary_id> ids;
+      bool others;                    /**< `*` */
+      std::vector<std::string> words; /**< ids and names */
       std::unique_ptr<Expression<dim>> expression;
       dealii::ComponentMask components;
       std::unique_ptr<CheckedExpression<dim>> checked;
@@ -90,7 +94,7 @@ namespace abut::app
    * names @p parameter for what is not one or is not among @p existing. */
   std::set<dealii::types::boundary_id>
   parse_boundary_ids(const std::string &text, const std::string &parameter,
-                     const std::vector<dealii::types::boundary_id> &existing);
+                     const BoundaryNames &existing);
 } // namespace abut::app
 
 #endif

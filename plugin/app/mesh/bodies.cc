@@ -8,6 +8,8 @@
 #include "mesh_checks.h"
 #include "simplex_refinement.h"
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,6 +32,15 @@ namespace abut::app
     }
   } // namespace
 
+  namespace
+  {
+    /** Whether a word is meant as a number, and gets the messages of one. */
+    bool could_be_number(const std::string &word)
+    {
+      return word.find_first_of("0123456789") != std::string::npos;
+    }
+  } // namespace
+
   template <int dim>
   BodyMeshes<dim>
   create_body_meshes(const std::vector<BodyParameters> &parameters,
@@ -37,7 +48,8 @@ namespace abut::app
   {
     BodyMeshes<dim> result(parameters.size());
     for (std::size_t body = 0; body < parameters.size(); ++body)
-      create_mesh(parameters[body].mesh, options, result.meshes[body]);
+      result.extras[body] =
+          create_mesh(parameters[body].mesh, options, result.meshes[body]);
     const auto has_simplices = [&](const std::size_t body)
     { return result.meshes[body].all_reference_cells_are_simplex(); };
     result.are_simplices = has_simplices(0);
@@ -70,8 +82,7 @@ namespace abut::app
     for (unsigned int body = 0; body < size(); ++body)
     {
       const Mesh &mesh = coarse.meshes[body];
-      user_ids.push_back(mesh.get_boundary_ids());
-      for (const BoundaryId id : user_ids.back())
+      for (const BoundaryId id : ids(body))
       {
         numbers[{body, id}] = static_cast<BoundaryId>(origin.size());
         origin.push_back({body, id});
@@ -145,6 +156,15 @@ namespace abut::app
     double n_cells = 0.;
     for (unsigned int body = 0; body < size(); ++body)
     {
+      const MeshFileExtras<dim> &extras = coarse.extras[body];
+      all_names.push_back(names_of(extras, coarse.meshes[body]));
+      if (!parameters[body].name.empty())
+        body_names.emplace_back(parameters[body].name, body);
+      for (const std::string &name : extras.body_names)
+        if (parameters[body].name.empty())
+          body_names.emplace_back(name, body);
+      for (const std::string &warning : extras.warnings)
+        of_files.push_back(parameters[body].mesh.section + "/File: " + warning);
       if constexpr (dim == 2)
         if (of_revolution)
           check_axis(parameters[body].mesh, coarse.meshes[body]);
@@ -192,8 +212,18 @@ namespace abut::app
   template <int dim>
   std::string Bodies<dim>::name(const BoundaryId number) const
   {
-    return "body " + std::to_string(origin[number].first + 1) + ", boundary "
-           + std::to_string(origin[number].second);
+    const auto [body, id] = origin[number];
+    const std::string words = all_names[body].names_of(id);
+    return "body " + std::to_string(body + 1) + ", boundary "
+           + std::to_string(id) + (words.empty() ? "" : " (" + words + ")");
+  }
+
+  template <int dim> std::string Bodies<dim>::names_in_words() const
+  {
+    std::string text;
+    for (const auto &named : body_names)
+      text += (text.empty() ? ", or its name, '" : "', '") + named.first;
+    return text + (text.empty() ? "" : "'");
   }
 
   template <int dim>
@@ -208,15 +238,26 @@ namespace abut::app
                           const std::string &parameter) const
   {
     const std::size_t colon = text.find(':');
+    const std::string word =
+        dealii::Utilities::trim(text.substr(0, std::min(colon, text.size())));
+    std::set<unsigned int> named;
+    for (const auto &[name, body] : body_names)
+      if (colon != std::string::npos && name == word)
+        named.insert(body);
+    if (named.size() > 1)
+      throw InputError(parameter, "several bodies have the name '" + word
+                                      + "': write their numbers.");
+    if (!named.empty())
+      return {*named.begin(), text.substr(colon + 1)};
     std::vector<double> body;
-    if (colon != std::string::npos)
-      body = parse_numbers(text.substr(0, colon), parameter);
+    if (colon != std::string::npos && could_be_number(word))
+      body = parse_numbers(word, parameter);
     if (body.size() != 1 || body[0] < 1 || body[0] > size()
         || body[0] != std::floor(body[0]))
-      throw InputError(parameter,
-                       "'" + text
-                           + "' does not begin with the number of a body, 1 to "
-                           + std::to_string(size()) + ", and a colon.");
+      throw InputError(
+          parameter,
+          "'" + text + "' does not begin with the number of a body, 1 to "
+              + std::to_string(size()) + names_in_words() + ", and a colon.");
     return {static_cast<unsigned int>(body[0]) - 1, text.substr(colon + 1)};
   }
 
@@ -230,7 +271,7 @@ namespace abut::app
     {
       const auto [body, list] = split_body(part, parameter);
       const BoundaryIds chosen =
-          parse_boundary_ids(list, parameter, user_ids[body]);
+          parse_boundary_ids(list, parameter, all_names[body]);
       if (chosen.empty())
         throw InputError(parameter, "'" + part + "' names no boundary id.");
       for (const BoundaryId id : chosen)

@@ -21,11 +21,13 @@ namespace abut::app
   /** The coarse meshes of bodies, all with the same kind of cells. */
   template <int dim> struct BodyMeshes
   {
-    explicit BodyMeshes(const std::size_t n_bodies = 0) : meshes(n_bodies)
+    explicit BodyMeshes(const std::size_t n_bodies = 0)
+        : meshes(n_bodies), extras(n_bodies)
     {
     }
 
     std::vector<dealii::Triangulation<dim>> meshes;
+    std::vector<MeshFileExtras<dim>> extras;
     bool are_simplices = false; /**< triangles or tetrahedra */
   };
 
@@ -80,13 +82,26 @@ namespace abut::app
     /** Boundary ids that the user knows of a body, sorted. */
     const std::vector<BoundaryId> &ids(const unsigned int body) const
     {
-      return user_ids[body];
+      return all_names[body].ids();
+    }
+
+    /** These ids and their names in the file of the body's mesh. */
+    const BoundaryNames &names(const unsigned int body) const
+    {
+      return all_names[body];
+    }
+
+    /** Warnings about the files of meshes, with the body. */
+    const std::vector<std::string> &warnings() const
+    {
+      return of_files;
     }
 
     /** Number in the triangulation of a body's boundary id. */
     BoundaryId number(unsigned int body, BoundaryId id) const;
 
-    /** "body 2, boundary 3" for a number of the triangulation. */
+    /** "body 2, boundary 3", or "body 2, boundary 3 ('top')" where it has a
+     * name, for a number of the triangulation. */
     std::string name(BoundaryId number) const;
 
     /** What the user calls a boundary number of the triangulation in its body.
@@ -99,27 +114,31 @@ namespace abut::app
     /** Body that a boundary number of the triangulation belongs to. */
     unsigned int body_of(BoundaryId number) const;
 
-    /** The boundary numbers that a text such as `1: 3, 4; 2: *` names (body:
-     * its boundary ids). Throws InputError that names @p parameter. */
+    /** The boundary numbers that a text such as `1: 3, 4; pin: *; 3: top` names
+     * (body: its boundary ids or their names). Throws InputError that names @p
+     * parameter. */
     BoundaryIds surface(const std::string &text,
                         const std::string &parameter) const;
 
-    /** The body, from 0, that the text before a colon names, and the rest of
-     * the text. Throws InputError that names @p parameter. */
+    /** The body, from 0, whose number or name is the text before a colon, and
+     * the rest of the text. Throws InputError that names @p parameter. */
     std::pair<unsigned int, std::string>
     split_body(const std::string &text, const std::string &parameter) const;
 
   private:
     using Mesh = dealii::Triangulation<dim>;
 
+    std::string names_in_words() const;
     void merge(const BodyMeshes<dim> &coarse, unsigned int further_levels,
                Mesh &all);
     void refine_bodies(dealii::Triangulation<dim> &triangulation) const;
 
     const std::vector<BodyParameters> &parameters;
     const bool of_revolution;
-    MeshDescription<dim> description; ///< of triangles or tetrahedra
-    std::vector<std::vector<BoundaryId>> user_ids;
+    MeshDescription<dim> description;     ///< of triangles or tetrahedra
+    std::vector<BoundaryNames> all_names; ///< by body
+    std::vector<std::pair<std::string, unsigned int>> body_names;
+    std::vector<std::string> of_files;
     std::vector<std::pair<unsigned int, BoundaryId>> origin; ///< by number
     std::map<std::pair<unsigned int, BoundaryId>, BoundaryId> numbers;
   };

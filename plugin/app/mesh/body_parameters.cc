@@ -16,6 +16,12 @@ namespace abut::app
     prm.enter_subsection("Mesh");
     MeshParameters::declare(prm);
     prm.leave_subsection();
+    prm.declare_entry("Name", "", Patterns::Anything(),
+                      "Word for the body in the lists of surfaces of pairs and "
+                      "in `Output/Points`, beside its number. Empty: the name "
+                      "that its mesh file gives all its cells, if any (of a "
+                      "physical volume, in 2D of a physical surface, or of an "
+                      "element set).");
     prm.declare_entry("Refinements", "0", Patterns::Integer(0, 30),
                       "Uniform refinements of this body before those of "
                       "`Refinement/Level`.");
@@ -46,11 +52,12 @@ namespace abut::app
                       "Mass per volume; its weight is density times "
                       "`Solid/Gravity`, and its inertia that of section "
                       "`Time`.");
-    prm.declare_entry("Support", "", FormulaPattern::vector_by_id(),
-                      "Prescribed displacements by boundary id, `3: 0, 0; 1, "
-                      "2: free, -0.1*t`: a formula in x, y, z, t for each "
-                      "component, or the word free. * means all other ids. "
-                      "Ids that are not named are free.");
+    prm.declare_entry(
+        "Support", "", FormulaPattern::vector_by_id(),
+        "Prescribed displacements by boundary id or name, `3: 0, 0; 1, "
+        "2: free, -0.1*t`: a formula in x, y, z, t for each "
+        "component, or the word free. * means all other ids. "
+        "Ids that are not named are free.");
     prm.declare_entry("Traction", "", FormulaPattern::vector_by_id(),
                       "Forces per area by boundary id, written like "
                       "`Support`, without the word free.");
@@ -77,6 +84,7 @@ namespace abut::app
     prm.enter_subsection("Mesh");
     mesh.parse(prm, section + "/Mesh");
     prm.leave_subsection();
+    name = prm.get("Name");
     refinements = prm.get_integer("Refinements");
     material = &find_material(prm.get("Material"));
     volume = prm.get("Element") == "mean dilatation" ? VolumeChange::of_cell

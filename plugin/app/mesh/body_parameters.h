@@ -15,6 +15,7 @@ namespace abut::app
   struct BodyParameters
   {
     std::string section; ///< "Body 1"
+    std::string name;    ///< empty: that of its mesh file, or none
     MeshParameters mesh;
     unsigned int refinements = 0;
     const MaterialKind *material = nullptr;

@@ -6,10 +6,27 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace abut::app
 {
+  namespace
+  {
+    /** Length, or area as half the product of the diagonals or two sides:
+     * deal.II measures no quadrilateral that is not plane. */
+    template <typename Face> double measure_of(const Face &face)
+    {
+      if (face->n_vertices() == 2)
+        return face->vertex(0).distance(face->vertex(1));
+      const unsigned int last = face->n_vertices() - 1;
+      const auto a = face->vertex(last) - face->vertex(0),
+                 b = face->vertex(last == 3 ? 2 : 1)
+                     - face->vertex(last == 3 ? 1 : 0);
+      return 0.5 * std::sqrt(std::max(0., a * a * (b * b) - a * b * (a * b)));
+    }
+  } // namespace
+
   template <int dim>
   std::vector<BoundaryPart<dim>>
   boundary_parts(const dealii::Triangulation<dim> &triangulation,
@@ -23,6 +40,7 @@ namespace abut::app
       double ends[2 * dim];
       std::fill(ends, ends + 2 * dim, -std::numeric_limits<double>::infinity());
       unsigned int n_faces = 0;
+      double measure = 0.;
       for (const auto &cell : triangulation.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
         {
@@ -31,6 +49,7 @@ namespace abut::app
               || face->boundary_id() != id)
             continue;
           ++n_faces;
+          measure += measure_of(face);
           for (const unsigned int v : face->vertex_indices())
             for (unsigned int d = 0; d < dim; ++d)
             {
@@ -38,7 +57,11 @@ namespace abut::app
               ends[dim + d] = std::max(ends[dim + d], -face->vertex(v)[d]);
             }
         }
-      BoundaryPart<dim> part{id, MPI::sum(n_faces, communicator), {}, {}};
+      BoundaryPart<dim> part{id,
+                             MPI::sum(n_faces, communicator),
+                             MPI::sum(measure, communicator),
+                             {},
+                             {}};
       for (unsigned int d = 0; d < dim; ++d)
       {
         part.largest[d] = MPI::max(ends[d], communicator);
@@ -53,7 +76,8 @@ namespace abut::app
   {
     const char *const names[] = {"x", "y", "z"};
     std::string text =
-        std::to_string(part.n_faces) + (part.n_faces == 1 ? " face" : " faces");
+        std::to_string(part.n_faces) + (part.n_faces == 1 ? " face" : " faces")
+        + (dim == 2 ? ", length " : ", area ") + short_number(part.measure);
     double extent = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       extent = std::max(extent, part.largest[d] - part.least[d]);

@@ -16,6 +16,7 @@ namespace abut::app
   {
     dealii::types::boundary_id id;
     unsigned int n_faces;
+    double measure; ///< area, in 2D length; of straight faces
     dealii::Point<dim> least, largest; ///< corners of the box around them
   };
 
@@ -25,7 +26,7 @@ namespace abut::app
   boundary_parts(const dealii::Triangulation<dim> &triangulation,
                  MPI_Comm communicator);
 
-  /** "12 faces, x from 0 to 1, y = 2". */
+  /** "12 faces, length 1, x from 0 to 1, y = 2". */
   template <int dim> std::string in_words(const BoundaryPart<dim> &part);
 } // namespace abut::app
 

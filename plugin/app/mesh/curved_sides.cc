@@ -170,6 +170,7 @@ namespace abut::app
 
   template <int dim>
   void set_curved_sides(const std::string &text, const std::string &parameter,
+                        const BoundaryNames &names,
                         dealii::Triangulation<dim> &triangulation)
   {
     for (const std::string &entry : split_list(text, ';'))
@@ -177,8 +178,8 @@ namespace abut::app
       if (entry.empty())
         continue;
       const std::vector<std::string> parts = split_list(entry, ':');
-      const std::set<boundary_id> ids = parse_boundary_ids(
-          parts[0], parameter, triangulation.get_boundary_ids());
+      const std::set<boundary_id> ids =
+          parse_boundary_ids(parts[0], parameter, names);
       if (ids.empty())
         throw InputError(parameter, "'" + entry + "' names no boundary id.");
       const RoundSurface<dim> surface =
@@ -196,7 +197,8 @@ namespace abut::app
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template void set_curved_sides<dim>(                                         \
-      const std::string &, const std::string &, dealii::Triangulation<dim> &);
+      const std::string &, const std::string &, const BoundaryNames &,         \
+      dealii::Triangulation<dim> &);
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

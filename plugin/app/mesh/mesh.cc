@@ -111,15 +111,17 @@ namespace abut::app
     }
 
     template <int dim>
-    void read_checked(const MeshParameters &parameters,
-                      const RunOptions &options,
-                      dealii::Triangulation<dim> &triangulation)
+    MeshFileExtras<dim> read_checked(const MeshParameters &parameters,
+                                     const RunOptions &options,
+                                     dealii::Triangulation<dim> &triangulation)
     {
       const std::filesystem::path path = options.input_file(parameters.file);
-      read_mesh_file(path, parameters.section + "/File", triangulation);
+      const MeshFileExtras<dim> extras = read_mesh_file(
+          path, parameters.section + "/File", parameters.part, triangulation);
       try
       {
         check_mesh(parameters, triangulation);
+        return extras;
       }
       catch (const InputError &error)
       {
@@ -131,7 +133,8 @@ namespace abut::app
     /** Generated or read, one level, in its own place. */
     template <int dim>
     std::shared_ptr<const dealii::Triangulation<dim>>
-    make_reference(const MeshParameters &parameters, const RunOptions &options)
+    make_reference(const MeshParameters &parameters, const RunOptions &options,
+                   MeshFileExtras<dim> &extras)
     {
       const AssertionsThrow throwing;
       auto made = std::make_shared<dealii::Triangulation<dim>>();
@@ -141,7 +144,7 @@ namespace abut::app
         check_mesh(parameters, *made);
       }
       else
-        read_checked(parameters, options, *made);
+        extras = read_checked(parameters, options, *made);
       if (made->n_levels() == 1)
         return made;
       auto flat = std::make_shared<dealii::Triangulation<dim>>();
@@ -164,9 +167,15 @@ namespace abut::app
                       "colons; points and lists by commas. For hyper_cube: "
                       "left : right : colorize.");
     prm.declare_entry("File", "", Anything(),
-                      "Mesh file (msh of gmsh, inp or ucd, vtk, vtu, unv, "
-                      "xda), read instead of generating a mesh; relative "
-                      "names are relative to the scene file.");
+                      "Mesh file (msh of gmsh, inp of Abaqus or CalculiX, inp "
+                      "or ucd of UCD, vtk, vtu, unv, xda), read instead of "
+                      "generating a mesh; relative names are relative to the "
+                      "scene file. Names of its surfaces and sets may stand "
+                      "for boundary ids.");
+    prm.declare_entry("Part", "", Anything(),
+                      "Name of the physical volume (in 2D physical surface), "
+                      "element set or part of the file whose cells alone are "
+                      "the mesh. Empty: all cells.");
     prm.declare_entry("Scale", "1", Anything(),
                       "Factor, or one per direction, applied first.");
     prm.declare_entry("Rotate", "", Anything(),
@@ -197,6 +206,10 @@ namespace abut::app
     generator = prm.get("Generator");
     arguments = prm.get("Arguments");
     file = prm.get("File");
+    part = prm.get("Part");
+    if (file.empty() && !part.empty())
+      throw InputError(section + "/Part",
+                       "has no effect without a mesh file in File.");
     boundary_ids = prm.get("Boundary ids");
     curved_sides = prm.get("Curved sides");
     const auto numbers = [&](const std::string &name)
@@ -261,15 +274,17 @@ namespace abut::app
   }
 
   template <int dim>
-  void create_mesh(const MeshParameters &parameters, const RunOptions &options,
-                   dealii::Triangulation<dim> &triangulation)
+  MeshFileExtras<dim> create_mesh(const MeshParameters &parameters,
+                                  const RunOptions &options,
+                                  dealii::Triangulation<dim> &triangulation)
   {
+    MeshFileExtras<dim> extras;
     std::shared_ptr<const dealii::Triangulation<dim>> reference;
     dealii::Triangulation<dim> placed;
     const auto prepare = [&]()
     {
       const Placement<dim> placement = make_placement<dim>(parameters);
-      reference = make_reference<dim>(parameters, options);
+      reference = make_reference<dim>(parameters, options, extras);
       placed.copy_triangulation(*reference);
       dealii::GridTools::transform([&placement](const dealii::Point<dim> &x)
                                    { return placement.place(x); },
@@ -285,10 +300,21 @@ namespace abut::app
           placed.set_manifold(id,
                               PlacedManifold<dim>(reference, id, placement));
       set_curved_sides(parameters.curved_sides,
-                       parameters.section + "/Curved sides", placed);
+                       parameters.section + "/Curved sides",
+                       names_of(extras, placed), placed);
+      for (auto &middle : extras.middles)
+        middle.second = placement.place(middle.second);
     };
     collective(options.communicator, prepare);
     triangulation.copy_triangulation(placed);
+    return extras;
+  }
+
+  template <int dim>
+  BoundaryNames names_of(const MeshFileExtras<dim> &extras,
+                         const dealii::Triangulation<dim> &triangulation)
+  {
+    return {triangulation.get_boundary_ids(), extras.sets, extras.other_names};
   }
 
   template <int dim>
@@ -380,10 +406,16 @@ namespace abut::app
                               const MeshParameters &, const std::string &);
   template double half_extent<2>(const dealii::Triangulation<2> &);
   template double half_extent<3>(const dealii::Triangulation<3> &);
-  template void create_mesh<2>(const MeshParameters &, const RunOptions &,
-                               dealii::Triangulation<2> &);
-  template void create_mesh<3>(const MeshParameters &, const RunOptions &,
-                               dealii::Triangulation<3> &);
+  template MeshFileExtras<2> create_mesh<2>(const MeshParameters &,
+                                            const RunOptions &,
+                                            dealii::Triangulation<2> &);
+  template MeshFileExtras<3> create_mesh<3>(const MeshParameters &,
+                                            const RunOptions &,
+                                            dealii::Triangulation<3> &);
+  template BoundaryNames names_of<2>(const MeshFileExtras<2> &,
+                                     const dealii::Triangulation<2> &);
+  template BoundaryNames names_of<3>(const MeshFileExtras<3> &,
+                                     const dealii::Triangulation<3> &);
   template void set_boundary_ids<2>(const std::string &, const std::string &,
                                     dealii::Triangulation<2> &);
   template void set_boundary_ids<3>(const std::string &, const std::string &,

@@ -7,6 +7,7 @@
  */
 
 #include "app/input/run_options.h"
+#include "mesh_file.h"
 #include "placed_manifold.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -24,6 +25,7 @@ namespace abut::app
   {
     std::string generator; /**< function of deal.II's GridGenerator */
     std::string arguments; /**< its arguments, `a : b : c` */
+    std::string part;      /**< of the file; empty: all of it */
     std::string file;      /**< used instead of the generator if not empty */
     std::vector<double> scale;
     std::vector<double> rotate;
@@ -59,10 +61,17 @@ namespace abut::app
    * Throws InputError, on all ranks alike, that names the parameter: an unknown
    * generator (with the nearest right names), arguments that do not fit (with
    * what deal.II expected), a file that is missing, of unknown format, or of
-   * another dimension. Collective. */
+   * another dimension. Returns what the file says beside the mesh, at its
+   * place. Collective. */
   template <int dim>
-  void create_mesh(const MeshParameters &parameters, const RunOptions &options,
-                   dealii::Triangulation<dim> &triangulation);
+  MeshFileExtras<dim> create_mesh(const MeshParameters &parameters,
+                                  const RunOptions &options,
+                                  dealii::Triangulation<dim> &triangulation);
+
+  /** Boundary ids of a mesh with the names that its file gives. */
+  template <int dim>
+  BoundaryNames names_of(const MeshFileExtras<dim> &extras,
+                         const dealii::Triangulation<dim> &triangulation);
 
   /** "triangles", "quadrilaterals", "tetrahedra" or "hexahedra", for a mesh of
    * one kind of cells. */

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-/* deal.II's readers stop at the first word that is no number, and then report
+/* What a file is of is seen by its first line where it is gmsh's or Abaqus',
+ * and by its ending else: UCD files have the ending inp, too.
+ *
+ * deal.II's readers stop at the first word that is no number, and then report
  * what they miss behind it. So the reason is looked for in the words of the
  * file, whatever its format: numbers that are not finite, decimal commas,
  * coordinates that are so large that cells lose their digits. */
 #include "mesh_file.h"
 
+#include "abaqus_file.h"
 #include "app/input/dealii_message.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
+#include "gmsh_file.h"
 
 #include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <cctype>
@@ -207,15 +213,121 @@ namespace abut::app
     }
   } // namespace
 
-  template <int dim>
-  void read_mesh_file(const std::filesystem::path &path,
-                      const std::string &parameter,
-                      dealii::Triangulation<dim> &triangulation)
+  namespace
   {
+    /** Place of a corner of a quadrilateral or hexahedron in deal.II's order,
+     * the same as deal.II's readers make: the order that they take hexahedra to
+     * be in has left-handed cells, of which they then exchange two faces. */
+    template <int dim> unsigned int place_of_corner(const unsigned int c)
+    {
+      return dealii::GeometryInfo<dim>::ucd_to_deal[c] ^ (dim == 3 ? 2u : 0u);
+    }
+  } // namespace
+
+  template <int dim> MeshArrays<dim> mesh_arrays(const MeshRecord &record)
+  {
+    const ShapeInfo &info = shape_info(record.shape);
+    const bool is_cube = info.n_corners == (1u << dim);
+    MeshArrays<dim> result;
+    for (const std::array<double, 3> &x : record.vertices)
+    {
+      result.vertices.emplace_back();
+      for (unsigned int d = 0; d < dim; ++d)
+        result.vertices.back()[d] = x[d];
+    }
+    for (const RecordCell &cell : record.cells)
+    {
+      dealii::CellData<dim> data(info.n_corners);
+      for (unsigned int c = 0; c < info.n_corners; ++c)
+        data.vertices[is_cube ? place_of_corner<dim>(c) : c] = cell.corners[c];
+      data.material_id = cell.material;
+      result.cells.push_back(std::move(data));
+    }
+    for (const RecordFacet &facet : record.facets)
+    {
+      dealii::CellData<dim - 1> data(
+          static_cast<unsigned int>(facet.corners.size()));
+      data.vertices.assign(facet.corners.begin(), facet.corners.end());
+      data.boundary_id = facet.boundary_id;
+      if constexpr (dim == 2)
+        result.facets.boundary_lines.push_back(std::move(data));
+      else
+        result.facets.boundary_quads.push_back(std::move(data));
+    }
+    if (is_cube)
+      dealii::GridTools::consistently_order_cells(result.cells);
+    return result;
+  }
+
+  namespace
+  {
+    template <int dim>
+    MeshFileExtras<dim> use_record(const MeshRecord &record,
+                                   dealii::Triangulation<dim> &triangulation)
+    {
+      const MeshArrays<dim> arrays = mesh_arrays<dim>(record);
+      triangulation.create_triangulation(arrays.vertices, arrays.cells,
+                                         arrays.facets);
+      MeshFileExtras<dim> extras;
+      for (const RecordSet &set : record.boundary_sets)
+        extras.sets.push_back(
+            {set.name, set.id, {set.ids.begin(), set.ids.end()}});
+      extras.degree = record.degree;
+      extras.other_names = record.other_sets;
+      extras.body_names = record.body_names;
+      for (const auto &[edge, x] : record.middles)
+        for (unsigned int d = 0; d < dim; ++d)
+          extras.middles[edge][d] = x[d];
+      extras.warnings = record.warnings;
+      return extras;
+    }
+
+    /** Whether a first line is that of gmsh's formats 2 and 4; format 1 is left
+     * to deal.II. */
+    bool is_gmsh(const std::string &line)
+    {
+      return !line.empty() && line[0] == '$' && line != "$NOD";
+    }
+  } // namespace
+
+  template <int dim>
+  MeshFileExtras<dim> read_mesh_file(const std::filesystem::path &path,
+                                     const std::string &parameter,
+                                     const std::string &part,
+                                     dealii::Triangulation<dim> &triangulation)
+  {
+    const auto complain = [&](const std::string &why)
+    {
+      throw InputError(parameter, "the mesh file '" + path.string()
+                                      + "' cannot be read as a mesh in "
+                                      + std::to_string(dim)
+                                      + " dimensions: " + why);
+    };
     std::ifstream in(path);
     if (!in || std::filesystem::is_directory(path))
       throw InputError(parameter, "the mesh file '" + path.string()
                                       + "' cannot be opened.");
+    const std::string line = first_line(path);
+    try
+    {
+      if (is_gmsh(line))
+        return use_record(make_mesh_record(read_gmsh(path), dim, part),
+                          triangulation);
+      if (!line.empty() && line[0] == '*')
+        return use_record(make_mesh_record(read_abaqus(path, part), dim, part),
+                          triangulation);
+    }
+    catch (const MeshFileError &error)
+    {
+      complain(error.what());
+    }
+    catch (const std::exception &error)
+    {
+      complain(reason<dim>(path, error));
+    }
+    if (!part.empty())
+      complain("it has no parts with names, which files of gmsh (formats 2 and "
+               "4) and Abaqus have: leave Part empty.");
     const auto format = format_of<dim>(path, parameter);
     if (format == dealii::GridIn<dim>::vtk)
       check_vtk_cells(path, parameter);
@@ -226,11 +338,9 @@ namespace abut::app
     }
     catch (const std::exception &error)
     {
-      throw InputError(parameter, "the mesh file '" + path.string()
-                                      + "' cannot be read as a mesh in "
-                                      + std::to_string(dim) + " dimensions: "
-                                      + reason<dim>(path, error));
+      complain(reason<dim>(path, error));
     }
+    return {};
   }
 
   std::string large_number_hint(const std::filesystem::path &path)
@@ -256,10 +366,12 @@ namespace abut::app
              "or is a mistake.";
   }
 
-  template void read_mesh_file<2>(const std::filesystem::path &,
-                                  const std::string &,
-                                  dealii::Triangulation<2> &);
-  template void read_mesh_file<3>(const std::filesystem::path &,
-                                  const std::string &,
-                                  dealii::Triangulation<3> &);
+#define ABUT_INSTANTIATE(dim)                                                  \
+  template MeshArrays<dim> mesh_arrays<dim>(const MeshRecord &);               \
+  template MeshFileExtras<dim> read_mesh_file<dim>(                            \
+      const std::filesystem::path &, const std::string &, const std::string &, \
+      dealii::Triangulation<dim> &);
+  ABUT_INSTANTIATE(2)
+  ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 } // namespace abut::app

@@ -16,6 +16,7 @@
 
 #include "app/input/input_error.h"
 #include "app/input/number_text.h"
+#include "cell_geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,12 +36,6 @@ namespace abut::app
 
     /** Corners closer than this part of a side are one vertex. */
     constexpr double joined_part = 1e-7;
-
-    double distance(const std::array<double, 3> &a,
-                    const std::array<double, 3> &b)
-    {
-      return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-    }
 
     class Reader
     {

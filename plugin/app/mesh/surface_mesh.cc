@@ -182,10 +182,11 @@ namespace abut::app
     {
       const MeshParameters &mesh = parameters.mesh;
       dealii::Triangulation<dim> triangulation;
-      create_mesh<dim>(mesh, options, triangulation);
+      const MeshFileExtras<dim> extras =
+          create_mesh<dim>(mesh, options, triangulation);
       const Ids ids = parse_boundary_ids(parameters.surface_ids,
                                          mesh.section + "/Surface ids",
-                                         triangulation.get_boundary_ids());
+                                         names_of(extras, triangulation));
       if (parameters.refinements > 0)
         require_cubes(triangulation, mesh, "surfaces with Refinements");
       refine<dim>(parameters, ids, triangulation);
@@ -255,8 +256,9 @@ namespace abut::app
     using namespace dealii::Patterns;
     MeshParameters::declare(prm);
     prm.declare_entry("File", "", Anything(),
-                      "Mesh file (msh of gmsh, inp or ucd, vtk, vtu, unv, "
-                      "xda) whose boundary is the surface, or triangles in 3D "
+                      "Mesh file (msh of gmsh, inp of Abaqus or CalculiX, inp "
+                      "or ucd of UCD, vtk, vtu, unv, xda) whose boundary is "
+                      "the surface, or triangles in 3D "
                       "(stl, text or binary), read instead of generating a "
                       "mesh; relative names are relative to the scene file.");
     prm.declare_entry("Refinements", "0", Integer(0, 30),

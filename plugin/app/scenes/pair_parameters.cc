@@ -22,7 +22,8 @@ namespace abut::app
     prm.declare_entry("Secondary", "", Patterns::Anything(),
                       "The surface that carries the constraints, usually the "
                       "finer and softer one: a body and its boundary ids, `1: "
-                      "3, 4`; several bodies are separated by ';'.");
+                      "3, 4`; several bodies are separated by ';'. Names may "
+                      "stand for both: `plate: top`.");
     prm.declare_entry("Primary", "", Patterns::Anything(),
                       "The surface that it may touch, written like "
                       "`Secondary`; empty with an obstacle. The same as "

@@ -2,6 +2,16 @@
 /* Nodes inside a surface, by detection. */
 #include "interface/inside.h"
 
+/* The point nearest to a node inside is above it along a normal, or at a
+ * reentrant corner between two normals. A node whose nearest point is a corner
+ * far away along the facet is beside the surface: the facets nearer to it face
+ * away from it. */
+static bool
+is_beside(const abut_contact *c)
+{
+  return c->distance * c->distance > 4. * c->gap * c->gap;
+}
+
 static int32_t
 select_deep(const abut_detection_view *view, double depth, double thickness,
             abut_inside *found)
@@ -10,7 +20,7 @@ select_deep(const abut_detection_view *view, double depth, double thickness,
   for (int32_t i = 0; i < view->n_nodes; ++i)
   {
     const abut_contact *c = &view->contact[i];
-    if (c->facet < 0 || !(c->gap < -depth)
+    if (c->facet < 0 || !(c->gap < -depth) || is_beside(c)
         || (thickness > 0. && c->gap < -0.5 * thickness))
       continue;
     const abut_inside inside = {i, c->facet, -c->gap};

@@ -37,9 +37,13 @@ namespace abut::app
   template <int dim> void MembraneModel<dim>::create_mesh()
   {
     dealii::Triangulation<dim> coarse;
-    app::create_mesh(parameters.mesh, run.options, coarse);
+    const MeshFileExtras<dim> extras =
+        app::create_mesh(parameters.mesh, run.options, coarse);
     require_cubes(coarse, parameters.mesh, "scenes of kind 'obstacle'");
     this->triangulation.copy_triangulation(coarse);
+    names = names_of(extras, this->triangulation);
+    for (const std::string &warning : extras.warnings)
+      run.report.warn("Membrane/Mesh/File: " + warning);
     const double factor =
         std::pow(2., dim * double(parameters.refinement.level));
     check_memory(dim, factor * this->triangulation.n_global_active_cells(),
@@ -68,9 +72,8 @@ namespace abut::app
     if (exact)
       exact->set_length(half_extent(this->triangulation));
     if (!parameters.boundary_ids.empty())
-      contact_ids =
-          parse_boundary_ids(parameters.boundary_ids, "Contact/Boundary ids",
-                             this->triangulation.get_boundary_ids());
+      contact_ids = parse_boundary_ids(parameters.boundary_ids,
+                                       "Contact/Boundary ids", names);
 
     obstacle.boundary_ids = contact_ids;
     if (!parameters.height_map.file.empty())
@@ -88,7 +91,8 @@ namespace abut::app
     data.load = load.get();
     data.constant_conductivity = conductivity->is_constant();
     data.constant_load = load->is_constant();
-    const std::set<dealii::types::boundary_id> prescribed = dirichlet->named();
+    const std::set<dealii::types::boundary_id> prescribed =
+        dirichlet->named(names);
     const auto refuse_prescribed =
         [&](const auto &ids, const std::string &name, const std::string &what)
     {
@@ -100,13 +104,13 @@ namespace abut::app
     };
     // What both lists name themselves is a mistake; their * mean the ids that
     // are left.
-    refuse_prescribed(neumann->named(), "Membrane/Neumann", "the flux");
+    refuse_prescribed(neumann->named(names), "Membrane/Neumann", "the flux");
     refuse_prescribed(contact_ids, "Contact/Boundary ids", "contact");
-    data.neumann = neumann->functions(this->triangulation, prescribed);
+    data.neumann = neumann->functions(names, prescribed);
     std::set<dealii::types::boundary_id> taken = contact_ids;
     for (const auto &entry : data.neumann)
       taken.insert(entry.first);
-    data.dirichlet = dirichlet->functions(this->triangulation, taken);
+    data.dirichlet = dirichlet->functions(names, taken);
   }
 
   template <int dim> void MembraneModel<dim>::setup_mesh()
@@ -346,8 +350,12 @@ namespace abut::app
     run.report.set("constraints", run.contact.n_rows());
     for (const BoundaryPart<dim> &part :
          boundary_parts(this->triangulation, run.communicator))
-      run.report.progress("boundary " + std::to_string(part.id) + ": "
+    {
+      const std::string words = names.names_of(part.id);
+      run.report.progress("boundary " + std::to_string(part.id)
+                          + (words.empty() ? "" : " (" + words + ")") + ": "
                           + in_words(part));
+    }
   }
 
   template <int dim>

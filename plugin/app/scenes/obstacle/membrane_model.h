@@ -110,6 +110,7 @@ namespace abut::app
     std::unique_ptr<Expression<dim>> conductivity, load;
     /** Of what moves; or null. */
     std::unique_ptr<Expression<dim>> density, displacement, velocity;
+    BoundaryNames names; ///< of the boundary ids
     std::unique_ptr<BoundaryExpressions<dim>> dirichlet, neumann;
     std::unique_ptr<ExactSolution<dim>> exact;
     std::set<dealii::types::boundary_id> contact_ids;

@@ -60,7 +60,7 @@ namespace abut::app
       const auto add = [&](const BoundaryExpressions<dim> &list, auto &to)
       {
         for (const auto &[id, condition] :
-             list.conditions(bodies.ids(body), taken))
+             list.conditions(bodies.names(body), taken))
         {
           to[bodies.number(body, id)] = condition;
         }
@@ -69,8 +69,8 @@ namespace abut::app
       add(own.traction, result.tractions);
       add(own.pressure, result.pressures);
       for (const auto &list :
-           {own.traction.conditions(bodies.ids(body), taken),
-            own.pressure.conditions(bodies.ids(body), taken)})
+           {own.traction.conditions(bodies.names(body), taken),
+            own.pressure.conditions(bodies.names(body), taken)})
         for (const auto &entry : list)
           taken.insert(entry.first);
       add(own.support, result.supports);
@@ -102,7 +102,7 @@ namespace abut::app
     const auto require = [&](const BoundaryExpressions<dim> &loads,
                              const auto &given, const std::string &name)
     {
-      for (const boundary_id id : loads.named())
+      for (const boundary_id id : loads.named(bodies.names(body)))
       {
         const Expression<dim> &load =
             *given.at(bodies.number(body, id)).function;

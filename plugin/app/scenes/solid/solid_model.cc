@@ -80,6 +80,8 @@ namespace abut::app
     bodies.create(coarse, run.options, parameters.degree,
                   parameters.refinement.level, this->triangulation);
     coarse = BodyMeshes<dim>();
+    for (const std::string &warning : bodies.warnings())
+      run.report.warn(warning);
     for (const std::vector<bool> &marked : bisections)
       bodies.refine(marked, this->triangulation);
   }

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_CONTACT_HOST_H
+#define ABUT_SHIM_CONTACT_HOST_H
+
+#include "host_matrix_copy.h"
+#include "solve/stiffness.h"
+
+#include <abut/dealii/host_operator.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <optional>
+#include <string>
+
+namespace abut::shim
+{
+  /** The host's mesh and unknowns, and its vectors and matrices, of whatever
+   * type, as ones of Abut's types. */
+  template <int dim> class ContactHost
+  {
+  public:
+    explicit ContactHost(const MPI_Comm communicator)
+        : communicator_(communicator)
+    {
+    }
+
+    /** Another mesh, or others of its data, which must outlive their use. */
+    void reinit(const dealii::Mapping<dim> &mapping,
+                const dealii::DoFHandler<dim> &dof_handler,
+                const dealii::AffineConstraints<double> &constraints);
+
+    const dealii::Mapping<dim> &mapping() const
+    {
+      return *mapping_;
+    }
+
+    const dealii::DoFHandler<dim> &dof_handler() const
+    {
+      return *dof_handler_;
+    }
+
+    const dealii::AffineConstraints<double> &constraints() const
+    {
+      return *constraints_;
+    }
+
+    const dealii::IndexSet &owned() const
+    {
+      return dof_handler_->locally_owned_dofs();
+    }
+
+    /** Throw, with the name of the @p call, unless there was a reinit() and
+     * the unknowns are as many as they were in it. */
+    void check_mesh(const std::string &call) const;
+    /** The same, but without reinit() there is nothing to throw about. */
+    void check_unchanged(const std::string &call) const;
+
+    /** The argument of a host in a @p call: the vector itself, or its view's
+     * copy. Throws, on all ranks, if it is not one of the present unknowns.
+     * Collective. */
+    const la::Vector &vector(const std::string &call, const std::string &what,
+                             const la::VectorView &given) const;
+    la::Vector &mutable_vector(const std::string &call, const std::string &what,
+                               const la::MutableVectorView &given) const;
+
+    /** A matrix of another type is copied, to the one of the present step.
+     * Throws, on all ranks, if it is not one of the present unknowns.
+     * Collective. */
+    solve::Stiffness stiffness(const std::string &call,
+                               const Tangent &tangent) const
+    {
+      return stiffness(call, tangent, copied_);
+    }
+
+    /** Let penalties be multiples of this one. Collective. */
+    void set_reference(const std::string &call, const Tangent &tangent)
+    {
+      reference_ = stiffness(call, tangent, copied_reference_);
+    }
+
+    const std::optional<solve::Stiffness> &reference() const
+    {
+      return reference_;
+    }
+
+    /** The matrix that penalties are multiples of. */
+    solve::Stiffness reference_or(const solve::Stiffness &present) const
+    {
+      return reference_.value_or(present);
+    }
+
+  private:
+    /** Throw if @p what is not of the present unknowns. */
+    void check_size(const std::string &call, const std::string &what,
+                    dealii::types::global_dof_index size) const;
+    /** Unknowns of the displacement if they come before all others, else 0. */
+    dealii::types::global_dof_index displacement_block() const;
+    solve::Stiffness stiffness(const std::string &call, const Tangent &tangent,
+                               HostMatrixCopy &copy) const;
+
+    const MPI_Comm communicator_;
+    const dealii::Mapping<dim> *mapping_ = nullptr;
+    const dealii::DoFHandler<dim> *dof_handler_ = nullptr;
+    const dealii::AffineConstraints<double> *constraints_ = nullptr;
+    dealii::types::global_dof_index n_unknowns_ = 0; ///< in reinit()
+    std::optional<solve::Stiffness> reference_;      ///< none: the present one
+    /** Copies of matrices of other types: the present one, and reference. */
+    mutable HostMatrixCopy copied_;
+    HostMatrixCopy copied_reference_;
+  };
+} // namespace abut::shim
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_SHIM_OBSTACLE_WIDTH_H
+#define ABUT_SHIM_OBSTACLE_WIDTH_H
+
+#include "pair_points.h"
+
+namespace abut::shim
+{
+  /** The obstacle of a pair where it is narrowest for the facets, whose nodes
+   * are displaced by @p u. Collective. */
+  template <int dim>
+  ObstacleWidth narrowest_width(const PairPoints<dim> &points,
+                                const SurfacePair<dim> &pair,
+                                const std::vector<Direction<dim>> &u);
+
+  /** Width of the obstacle and size of the nearest facet, if the point of
+   * the obstacle that is now at @p place came through that facet within the
+   * present step, or was at it; infinite otherwise. Collective. */
+  template <int dim>
+  ObstacleWidth passed_between(const PairPoints<dim> &points, std::size_t pair,
+                               const dealii::Point<dim> &place);
+} // namespace abut::shim
+
+#endif

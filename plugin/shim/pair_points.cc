@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Points of pairs: their rows, and the numbers of their nodes when others are
+// gathered.
+#include "pair_points.h"
+
+#include "fnv_hash.h"
+#include "stopwatch.h"
+
+#include <abut/strategy.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+  using dealii::types::global_dof_index;
+
+  namespace
+  {
+    /** Surfaces that have moved against each other by no more than this part of
+     * their smallest facet keep their points: gaps of flat surfaces are right
+     * all the same, the error for curved ones is the square of it. */
+    constexpr double skin = 1e-2;
+  } // namespace
+
+  template <int dim> std::vector<Direction<dim>> PairPoints<dim>::made() const
+  {
+    std::vector<Direction<dim>> u(surface().nodes.size());
+    for (std::size_t n = 0; n < present_.size(); ++n)
+      u[n] = made_at(static_cast<NodeIndex>(n));
+    return u;
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>> PairPoints<dim>::displacement_since(
+      const std::vector<Direction<dim>> &u) const
+  {
+    std::vector<Direction<dim>> result(u);
+    for (std::size_t n = 0; n < u.size() && !present_.empty(); ++n)
+      result[n] -= made_at(static_cast<NodeIndex>(n));
+    return result;
+  }
+
+  template <int dim>
+  Direction<dim> PairPoints<dim>::relative_displacement(
+      const PointRow<dim> &row, const std::vector<Direction<dim>> &u) const
+  {
+    const SurfacePair<dim> &pair = pairs()[row.place.pair];
+    Direction<dim> way;
+    // A turn of both sides is no slip: by places, which have been opposite each
+    // other.
+    if (pair.keeps_partners())
+      for_each_node(
+          row.point,
+          [&](const NodeIndex node, const double c) {
+            way += c * (Direction<dim>(surface().nodes[node].point) + u[node]);
+          });
+    else
+      for_each_node(row.point,
+                    [&](const NodeIndex node, const double c)
+                    {
+                      way += c
+                             * (u[node]
+                                - (pair.has_committed_points()
+                                       ? made_at(node)
+                                       : Direction<dim>()));
+                    });
+    return way;
+  }
+
+  template <int dim>
+  void PairPoints<dim>::start(abut_points *const points,
+                              const std::vector<Direction<dim>> &u)
+  {
+    points_ = points;
+    checks_.clear();
+    clear();
+    record_place(u);
+  }
+
+  template <int dim> void PairPoints<dim>::clear()
+  {
+    places_.clear();
+    check(host().context, abut_points_clear(points_));
+  }
+
+  template <int dim>
+  void PairPoints<dim>::filter(const std::vector<std::uint8_t> &keep)
+  {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      const auto first = keep.begin() + view_.component_start[i],
+                 last = keep.begin() + view_.component_start[i + 1];
+      if (std::all_of(first, last, [](const std::uint8_t k) { return k == 0; }))
+        continue;
+      places_[i].keep_components({first, last});
+      if (n != i)
+        places_[n] = std::move(places_[i]);
+      ++n;
+    }
+    places_.resize(n);
+    check(set_->host().context, abut_points_filter(points_, keep.data()));
+    check(set_->host().context, abut_points_get(points_, &view_));
+  }
+
+  template <int dim>
+  void PairPoints<dim>::record_place(const std::vector<Direction<dim>> &u)
+  {
+    present_.clear();
+    reference_.clear();
+    present_displacement_.clear();
+    if (!set_->moves() && !set_->has_steps())
+      return;
+    for (std::size_t n = 0; n < u.size(); ++n)
+    {
+      reference_.push_back(surface().nodes[n].point);
+      present_.push_back(reference_.back() + u[n]);
+      for (unsigned int d = 0; d < dim; ++d)
+        present_displacement_.push_back(u[n][d]);
+    }
+  }
+
+  template <int dim>
+  bool
+  PairPoints<dim>::is_where_made(const std::vector<Direction<dim>> &place) const
+  {
+    if (!set_->has_steps())
+      return true;
+    const std::vector<Direction<dim>> way = displacement_since(place);
+    return std::all_of(pairs().begin(), pairs().end(),
+                       [&](const SurfacePair<dim> &pair)
+                       {
+                         const double facet =
+                             std::min(pair.secondary.everywhere.smallest,
+                                      pair.primary.everywhere.smallest);
+                         return !pair.has_committed_points()
+                                || set_->motion(pair, way) <= skin * facet;
+                       });
+  }
+
+  template <int dim>
+  bool PairPoints<dim>::is_made_at(const std::vector<Direction<dim>> &u) const
+  {
+    bool same = present_displacement_.size() == dim * u.size();
+    for (std::size_t n = 0; n < u.size() && same; ++n)
+      for (unsigned int d = 0; d < dim; ++d)
+        same = same && present_displacement_[dim * n + d] == u[n][d];
+    return !MPI::logical_or(!same, set_->host().communicator);
+  }
+
+  template <int dim>
+  std::set<global_dof_index> PairPoints<dim>::used_nodes() const
+  {
+    std::set<global_dof_index> used;
+    const auto add = [&](const NodeIndex node)
+    { used.insert(surface().nodes[node].dof[0]); };
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      for (auto e = view_.start[i]; e < view_.start[i + 1]; ++e)
+        add(view_.node[e]);
+      for (const auto *list :
+           {&places_[i].opposite, &places_[i].lines, &places_[i].columns})
+        std::for_each(list->begin(), list->end(), add);
+    }
+    return used;
+  }
+
+  template <int dim> void PairPoints<dim>::renew(const la::Vector *const where)
+  {
+    // Data that refer to nodes and facets do so by their numbers meanwhile.
+    const auto number_of = [](const auto &list, const std::int32_t index)
+    { return index < 0 ? std::int64_t(-1) : list[index].number; };
+    std::vector<std::int64_t> nodes, facets;
+    for (const auto &node : surface().nodes)
+      nodes.push_back(node.number);
+    for (const PointPlace<dim> &place : places_)
+      facets.push_back(number_of(surface().facets, place.facet));
+    using Dropped = std::pair<std::int64_t, std::uint8_t>;
+    std::vector<std::vector<Dropped>> dropped(pairs().size());
+    for (std::size_t p = 0; p < pairs().size(); ++p)
+      for (std::size_t n = 0; n < dropped_[p].size(); ++n)
+        if (dropped_[p][n] != 0)
+          dropped[p].emplace_back(
+              number_of(surface().nodes, pairs()[p].secondary.node[n]),
+              dropped_[p][n]);
+
+    origins.clear();
+    set_->gather(where, where == nullptr ? std::set<global_dof_index>()
+                                         : used_nodes());
+    // Nodes have other numbers; points stay where they were made. Ranks without
+    // nodes take part.
+    if (points_ != nullptr && (set_->moves() || set_->has_steps()))
+      record_place(set_->displacements_as_given(made_place));
+
+    const auto index_of = [](const auto &list, const std::int64_t number)
+    {
+      const auto it =
+          std::lower_bound(list.begin(), list.end(), number,
+                           [](const auto &entry, const std::int64_t n)
+                           { return entry.number < n; });
+      return number < 0 || it == list.end() || it->number != number
+                 ? -1 // not known any more
+                 : static_cast<std::int32_t>(it - list.begin());
+    };
+    std::vector<NodeIndex> now;
+    for (const std::int64_t number : nodes)
+      now.push_back(index_of(surface().nodes, number));
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      places_[i].node = places_[i].node < 0 ? -1 : now[places_[i].node];
+      places_[i].facet = index_of(surface().facets, facets[i]);
+      for (auto *list :
+           {&places_[i].opposite, &places_[i].lines, &places_[i].columns})
+        for (NodeIndex &node : *list)
+          node = now[node];
+    }
+    if (points_ != nullptr)
+      check(set_->host().context,
+            abut_points_renumber(points_, static_cast<std::int32_t>(now.size()),
+                                 now.data()));
+    for (std::size_t p = 0; p < pairs().size(); ++p)
+    {
+      SurfacePair<dim> &pair = pairs()[p];
+      if (!dropped_[p].empty())
+        dropped_[p].assign(pair.secondary.n_nodes(), 0);
+      for (const auto &[number, why] : dropped[p])
+        if (const int node =
+                pair.secondary.local_node(index_of(surface().nodes, number));
+            node >= 0)
+          dropped_[p][node] = why;
+    }
+  }
+
+  template <int dim>
+  std::vector<Direction<dim>>
+  PairPoints<dim>::displacements_in_reach(const la::Vector &displacement)
+  {
+    const Stopwatch watch(host().detection.seconds);
+    std::vector<Direction<dim>> u = set_->displacements(displacement);
+    set_->check_displacements(u);
+    const auto gathering = set_->extend_reach(u);
+    if (gathering == PairSet<dim>::Gathering::none)
+      return u;
+    renew(gathering == PairSet<dim>::Gathering::displaced ? &displacement
+                                                          : nullptr);
+    ++host().detection.gatherings;
+    return set_->displacements(displacement);
+  }
+
+  template <int dim> std::vector<PlacedRow> PairPoints<dim>::placed_rows() const
+  {
+    std::vector<PlacedRow> result;
+    for_each_component(
+        [&](const PointRow<dim> &component)
+        {
+          if (set_->has_lasting_numbers(pairs()[component.place.pair]))
+            return;
+          PlacedRow placed = {static_cast<std::int32_t>(component.row), {}};
+          for (unsigned int d = 0; d < dim; ++d)
+            placed.place[d] = component.place.position[d];
+          result.push_back(placed);
+        });
+    return result;
+  }
+
+  template <int dim>
+  ContactElements::Table PairPoints<dim>::contact_elements() const
+  {
+    ContactElements::Table result;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+    {
+      if (!set_->has_lasting_numbers(pairs()[places_[i].pair]))
+        continue;
+      std::vector<std::int64_t> opposite;
+      for_each_primary(i, [&](const NodeIndex node, double)
+                       { opposite.push_back(surface().nodes[node].number); });
+      std::sort(opposite.begin(), opposite.end());
+      FnvHash hash;
+      hash.mix(places_[i].pair);
+      for (const std::int64_t number : opposite)
+        hash.mix(number);
+      result[view_.component_id[view_.component_start[i]]] = hash.value;
+    }
+    return result;
+  }
+
+  template <int dim> std::vector<int> PairPoints<dim>::row_pairs() const
+  {
+    std::vector<int> result(view_.n_components);
+    for_each_row([&](const PointRow<dim> &row)
+                 { result[row.row] = static_cast<int>(row.place.pair); });
+    return result;
+  }
+
+  template <int dim>
+  std::vector<std::uint8_t>
+  PairPoints<dim>::touching_nodes(const std::uint8_t *row_state) const
+  {
+    const std::size_t n_nodes = surface().nodes.size();
+    std::vector<std::uint8_t> touching(n_nodes * pairs().size(), 0);
+    for_each_component(
+        [&](const PointRow<dim> &row)
+        {
+          if (row_state != nullptr && row_state[row.row] != ABUT_STATE_OPEN)
+            for_each_secondary(row.point,
+                               [&](const NodeIndex node, double) {
+                                 touching[row.place.pair * n_nodes + node] = 1;
+                               });
+        });
+    for (std::size_t p = 0; p < pairs().size(); ++p)
+      for (std::size_t n = 0; n < dropped_[p].size(); ++n)
+        if (dropped_[p][n] != 0)
+          touching[p * n_nodes + pairs()[p].secondary.node[n]] = 1;
+    set_->exchange()->merge_marks(surface(), touching);
+    for (std::size_t p = 0; p < pairs().size(); ++p)
+    {
+      std::uint8_t *marks = touching.data() + p * n_nodes;
+      for (const NodeIndex node : pairs()[p].secondary.node)
+        for (const auto &parent : surface().parents[node])
+          marks[node] |= marks[parent.index];
+    }
+    return touching;
+  }
+
+  template <int dim>
+  std::vector<std::uint8_t> PairPoints<dim>::held_nodes() const
+  {
+    const std::size_t n_nodes = surface().nodes.size();
+    std::vector<std::uint8_t> held(n_nodes * pairs().size(), 0);
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      for_each_secondary(i, [&](const NodeIndex node, double)
+                         { held[places_[i].pair * n_nodes + node] = 1; });
+    // Owners of nodes know all facets around them.
+    for (std::size_t p = 0; p < pairs().size(); ++p)
+      for (std::size_t n = 0; n < dropped_[p].size(); ++n)
+      {
+        const NodeIndex node = pairs()[p].secondary.node[n];
+        if (dropped_[p][n] != 0 && set_->is_owned(node))
+          held[p * n_nodes + node] = 1;
+      }
+    set_->exchange()->merge_marks(surface(), held);
+    for (std::size_t p = 0; p < pairs().size(); ++p)
+    {
+      std::uint8_t *marks = held.data() + p * n_nodes;
+      for (const NodeIndex node : pairs()[p].secondary.node)
+      {
+        bool parents = !surface().parents[node].empty();
+        for (const auto &parent : surface().parents[node])
+          parents = parents && marks[parent.index] != 0;
+        if (parents)
+          marks[node] = 1;
+      }
+    }
+    return held;
+  }
+
+  template class PairPoints<2>;
+  template class PairPoints<3>;
+} // namespace abut::shim
