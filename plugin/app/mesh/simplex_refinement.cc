@@ -21,7 +21,7 @@ namespace abut::app
   {
     using Edge = std::pair<unsigned int, unsigned int>;
 
-    template <std::size_t n> using Corners = std::array<unsigned int, n>;
+    template <std::size_t n> using VertexNumbers = std::array<unsigned int, n>;
 
     Edge edge_between(const unsigned int a, const unsigned int b)
     {
@@ -124,7 +124,7 @@ namespace abut::app
         children.reserve(list.size() << structdim);
         for (const dealii::CellData<structdim> &parent : list)
         {
-          Corners<structdim + 1> corners;
+          VertexNumbers<structdim + 1> corners;
           std::copy(parent.vertices.begin(), parent.vertices.end(),
                     corners.begin());
           for (const auto &part : parts(corners))
@@ -139,39 +139,39 @@ namespace abut::app
         list.swap(children);
       }
 
-      std::array<Corners<2>, 2> parts(const Corners<2> &v)
+      std::array<VertexNumbers<2>, 2> parts(const VertexNumbers<2> &v)
       {
         const unsigned int m = middle(v[0], v[1]);
         return {{{{v[0], m}}, {{m, v[1]}}}};
       }
 
-      std::array<Corners<3>, 4> parts(const Corners<3> &v)
+      std::array<VertexNumbers<3>, 4> parts(const VertexNumbers<3> &v)
       {
         const unsigned int a = middle(v[0], v[1]), b = middle(v[1], v[2]),
                            c = middle(v[2], v[0]);
         return {{{{v[0], a, c}}, {{a, v[1], b}}, {{c, b, v[2]}}, {{a, b, c}}}};
       }
 
-      std::array<Corners<4>, 8> parts(const Corners<4> &v)
+      std::array<VertexNumbers<4>, 8> parts(const VertexNumbers<4> &v)
       {
-        std::array<Corners<4>, 8> result;
+        std::array<VertexNumbers<4>, 8> result;
         for (unsigned int i = 0; i < 4; ++i)
           for (unsigned int j = 0; j < 4; ++j)
             result[i][j] = i == j ? v[i] : middle(v[i], v[j]);
         const auto m = [&](const unsigned int i, const unsigned int j)
         { return result[i][j]; };
         // Two opposite middles, and the four around them.
-        const Corners<6> choices[3] = {
+        const VertexNumbers<6> choices[3] = {
             {{m(0, 1), m(2, 3), m(0, 2), m(0, 3), m(1, 3), m(1, 2)}},
             {{m(0, 2), m(1, 3), m(0, 1), m(0, 3), m(2, 3), m(1, 2)}},
             {{m(0, 3), m(1, 2), m(0, 1), m(0, 2), m(2, 3), m(1, 3)}}};
-        const auto length = [&](const Corners<6> &choice)
+        const auto length = [&](const VertexNumbers<6> &choice)
         { return vertices[choice[0]].distance(vertices[choice[1]]); };
-        const Corners<6> *shortest = &choices[0];
-        for (const Corners<6> &choice : choices)
+        const VertexNumbers<6> *shortest = &choices[0];
+        for (const VertexNumbers<6> &choice : choices)
           if (length(choice) < (1. - round_off) * length(*shortest))
             shortest = &choice;
-        const Corners<6> &c = *shortest;
+        const VertexNumbers<6> &c = *shortest;
         for (unsigned int i = 0; i < 4; ++i)
           result[4 + i] = {{c[0], c[1], c[2 + i], c[2 + (i + 1) % 4]}};
         return result;
