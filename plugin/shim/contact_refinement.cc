@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cell_quadrature.h"
+
 #include <abut/dealii/contact_refinement.h>
 #include <abut/dealii/versions.h>
 
@@ -28,7 +30,7 @@ namespace abut
         return false;
       bool has[3] = {false, false, false}; // open, stick, slip
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (fe.has_support_on_face(i, f)
+        if (shim::has_node_on_face(fe, i, f)
             && fe.system_to_component_index(i).first == 0)
           if (const int s = static_cast<int>(std::lround(status(dofs[i])));
               s >= 0 && s <= 2)
@@ -125,9 +127,9 @@ namespace abut
   } // namespace
 
   template <int dim>
-  unsigned int
-  limit_size_ratio(dealii::parallel::distributed::Triangulation<dim> &mesh,
-                   const std::vector<ContactSides> &pairs, const double limit)
+  unsigned int limit_size_ratio(dealii::Triangulation<dim> &mesh,
+                                const std::vector<ContactSides> &pairs,
+                                const double limit)
   {
     const MPI_Comm communicator = versions::communicator(mesh);
     const unsigned int rank = MPI::this_mpi_process(communicator);
@@ -167,8 +169,8 @@ namespace abut
       const dealii::DoFHandler<dim> &, const la::Vector &,                     \
       const std::set<dealii::types::boundary_id> &);                           \
   template unsigned int limit_size_ratio<dim>(                                 \
-      dealii::parallel::distributed::Triangulation<dim> &,                     \
-      const std::vector<ContactSides> &, double);
+      dealii::Triangulation<dim> &, const std::vector<ContactSides> &,         \
+      double);
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

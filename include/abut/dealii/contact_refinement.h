@@ -43,9 +43,9 @@ namespace abut
    * Collective. All ranks look at all contact faces, O(n log n). Returns the
    * number of cells on all ranks that were not flagged before. */
   template <int dim>
-  unsigned int
-  limit_size_ratio(dealii::parallel::distributed::Triangulation<dim> &mesh,
-                   const std::vector<ContactSides> &pairs, double limit = 4.);
+  unsigned int limit_size_ratio(dealii::Triangulation<dim> &mesh,
+                                const std::vector<ContactSides> &pairs,
+                                double limit = 4.);
 } // namespace abut
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "app/input/collective.h"
 #include "disk.h"
+#include "values_along_mesh.h"
 
 #include <abut/dealii/versions.h>
 
@@ -16,6 +17,9 @@ namespace abut::app
   {
     template <int dim>
     using Transfer = versions::SolutionTransfer<dim, la::Vector>;
+
+    template <int dim>
+    using SavedByP4est = dealii::parallel::distributed::Triangulation<dim>;
 
     const char *const mesh_name = "mesh";
 
@@ -55,6 +59,39 @@ namespace abut::app
       return result;
     }
 
+    template <int dim>
+    void save_along_mesh(const std::filesystem::path &file,
+                         const dealii::DoFHandler<dim> &dof_handler,
+                         const std::vector<la::Vector> &fields)
+    {
+      std::vector<std::vector<double>> values;
+      for (const la::Vector &field : fields)
+        values.push_back(values_along_mesh(dof_handler, field));
+      const MPI_Comm communicator = versions::communicator(dof_handler);
+      collective(communicator,
+                 [&]
+                 {
+                   if (dealii::Utilities::MPI::this_mpi_process(communicator)
+                       == 0)
+                     write_file(file, to_bytes(values));
+                 });
+    }
+
+    template <int dim>
+    std::vector<la::Vector>
+    load_along_mesh(const std::filesystem::path &file,
+                    const unsigned int n_fields,
+                    const dealii::DoFHandler<dim> &dof_handler)
+    {
+      std::vector<std::vector<double>> values;
+      collective(versions::communicator(dof_handler),
+                 [&] { from_bytes(read_from_disk(file), values); });
+      std::vector<la::Vector> fields = empty_fields(n_fields, dof_handler);
+      for (unsigned int i = 0; i < n_fields; ++i)
+        set_values_along_mesh(dof_handler, values.at(i), fields[i]);
+      return fields;
+    }
+
     /** p4est ends the program where it cannot write: more bytes than it takes
      * for a cell with its fields must be there. Collective. */
     template <int dim>
@@ -84,16 +121,22 @@ namespace abut::app
                      const dealii::DoFHandler<dim> &dof_handler,
                      const std::vector<la::Vector> &fields)
   {
-    const std::vector<la::Vector> ghosted = with_ghosts(fields, dof_handler);
-    std::vector<const la::Vector *> pointers;
-    for (const la::Vector &field : ghosted)
-      pointers.push_back(&field);
-    Transfer<dim> transfer(dof_handler);
-    if (!pointers.empty())
-      transfer.prepare_for_serialization(pointers);
-    require_room_for<dim>(folder, mesh, dof_handler, fields.size());
-    leave_out_shared_pointers();
-    mesh.save((folder / mesh_name).string());
+    auto *const saved = dynamic_cast<SavedByP4est<dim> *>(&mesh);
+    if (saved == nullptr)
+      save_along_mesh(folder / mesh_name, dof_handler, fields);
+    else
+    {
+      const std::vector<la::Vector> ghosted = with_ghosts(fields, dof_handler);
+      std::vector<const la::Vector *> pointers;
+      for (const la::Vector &field : ghosted)
+        pointers.push_back(&field);
+      Transfer<dim> transfer(dof_handler);
+      if (!pointers.empty())
+        transfer.prepare_for_serialization(pointers);
+      require_room_for<dim>(folder, mesh, dof_handler, fields.size());
+      leave_out_shared_pointers();
+      saved->save((folder / mesh_name).string());
+    }
 
     MeshPart part{history.is_known(), history.steps(), {}};
     for (const la::Vector &field : fields)
@@ -118,9 +161,15 @@ namespace abut::app
         set_owned_values(part->fields.at(i), fields[i]);
       return fields;
     }
+    auto *const saved = dynamic_cast<SavedByP4est<dim> *>(&mesh);
+    if (saved == nullptr)
+    {
+      setup();
+      return load_along_mesh(folder / mesh_name, n_fields, dof_handler);
+    }
     history.forget();
     leave_out_shared_pointers();
-    mesh.load((folder / mesh_name).string());
+    saved->load((folder / mesh_name).string());
     setup();
     std::vector<la::Vector> fields = empty_fields(n_fields, dof_handler);
     std::vector<la::Vector *> pointers;

@@ -3,7 +3,9 @@
 // model.
 #include "contact_run.h"
 
+#include "app/adapt/flag_fraction.h"
 #include "app/adapt/refine_mesh.h"
+#include "app/adapt/simplex_transfer.h"
 #include "app/input/collective.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
@@ -16,6 +18,7 @@
 #include <deal.II/distributed/grid_refinement.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace abut::app
 {
@@ -56,7 +59,7 @@ namespace abut::app
     {
       SectionTimes::Scope scope(report.times, "mesh");
       model.create_mesh();
-      model.triangulation.refine_global(state.mesh_number);
+      model.refine_mesh(state.mesh_number);
     }
     collective(state.communicator, [&] { model.set_data(); });
     model.set_time(state.load_steps.target());
@@ -596,22 +599,33 @@ namespace abut::app
           cell->set_refine_flag();
       return;
     }
-    dealii::parallel::distributed::GridRefinement::
-        refine_and_coarsen_fixed_fraction(
-            model.triangulation, state.squared_estimate,
-            state.control.is_on() ? state.control.refine_fraction()
-                                  : levels.refine_fraction,
-            levels.coarsen_fraction);
+    const double fraction = state.control.is_on()
+                                ? state.control.refine_fraction()
+                                : levels.refine_fraction;
+    if (model.has_simplices())
+      flag_fraction(state.squared_estimate, fraction, model.triangulation);
+    else
+      dealii::parallel::distributed::GridRefinement::
+          refine_and_coarsen_fixed_fraction(model.adaptive_mesh(),
+                                            state.squared_estimate, fraction,
+                                            levels.coarsen_fraction);
     model.flag_more_cells();
   }
 
   template <int dim> bool ContactRun<dim>::is_too_fine()
   {
+    double largest = 0.;
+    for (const auto &cell : model.triangulation.active_cell_iterators())
+      largest = std::max(largest, cell->diameter());
+    // Of cells without levels sizes tell, as all ranks have all of them.
+    const double least = std::ldexp(largest, -deepest_level<dim>);
     bool found = false;
     for (const auto &cell : model.triangulation.active_cell_iterators())
-      found = found
-              || (cell->is_locally_owned() && cell->refine_flag_set()
-                  && cell->level() >= deepest_level<dim>);
+      found =
+          found
+          || (cell->is_locally_owned() && cell->refine_flag_set()
+              && (model.has_simplices() ? cell->diameter() <= least
+                                        : cell->level() >= deepest_level<dim>));
     return dealii::Utilities::MPI::logical_or(found, state.communicator);
   }
 
@@ -625,12 +639,18 @@ namespace abut::app
             ? "Refinement/Adaptive cycles"
             : "Refinement/Level",
         problem.fe.n_components());
-    std::vector<la::Vector> fields = {problem.ghosted(state.u)};
-    if (model.has_contact())
-      fields.push_back(problem.ghosted_field(state.contact.pressure()));
-    fields = refine_mesh<dim>(
-        model.triangulation, problem.dof_handler, fields,
-        [this] { setup_mesh(); }, report.times);
+    std::vector<la::Vector> fields;
+    if (model.has_simplices())
+      fields = bisect();
+    else
+    {
+      fields = {problem.ghosted(state.u)};
+      if (model.has_contact())
+        fields.push_back(problem.ghosted_field(state.contact.pressure()));
+      fields = refine_mesh<dim>(
+          model.triangulation, problem.dof_handler, fields,
+          [this] { setup_mesh(); }, report.times);
+    }
     state.u = fields[0];
     if (model.has_contact())
       pressure = std::make_shared<const la::Vector>(std::move(fields[1]));
@@ -638,6 +658,25 @@ namespace abut::app
     la::Vector start(state.u);
     problem.constraints.distribute(start);
     state.control.begin_mesh(start);
+  }
+
+  template <int dim> std::vector<la::Vector> ContactRun<dim>::bisect()
+  {
+    DiscreteProblem<dim> &problem = model.problem();
+    std::vector<la::Vector> fields = {state.u};
+    if (model.has_contact())
+      fields.push_back(state.contact.pressure());
+    std::vector<unsigned int> origin;
+    std::unique_ptr<SimplexTransfer<dim>> transfer;
+    {
+      SectionTimes::Scope scope(report.times, "mesh");
+      transfer =
+          std::make_unique<SimplexTransfer<dim>>(problem.dof_handler, fields);
+      origin = model.bisect(gather_flags(model.triangulation));
+    }
+    setup_mesh();
+    SectionTimes::Scope scope(report.times, "transfer");
+    return transfer->interpolate(problem.dof_handler, origin);
   }
 
   template <int dim> bool ContactRun<dim>::is_hard() const

@@ -101,6 +101,9 @@ namespace abut::app
      */
     bool is_too_fine();
     void refine();
+    /** Refine a mesh of triangles or tetrahedra as flagged; returns the fields
+     * on it. */
+    std::vector<la::Vector> bisect();
     bool take_load_step();
     void begin();
     bool take_load_steps();

@@ -36,8 +36,11 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::create_mesh()
   {
+    dealii::Triangulation<dim> coarse;
     const MeshFileExtras<dim> extras =
-        app::create_mesh(parameters.mesh, run.options, this->triangulation);
+        app::create_mesh(parameters.mesh, run.options, coarse);
+    require_cubes(coarse, parameters.mesh, "scenes of kind 'obstacle'");
+    this->triangulation.copy_triangulation(coarse);
     names = names_of(extras, this->triangulation);
     for (const std::string &warning : extras.warnings)
       run.report.warn("Membrane/Mesh/File: " + warning);

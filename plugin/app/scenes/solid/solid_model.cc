@@ -37,13 +37,16 @@ namespace abut::app
   template <int dim>
   SolidModel<dim>::SolidModel(const SolidParameters &parameters,
                               ContactRunState<dim> &run,
-                              const SearchParameters &search)
-      : MovingModel<dim>(run),
+                              const SearchParameters &search,
+                              BodyMeshes<dim> coarse)
+      : MovingModel<dim>(run, coarse.are_simplices),
         parameters(parameters),
         bodies(parameters.bodies, is_of_revolution<dim>(parameters)),
-        elasticity(this->triangulation, parameters.degree),
+        elasticity(this->triangulation, parameters.degree,
+                   coarse.are_simplices),
         driven(parameters),
         search(search),
+        coarse(std::move(coarse)),
         assembler(run.contact),
         output(*this)
   {
@@ -74,10 +77,26 @@ namespace abut::app
 
   template <int dim> void SolidModel<dim>::create_mesh()
   {
-    bodies.create(run.options, parameters.degree, parameters.refinement.level,
-                  this->triangulation);
+    bodies.create(coarse, run.options, parameters.degree,
+                  parameters.refinement.level, this->triangulation);
+    coarse = BodyMeshes<dim>();
     for (const std::string &warning : bodies.warnings())
       run.report.warn(warning);
+    for (const std::vector<bool> &marked : bisections)
+      bodies.refine(marked, this->triangulation);
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  SolidModel<dim>::bisect(const std::vector<bool> &marked)
+  {
+    bisections.push_back(marked);
+    std::vector<unsigned int> origin =
+        bodies.refine(marked, this->triangulation);
+    elasticity.dof_handler.reinit(this->triangulation);
+    if (chords)
+      look_for_chords();
+    return origin;
   }
 
   template <int dim> SearchParameters SolidModel<dim>::numbered_search() const
@@ -264,16 +283,21 @@ namespace abut::app
 
   template <int dim> std::string SolidModel<dim>::save_state() const
   {
-    return to_bytes(
+    return to_bytes(std::make_pair(
         std::make_pair(std::make_pair(to_bytes(output), this->motion_state()),
-                       std::make_pair(to_bytes(driven), has_warned)));
+                       std::make_pair(to_bytes(driven), has_warned)),
+        bisections));
   }
 
   template <int dim> void SolidModel<dim>::load_state(const std::string &bytes)
   {
-    std::pair<std::pair<std::string, std::string>, std::pair<std::string, bool>>
-        parts;
-    from_bytes(bytes, parts);
+    std::pair<std::pair<std::pair<std::string, std::string>,
+                        std::pair<std::string, bool>>,
+              std::vector<std::vector<bool>>>
+        all;
+    from_bytes(bytes, all);
+    bisections = all.second;
+    const auto &parts = all.first;
     from_bytes(parts.first.first, output);
     this->load_motion(parts.first.second);
     from_bytes(parts.second.first, driven);

@@ -24,12 +24,13 @@ namespace abut::app
   template <int dim> class SolidModel : public MovingModel<dim>
   {
   public:
-    /** Both must outlive it. */
+    /** @p parameters, @p run and @p search must outlive it. */
     SolidModel(const SolidParameters &parameters, ContactRunState<dim> &run,
-               const SearchParameters &search);
+               const SearchParameters &search, BodyMeshes<dim> coarse);
 
     void create_functions() override;
     void create_mesh() override;
+    std::vector<unsigned int> bisect(const std::vector<bool> &marked) override;
     void set_data() override;
     void setup_mesh() override;
     void check_setup() override;
@@ -207,6 +208,8 @@ namespace abut::app
                  const std::vector<PairResult<dim>> &results) const;
 
     const SearchParameters &search;
+    BodyMeshes<dim> coarse; ///< until there is the mesh of all bodies
+    std::vector<std::vector<bool>> bisections; ///< marks of all so far
     ContactAssembler<dim> &assembler;
     std::vector<BodyPart<dim>> parts;
     std::vector<RigidFreedom> freedom; ///< by part
