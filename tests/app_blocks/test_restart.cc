@@ -381,7 +381,7 @@ namespace
       MPI_Comm_split(MPI_COMM_WORLD, rank() == 0 ? 0 : MPI_UNDEFINED, 0, &part);
       if (rank() == 0)
       {
-        typename MeshHistory<dim>::Mesh mesh(part);
+        dealii::parallel::distributed::Triangulation<dim> mesh(part);
         const MeshHistory<dim> history(mesh);
         dealii::GridGenerator::hyper_ball(mesh);
         mesh.refine_global(2);

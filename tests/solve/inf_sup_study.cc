@@ -52,10 +52,10 @@ namespace abut
       template <int dim> class StudiedScene : public SolidScene<dim>
       {
         std::unique_ptr<ContactModel<dim>>
-        create_model(ContactRunState<dim> &state) const override
+        create_model(ContactRunState<dim> &state) override
         {
-          return std::make_unique<StudiedModel<dim>>(this->parameters, state,
-                                                     this->search);
+          return std::make_unique<StudiedModel<dim>>(
+              this->parameters, state, this->search, std::move(this->meshes));
         }
       };
 
