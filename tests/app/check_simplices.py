@@ -460,12 +460,12 @@ def check_refusals():
              "Method/Discretisation", "no weight at the corners"),
             ({file: one_cell("hex.msh", 5, 8)}, "tetrahedra", "hexahedra",
              "one kind of cells"),
-            ({file: one_cell("wedge.msh", 6, 6)}, file, "wedges"),
+            ({file: one_cell("wedge.msh", 6, 6)}, file, "wedge"),
             ({file: one_cell("tet10.msh", 11, 10)}, file, "second order")):
         refused("slider.prm", settings, *texts)
     p.write("slider.prm", slider(2))
     mixed = one_cell("mixed.msh", 3, 4, faces=[(2, (0, 1, 2))])
-    refused("slider.prm", {file: mixed}, file, "one kind only")
+    refused("slider.prm", {file: mixed}, file, "one kind")
     refused("slider.prm", {file: "", "Body 1/Mesh/Generator": "hyper_cube"},
             "triangles", "quadrilaterals")
     p.write("membrane.prm", "set Scene = obstacle\nset Dimension = 2\n"

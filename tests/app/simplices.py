@@ -62,7 +62,9 @@ class Mesh:
         counts[self.dim - 1], counts[self.dim] = len(ids), 1
         lines = ["$MeshFormat", "4.1 0 8", "$EndMeshFormat", "$Entities",
                  " ".join(map(str, counts))]
-        lines += [f"{id_} {box} 1 {id_} 0" for id_ in ids]
+        # Numbers of entities and of groups begin with 1: id 0 is of no group.
+        lines += [f"{id_ + 1} {box} " + (f"1 {id_} 0" if id_ else "0 0")
+                  for id_ in ids]
         lines += [f"1 {box} 1 1 0", "$EndEntities", "$Nodes"]
         n = len(self.vertices)
         lines += [f"1 {n} 1 {n}", f"{self.dim} 1 0 {n}"]
@@ -71,7 +73,7 @@ class Mesh:
         total = len(self.faces) + len(self.cells)
         lines += ["$EndNodes", "$Elements", f"{len(ids) + 1} {total} 1 {total}"]
         number = 0
-        blocks = [(self.dim - 1, id_, self.dim - 1,
+        blocks = [(self.dim - 1, id_ + 1, self.dim - 1,
                    [face for other, face in self.faces if other == id_])
                   for id_ in ids] + [(self.dim, 1, 2 * self.dim - 2,
                                       self.cells)]
