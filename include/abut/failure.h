@@ -45,7 +45,7 @@ extern "C"
     "move the bodies apart, or give the interference as an initial gap")       \
   X(FLOATING_BODY, 12, "nothing holds a body",                                 \
     "give the body a support, or press it against something")                  \
-  X(LOCKING, 16, "nearly incompressible material", "quadratic elements")       \
+  X(LOCKING, 16, "elements that are too stiff", "quadratic elements")          \
   X(COARSE_SECONDARY, 19, "secondary surface much coarser than the primary",   \
     "exchange the two sides of the pair")                                      \
   X(DEGENERATE_FACET, 20, "facets without area, or inside out",                \

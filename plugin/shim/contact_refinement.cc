@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cell_quadrature.h"
+
 #include <abut/dealii/contact_refinement.h>
 #include <abut/dealii/versions.h>
 
@@ -28,7 +30,7 @@ namespace abut
         return false;
       bool has[3] = {false, false, false}; // open, stick, slip
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (fe.has_support_on_face(i, f)
+        if (shim::has_node_on_face(fe, i, f)
             && fe.system_to_component_index(i).first == 0)
           if (const int s = static_cast<int>(std::lround(status(dofs[i])));
               s >= 0 && s <= 2)

@@ -197,7 +197,7 @@ namespace abut::shim
                 on_face->reinit(cell, f);
                 look(cell, *on_face,
                      [&](const unsigned int i)
-                     { return fe.has_support_on_face(i, f); });
+                     { return has_node_on_face(fe, i, f); });
               }
           }
         });

@@ -7,11 +7,9 @@
  * elements with a node in each vertex, so that no number of deal.II's, such as
  * that of an orientation, stands here: these differ between its versions. */
 
-#include <abut/facet.h>
+#include "cell_quadrature.h"
 
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe.h>
-#include <deal.II/grid/reference_cell.h>
+#include <abut/facet.h>
 
 #include <algorithm>
 #include <numeric>
@@ -19,23 +17,6 @@
 
 namespace abut::shim
 {
-  /** Whether the cells of an element are triangles or tetrahedra. */
-  template <int dim> bool is_simplex(const dealii::FiniteElement<dim> &fe)
-  {
-    return fe.reference_cell() == dealii::ReferenceCells::get_simplex<dim>();
-  }
-
-  /** Gauss' rule for the cells of an element, exact for polynomials of degree
-   * 2 n - 1 (of each coordinate, on cubes); n <= 4 on simplices. */
-  template <int dim>
-  dealii::Quadrature<dim> gauss(const dealii::FiniteElement<dim> &fe,
-                                const unsigned int n)
-  {
-    if (is_simplex(fe))
-      return dealii::QGaussSimplex<dim>(n);
-    return dealii::QGauss<dim>(n);
-  }
-
   /** The faces of the reference cell of a scalar element of degree 1 or 2,
    * whose first nodes are the vertices of the cell. */
   template <int dim> class ReferenceFaces

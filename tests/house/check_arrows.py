@@ -35,10 +35,10 @@ ROOMS = [
     ("app/restart", "app/input"),
     ("app/report", "app/input app/restart"),
     ("app/physics", "app/input shim"),
-    ("app/mesh", "app/input app/physics"),
-    ("app/adapt", "app/input app/restart app/report app/physics"),
+    ("app/mesh", "app/input app/physics shim"),
+    ("app/adapt", "app/input app/restart app/report app/physics shim"),
     ("app/pictures", "app/input app/process app/restart app/report app/mesh "
-                     "app/physics"),
+                     "app/physics shim"),
     ("app/scenes", " ".join("app/" + room for room in BELOW_SCENES.split())
      + " solve shim"),
     *((f"app/scenes/{kind}", "app/scenes solve shim " + " ".join(

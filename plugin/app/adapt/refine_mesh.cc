@@ -11,7 +11,7 @@ namespace abut::app
 {
   template <int dim>
   std::vector<la::Vector>
-  refine_mesh(dealii::parallel::distributed::Triangulation<dim> &mesh,
+  refine_mesh(dealii::Triangulation<dim> &mesh,
               const dealii::DoFHandler<dim> &dof_handler,
               const std::vector<la::Vector> &fields,
               const std::function<void()> &setup, SectionTimes &times)
@@ -51,9 +51,9 @@ namespace abut::app
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template std::vector<la::Vector> refine_mesh<dim>(                           \
-      dealii::parallel::distributed::Triangulation<dim> &,                     \
-      const dealii::DoFHandler<dim> &, const std::vector<la::Vector> &,        \
-      const std::function<void()> &, SectionTimes &);
+      dealii::Triangulation<dim> &, const dealii::DoFHandler<dim> &,           \
+      const std::vector<la::Vector> &, const std::function<void()> &,          \
+      SectionTimes &);
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -22,7 +22,7 @@ namespace abut::app
    * Collective. */
   template <int dim>
   std::vector<la::Vector>
-  refine_mesh(dealii::parallel::distributed::Triangulation<dim> &mesh,
+  refine_mesh(dealii::Triangulation<dim> &mesh,
               const dealii::DoFHandler<dim> &dof_handler,
               const std::vector<la::Vector> &fields,
               const std::function<void()> &setup, SectionTimes &times);

@@ -5,6 +5,7 @@
 // nothing has to be sent but the sum.
 
 #include "residual_estimator.h"
+#include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
 
@@ -53,8 +54,8 @@ namespace abut::app
 
       Scratch(const dealii::Mapping<dim> &mapping,
               const dealii::FiniteElement<dim> &fe)
-          : quadrature(fe.degree + 1),
-            cell(mapping, fe, dealii::QGauss<dim>(fe.degree + 1),
+          : quadrature(shim::face_gauss(fe, fe.degree + 1)),
+            cell(mapping, fe, shim::gauss(fe, fe.degree + 1),
                  dealii::update_values | dealii::update_gradients
                      | dealii::update_hessians
                      | dealii::update_quadrature_points
@@ -74,7 +75,7 @@ namespace abut::app
       {
       }
 
-      dealii::QGauss<dim - 1> quadrature;
+      dealii::Quadrature<dim - 1> quadrature;
       dealii::FEValues<dim> cell;
       dealii::FEFaceValues<dim> face;
       dealii::FEFaceValues<dim> other_face;

@@ -6,9 +6,10 @@
 #include "app/input/parameters.h"
 #include "memory_check.h"
 #include "mesh_checks.h"
+#include "mesh_description.h"
+#include "red_refinement.h"
 
 #include <deal.II/base/utilities.h>
-#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,15 +18,6 @@ namespace abut::app
 {
   namespace
   {
-    /** Vertices, cells and marked faces of one level, as deal.II builds
-     * meshes from. */
-    template <int dim> struct Description
-    {
-      std::vector<dealii::Point<dim>> vertices;
-      std::vector<dealii::CellData<dim>> cells;
-      dealii::SubCellData faces;
-    };
-
     template <int structdim, class Change>
     void append(const std::vector<dealii::CellData<structdim>> &from,
                 const unsigned int first_vertex, const Change &change,
@@ -39,58 +31,6 @@ namespace abut::app
         to.push_back(cell);
       }
     }
-
-    /** Boundary faces, and edges in 3D, with their ids: all of them, since the
-     * ids are numbered anew. */
-    template <int dim>
-    Description<dim> describe(const dealii::Triangulation<dim> &mesh)
-    {
-      Description<dim> result;
-      std::tie(result.vertices, result.cells, result.faces) =
-          dealii::GridTools::get_coarse_mesh_description(mesh);
-      result.faces.boundary_lines.clear();
-      result.faces.boundary_quads.clear();
-      for (const auto &face : mesh.active_face_iterators())
-      {
-        const bool curved =
-            face->manifold_id() != dealii::numbers::flat_manifold_id;
-        if (!face->at_boundary() && !curved)
-          continue;
-        dealii::CellData<dim - 1> data(face->n_vertices());
-        for (const unsigned int v : face->vertex_indices())
-          data.vertices[v] = face->vertex_index(v);
-        data.boundary_id = face->boundary_id();
-        data.manifold_id = face->manifold_id();
-        if constexpr (dim == 2)
-          result.faces.boundary_lines.push_back(data);
-        else
-          result.faces.boundary_quads.push_back(data);
-      }
-      if constexpr (dim == 3)
-      {
-        std::vector<bool> seen(mesh.n_raw_lines(), false);
-        for (const auto &face : mesh.active_face_iterators())
-          for (unsigned int l = 0; l < face->n_lines(); ++l)
-          {
-            const auto line = face->line(l);
-            // Boundary edges take the id of a boundary face.
-            if (seen[line->index()]
-                || (line->at_boundary()
-                        ? !face->at_boundary()
-                        : line->manifold_id()
-                              == dealii::numbers::flat_manifold_id))
-              continue;
-            seen[line->index()] = true;
-            dealii::CellData<1> data;
-            data.vertices = {line->vertex_index(0), line->vertex_index(1)};
-            data.boundary_id =
-                line->at_boundary() ? face->boundary_id() : line->boundary_id();
-            data.manifold_id = line->manifold_id();
-            result.faces.boundary_lines.push_back(data);
-          }
-      }
-      return result;
-    }
   } // namespace
 
   namespace
@@ -103,6 +43,29 @@ namespace abut::app
   } // namespace
 
   template <int dim>
+  BodyMeshes<dim>
+  create_body_meshes(const std::vector<BodyParameters> &parameters,
+                     const RunOptions &options)
+  {
+    BodyMeshes<dim> result(parameters.size());
+    for (std::size_t body = 0; body < parameters.size(); ++body)
+      result.extras[body] =
+          create_mesh(parameters[body].mesh, options, result.meshes[body]);
+    const auto has_simplices = [&](const std::size_t body)
+    { return result.meshes[body].all_reference_cells_are_simplex(); };
+    result.are_simplices = has_simplices(0);
+    for (std::size_t body = 1; body < parameters.size(); ++body)
+      if (has_simplices(body) != result.are_simplices)
+        throw InputError(
+            parameters[body].mesh.source(),
+            "the cells are " + cell_name(result.meshes[body]) + ", those of "
+                + parameters[0].mesh.source() + " are "
+                + cell_name(result.meshes[0])
+                + ": all bodies of a scene have one kind of cells.");
+    return result;
+  }
+
+  template <int dim>
   Bodies<dim>::Bodies(const std::vector<BodyParameters> &parameters,
                       const bool of_revolution)
       : parameters(parameters), of_revolution(of_revolution)
@@ -110,15 +73,16 @@ namespace abut::app
   }
 
   template <int dim>
-  void Bodies<dim>::merge(const std::vector<Mesh> &meshes, Mesh &all)
+  void Bodies<dim>::merge(const BodyMeshes<dim> &coarse,
+                          const unsigned int further_levels, Mesh &all)
   {
-    Description<dim> whole;
+    MeshDescription<dim> whole;
     std::map<dealii::types::manifold_id, std::pair<unsigned int, unsigned int>>
         manifolds;
     dealii::types::manifold_id next_manifold = 0;
     for (unsigned int body = 0; body < size(); ++body)
     {
-      const Mesh &mesh = meshes[body];
+      const Mesh &mesh = coarse.meshes[body];
       for (const BoundaryId id : ids(body))
       {
         numbers[{body, id}] = static_cast<BoundaryId>(origin.size());
@@ -133,7 +97,11 @@ namespace abut::app
           manifolds[next_manifold] = {body, id};
           renamed[id] = next_manifold++;
         }
-      const Description<dim> part = describe(mesh);
+      MeshDescription<dim> part = describe(mesh);
+      if (coarse.are_simplices)
+        for (unsigned int i = 0;
+             i < parameters[body].refinements + further_levels; ++i)
+          refine_red(mesh, part);
       const auto first = static_cast<unsigned int>(whole.vertices.size());
       whole.vertices.insert(whole.vertices.end(), part.vertices.begin(),
                             part.vertices.end());
@@ -158,12 +126,12 @@ namespace abut::app
     }
     all.create_triangulation(whole.vertices, whole.cells, whole.faces);
     for (const auto &[id, from] : manifolds)
-      all.set_manifold(id, meshes[from.first].get_manifold(from.second));
+      all.set_manifold(id, coarse.meshes[from.first].get_manifold(from.second));
   }
 
   template <int dim>
-  void Bodies<dim>::refine_bodies(
-      dealii::parallel::distributed::Triangulation<dim> &triangulation) const
+  void
+  Bodies<dim>::refine_bodies(dealii::Triangulation<dim> &triangulation) const
   {
     unsigned int most = 0;
     for (const BodyParameters &body : parameters)
@@ -179,18 +147,16 @@ namespace abut::app
   }
 
   template <int dim>
-  void Bodies<dim>::create(
-      const RunOptions &options, const unsigned int degree,
-      const unsigned int further_levels,
-      dealii::parallel::distributed::Triangulation<dim> &triangulation)
+  void Bodies<dim>::create(const BodyMeshes<dim> &coarse,
+                           const RunOptions &options, const unsigned int degree,
+                           const unsigned int further_levels,
+                           dealii::Triangulation<dim> &triangulation)
   {
-    std::vector<Mesh> meshes(size());
     double n_cells = 0.;
     for (unsigned int body = 0; body < size(); ++body)
     {
-      const MeshFileExtras<dim> extras =
-          create_mesh(parameters[body].mesh, options, meshes[body]);
-      all_names.push_back(names_of(extras, meshes[body]));
+      const MeshFileExtras<dim> &extras = coarse.extras[body];
+      all_names.push_back(names_of(extras, coarse.meshes[body]));
       if (!parameters[body].name.empty())
         body_names.emplace_back(parameters[body].name, body);
       for (const std::string &name : extras.body_names)
@@ -200,18 +166,21 @@ namespace abut::app
         of_files.push_back(parameters[body].mesh.section + "/File: " + warning);
       if constexpr (dim == 2)
         if (of_revolution)
-          check_axis(parameters[body].mesh, meshes[body]);
+          check_axis(parameters[body].mesh, coarse.meshes[body]);
       n_cells +=
-          meshes[body].n_active_cells()
+          coarse.meshes[body].n_active_cells()
           * std::pow(
               2., dim * double(parameters[body].refinements + further_levels));
     }
     check_memory(dim, n_cells, degree, options.communicator, "Refinement/Level",
-                 dim);
+                 dim, coarse.are_simplices);
     Mesh all;
-    merge(meshes, all);
+    merge(coarse, further_levels, all);
+    if (coarse.are_simplices)
+      check_cells(parameters.front().mesh.section + "/Curved sides", all);
     triangulation.copy_triangulation(all);
-    refine_bodies(triangulation);
+    if (!coarse.are_simplices)
+      refine_bodies(triangulation);
   }
 
   template <int dim>
@@ -292,6 +261,10 @@ namespace abut::app
     return result;
   }
 
+  template BodyMeshes<2> create_body_meshes(const std::vector<BodyParameters> &,
+                                            const RunOptions &);
+  template BodyMeshes<3> create_body_meshes(const std::vector<BodyParameters> &,
+                                            const RunOptions &);
   template class Bodies<2>;
   template class Bodies<3>;
 } // namespace abut::app

@@ -17,6 +17,26 @@
 
 namespace abut::app
 {
+  /** The coarse meshes of bodies, all with the same kind of cells. */
+  template <int dim> struct BodyMeshes
+  {
+    explicit BodyMeshes(const std::size_t n_bodies = 0)
+        : meshes(n_bodies), extras(n_bodies)
+    {
+    }
+
+    std::vector<dealii::Triangulation<dim>> meshes;
+    std::vector<MeshFileExtras<dim>> extras;
+    bool are_simplices = false; /**< triangles or tetrahedra */
+  };
+
+  /** Throws InputError as create_mesh() does, and where bodies have different
+   * kinds of cells. Collective. */
+  template <int dim>
+  BodyMeshes<dim>
+  create_body_meshes(const std::vector<BodyParameters> &parameters,
+                     const RunOptions &options);
+
   /** The meshes of all bodies side by side in one triangulation: vertices,
    * cells and boundary faces one body after the other, nothing merged, so
    * that bodies that touch stay apart. Cells have the body's number, from 0,
@@ -34,14 +54,13 @@ namespace abut::app
     explicit Bodies(const std::vector<BodyParameters> &parameters,
                     bool of_revolution = false);
 
-    /** Make the coarse mesh of all bodies in the empty @p triangulation and
-     * refine each by its own `Refinements`. Throws InputError as
-     * create_mesh() does. @p further_levels of refinement are counted when
-     * memory is checked. Collective. */
-    void
-    create(const RunOptions &options, unsigned int degree,
-           unsigned int further_levels,
-           dealii::parallel::distributed::Triangulation<dim> &triangulation);
+    /** Make the mesh of all bodies in the empty @p triangulation and refine
+     * each by its own `Refinements`. Triangles and tetrahedra are refined by
+     * @p further_levels more; of other cells these are counted when memory is
+     * checked. Throws InputError. Collective. */
+    void create(const BodyMeshes<dim> &coarse, const RunOptions &options,
+                unsigned int degree, unsigned int further_levels,
+                dealii::Triangulation<dim> &triangulation);
 
     unsigned int size() const
     {
@@ -103,9 +122,9 @@ namespace abut::app
     using Mesh = dealii::Triangulation<dim>;
 
     std::string names_in_words() const;
-    void merge(const std::vector<Mesh> &meshes, Mesh &all);
-    void refine_bodies(
-        dealii::parallel::distributed::Triangulation<dim> &triangulation) const;
+    void merge(const BodyMeshes<dim> &coarse, unsigned int further_levels,
+               Mesh &all);
+    void refine_bodies(dealii::Triangulation<dim> &triangulation) const;
 
     const std::vector<BodyParameters> &parameters;
     const bool of_revolution;

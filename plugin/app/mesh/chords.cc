@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "chords.h"
+#include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
 
@@ -29,7 +30,8 @@ namespace abut::app
       if constexpr (dim == 2)
         normal = dealii::cross_product_2d(face->vertex(1) - face->vertex(0));
       else
-        normal = dealii::cross_product_3d(face->vertex(3) - face->vertex(0),
+        normal = dealii::cross_product_3d(face->vertex(face->n_vertices() - 1)
+                                              - face->vertex(0),
                                           face->vertex(2) - face->vertex(1));
       if (normal * (face->center() - cell->center()) < 0.)
         normal *= -1.;
@@ -115,7 +117,7 @@ namespace abut::app
       cell->get_dof_indices(dofs);
       std::fill(squares.begin(), squares.end(), 0.);
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (fe.has_support_on_face(i, f))
+        if (shim::has_node_on_face(fe, i, f))
         {
           const double value = field(dofs[i]);
           squares[fe.system_to_component_index(i).second] += value * value;

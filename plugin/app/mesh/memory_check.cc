@@ -58,10 +58,16 @@ namespace abut::app
       return text;
     }
 
-    double n_dofs(const unsigned int dim, const double n_cells,
+    /** Triangles, or tetrahedra, with as many nodes as a cube. */
+    double simplices_of_cube(const unsigned int dim)
+    {
+      return dim == 2 ? 2. : 5.5;
+    }
+
+    double n_dofs(const unsigned int dim, const double n_cubes,
                   const unsigned int degree, const unsigned int n_components)
     {
-      return n_cells * std::pow(degree, dim) * n_components;
+      return n_cubes * std::pow(degree, dim) * n_components;
     }
   } // namespace
 
@@ -95,17 +101,19 @@ namespace abut::app
   void check_memory(const unsigned int dim, const double n_cells,
                     const unsigned int degree, MPI_Comm communicator,
                     const std::string &parameter,
-                    const unsigned int n_components)
+                    const unsigned int n_components, const bool simplices)
   {
+    const double n_cubes =
+        simplices ? n_cells / simplices_of_cube(dim) : n_cells;
     char size[128];
     std::snprintf(size, sizeof size, "%.3g cells with %.3g unknowns", n_cells,
-                  n_dofs(dim, n_cells, degree, n_components));
-    if (n_dofs(dim, n_cells, degree, n_components)
+                  n_dofs(dim, n_cubes, degree, n_components));
+    if (n_dofs(dim, n_cubes, degree, n_components)
         > double(std::numeric_limits<std::int32_t>::max()))
       throw InputError(parameter, std::string("the mesh would have ") + size
                                       + ", more than the 2^31 that can be "
                                         "numbered.");
-    const double needed = estimated_bytes(dim, n_cells, degree, n_components);
+    const double needed = estimated_bytes(dim, n_cubes, degree, n_components);
     const double available = available_bytes(communicator);
     if (needed > available)
       throw InputError(parameter, std::string("the mesh would have ") + size
@@ -115,10 +123,10 @@ namespace abut::app
   }
 
   template <int dim>
-  void check_memory_of_flags(
-      const dealii::parallel::distributed::Triangulation<dim> &mesh,
-      const unsigned int degree, const std::string &parameter,
-      const unsigned int n_components)
+  void check_memory_of_flags(const dealii::Triangulation<dim> &mesh,
+                             const unsigned int degree,
+                             const std::string &parameter,
+                             const unsigned int n_components)
   {
     double n_cells = 0.;
     for (const auto &cell : mesh.active_cell_iterators())
@@ -134,10 +142,10 @@ namespace abut::app
                  degree, communicator, parameter, n_components);
   }
 
-  template void check_memory_of_flags<2>(
-      const dealii::parallel::distributed::Triangulation<2> &, unsigned int,
-      const std::string &, unsigned int);
-  template void check_memory_of_flags<3>(
-      const dealii::parallel::distributed::Triangulation<3> &, unsigned int,
-      const std::string &, unsigned int);
+  template void check_memory_of_flags<2>(const dealii::Triangulation<2> &,
+                                         unsigned int, const std::string &,
+                                         unsigned int);
+  template void check_memory_of_flags<3>(const dealii::Triangulation<3> &,
+                                         unsigned int, const std::string &,
+                                         unsigned int);
 } // namespace abut::app

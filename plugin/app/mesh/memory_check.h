@@ -29,17 +29,18 @@ namespace abut::app
 
   /** Throw InputError that names @p parameter, the estimate and what is there,
    * if the mesh would not fit, or would exceed the 32-bit numbering. To be
-   * called before refining. Collective. */
+   * called before refining. Collective.
+   * @param simplices whether cells are triangles or tetrahedra */
   void check_memory(unsigned int dim, double n_cells, unsigned int degree,
                     MPI_Comm communicator, const std::string &parameter,
-                    unsigned int n_components = 1);
+                    unsigned int n_components = 1, bool simplices = false);
+
   /** The same for the mesh that @p mesh becomes when it is refined and
    * coarsened as flagged. Collective. */
   template <int dim>
-  void check_memory_of_flags(
-      const dealii::parallel::distributed::Triangulation<dim> &mesh,
-      unsigned int degree, const std::string &parameter,
-      unsigned int n_components = 1);
+  void check_memory_of_flags(const dealii::Triangulation<dim> &mesh,
+                             unsigned int degree, const std::string &parameter,
+                             unsigned int n_components = 1);
 } // namespace abut::app
 
 #endif

@@ -93,12 +93,15 @@ namespace abut::app
       const std::string parameter =
           parameters.section
           + (parameters.file.empty() ? "/Arguments" : "/File");
-      if (!triangulation.all_reference_cells_are_hyper_cube())
+      if (!triangulation.all_reference_cells_are_hyper_cube()
+          && !triangulation.all_reference_cells_are_simplex())
         throw InputError(parameter,
-                         dim == 2 ? "the mesh has triangles; it may have "
-                                    "quadrilaterals only (in gmsh: Recombine)."
-                                  : "the mesh has tetrahedra, wedges or "
-                                    "pyramids; it may have hexahedra only.");
+                         dim == 2 ? "the mesh has triangles and "
+                                    "quadrilaterals; it may have one kind only "
+                                    "(in gmsh: Recombine)."
+                                  : "the mesh has cells of several kinds, "
+                                    "wedges or pyramids; it may have hexahedra "
+                                    "only or tetrahedra only.");
       for (const dealii::Point<dim> &vertex : triangulation.get_vertices())
         for (unsigned int d = 0; d < dim; ++d)
           if (!std::isfinite(vertex[d]))
@@ -315,6 +318,27 @@ namespace abut::app
   }
 
   template <int dim>
+  std::string cell_name(const dealii::Triangulation<dim> &triangulation)
+  {
+    if (triangulation.all_reference_cells_are_simplex())
+      return dim == 2 ? "triangles" : "tetrahedra";
+    return dim == 2 ? "quadrilaterals" : "hexahedra";
+  }
+
+  template <int dim>
+  void require_cubes(const dealii::Triangulation<dim> &triangulation,
+                     const MeshParameters &parameters, const std::string &where)
+  {
+    if (!triangulation.all_reference_cells_are_hyper_cube())
+      throw InputError(parameters.source(),
+                       "the cells are " + cell_name(triangulation) + "; in "
+                           + where + " they may be "
+                           + (dim == 2 ? "quadrilaterals only (in gmsh: "
+                                         "Recombine)."
+                                       : "hexahedra only."));
+  }
+
+  template <int dim>
   double half_extent(const dealii::Triangulation<dim> &triangulation)
   {
     dealii::Point<dim> least, largest;
@@ -374,6 +398,12 @@ namespace abut::app
 
   template Placement<2> make_placement<2>(const MeshParameters &);
   template Placement<3> make_placement<3>(const MeshParameters &);
+  template std::string cell_name(const dealii::Triangulation<2> &);
+  template std::string cell_name(const dealii::Triangulation<3> &);
+  template void require_cubes(const dealii::Triangulation<2> &,
+                              const MeshParameters &, const std::string &);
+  template void require_cubes(const dealii::Triangulation<3> &,
+                              const MeshParameters &, const std::string &);
   template double half_extent<2>(const dealii::Triangulation<2> &);
   template double half_extent<3>(const dealii::Triangulation<3> &);
   template MeshFileExtras<2> create_mesh<2>(const MeshParameters &,

@@ -34,6 +34,12 @@ namespace abut::app
     std::string curved_sides;
     std::string section; /**< full name of the section, for messages */
 
+    /** Full name of the parameter that names the mesh. */
+    std::string source() const
+    {
+      return section + (file.empty() ? "/Generator" : "/File");
+    }
+
     /** Declare the parameters in the present section of @p prm. */
     static void declare(dealii::ParameterHandler &prm);
 
@@ -66,6 +72,18 @@ namespace abut::app
   template <int dim>
   BoundaryNames names_of(const MeshFileExtras<dim> &extras,
                          const dealii::Triangulation<dim> &triangulation);
+
+  /** "triangles", "quadrilaterals", "tetrahedra" or "hexahedra", for a mesh of
+   * one kind of cells. */
+  template <int dim>
+  std::string cell_name(const dealii::Triangulation<dim> &triangulation);
+
+  /** Throw InputError if the cells are triangles or tetrahedra, @p where they
+   * cannot be, as in "scenes of kind 'obstacle'". */
+  template <int dim>
+  void require_cubes(const dealii::Triangulation<dim> &triangulation,
+                     const MeshParameters &parameters,
+                     const std::string &where);
 
   /** Half the largest extent of a mesh along a coordinate, of the coarse cells:
    * the same on all ranks. */

@@ -27,11 +27,20 @@ namespace abut::app
     constexpr double least_digits = 1e-11, few_digits = 1e-7;
     for (const auto &cell : triangulation.active_cell_iterators())
     {
+      const bool is_cube = cell->reference_cell().is_hyper_cube();
       dealii::Point<dim> vertices[Geometry::vertices_per_cell];
       dealii::Tensor<0, dim> forms[Geometry::vertices_per_cell];
       for (const unsigned int v : cell->vertex_indices())
         vertices[v] = cell->vertex(v);
-      Geometry::alternating_form_at_vertices(vertices, forms);
+      if (is_cube)
+        Geometry::alternating_form_at_vertices(vertices, forms);
+      else
+      {
+        dealii::Tensor<2, dim> edges;
+        for (unsigned int d = 0; d < dim; ++d)
+          edges[d] = vertices[d + 1] - vertices[0];
+        std::fill(std::begin(forms), std::end(forms), determinant(edges));
+      }
       const double measure = cell->measure(), size = cell->diameter(),
                    distance = cell->center().norm();
       bool is_good = measure > 0 && std::isfinite(measure)

@@ -97,6 +97,24 @@ namespace abut::app
       return text.find(words) != std::string::npos;
     }
 
+    /** About a kind of cells of gmsh that a message of deal.II names as one
+     * that it does not read; its own list of others leaves out half of them. */
+    std::string unread_kind(const std::string &message)
+    {
+      const std::string before = "Element Identifier <";
+      const std::size_t found = message.find(before);
+      if (found == std::string::npos)
+        return "";
+      const int kind = std::atoi(message.c_str() + found + before.size());
+      return kind == 6   ? "it has wedges (prisms)"
+             : kind == 7 ? "it has pyramids"
+             : kind == 8 || kind == 9 || kind == 11
+                 ? "its cells are of second order (gmsh: Mesh.ElementOrder); "
+                   "write those of first order: Solid/Degree = 2 makes nodes "
+                   "in the middles of edges"
+                 : "it has cells of gmsh's type " + std::to_string(kind);
+    }
+
     /** Why deal.II cannot read the file. */
     template <int dim>
     std::string reason(const std::filesystem::path &path,
@@ -110,7 +128,13 @@ namespace abut::app
           || contains(message, "No cells given")
           || contains(message, "did not find any cells"))
         return std::string("it has no cells, which are ")
-               + (dim == 2 ? "quadrilaterals." : "hexahedra.");
+               + (dim == 2 ? "quadrilaterals or triangles."
+                           : "hexahedra or tetrahedra.");
+      const std::string kind = unread_kind(message);
+      if (!kind.empty())
+        return kind
+               + (dim == 2 ? ". Cells are quadrilaterals or triangles."
+                           : ". Cells are hexahedra or tetrahedra.");
       if (contains(message, "negative"))
         return "some of its cells are folded, or have their corners in an "
                "order opposite to that of others."

@@ -7,8 +7,11 @@
 #include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "memory_check.h"
+#include "shim/reference_faces.h"
 #include "stl.h"
 
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
@@ -98,10 +101,9 @@ namespace abut::app
         const std::vector<dealii::Point<dim>> &vertices,
         const typename dealii::Triangulation<dim>::active_cell_iterator &cell)
     {
-      std::array<unsigned int, dealii::GeometryInfo<dim>::vertices_per_cell>
-          indices;
+      std::vector<unsigned int> indices;
       for (const unsigned int v : cell->vertex_indices())
-        indices[v] = cell->vertex_index(v);
+        indices.push_back(cell->vertex_index(v));
       if (!(dealii::GridTools::cell_measure<dim>(
                 vertices,
                 dealii::make_array_view(indices.begin(), indices.end()))
@@ -116,21 +118,16 @@ namespace abut::app
     }
 
     /** Vertices of face @p f of a cell in the order of abut/facet.h, outward.
-     * The order on the reference cell is (y, z), (z, x), (x, y) in 3D: its
-     * normal points along the axis, inward on faces of even number. In 2D it
-     * is along the axis; (ty, -tx) is outward on faces 1 and 2. */
+     */
     template <int dim, typename Cell>
-    std::array<unsigned int, dealii::GeometryInfo<dim>::vertices_per_face>
-    outward_face(const Cell &cell, const unsigned int f)
+    std::vector<unsigned int>
+    outward_face(const shim::ReferenceFaces<dim> &faces,
+                 const abut_facet_kind kind, const Cell &cell,
+                 const unsigned int f)
     {
-      using Geometry = dealii::GeometryInfo<dim>;
-      std::array<unsigned int, Geometry::vertices_per_face> vertices;
-      for (unsigned int v = 0; v < vertices.size(); ++v)
-        vertices[v] = cell->vertex_index(Geometry::face_to_cell_vertices(f, v));
-      if (dim == 2 && (f == 0 || f == 3))
-        std::swap(vertices[0], vertices[1]);
-      if (dim == 3 && f % 2 == 0)
-        std::swap(vertices[1], vertices[dim - 1]);
+      std::vector<unsigned int> vertices;
+      for (const unsigned int k : faces.outward_order(kind, f))
+        vertices.push_back(cell->vertex_index(faces.vertices(f)[k]));
       return vertices;
     }
 
@@ -141,6 +138,14 @@ namespace abut::app
     {
       const std::vector<dealii::Point<dim>> vertices =
           mapped_vertices(parameters, triangulation);
+      const bool are_simplices =
+          triangulation.all_reference_cells_are_simplex();
+      const shim::ReferenceFaces<dim> faces =
+          are_simplices ? shim::ReferenceFaces<dim>(dealii::FE_SimplexP<dim>(1))
+                        : shim::ReferenceFaces<dim>(dealii::FE_Q<dim>(1));
+      surface.kind = dim == 2        ? ABUT_FACET_LINE2
+                     : are_simplices ? ABUT_FACET_TRI3
+                                     : ABUT_FACET_QUAD4;
       std::vector<std::int32_t> node(vertices.size(), -1);
       std::int32_t n_nodes = 0;
       for (const auto &cell : triangulation.active_cell_iterators())
@@ -156,7 +161,8 @@ namespace abut::app
             continue;
           surface.group.push_back(
               static_cast<std::int32_t>(face->boundary_id()));
-          for (const unsigned int v : outward_face<dim>(cell, f))
+          for (const unsigned int v :
+               outward_face(faces, surface.kind, cell, f))
           {
             if (node[v] < 0)
             {
@@ -181,10 +187,11 @@ namespace abut::app
       const Ids ids = parse_boundary_ids(parameters.surface_ids,
                                          mesh.section + "/Surface ids",
                                          names_of(extras, triangulation));
+      if (parameters.refinements > 0)
+        require_cubes(triangulation, mesh, "surfaces with Refinements");
       refine<dim>(parameters, ids, triangulation);
       SurfaceArrays surface;
       surface.dimension = dim;
-      surface.kind = dim == 2 ? ABUT_FACET_LINE2 : ABUT_FACET_QUAD4;
       surface.origin = mesh.file.empty()
                            ? "generator " + mesh.generator
                            : "file " + options.input_file(mesh.file).string();

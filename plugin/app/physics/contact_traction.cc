@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include "contact_traction.h"
+#include "shim/cell_quadrature.h"
 
 #include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
@@ -42,7 +43,7 @@ namespace abut::app
       {
         const auto &fe = dof_handler.get_fe();
         dealii::FEFaceValues<dim> points(
-            mapping, fe, dealii::QGauss<dim - 1>(fe.degree + 1),
+            mapping, fe, shim::face_gauss(fe, fe.degree + 1),
             dealii::update_values | dealii::update_quadrature_points
                 | dealii::update_JxW_values);
         la::Vector open = open_vector();
@@ -78,7 +79,7 @@ namespace abut::app
               std::vector<double> sum(dim, 0.);
               std::vector<unsigned int> count(dim, 0);
               for (unsigned int i = 0; i < dofs.size(); ++i)
-                if (fe.has_support_on_face(i, f) && is_known(dofs[i]) > 0.)
+                if (shim::has_node_on_face(fe, i, f) && is_known(dofs[i]) > 0.)
                 {
                   const auto c = fe.system_to_component_index(i).first;
                   sum[c] += here(dofs[i]);
@@ -87,7 +88,7 @@ namespace abut::app
               for (unsigned int i = 0; i < dofs.size(); ++i)
               {
                 const auto c = fe.system_to_component_index(i).first;
-                if (!fe.has_support_on_face(i, f) || is_known(dofs[i]) > 0.
+                if (!shim::has_node_on_face(fe, i, f) || is_known(dofs[i]) > 0.
                     || count[c] == 0)
                   continue;
                 open_sum(dofs[i]) += sum[c] / count[c];

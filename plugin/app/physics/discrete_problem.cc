@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete_problem.h"
+#include "shim/cell_quadrature.h"
 
 #include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/fe/mapping_q.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
 
@@ -14,13 +18,28 @@
 
 namespace abut::app
 {
+  namespace
+  {
+    /** Edges of simplices are straight. */
+    template <int dim>
+    std::unique_ptr<const dealii::Mapping<dim>>
+    make_mapping(const dealii::FiniteElement<dim> &fe)
+    {
+      if (shim::is_simplex(fe))
+        return std::make_unique<dealii::MappingFE<dim>>(
+            dealii::FE_SimplexP<dim>(1));
+      return std::make_unique<dealii::MappingQ<dim>>(fe.degree);
+    }
+  } // namespace
+
   template <int dim>
   DiscreteProblem<dim>::DiscreteProblem(
-      dealii::parallel::distributed::Triangulation<dim> &triangulation,
+      dealii::Triangulation<dim> &triangulation,
       std::unique_ptr<dealii::FiniteElement<dim>> element)
       : element(std::move(element)),
         fe(*this->element),
-        mapping(fe.degree),
+        own_mapping(make_mapping(fe)),
+        mapping(*own_mapping),
         dof_handler(triangulation),
         communicator(versions::communicator(triangulation))
   {

@@ -7,7 +7,7 @@
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe.h>
-#include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/full_matrix.h>
 
@@ -39,9 +39,8 @@ namespace abut::app
     /** Adds prescribed values to constraints that hold hanging nodes. */
     using Prescribe = std::function<void(dealii::AffineConstraints<double> &)>;
 
-    DiscreteProblem(
-        dealii::parallel::distributed::Triangulation<dim> &triangulation,
-        std::unique_ptr<dealii::FiniteElement<dim>> element);
+    DiscreteProblem(dealii::Triangulation<dim> &triangulation,
+                    std::unique_ptr<dealii::FiniteElement<dim>> element);
 
     virtual ~DiscreteProblem() = default;
 
@@ -100,7 +99,12 @@ namespace abut::app
 
   public:
     const dealii::FiniteElement<dim> &fe;
-    dealii::MappingQ<dim> mapping;
+
+  private:
+    const std::unique_ptr<const dealii::Mapping<dim>> own_mapping;
+
+  public:
+    const dealii::Mapping<dim> &mapping;
     dealii::DoFHandler<dim> dof_handler;
     dealii::AffineConstraints<double> constraints;
     dealii::AffineConstraints<double> hanging;

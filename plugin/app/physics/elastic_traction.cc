@@ -2,6 +2,7 @@
 #include "elastic_traction.h"
 
 #include "cell_volume.h"
+#include "shim/cell_quadrature.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -17,7 +18,8 @@ namespace abut::app
         const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
         const Material<dim> &material)
     {
-      const dealii::QGauss<dim> quadrature(
+      const dealii::Quadrature<dim> quadrature = shim::gauss(
+          cell->get_fe(),
           material.cell_volume() != nullptr ? cell->get_fe().degree + 1 : 1);
       dealii::FEValues<dim> points(
           mapping, cell->get_fe(), quadrature,

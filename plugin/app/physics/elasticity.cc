@@ -6,12 +6,14 @@
 #include "app/input/short_number.h"
 #include "cell_sum.h"
 #include "nodal_places.h"
+#include "shim/cell_quadrature.h"
 #include "stiffness_cache.h"
 
 #include <abut/dealii/distribute.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/numerics/vector_tools.h>
@@ -45,7 +47,8 @@ namespace abut::app
     void for_each_state(const DiscreteProblem<dim> &problem,
                         const la::Vector &displacement, const Action &action)
     {
-      const dealii::QGauss<dim> quadrature(problem.fe.degree + 1);
+      const dealii::Quadrature<dim> quadrature =
+          shim::gauss(problem.fe, problem.fe.degree + 1);
       const auto flags = dealii::update_values | dealii::update_gradients
                          | dealii::update_JxW_values
                          | dealii::update_quadrature_points;
@@ -72,15 +75,24 @@ namespace abut::app
           action(cell, points, state, dofs);
         }
     }
+
+    template <int dim>
+    std::unique_ptr<dealii::FiniteElement<dim>>
+    make_element(const unsigned int degree, const bool simplices)
+    {
+      using System = dealii::FESystem<dim>;
+      return simplices
+                 ? std::make_unique<System>(dealii::FE_SimplexP<dim>(degree),
+                                            dim)
+                 : std::make_unique<System>(dealii::FE_Q<dim>(degree), dim);
+    }
   } // namespace
 
   template <int dim>
-  Elasticity<dim>::Elasticity(
-      dealii::parallel::distributed::Triangulation<dim> &triangulation,
-      const unsigned int degree)
+  Elasticity<dim>::Elasticity(dealii::Triangulation<dim> &triangulation,
+                              const unsigned int degree, const bool simplices)
       : DiscreteProblem<dim>(triangulation,
-                             std::make_unique<dealii::FESystem<dim>>(
-                                 dealii::FE_Q<dim>(degree), dim)),
+                             make_element<dim>(degree, simplices)),
         materials(std::make_unique<Materials<dim>>())
   {
   }
@@ -221,7 +233,7 @@ namespace abut::app
   {
     const dealii::FiniteElement<dim> &element = this->fe.base_element(0);
     dealii::FEValues<dim> values(
-        this->mapping, element, dealii::QGauss<dim>(this->fe.degree + 1),
+        this->mapping, element, shim::gauss(this->fe, this->fe.degree + 1),
         dealii::update_values | dealii::update_quadrature_points
             | dealii::update_JxW_values);
     const NodalPlaces<dim> places(this->fe);
@@ -265,7 +277,7 @@ namespace abut::app
   {
     const dealii::FiniteElement<dim> &element = this->fe.base_element(0);
     dealii::FEFaceValues<dim> values(
-        this->mapping, element, dealii::QGauss<dim - 1>(this->fe.degree + 1),
+        this->mapping, element, shim::face_gauss(this->fe, this->fe.degree + 1),
         dealii::update_values | dealii::update_JxW_values
             | dealii::update_normal_vectors | dealii::update_quadrature_points);
     const NodalPlaces<dim> places(this->fe);

@@ -39,8 +39,9 @@ namespace abut::app
   template <int dim> class Elasticity : public DiscreteProblem<dim>
   {
   public:
-    Elasticity(dealii::parallel::distributed::Triangulation<dim> &triangulation,
-               unsigned int degree);
+    /** @param simplices whether cells are triangles or tetrahedra */
+    Elasticity(dealii::Triangulation<dim> &triangulation, unsigned int degree,
+               bool simplices = false);
     ~Elasticity() override;
 
     /** Number unknowns, build constraints and the matrix's pattern for the

@@ -4,6 +4,7 @@
 
 #include "app/input/input_error.h"
 #include "cell_volume.h"
+#include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
 
@@ -197,7 +198,7 @@ namespace abut::app
                          const Materials<dim> *materials)
   {
     const auto &fe = dof_handler.get_fe();
-    const dealii::QGauss<dim> quadrature(fe.degree + 2);
+    const dealii::Quadrature<dim> quadrature = shim::gauss(fe, fe.degree + 2);
     dealii::FEValues<dim> points(
         mapping, fe, quadrature,
         dealii::update_values | dealii::update_gradients
@@ -246,8 +247,9 @@ namespace abut::app
                                         const dealii::Function<dim> *> &neumann)
   {
     const auto &fe = dof_handler.get_fe();
-    const dealii::QGauss<dim> quadrature(fe.degree + 1);
-    const dealii::QGauss<dim - 1> face_quadrature(fe.degree + 1);
+    const dealii::Quadrature<dim> quadrature = shim::gauss(fe, fe.degree + 1);
+    const dealii::Quadrature<dim - 1> face_quadrature =
+        shim::face_gauss(fe, fe.degree + 1);
     dealii::FEValues<dim> points(
         mapping, fe, quadrature,
         dealii::update_values | dealii::update_gradients

@@ -3,6 +3,7 @@
 
 #include "app/input/input_error.h"
 #include "nodal_places.h"
+#include "shim/cell_quadrature.h"
 #include "whole_matrix.h"
 
 #include <abut/dealii/versions.h>
@@ -52,6 +53,24 @@ namespace abut::app
       }
     }
 
+    /** Take all mass from candidates, the other nodes have it in proportion to
+     * their diagonals: positive, where entries of both signs, as those of
+     * quadratic simplices, would leave an indefinite matrix. */
+    void hand_to_others(const std::vector<std::uint8_t> &candidate,
+                        dealii::FullMatrix<double> &mass)
+    {
+      double all = 0., others = 0.;
+      for (unsigned int i = 0; i < mass.m(); ++i)
+      {
+        for (unsigned int j = 0; j < mass.n(); ++j)
+          all += mass(i, j);
+        others += candidate[i] == 0 ? mass(i, i) : 0.;
+      }
+      for (unsigned int i = 0; i < mass.m(); ++i)
+        for (unsigned int j = 0; j < mass.n(); ++j)
+          mass(i, j) *= i == j && candidate[i] == 0 ? all / others : 0.;
+    }
+
     /** Make the mass of a cell that of its kind.
      * @param candidate of each node of the cell */
     template <int dim>
@@ -66,6 +85,11 @@ namespace abut::app
       if (kind != ABUT_TIME_MASS_MODIFIED
           || std::count(candidate.begin(), candidate.end(), 1) == 0)
         return;
+      const bool has_others =
+          std::count(candidate.begin(), candidate.end(), 0) > 0;
+      if (has_others && shim::is_simplex(cell->get_fe())
+          && cell->get_fe().degree > 1)
+        return hand_to_others(candidate, mass);
       if (abut_mass_modify_element(static_cast<std::int32_t>(mass.m()),
                                    candidate.data(), &mass(0, 0))
           == ABUT_SUCCESS)
@@ -85,7 +109,7 @@ namespace abut::app
   {
     const dealii::FiniteElement<dim> &fe = problem.fe;
     dealii::FEValues<dim> values(
-        problem.mapping, fe.base_element(0), dealii::QGauss<dim>(fe.degree + 1),
+        problem.mapping, fe.base_element(0), shim::gauss(fe, fe.degree + 1),
         dealii::update_values | dealii::update_JxW_values
             | dealii::update_quadrature_points);
     dealii::IndexSet touching(problem.dof_handler.n_dofs());

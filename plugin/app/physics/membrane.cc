@@ -6,6 +6,7 @@
 #include "app/input/input_error.h"
 #include "cell_sum.h"
 #include "error_norms.h"
+#include "shim/cell_quadrature.h"
 #include "shim/shifted_cells.h"
 
 #include <abut/dealii/distribute.h>
@@ -28,7 +29,7 @@ namespace abut::app
           : matrix(problem.fe.n_dofs_per_cell(), problem.fe.n_dofs_per_cell()),
             load(problem.fe.n_dofs_per_cell()),
             data(data),
-            quadrature(problem.fe.degree + 1),
+            quadrature(shim::gauss(problem.fe, problem.fe.degree + 1)),
             values(problem.mapping, problem.fe, quadrature, flags(data)),
             shapes(problem.mapping),
             k(quadrature.size(),
@@ -116,7 +117,7 @@ namespace abut::app
       }
 
       const MembraneData<dim> &data;
-      const dealii::QGauss<dim> quadrature;
+      const dealii::Quadrature<dim> quadrature;
       dealii::FEValues<dim> values;
       shim::ShiftedCells<dim> shapes;
       std::vector<double> k, f;
@@ -130,7 +131,7 @@ namespace abut::app
                const MembraneData<dim> &data)
           : load(problem.fe.n_dofs_per_cell()),
             data(data),
-            quadrature(problem.fe.degree + 1),
+            quadrature(shim::face_gauss(problem.fe, problem.fe.degree + 1)),
             values(problem.mapping, problem.fe, quadrature,
                    dealii::update_values | dealii::update_JxW_values
                        | dealii::update_quadrature_points),
@@ -166,16 +167,15 @@ namespace abut::app
 
     private:
       const MembraneData<dim> &data;
-      const dealii::QGauss<dim - 1> quadrature;
+      const dealii::Quadrature<dim - 1> quadrature;
       dealii::FEFaceValues<dim> values;
       std::vector<double> flux;
     };
   } // namespace
 
   template <int dim>
-  Membrane<dim>::Membrane(
-      dealii::parallel::distributed::Triangulation<dim> &triangulation,
-      const unsigned int degree)
+  Membrane<dim>::Membrane(dealii::Triangulation<dim> &triangulation,
+                          const unsigned int degree)
       : LinearProblem<dim>(triangulation,
                            std::make_unique<dealii::FE_Q<dim>>(degree))
   {

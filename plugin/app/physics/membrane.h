@@ -22,8 +22,7 @@ namespace abut::app
   template <int dim> class Membrane : public LinearProblem<dim>
   {
   public:
-    Membrane(dealii::parallel::distributed::Triangulation<dim> &triangulation,
-             unsigned int degree);
+    Membrane(dealii::Triangulation<dim> &triangulation, unsigned int degree);
 
     /** Number unknowns, build constraints and the matrix's pattern for the
      * present mesh. Collective. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "stiffness_cache.h"
+#include "shim/cell_quadrature.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -22,7 +23,7 @@ namespace abut::app
                                       const Materials<dim> &materials)
       : materials(materials),
         fe(fe),
-        values(mapping, fe.base_element(0), dealii::QGauss<dim>(fe.degree + 1),
+        values(mapping, fe.base_element(0), shim::gauss(fe, fe.degree + 1),
                dealii::update_values | dealii::update_gradients
                    | dealii::update_JxW_values
                    | dealii::update_quadrature_points),
@@ -53,7 +54,7 @@ namespace abut::app
   typename StiffnessCache<dim>::Key
   StiffnessCache<dim>::key(const Cell &cell, const double size) const
   {
-    Key key;
+    Key key = {};
     key[0] = cell->material_id();
     unsigned int k = 1;
     for (unsigned int v = 1; v < cell->n_vertices(); ++v)
@@ -84,9 +85,8 @@ namespace abut::app
       compute(cell, result);
       return result;
     }
-    constexpr unsigned int last_vertex =
-        dealii::GeometryInfo<dim>::vertices_per_cell - 1;
-    const double size = cell->vertex(last_vertex).distance(cell->vertex(0));
+    const double size =
+        cell->vertex(cell->n_vertices() - 1).distance(cell->vertex(0));
     const Key wanted = key(cell, size);
     auto entry = known.find(wanted);
     if (entry == known.end())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "stretches.h"
 
+#include "shim/cell_quadrature.h"
 #include "shim/principal_values.h"
 
 #include <abut/dealii/versions.h>
@@ -44,11 +45,11 @@ namespace abut::app
                            const Materials<dim> &materials)
   {
     const auto &fe = dof_handler.get_fe();
-    dealii::FEValues<dim> points(
-        mapping, fe, dealii::QGauss<dim>(fe.degree + 1),
-        dealii::update_values | dealii::update_gradients
-            | dealii::update_quadrature_points);
-    dealii::FEValues<dim> corners(mapping, fe, dealii::QTrapezoid<dim>(),
+    dealii::FEValues<dim> points(mapping, fe, shim::gauss(fe, fe.degree + 1),
+                                 dealii::update_values
+                                     | dealii::update_gradients
+                                     | dealii::update_quadrature_points);
+    dealii::FEValues<dim> corners(mapping, fe, shim::vertex_rule(fe),
                                   dealii::update_gradients);
     const dealii::FEValuesExtractors::Vector field(0);
     std::vector<dealii::Tensor<1, dim>> u(points.n_quadrature_points);

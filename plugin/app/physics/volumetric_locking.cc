@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "volumetric_locking.h"
+#include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
 
@@ -51,7 +52,7 @@ namespace abut::app
   {
     const auto &fe = dof_handler.get_fe();
     dealii::FEValues<dim> points(
-        mapping, fe, dealii::QGauss<dim>(fe.degree + 1),
+        mapping, fe, shim::gauss(fe, fe.degree + 1),
         dealii::update_values | dealii::update_gradients
             | dealii::update_quadrature_points | dealii::update_JxW_values);
     double energies[2] = {0., 0.};

@@ -6,12 +6,15 @@
 #include "gnuplot.h"
 #include "picture_parts.h"
 #include "raster.h"
+#include "shim/cell_quadrature.h"
 #include "zero_line.h"
 
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q_eulerian.h>
 #include <deal.II/grid/grid_tools.h>
 
@@ -60,6 +63,64 @@ namespace abut::app
       return std::max(1., level_step(size / largest / 4));
     }
 
+    /** Triangles whose vertices are displaced; edges stay straight. Knows
+     * vertices only. */
+    class DisplacedVertices : public dealii::MappingFE<2>
+    {
+    public:
+      using Cell = dealii::Triangulation<2>::cell_iterator;
+      using Vertices =
+          decltype(std::declval<const dealii::Mapping<2> &>().get_vertices(
+              std::declval<Cell>()));
+
+      /** Both must outlive it; @p displacement with ghosts. */
+      DisplacedVertices(const dealii::DoFHandler<2> &dof_handler,
+                        const la::Vector &displacement)
+          : dealii::MappingFE<2>(dealii::FE_SimplexP<2>(1)),
+            dof_handler(dof_handler),
+            displacement(displacement)
+      {
+      }
+
+      std::unique_ptr<dealii::Mapping<2>> clone() const override
+      {
+        return std::make_unique<DisplacedVertices>(dof_handler, displacement);
+      }
+
+      bool preserves_vertex_locations() const override
+      {
+        return false;
+      }
+
+      Vertices get_vertices(const Cell &cell) const override
+      {
+        Vertices vertices = dealii::MappingFE<2>::get_vertices(cell);
+        const dealii::DoFHandler<2>::cell_iterator dofs(
+            &dof_handler.get_triangulation(), cell->level(), cell->index(),
+            &dof_handler);
+        for (unsigned int v = 0; v < vertices.size(); ++v)
+          for (unsigned int d = 0; d < 2; ++d)
+            vertices[v][d] += displacement(dofs->vertex_dof_index(v, d));
+        return vertices;
+      }
+
+    private:
+      const dealii::DoFHandler<2> &dof_handler;
+      const la::Vector &displacement;
+    };
+
+    /** The vertices that a picture shows, and the cells between them. */
+    std::unique_ptr<dealii::Mapping<2>>
+    displaced(const dealii::DoFHandler<2> &dof_handler,
+              const la::Vector &displacement)
+    {
+      const dealii::FiniteElement<2> &fe = dof_handler.get_fe();
+      if (shim::is_simplex(fe))
+        return std::make_unique<DisplacedVertices>(dof_handler, displacement);
+      return std::make_unique<dealii::MappingQEulerian<2, la::Vector>>(
+          fe.degree, dof_handler, displacement);
+    }
+
     /** Edges of all boundary faces, two lines each and an interruption. */
     std::vector<std::vector<double>>
     outline(const dealii::Mapping<2> &mapping,
@@ -70,16 +131,13 @@ namespace abut::app
         if (cell->is_locally_owned() && cell->at_boundary())
         {
           const auto vertices = mapping.get_vertices(cell);
-          for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary())
             {
               for (unsigned int v = 0; v < 2; ++v)
-              {
-                const auto &x =
-                    vertices[dealii::GeometryInfo<2>::face_to_cell_vertices(f,
-                                                                            v)];
-                mine.push_back({x[0], x[1]});
-              }
+                for (const unsigned int k : cell->vertex_indices())
+                  if (cell->vertex_index(k) == face->vertex_index(v))
+                    mine.push_back({vertices[k][0], vertices[k][1]});
               mine.push_back(interruption);
             }
         }
@@ -251,15 +309,18 @@ namespace abut::app
     const double factor = exaggeration(dof_handler, displacement);
     la::Vector drawn(displacement);
     drawn *= factor;
-    const dealii::MappingQEulerian<2, la::Vector> deformed(
-        dof_handler.get_fe().degree, dof_handler, drawn);
+    const std::unique_ptr<dealii::Mapping<2>> deformed =
+        displaced(dof_handler, drawn);
     dealii::DoFHandler<2> scalar(dof_handler.get_triangulation());
-    scalar.distribute_dofs(dealii::FE_Q<2>(1));
+    if (shim::is_simplex(dof_handler.get_fe()))
+      scalar.distribute_dofs(dealii::FE_SimplexP<2>(1));
+    else
+      scalar.distribute_dofs(dealii::FE_Q<2>(1));
     const std::vector<la::Vector> stresses =
         nodal_stress(mapping, dof_handler, displacement, materials, scalar);
     const Raster raster =
-        sample_raster(deformed, scalar, {{&stresses.back()}}, 240);
-    const auto edges = outline(deformed, dof_handler.get_triangulation(),
+        sample_raster(*deformed, scalar, {{&stresses.back()}}, 240);
+    const auto edges = outline(*deformed, dof_handler.get_triangulation(),
                                versions::communicator(dof_handler));
     if (MPI::this_mpi_process(report.communicator) != 0)
       return false;

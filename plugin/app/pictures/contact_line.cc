@@ -8,6 +8,7 @@
 
 #include "app/restart/disk.h"
 #include "contact_output.h"
+#include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
 
@@ -59,7 +60,7 @@ namespace abut::app
         const dealii::Tensor<1, 2> outward = face->center() - cell->center();
         std::map<double, Node> ordered;
         for (unsigned int i = 0; i < dofs.size(); ++i)
-          if (fe.has_support_on_face(i, f)
+          if (shim::has_node_on_face(fe, i, f)
               && fe.system_to_component_index(i).first == 0)
           {
             const dealii::Point<2> x = mapping.transform_unit_to_real_cell(

@@ -4,6 +4,7 @@
 
 #include "app/input/collective.h"
 #include "app/restart/disk.h"
+#include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
 
@@ -152,8 +153,10 @@ namespace abut::app
     flags.cycle = static_cast<unsigned int>(records.size());
     // Lines are drawn straight, in pieces: deal.II 9.6 knows no curved ones.
     const int cell_dim = fields.faces.empty() ? dim : dim - 1;
+    // Quadratic triangles and tetrahedra are cells of VTK of their own.
+    const dealii::FiniteElement<dim> &fe = fields.dof_handler.get_fe();
     flags.write_higher_order_cells =
-        cell_dim > 1 && fields.dof_handler.get_fe().degree > 1;
+        cell_dim > 1 && fe.degree > 1 && !shim::is_simplex(fe);
     // The smallest files would take longer to pack than the fields to solve
     // for; these are about a quarter larger. (The enumeration has another name
     // in later versions of deal.II.)

@@ -2,6 +2,8 @@
 
 #include "raster.h"
 
+#include "shim/cell_quadrature.h"
+
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -70,14 +72,15 @@ namespace abut::app
       void reinit(const dealii::Mapping<dim> &mapping, const Cell &cell)
       {
         const auto vertices = mapping.get_vertices(cell);
+        const bool is_cube = cell->reference_cell().is_hyper_cube();
         origin = vertices[0];
         dealii::Tensor<2, dim> sides;
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int i = 0; i < dim; ++i)
-            sides[i][d] = vertices[1U << d][i] - origin[i];
+            sides[i][d] = vertices[is_cube ? 1U << d : 1U + d][i] - origin[i];
         const double tolerance = 1e-10 * sides.norm();
         hits = true;
-        for (unsigned int v = 0; v < vertices.size(); ++v)
+        for (unsigned int v = 0; v < vertices.size() && is_cube; ++v)
         {
           dealii::Tensor<1, dim> unit;
           for (unsigned int d = 0; d < dim; ++d)
@@ -160,7 +163,16 @@ namespace abut::app
           {
             return false;
           }
-        return dealii::GeometryInfo<dim>::is_inside_unit_cell(unit, 1e-8);
+        constexpr double tolerance = 1e-8;
+        if (!shim::is_simplex(fe))
+          return dealii::GeometryInfo<dim>::is_inside_unit_cell(unit,
+                                                                tolerance);
+        double least = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+          least -= unit[d];
+        for (unsigned int d = 0; d < dim; ++d)
+          least = std::min(least, unit[d]);
+        return least >= -tolerance;
       }
 
       double interpolated(const dealii::Vector<double> &nodal,

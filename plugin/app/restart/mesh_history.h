@@ -22,7 +22,7 @@ namespace abut::app
   template <int dim> class MeshHistory
   {
   public:
-    using Mesh = dealii::parallel::distributed::Triangulation<dim>;
+    using Mesh = dealii::Triangulation<dim>;
 
     /** Take notes of what is done to @p mesh, as long as this object lives. */
     explicit MeshHistory(Mesh &mesh);

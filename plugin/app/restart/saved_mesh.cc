@@ -17,6 +17,9 @@ namespace abut::app
     template <int dim>
     using Transfer = versions::SolutionTransfer<dim, la::Vector>;
 
+    template <int dim>
+    using SavedByP4est = dealii::parallel::distributed::Triangulation<dim>;
+
     const char *const mesh_name = "mesh";
 
     /** Open MPI guards a pointer into files that ranks share, which nobody uses
@@ -55,6 +58,97 @@ namespace abut::app
       return result;
     }
 
+    /** Call @p visit with each unknown that a cell of this rank has and its
+     * number along the mesh: by vertices and edges, of which all ranks have
+     * all. For elements with nodes nowhere else. */
+    template <int dim, class Visit>
+    void for_each_unknown(const dealii::DoFHandler<dim> &dof_handler,
+                          const Visit &visit)
+    {
+      const auto &fe = dof_handler.get_fe();
+      const std::size_t n_components = fe.n_components(),
+                        n_vertices =
+                            dof_handler.get_triangulation().n_vertices();
+      for (const auto &cell : dof_handler.active_cell_iterators())
+      {
+        if (!cell->is_locally_owned())
+          continue;
+        for (std::size_t c = 0; c < n_components; ++c)
+        {
+          for (const unsigned int v : cell->vertex_indices())
+            visit(cell->vertex_dof_index(v, c),
+                  cell->vertex_index(v) * n_components + c);
+          if (fe.n_dofs_per_line() > 0)
+            for (unsigned int l = 0; l < cell->n_lines(); ++l)
+              visit(cell->line(l)->dof_index(c),
+                    (n_vertices + cell->line(l)->index()) * n_components + c);
+        }
+      }
+    }
+
+    /** Values of a field by number along the mesh. Collective. */
+    template <int dim>
+    std::vector<double>
+    values_along_mesh(const dealii::DoFHandler<dim> &dof_handler,
+                      const la::Vector &field)
+    {
+      const auto &mesh = dof_handler.get_triangulation();
+      const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+      std::vector<double> mine((mesh.n_vertices() + mesh.n_raw_lines())
+                               * dof_handler.get_fe().n_components());
+      for_each_unknown(dof_handler,
+                       [&](const auto dof, const std::size_t number)
+                       {
+                         if (owned.is_element(dof))
+                           mine[number] =
+                               la::data(field)[owned.index_within_set(dof)];
+                       });
+      std::vector<double> all(mine.size());
+      dealii::Utilities::MPI::sum(mine, versions::communicator(dof_handler),
+                                  all);
+      return all;
+    }
+
+    template <int dim>
+    void save_along_mesh(const std::filesystem::path &file,
+                         const dealii::DoFHandler<dim> &dof_handler,
+                         const std::vector<la::Vector> &fields)
+    {
+      std::vector<std::vector<double>> values;
+      for (const la::Vector &field : fields)
+        values.push_back(values_along_mesh(dof_handler, field));
+      const MPI_Comm communicator = versions::communicator(dof_handler);
+      collective(communicator,
+                 [&]
+                 {
+                   if (dealii::Utilities::MPI::this_mpi_process(communicator)
+                       == 0)
+                     write_file(file, to_bytes(values));
+                 });
+    }
+
+    template <int dim>
+    std::vector<la::Vector>
+    load_along_mesh(const std::filesystem::path &file,
+                    const unsigned int n_fields,
+                    const dealii::DoFHandler<dim> &dof_handler)
+    {
+      std::vector<std::vector<double>> values;
+      collective(versions::communicator(dof_handler),
+                 [&] { from_bytes(read_from_disk(file), values); });
+      const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+      std::vector<la::Vector> fields = empty_fields(n_fields, dof_handler);
+      for (unsigned int i = 0; i < n_fields; ++i)
+        for_each_unknown(dof_handler,
+                         [&](const auto dof, const std::size_t number)
+                         {
+                           if (owned.is_element(dof))
+                             la::data(fields[i])[owned.index_within_set(dof)] =
+                                 values.at(i).at(number);
+                         });
+      return fields;
+    }
+
     /** p4est ends the program where it cannot write: more bytes than it takes
      * for a cell with its fields must be there. Collective. */
     template <int dim>
@@ -84,16 +178,22 @@ namespace abut::app
                      const dealii::DoFHandler<dim> &dof_handler,
                      const std::vector<la::Vector> &fields)
   {
-    const std::vector<la::Vector> ghosted = with_ghosts(fields, dof_handler);
-    std::vector<const la::Vector *> pointers;
-    for (const la::Vector &field : ghosted)
-      pointers.push_back(&field);
-    Transfer<dim> transfer(dof_handler);
-    if (!pointers.empty())
-      transfer.prepare_for_serialization(pointers);
-    require_room_for<dim>(folder, mesh, dof_handler, fields.size());
-    leave_out_shared_pointers();
-    mesh.save((folder / mesh_name).string());
+    auto *const saved = dynamic_cast<SavedByP4est<dim> *>(&mesh);
+    if (saved == nullptr)
+      save_along_mesh(folder / mesh_name, dof_handler, fields);
+    else
+    {
+      const std::vector<la::Vector> ghosted = with_ghosts(fields, dof_handler);
+      std::vector<const la::Vector *> pointers;
+      for (const la::Vector &field : ghosted)
+        pointers.push_back(&field);
+      Transfer<dim> transfer(dof_handler);
+      if (!pointers.empty())
+        transfer.prepare_for_serialization(pointers);
+      require_room_for<dim>(folder, mesh, dof_handler, fields.size());
+      leave_out_shared_pointers();
+      saved->save((folder / mesh_name).string());
+    }
 
     MeshPart part{history.is_known(), history.steps(), {}};
     for (const la::Vector &field : fields)
@@ -118,9 +218,15 @@ namespace abut::app
         set_owned_values(part->fields.at(i), fields[i]);
       return fields;
     }
+    auto *const saved = dynamic_cast<SavedByP4est<dim> *>(&mesh);
+    if (saved == nullptr)
+    {
+      setup();
+      return load_along_mesh(folder / mesh_name, n_fields, dof_handler);
+    }
     history.forget();
     leave_out_shared_pointers();
-    mesh.load((folder / mesh_name).string());
+    saved->load((folder / mesh_name).string());
     setup();
     std::vector<la::Vector> fields = empty_fields(n_fields, dof_handler);
     std::vector<la::Vector *> pointers;

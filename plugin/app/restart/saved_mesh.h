@@ -13,7 +13,8 @@
 namespace abut::app
 {
   /** A rank's part of a mesh with nodal fields, for as many ranks as it was
-   * saved on. The same is saved by p4est, for any number of ranks. */
+   * saved on. The same is saved by p4est, for any number of ranks; of a mesh
+   * that is not p4est's, which its scene makes as it was, the fields are. */
   struct MeshPart
   {
     bool is_known = false; ///< whether the steps lead to the mesh
@@ -36,8 +37,8 @@ namespace abut::app
                      const std::vector<la::Vector> &fields);
 
   /** Bring @p mesh, which is coarse, and fields back to what they were: bit by
-   * bit from @p part where there is one, else by p4est. @p setup distributes
-   * the unknowns. Collective. */
+   * bit from @p part where there is one, else from what any number of ranks can
+   * load. @p setup distributes the unknowns. Collective. */
   template <int dim>
   std::vector<la::Vector> load_mesh(const std::filesystem::path &folder,
                                     const MeshPart *part, unsigned int n_fields,

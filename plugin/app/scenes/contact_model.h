@@ -8,9 +8,11 @@
 
 #include <abut/dealii/contact_solver_types.h>
 
+#include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,8 +27,11 @@ namespace abut::app
   template <int dim> class ContactModel
   {
   public:
-    explicit ContactModel(const MPI_Comm communicator)
-        : triangulation(communicator)
+    /** @param simplices whether cells are triangles or tetrahedra: all ranks
+     * have all of them; others are p4est's */
+    explicit ContactModel(const MPI_Comm communicator,
+                          const bool simplices = false)
+        : mesh(make_mesh(communicator, simplices)), triangulation(*mesh)
     {
     }
 
@@ -40,6 +45,13 @@ namespace abut::app
     /** Make the coarse mesh; throws InputError, also if the mesh of the level
      * asked for would not fit into memory. */
     virtual void create_mesh() = 0;
+    /** Refine the mesh that create_mesh() has made. One of triangles or
+     * tetrahedra has its levels already. Collective. */
+    void refine_mesh(const unsigned int levels)
+    {
+      if (triangulation.all_reference_cells_are_hyper_cube())
+        triangulation.refine_global(levels);
+    }
 
     /** Find the places of all data on the mesh. Called as create_functions().
      */
@@ -372,7 +384,28 @@ namespace abut::app
     virtual void report_model() = 0;
     /** @} */
 
-    dealii::parallel::distributed::Triangulation<dim> triangulation;
+    using AdaptiveMesh = dealii::parallel::distributed::Triangulation<dim>;
+
+    /** The mesh, which is p4est's. */
+    AdaptiveMesh &adaptive_mesh()
+    {
+      return dynamic_cast<AdaptiveMesh &>(*mesh);
+    }
+
+  private:
+    static std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
+    make_mesh(const MPI_Comm communicator, const bool simplices)
+    {
+      using Shared = dealii::parallel::shared::Triangulation<dim>;
+      if (simplices)
+        return std::make_unique<Shared>(communicator, Shared::none, true);
+      return std::make_unique<AdaptiveMesh>(communicator);
+    }
+
+    const std::unique_ptr<dealii::parallel::TriangulationBase<dim>> mesh;
+
+  public:
+    dealii::parallel::TriangulationBase<dim> &triangulation;
   };
 } // namespace abut::app
 

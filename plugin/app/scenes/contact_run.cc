@@ -56,7 +56,7 @@ namespace abut::app
     {
       SectionTimes::Scope scope(report.times, "mesh");
       model.create_mesh();
-      model.triangulation.refine_global(state.mesh_number);
+      model.refine_mesh(state.mesh_number);
     }
     collective(state.communicator, [&] { model.set_data(); });
     model.set_time(state.load_steps.target());
@@ -598,7 +598,7 @@ namespace abut::app
     }
     dealii::parallel::distributed::GridRefinement::
         refine_and_coarsen_fixed_fraction(
-            model.triangulation, state.squared_estimate,
+            model.adaptive_mesh(), state.squared_estimate,
             state.control.is_on() ? state.control.refine_fraction()
                                   : levels.refine_fraction,
             levels.coarsen_fraction);

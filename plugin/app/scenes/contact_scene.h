@@ -38,6 +38,7 @@ namespace abut::app
 
     void check(const RunOptions &options, Report &report) override
     {
+      prepare(options);
       ContactRunState<dim> state(settings(), options, report);
       const auto model = create_model(state);
       ContactRun<dim>(state, *model).check();
@@ -45,6 +46,7 @@ namespace abut::app
 
     Outcome run(const RunOptions &options, Report &report) override
     {
+      prepare(options);
       ContactRunState<dim> state(settings(), options, report);
       const auto model = create_model(state);
       return ContactRun<dim>(state, *model).run();
@@ -54,9 +56,14 @@ namespace abut::app
     virtual void declare_model(dealii::ParameterHandler &prm) const = 0;
     /** After the shared ones, which it may change or refuse. */
     virtual void parse_model(dealii::ParameterHandler &prm) = 0;
+    /** Read what parameters depend on, before settings(). Throws InputError on
+     * all ranks alike. Collective. */
+    virtual void prepare(const RunOptions &)
+    {
+    }
     virtual ContactRunSettings settings() const = 0;
     virtual std::unique_ptr<ContactModel<dim>>
-    create_model(ContactRunState<dim> &state) const = 0;
+    create_model(ContactRunState<dim> &state) = 0;
 
     CheckpointParameters checkpoint;
     MethodParameters method;

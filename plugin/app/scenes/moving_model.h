@@ -17,8 +17,9 @@ namespace abut::app
   {
   public:
     /** @p run must outlive it. */
-    explicit MovingModel(const ContactRunState<dim> &run)
-        : ContactModel<dim>(run.communicator), run(run)
+    explicit MovingModel(const ContactRunState<dim> &run,
+                         const bool simplices = false)
+        : ContactModel<dim>(run.communicator, simplices), run(run)
     {
     }
 

@@ -36,11 +36,14 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::create_mesh()
   {
+    dealii::Triangulation<dim> coarse;
     const MeshFileExtras<dim> extras =
-        app::create_mesh(parameters.mesh, run.options, this->triangulation);
-    names = names_of(extras, this->triangulation);
+        app::create_mesh(parameters.mesh, run.options, coarse);
+    require_cubes(coarse, parameters.mesh, "scenes of kind 'obstacle'");
+    names = names_of(extras, coarse);
     for (const std::string &warning : extras.warnings)
       run.report.warn("Membrane/Mesh/File: " + warning);
+    this->triangulation.copy_triangulation(coarse);
     const double factor =
         std::pow(2., dim * double(parameters.refinement.level));
     check_memory(dim, factor * this->triangulation.n_global_active_cells(),

@@ -35,7 +35,7 @@ namespace abut::app
       }
 
       std::unique_ptr<ContactModel<dim>>
-      create_model(ContactRunState<dim> &state) const override
+      create_model(ContactRunState<dim> &state) override
       {
         return std::make_unique<MembraneModel<dim>>(parameters, state);
       }

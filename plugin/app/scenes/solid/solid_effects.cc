@@ -232,7 +232,7 @@ namespace abut::app
               [](const SceneValues &values)
               {
                 return values("Method/Discretisation") == "mortar"
-                       && values.number("Solid/Degree") == 2.;
+                       && values("Solid/Degree") != "1";
               },
               "it belongs to Method/Discretisation = mortar on elements of "
               "Solid/Degree = 2.")};

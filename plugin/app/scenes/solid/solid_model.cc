@@ -37,13 +37,16 @@ namespace abut::app
   template <int dim>
   SolidModel<dim>::SolidModel(const SolidParameters &parameters,
                               ContactRunState<dim> &run,
-                              const SearchParameters &search)
-      : MovingModel<dim>(run),
+                              const SearchParameters &search,
+                              BodyMeshes<dim> coarse)
+      : MovingModel<dim>(run, coarse.are_simplices),
         parameters(parameters),
         bodies(parameters.bodies, is_of_revolution<dim>(parameters)),
-        elasticity(this->triangulation, parameters.degree),
+        elasticity(this->triangulation, parameters.degree,
+                   coarse.are_simplices),
         driven(parameters),
         search(search),
+        coarse(std::move(coarse)),
         assembler(run.contact),
         output(*this)
   {
@@ -74,8 +77,9 @@ namespace abut::app
 
   template <int dim> void SolidModel<dim>::create_mesh()
   {
-    bodies.create(run.options, parameters.degree, parameters.refinement.level,
-                  this->triangulation);
+    bodies.create(coarse, run.options, parameters.degree,
+                  parameters.refinement.level, this->triangulation);
+    coarse = BodyMeshes<dim>();
     for (const std::string &warning : bodies.warnings())
       run.report.warn(warning);
   }
@@ -457,7 +461,7 @@ namespace abut::app
     flag_contact_border(elasticity.dof_handler,
                         elasticity.ghosted_field(run.contact.status()),
                         pairs->secondary());
-    limit_size_ratio(this->triangulation, pairs->sides());
+    limit_size_ratio(this->adaptive_mesh(), pairs->sides());
   }
 
   template <int dim> void SolidModel<dim>::declare_tables()

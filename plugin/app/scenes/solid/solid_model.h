@@ -24,9 +24,9 @@ namespace abut::app
   template <int dim> class SolidModel : public MovingModel<dim>
   {
   public:
-    /** Both must outlive it. */
+    /** @p parameters, @p run and @p search must outlive it. */
     SolidModel(const SolidParameters &parameters, ContactRunState<dim> &run,
-               const SearchParameters &search);
+               const SearchParameters &search, BodyMeshes<dim> coarse);
 
     void create_functions() override;
     void create_mesh() override;
@@ -207,6 +207,7 @@ namespace abut::app
                  const std::vector<PairResult<dim>> &results) const;
 
     const SearchParameters &search;
+    BodyMeshes<dim> coarse; ///< until there is the mesh of all bodies
     ContactAssembler<dim> &assembler;
     std::vector<BodyPart<dim>> parts;
     std::vector<RigidFreedom> freedom; ///< by part

@@ -73,8 +73,10 @@ namespace abut::app
       prm.declare_entry("Obstacles", "0", Patterns::Integer(0, most),
                         "Number of rigid obstacles, sections `Obstacle 1`, "
                         "...");
-      prm.declare_entry("Degree", "1", Patterns::Integer(1, 2),
-                        "Polynomial degree of the displacement: 1 or 2.");
+      prm.declare_entry("Degree", "auto", Patterns::Selection("auto|1|2"),
+                        "Polynomial degree of the displacement. auto: 1 for "
+                        "quadrilaterals and hexahedra, 2 for triangles and "
+                        "tetrahedra, which are too stiff with 1.");
       // Known in both dimensions, so that one reference tells of it.
       prm.declare_entry("Plane", "strain",
                         Patterns::Selection("strain|stress|axisymmetric"),
@@ -206,6 +208,36 @@ namespace abut::app
              "Refinement/Adaptive cycles refines by it all the same.");
   }
 
+  void SolidParameters::begin_simplices(const unsigned int dim)
+  {
+    const std::string cells = dim == 2 ? "triangles" : "tetrahedra";
+    if (!has_degree)
+      degree = 2;
+    if (refinement.has_target() || refinement.adaptive_cycles > 0)
+      throw InputError(refinement.has_target() ? "Refinement/Target error"
+                                               : "Refinement/Adaptive cycles",
+                       "meshes of " + cells
+                           + " are refined in all cells only: set it to 0, and "
+                             "refine by Refinement/Level or Body "
+                             "N/Refinements.");
+    refinement.nested = false;
+    for (const BodyParameters &body : bodies)
+      if (body.volume == VolumeChange::of_cell)
+        throw InputError(body.parameter("Element"),
+                         "mean dilatation is for quadrilaterals and hexahedra: "
+                         "linear "
+                             + cells
+                             + " have one strain in each cell anyway. Set it "
+                               "to full integration, and Solid/Degree = 2.");
+    if (time.is_on && time.mass == ABUT_TIME_MASS_LUMPED && degree > 1)
+      throw InputError(
+          "Solid/Degree",
+          "quadratic " + cells
+              + " have no lumped mass: sums of rows are not positive at "
+                "corners. Set it to 1, or Time/Scheme and Time/Mass to ones "
+                "with another mass.");
+  }
+
   void SolidParameters::begin_motion()
   {
     for (const BodyParameters &body : bodies)
@@ -246,7 +278,8 @@ namespace abut::app
   void SolidParameters::parse(ParameterHandler &prm, const SolidCounts &counts)
   {
     prm.enter_subsection("Solid");
-    degree = prm.get_integer("Degree");
+    has_degree = prm.get("Degree") != "auto";
+    degree = has_degree ? prm.get_integer("Degree") : 1;
     const std::string word = prm.get("Plane");
     plane = word == "strain"   ? PlaneModel::strain
             : word == "stress" ? PlaneModel::stress

@@ -31,6 +31,7 @@ namespace abut::app
   struct SolidParameters
   {
     unsigned int degree = 1;
+    bool has_degree = false; ///< given by the file
     PlaneModel plane = PlaneModel::strain;
     bool large_strain = false;         ///< allowed
     bool solve_known_failures = false; ///< pairs that are known to fail
@@ -56,6 +57,10 @@ namespace abut::app
     static void declare(dealii::ParameterHandler &prm,
                         const SolidCounts &counts);
     void parse(dealii::ParameterHandler &prm, const SolidCounts &counts);
+
+    /** Make all fit meshes of triangles (2D) or tetrahedra; throws InputError
+     * for what they do not have. After parse(). */
+    void begin_simplices(unsigned int dim);
 
     /** Whether bodies are of materials for large strain. */
     bool has_large_strain() const

@@ -5,10 +5,12 @@
 #include "app/mesh/boundary_parts.h"
 #include "app/mesh/nearest_node.h"
 #include "app/physics/components.h"
+#include "app/physics/linear_stiffness.h"
 #include "app/physics/volumetric_locking.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
+#include "shim/cell_quadrature.h"
 
 #include <abut/dealii/pair_measures.h>
 
@@ -40,6 +42,10 @@ namespace abut::app
     /** Poisson ratio from which on locking is looked for, and the part of the
      * strain energy that is worth a word. */
     constexpr double least_locking_ratio = 0.45, visible_locking = 0.1;
+
+    /** Part of the energy that linear triangles and tetrahedra may lack. */
+    constexpr double visible_stiffness = 0.05;
+
     /** Least and largest value on any rank. Collective. */
     std::vector<double> range_over_ranks(const double value,
                                          const MPI_Comm communicator)
@@ -465,6 +471,16 @@ namespace abut::app
     if (!parameters.refinement.has_target())
       diagnose_order(report, energies);
     diagnose_condition(report, condition, penalty);
+    report_locking();
+  }
+
+  template <int dim> void SolidReport<dim>::report_locking() const
+  {
+    if (shim::is_simplex(elasticity.fe))
+    {
+      report_linear_simplices();
+      return;
+    }
     double poisson_ratio = 0.;
     for (const auto &material : model.data.materials)
       if (material.second->cell_volume() == nullptr)
@@ -488,6 +504,28 @@ namespace abut::app
                 "too large. Set Body N/Element = mean dilatation, or "
                 "Solid/Degree "
                 "= 2."));
+  }
+
+  template <int dim> void SolidReport<dim>::report_linear_simplices() const
+  {
+    if (parameters.degree > 1 || parameters.has_large_strain())
+      return;
+    const double locked =
+        linear_stiffness_error(elasticity.mapping, elasticity.dof_handler,
+                               elasticity.ghosted(u), model.data.materials);
+    report.set("locked_energy", locked);
+    if (locked <= visible_stiffness)
+      return;
+    const std::string cells = dim == 2 ? "triangles" : "tetrahedra";
+    report.warn(coded(
+        ABUT_FAILURE_LOCKING,
+        short_number(100. * locked, 2)
+            + " % of the strain energy is an error, by an estimate that is "
+              "low on coarse meshes: linear "
+            + cells
+            + " have one strain in each cell and are too stiff. Under loads "
+              "displacements are too small by as much, prescribed ones take "
+              "too large forces. Set Solid/Degree = 2."));
   }
 
   template <int dim> void SolidReport<dim>::model_lines() const

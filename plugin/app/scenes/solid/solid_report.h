@@ -34,6 +34,8 @@ namespace abut::app
                            const PairResult<dim> &pair) const;
     void report_transfer() const;
     void report_numerics() const;
+    void report_locking() const;
+    void report_linear_simplices() const;
     /** Returns the largest imbalance of forces and of moments of a pair. */
     std::pair<double, double> report_pairs() const;
     /** What angles of coarse facets do to pressures. */

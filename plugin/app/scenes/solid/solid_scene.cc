@@ -8,17 +8,19 @@
 #include "solid_model.h"
 #include "solid_pairs.h"
 
+#include <abut/coupling.h>
+
 #include <algorithm>
 
 namespace abut::app
 {
   namespace
   {
-    /** Whether points can move in this way in all pairs that may slide. */
-    template <int dim>
+    /** Whether points can move in this way in all pairs that may slide.
+     * @param tri6 whether facets are quadratic triangles */
     bool can_move(const abut_kinematics kinematics,
                   const MethodParameters &method,
-                  const std::vector<PairParameters> &pairs)
+                  const std::vector<PairParameters> &pairs, const bool tri6)
     {
       return std::all_of(
           pairs.begin(), pairs.end(),
@@ -28,8 +30,9 @@ namespace abut::app
             // for.
             const abut_discretisation discretisation =
                 method.discretisation.value_or(
-                    pair.obstacle > 0 ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
-                                      : ABUT_DISCRETISATION_DUAL_MORTAR);
+                    tri6                ? ABUT_DISCRETISATION_MORTAR
+                    : pair.obstacle > 0 ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
+                                        : ABUT_DISCRETISATION_DUAL_MORTAR);
             return pair.tied
                    || kinematics_refusal(kinematics, *method.options.law,
                                          discretisation,
@@ -85,14 +88,41 @@ namespace abut::app
                            "nitsche takes the stress for linear in the "
                            "displacement, and Body 1/Material is for large "
                            "strain: use lagrange or augmented lagrangian.");
+        this->method.solve_known_failures = parameters.solve_known_failures;
+        given_kinematics = this->method.kinematics;
+        choose_kinematics(false);
+      }
+
+      void choose_kinematics(const bool tri6)
+      {
         const std::vector<abut_kinematics> possible =
-            suitable(this->method.kinematics, parameters.has_large_strain(),
+            suitable(given_kinematics, parameters.has_large_strain(),
                      parameters.time.is_on);
         this->method.kinematics = *std::find_if(
             possible.begin(), possible.end() - 1,
             [&](const abut_kinematics each)
-            { return can_move<dim>(each, this->method, parameters.pairs); });
-        this->method.solve_known_failures = parameters.solve_known_failures;
+            { return can_move(each, this->method, parameters.pairs, tri6); });
+      }
+
+      void prepare(const RunOptions &options) override
+      {
+        meshes = create_body_meshes<dim>(parameters.bodies, options);
+        if (!meshes.are_simplices)
+          return;
+        parameters.begin_simplices(dim);
+        const bool tri6 = dim == 3 && parameters.degree == 2;
+        const char *why = nullptr;
+        if (tri6 && this->method.discretisation
+            && abut_coupling_check(*this->method.discretisation, 1,
+                                   ABUT_FACET_TRI6, &why)
+                   != ABUT_SUCCESS
+            && abut_coupling_check(*this->method.discretisation, 0,
+                                   ABUT_FACET_TRI6, &why)
+                   != ABUT_SUCCESS)
+          throw InputError("Method/Discretisation",
+                           std::string(why)
+                               + ": Method/Discretisation = auto.");
+        choose_kinematics(tri6);
       }
 
       std::vector<EffectRule> effects() const override
@@ -107,15 +137,18 @@ namespace abut::app
       }
 
       std::unique_ptr<ContactModel<dim>>
-      create_model(ContactRunState<dim> &state) const override
+      create_model(ContactRunState<dim> &state) override
       {
-        return std::make_unique<SolidModel<dim>>(parameters, state, search);
+        return std::make_unique<SolidModel<dim>>(parameters, state, search,
+                                                 std::move(meshes));
       }
 
     protected:
       SolidCounts counts;
       SolidParameters parameters;
       SearchParameters search;
+      std::optional<abut_kinematics> given_kinematics;
+      BodyMeshes<dim> meshes;
     };
   } // namespace
 

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Red refinement with the shortest diagonal: J. Bey, Tetrahedral grid
+// refinement, Computing 55 (1995); S. Zhang, Successive subdivisions of
+// tetrahedra, Houston J. Math. 21 (1995).
+#include "red_refinement.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace abut::app
+{
+  namespace
+  {
+    using Edge = std::pair<unsigned int, unsigned int>;
+
+    template <std::size_t n> using Corners = std::array<unsigned int, n>;
+
+    Edge edge_between(const unsigned int a, const unsigned int b)
+    {
+      return std::minmax(a, b);
+    }
+
+    /** Diagonals are equal if their lengths differ by less than this part. */
+    constexpr double round_off = 1e-10;
+
+    template <int dim> class RedRefinement
+    {
+    public:
+      RedRefinement(const dealii::Triangulation<dim> &mesh,
+                    MeshDescription<dim> &description)
+          : mesh(mesh), description(description), vertices(description.vertices)
+      {
+      }
+
+      void run()
+      {
+        find_curved_edges(sides());
+        refine(description.cells);
+        refine(sides());
+        if constexpr (dim == 3)
+          list_boundary_edges();
+      }
+
+    private:
+      using Side = dealii::CellData<dim - 1>;
+
+      std::vector<Side> &sides()
+      {
+        if constexpr (dim == 2)
+          return description.faces.boundary_lines;
+        else
+          return description.faces.boundary_quads;
+      }
+
+      void find_curved_edges(const std::vector<Side> &of_sides)
+      {
+        for (const Side &side : of_sides)
+          if (side.manifold_id != dealii::numbers::flat_manifold_id)
+            for (std::size_t i = 0; i < side.vertices.size(); ++i)
+              for (std::size_t j = 0; j < i; ++j)
+                curved.emplace(edge_between(side.vertices[i], side.vertices[j]),
+                               side.manifold_id);
+      }
+
+      unsigned int middle(const unsigned int a, const unsigned int b)
+      {
+        const Edge edge = edge_between(a, b);
+        const auto [found, is_new] =
+            middles.emplace(edge, static_cast<unsigned int>(vertices.size()));
+        if (!is_new)
+          return found->second;
+        const dealii::Point<dim> x = vertices[edge.first],
+                                 y = vertices[edge.second];
+        const auto on = curved.find(edge);
+        vertices.push_back(on == curved.end()
+                               ? 0.5 * (x + dealii::Tensor<1, dim>(y))
+                               : mesh.get_manifold(on->second)
+                                     .get_intermediate_point(x, y, 0.5));
+        return found->second;
+      }
+
+      /** Replace the elements of a list by their children. */
+      template <int structdim>
+      void refine(std::vector<dealii::CellData<structdim>> &list)
+      {
+        std::vector<dealii::CellData<structdim>> children;
+        children.reserve(list.size() << structdim);
+        for (const dealii::CellData<structdim> &parent : list)
+        {
+          Corners<structdim + 1> corners;
+          std::copy(parent.vertices.begin(), parent.vertices.end(),
+                    corners.begin());
+          for (const auto &part : parts(corners))
+          {
+            dealii::CellData<structdim> child(parent);
+            child.vertices.assign(part.begin(), part.end());
+            if constexpr (structdim == dim)
+              orient(child.vertices);
+            children.push_back(child);
+          }
+        }
+        list.swap(children);
+      }
+
+      std::array<Corners<2>, 2> parts(const Corners<2> &v)
+      {
+        const unsigned int m = middle(v[0], v[1]);
+        return {{{{v[0], m}}, {{m, v[1]}}}};
+      }
+
+      std::array<Corners<3>, 4> parts(const Corners<3> &v)
+      {
+        const unsigned int a = middle(v[0], v[1]), b = middle(v[1], v[2]),
+                           c = middle(v[2], v[0]);
+        return {{{{v[0], a, c}}, {{a, v[1], b}}, {{c, b, v[2]}}, {{a, b, c}}}};
+      }
+
+      std::array<Corners<4>, 8> parts(const Corners<4> &v)
+      {
+        std::array<Corners<4>, 8> result;
+        for (unsigned int i = 0; i < 4; ++i)
+          for (unsigned int j = 0; j < 4; ++j)
+            result[i][j] = i == j ? v[i] : middle(v[i], v[j]);
+        const auto m = [&](const unsigned int i, const unsigned int j)
+        { return result[i][j]; };
+        // Two opposite middles, and the four around them.
+        const Corners<6> choices[3] = {
+            {{m(0, 1), m(2, 3), m(0, 2), m(0, 3), m(1, 3), m(1, 2)}},
+            {{m(0, 2), m(1, 3), m(0, 1), m(0, 3), m(2, 3), m(1, 2)}},
+            {{m(0, 3), m(1, 2), m(0, 1), m(0, 2), m(2, 3), m(1, 3)}}};
+        const auto length = [&](const Corners<6> &choice)
+        { return vertices[choice[0]].distance(vertices[choice[1]]); };
+        const Corners<6> *shortest = &choices[0];
+        for (const Corners<6> &choice : choices)
+          if (length(choice) < (1. - round_off) * length(*shortest))
+            shortest = &choice;
+        const Corners<6> &c = *shortest;
+        for (unsigned int i = 0; i < 4; ++i)
+          result[4 + i] = {{c[0], c[1], c[2 + i], c[2 + (i + 1) % 4]}};
+        return result;
+      }
+
+      /** Give a cell a positive volume. */
+      void orient(std::vector<unsigned int> &corners) const
+      {
+        dealii::Tensor<2, dim> edges;
+        for (unsigned int d = 0; d < dim; ++d)
+          edges[d] = vertices[corners[d + 1]] - vertices[corners[0]];
+        if (determinant(edges) < 0.)
+          std::swap(corners[dim - 1], corners[dim]);
+      }
+
+      /** Edges of the boundary have the id of a face that they are of. */
+      void list_boundary_edges()
+      {
+        std::vector<dealii::CellData<1>> &lines =
+            description.faces.boundary_lines;
+        lines.clear();
+        std::set<Edge> seen;
+        for (const dealii::CellData<2> &face : description.faces.boundary_quads)
+          for (unsigned int i = 0; i < 3; ++i)
+          {
+            const Edge edge =
+                edge_between(face.vertices[i], face.vertices[(i + 1) % 3]);
+            if (!seen.insert(edge).second)
+              continue;
+            dealii::CellData<1> line;
+            line.vertices = {edge.first, edge.second};
+            line.boundary_id = face.boundary_id;
+            line.manifold_id = face.manifold_id;
+            lines.push_back(line);
+          }
+      }
+
+      const dealii::Triangulation<dim> &mesh;
+      MeshDescription<dim> &description;
+      std::vector<dealii::Point<dim>> &vertices;
+      std::map<Edge, unsigned int> middles;
+      std::map<Edge, dealii::types::manifold_id> curved;
+    };
+  } // namespace
+
+  template <int dim>
+  void refine_red(const dealii::Triangulation<dim> &mesh,
+                  MeshDescription<dim> &description)
+  {
+    RedRefinement<dim>(mesh, description).run();
+  }
+
+  template void refine_red(const dealii::Triangulation<2> &,
+                           MeshDescription<2> &);
+  template void refine_red(const dealii::Triangulation<3> &,
+                           MeshDescription<3> &);
+} // namespace abut::app

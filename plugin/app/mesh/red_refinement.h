@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ABUT_APP_RED_REFINEMENT_H
+#define ABUT_APP_RED_REFINEMENT_H
+
+/** @file
+ * Uniform refinement of triangles and tetrahedra.
+ */
+
+#include "mesh_description.h"
+
+namespace abut::app
+{
+  /** Refine all cells of a mesh of triangles or tetrahedra: triangles into four
+   * similar ones, tetrahedra into four similar ones at the corners and four
+   * around the shortest diagonal of the octahedron between them, which keeps
+   * their quality. (deal.II up to 9.5 takes the same diagonal in all cells, and
+   * cells become flatter with each refinement.)
+   *
+   * Boundary ids, material ids and manifolds are those of the parents. New
+   * vertices are the middles of edges, on curved sides the points that the
+   * manifolds of @p mesh, from which @p description is, have between their
+   * ends. Deterministic. Not collective. */
+  template <int dim>
+  void refine_red(const dealii::Triangulation<dim> &mesh,
+                  MeshDescription<dim> &description);
+} // namespace abut::app
+
+#endif

@@ -1,0 +1,458 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Bodies of triangles and tetrahedra from files of gmsh: patch tests, levels,
+displacements of another program, restart, files, and what is refused."""
+import math
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+from block_scene import section, solid
+from program import Program, set_words
+from simplices import Mesh, box
+from vtu import pieces
+
+p = Program()
+ELASTIC = ("Young modulus = 1000", "Poisson ratio = 0.3")
+
+
+def run(scene, settings=(), codes=0, words=(), without=(), ranks=0, more=()):
+    """Of a scene in the folder; returns its summary."""
+    result = p.call("run", scene, "--output", "out", "--quiet",
+                    *set_words(settings), *more, ranks=ranks)
+    return p.expect_run(result, codes, *words, without=without)
+
+
+def refused(scene, settings, *texts):
+    p.expect_error(p.call("run", scene, "--output", "out", "--quiet",
+                          *set_words(settings)), *texts)
+
+
+def body(number, file, *lines):
+    return section(f"Body {number}", section("Mesh", f"File = {file}"), *ELASTIC,
+                   *lines)
+
+
+def level(number):
+    return section("Refinement", f"Level = {number}")
+
+
+def below(value, bound, what):
+    p.expect(value is not None and abs(value) <= bound,
+             f"{what}: {value} is not below {bound}")
+
+
+# Two boxes on each other, of meshes that do not match.
+for dim in (2, 3):
+    for number, low in ((1, 0), (2, 1)):
+        n = 4 - dim + number
+        p.write(f"box-{dim}-{number}.msh",
+                box((n,) * dim, (0,) * (dim - 1) + (low,),
+                    (1,) * (dim - 1) + (low + 1,), 0.2, number).gmsh(
+                        "2.2" if number == 1 else "4.1"))
+
+
+def boxes(dim):
+    """Settings of shipped scenes that put them there."""
+    return {f"Body {number}/Mesh/File": p.folder / f"box-{dim}-{number}.msh"
+            for number in (1, 2)}
+
+
+def check_patch():
+    for dim, degree, n_levels in ((2, 1, 1), (2, 2, 0), (3, 1, 1), (3, 2, 0)):
+        what = f"patch test, {dim}D, degree {degree}"
+        summary, _ = p.solve_with(f"patch-{dim}d.prm", {
+            **boxes(dim), "Solid/Degree": degree, "Refinement/Level": n_levels})
+        below(summary["energy_norm_error"], 1e-11, what)
+        for key in ("pair_1_pressure", "pair_1_least_pressure"):
+            p.close(summary[key], 1., 1e-11, f"{what}, {key}")
+    for ranks in (2, 3):
+        summary, _ = p.solve_with("patch-3d.prm", {
+            **boxes(3), "Refinement/Level": 0}, ranks=ranks)
+        below(summary["energy_norm_error"], 1e-11, f"{ranks} ranks")
+        p.expect(summary["dofs"] == 1404, f"degree 2: {summary['dofs']}")
+
+
+# Uniaxial stress of St. Venant and Kirchhoff's material: F = 0.95, Green's
+# strain e, force per undeformed area F E e.
+STRETCH = 0.95
+SVK = STRETCH * 1000. * (1. - STRETCH ** 2) / 2.
+
+
+def column(dim, *more):
+    free = ["free"] * dim
+    rollers = ["; ".join(f"{2 * d}: " + ", ".join(free[:d] + ["0"]
+                                                  + free[d + 1:])
+                         for d in range(dim - 1))]
+    ends = [", ".join(free[1:] + [value]) for value in ("0", "-0.1")]
+    return solid(
+        dim, level(0),
+        *(body(b + 1, f"box-{dim}-{b + 1}.msh",
+               "Material = st venant-kirchhoff",
+               f"Support = {rollers[0]}; {2 * dim - 2 + b}: {ends[b]}")
+          for b in range(2)),
+        section("Pair 1", f"Secondary = 2: {2 * dim - 2}",
+                f"Primary = 1: {2 * dim - 1}"), *more)
+
+
+def check_large_strain():
+    p.write("column.prm", column(3, section("Method", "Sliding = large")))
+    for ranks, degree in ((0, 1), (0, 2), (3, 2)):
+        summary = run("column.prm", {"Solid/Degree": degree}, ranks=ranks)
+        for key in ("pair_1_pressure", "pair_1_least_pressure"):
+            p.close(summary[key], SVK, 1e-9, f"{key}, degree {degree}")
+
+
+def quality(corners):
+    """3 r_in / R_circ of a tetrahedron: 1 if it is regular."""
+    a, b, c = ([x - y for x, y in zip(corner, corners[0])]
+               for corner in corners[1:])
+
+    def cross(u, v):
+        return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                u[0] * v[1] - u[1] * v[0]]
+
+    def norm(u):
+        return math.sqrt(sum(x * x for x in u))
+    ab, bc, ca = cross(a, b), cross(b, c), cross(c, a)
+    volume = abs(sum(x * y for x, y in zip(a, bc))) / 6.
+    last = [x + y + z for x, y, z in zip(ab, bc, ca)]
+    area = (norm(ab) + norm(bc) + norm(ca) + norm(last)) / 2.
+    center = norm([norm(a) ** 2 * x + norm(b) ** 2 * y + norm(c) ** 2 * z
+                   for x, y, z in zip(bc, ca, ab)]) / (12. * volume)
+    return 9. * volume / area / center
+
+
+def check_levels():
+    """Volume and area of an id do not change, cells do not become flatter."""
+    for dim in (2, 3):
+        p.write("levels.prm",
+                f"set Scene = solid\nset Dimension = {dim}\n"
+                + section("Solid", "Degree = 1")
+                + body(1, f"box-{dim}-1.msh",
+                       "Support = 0: " + ", ".join(["0"] * dim),
+                       "Body force = " + ", ".join(["0"] * (dim - 1) + ["-1"]),
+                       f"Traction = {2 * dim - 1}: "
+                       + ", ".join(["1"] + ["0"] * (dim - 1))))
+        worst = []
+        for number in range(3):
+            summary = run("levels.prm", {"Refinement/Level": number // 2,
+                                         "Body 1/Refinements":
+                                         number - number // 2})
+            p.close(summary["reaction_1"][dim - 1], 1., 1e-12, "volume")
+            p.close(summary["reaction_1"][0], -1., 1e-12, "area of an id")
+            if dim == 3:
+                piece, = pieces(p.folder / "out/fields_0000.0.vtu")
+                p.expect(len(piece.cells) == 48 * 8 ** number, "cells")
+                worst.append(min(quality([piece.points[v] for v in cell])
+                                 for cell in piece.cells))
+        p.expect(dim == 2 or worst[2] > 0.99 * worst[1] > 0.7 * worst[0],
+                 f"quality {worst}")
+    # One cube: deal.II's own refinement up to 9.5 has .77 .57 .36.
+    p.write("box-3-0.msh", box((1, 1, 1), (0, 0, 0), (1, 1, 1)).gmsh())
+    for number in range(3):
+        run("levels.prm", {"Body 1/Mesh/File": "box-3-0.msh",
+                           "Refinement/Level": number})
+        piece, = pieces(p.folder / "out/fields_0000.0.vtu")
+        least = min(quality([piece.points[v] for v in cell])
+                    for cell in piece.cells)
+        p.expect(least > 0.5, f"level {number}: quality {least}")
+
+
+def rings():
+    """Those of prm/press-fit.prm, of triangles."""
+    for number, n, radius in ((1, 4, 1), (2, 3, 2)):
+        mesh = box((2, n), (radius, 0.), (radius + 1, 0.5 * math.pi), 0.2,
+                   number)
+        mesh.mapped(lambda r, angle: (r * math.cos(angle), r * math.sin(angle)))
+        # 0: inner, 1: outer circle, 2: x = 0, 3: y = 0
+        ids = {0: 0, 1: 1, 2: 3, 3: 2}
+        mesh.faces = [(ids[id_], face) for id_, face in mesh.faces]
+        p.write(f"ring-{number}.msh", mesh.gmsh())
+
+
+def check_curved_sides():
+    """Levels follow circles; Lame's pressure (prm/press-fit.prm)."""
+    rings()
+    settings = {}
+    for number in (1, 2):
+        settings[f"Body {number}/Mesh/File"] = p.folder / f"ring-{number}.msh"
+        settings[f"Body {number}/Mesh/Curved sides"] = "0, 1: circle: 0, 0"
+    errors = []
+    for number in (1, 2, 3):
+        summary, _ = p.solve_with("press-fit.prm",
+                                  {**settings, "Refinement/Level": number})
+        errors.append(abs(summary["point_3"][0] / 0.005625 - 1.))
+    p.expect(errors[1] < 0.3 * errors[0] and errors[2] < 0.3 * errors[1]
+             and errors[2] < 4e-3, f"rings: {errors}")
+
+
+def tied_beams():
+    """The beams of tests/hosts/tied_beams.h with a facet of the loaded sides
+    for each id from 10 on; the displacements by node."""
+    text = (p.source / "tests/hosts/tied_beams.h").read_text()
+    number = r"([-+.\de]+)"
+    node = r"\{\{" + ", ".join([number] * 3) + r"\}, \{" + ", ".join(
+        [number] * 3) + r"\}\}"
+    rows = [[float(x) for x in row] for row in re.findall(node, text)]
+    nodes, moved = [tuple(r[:3]) for r in rows], [r[3:] for r in rows]
+    ends = [(2, 4), (1, 7), (1, 4), (2, 7), (0, 3), (5, 6)]
+    meshes = []
+    for beam in range(2):
+        first, last = (0, 14) if beam == 0 else (14, 28)
+        index = {nodes[i]: i - first for i in range(first, last)}
+        cells = []
+        for cube in range(2 * beam, 2 * beam + 2):
+            def at(corner):
+                return index[(float(cube + corner % 2),
+                              float(corner // 2 % 2), float(corner // 4))]
+            center = (12, 13, 26, 27)[cube] - first
+            for face in range(6):
+                pair = (0, 6) if face == 0 and cube % 2 == 1 else ends[face]
+                bit = 1 << face // 2
+                for third in range(8):
+                    if (third & bit == face % 2 * bit
+                            and third not in pair):
+                        cells.append([center, at(pair[0]), at(pair[1]),
+                                      at(third)])
+        meshes.append(Mesh(3, nodes[first:last], cells, lambda corners: (
+            1 if all(x[0] == 0 for x in corners)
+            else 2 if all(x[0] == 2 for x in corners)
+            else 3 if all(x[0] == 4 for x in corners) else 0)))
+        meshes[-1].right_handed()
+        meshes[-1].moved = moved[first:last]
+    return meshes
+
+
+def area(corners):
+    a, b = ([x - y for x, y in zip(corner, corners[0])]
+            for corner in corners[1:])
+    return [(a[1] * b[2] - a[2] * b[1]) / 2., (a[2] * b[0] - a[0] * b[2]) / 2.,
+            (a[0] * b[1] - a[1] * b[0]) / 2.]
+
+
+def check_tied_beams():
+    """FrontISTR's displacements. Its pressure follows the facets: their forces
+    at its displacements are dead loads of each here."""
+    parts = []
+    for number, mesh in enumerate(tied_beams(), 1):
+        loads = []
+        for k, (id_, face) in enumerate(mesh.faces):
+            if not all(mesh.vertices[v][1] == 1. for v in face):
+                continue
+            flat = area([mesh.vertices[v] for v in face])
+            sign = math.copysign(1., flat[1])
+            now = area([[x + u for x, u in zip(mesh.vertices[v],
+                                               mesh.moved[v])] for v in face])
+            mesh.faces[k] = (10 + len(loads), face)
+            loads.append(f"{mesh.faces[k][0]}: " + ", ".join(
+                "%.15g" % (-sign * x / abs(flat[1])) for x in now))
+        p.write(f"beam-{number}.msh", mesh.gmsh())
+        support = ["Support = 1: 0, 0, 0"] if number == 1 else []
+        parts.append(body(number, f"beam-{number}.msh", *support,
+                          "Traction = " + "; ".join(loads)))
+    p.write("beams.prm", solid(
+        3, level(0), *parts,
+        section("Pair 1", "Secondary = 2: 2", "Primary = 1: 2", "Tied = true"),
+        section("Method", "Discretisation = node to segment"),
+        section("Output", "Nodal values = true")))
+    # They are stiff, which is said; the other program's are the same.
+    run("beams.prm", {"Solid/Degree": 1}, words=["ABUT-F16"])
+    found = {(row["body"], row["x"], row["y"], row["z"]): [
+        row["displacement_" + d] for d in "xyz"]
+        for row in p.table("nodal.csv")}
+    worst, n_nodes = 0., 0
+    for number, mesh in enumerate(tied_beams(), 1):
+        for x, u in zip(mesh.vertices, mesh.moved):
+            worst = max(worst, max(abs(a - b) for a, b in zip(
+                found[(float(number), *x)], u)))
+            n_nodes += 1
+    p.expect(n_nodes == 28 and worst < 1e-9, f"tied beams: {worst}")
+
+
+CANTILEVER = 4e-2 * (1. + 0.78e-2)  # bending and shear: Timoshenko
+
+
+def check_stiffness():
+    """Linear tetrahedra are told to be stiff, and by how much."""
+    for n in (1, 2):
+        p.write(f"beam-{n}.msh", box((10 * n, n, n), (0, 0, 0),
+                                     (10, 1, 1)).gmsh())
+    p.write("cantilever.prm",
+            "set Scene = solid\nset Dimension = 3\n" + level(0)
+            + section("Body 1", section("Mesh", "File = beam-2.msh"),
+                      "Support = 0: 0, 0, 0", "Traction = 1: 0, 0, -1e-5",
+                      "Young modulus = 1", "Poisson ratio = 0.3")
+            + section("Output", "Points = 1: 10, 0.5, 0.5"))
+    summary = run("cantilever.prm", {"Solid/Degree": 1}, words=["ABUT-F16"])
+    lacking = 1. + summary["point_1"][2] / CANTILEVER
+    p.expect(0.5 * lacking < summary["locked_energy"] < lacking,
+             f"stiffness: {summary['locked_energy']} of {lacking}")
+    summary = run("cantilever.prm", {"Body 1/Mesh/File": "beam-1.msh"},
+                  without=["ABUT-F16"])
+    p.close(-summary["point_1"][2], CANTILEVER, 0.03, "tip, degree 2")
+
+
+def slider(dim, friction=0.3):
+    """The upper box, pressed down and then drawn sideways."""
+    ends = ["0"] * dim
+    drawn = ", ".join(["0.05*max(0, t - 1)"] + ["0"] * (dim - 2)
+                      + ["-0.02*min(1, t)"])
+    return solid(
+        dim, level(0),
+        body(1, f"box-{dim}-1.msh", f"Support = {2 * dim - 2}: "
+             + ", ".join(ends)),
+        body(2, f"box-{dim}-2.msh", f"Support = {2 * dim - 1}: {drawn}"),
+        section("Pair 1", f"Secondary = 2: {2 * dim - 2}",
+                f"Primary = 1: {2 * dim - 1}", f"Friction = {friction}"),
+        section("Load steps", "Steps = 6", "End time = 2"),
+        section("Checkpoint", "Every steps = 1"),
+        section("Output", "Pictures = true"))
+
+
+def check_restart():
+    """Stopped, and resumed on another number of ranks."""
+    p.write("slider.prm", slider(3))
+    whole = run("slider.prm")
+    p.close(math.hypot(*whole["pair_1_friction"]),
+            0.3 * whole["pair_1_force"][2], 1e-2, "friction")
+    shutil.rmtree(p.folder / "out")
+    process = subprocess.Popen(
+        [p.abut, "run", "slider.prm", "--output", "out", "--quiet"],
+        cwd=p.folder, text=True, stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE)
+    while process.poll() is None and not any(
+            (p.folder / f"out/checkpoint.{n}").exists() for n in (3, 4, 5)):
+        time.sleep(0.005)
+    process.send_signal(signal.SIGTERM)
+    process.communicate()
+    p.expect(process.returncode == 4, f"stopped: {process.returncode}")
+    resumed = run("slider.prm", ranks=2, more=["--resume"])
+    for a, b in zip(whole["pair_1_force"], resumed["pair_1_force"]):
+        below(a - b, 1e-9 * whole["pair_1_force"][2], "resumed on two ranks")
+
+
+def check_files():
+    """VTU of degree 2 in space, the line of contact and the picture in the
+    plane."""
+    piece, = pieces(p.folder / "out/fields_0000.0.vtu")
+    p.expect(set(piece.types) == {24}, f"tetrahedra of VTK: {piece.types}")
+    for cell in piece.cells:
+        corners = [piece.points[v] for v in cell[:4]]
+        for node, (a, b) in zip(cell[4:], ((0, 1), (1, 2), (0, 2), (0, 3),
+                                           (1, 3), (2, 3))):
+            middle = [(x + y) / 2. for x, y in zip(corners[a], corners[b])]
+            p.expect(math.dist(middle, piece.points[node]) < 1e-6,
+                     "nodes of a tetrahedron of VTK")
+    p.write("slider.prm", slider(2))
+    for degree in (1, 2):
+        run("slider.prm", {"Solid/Degree": degree})
+        rows = p.table("pair_1.csv")
+        p.expect([row["line"] for row in rows] == [1.] * (4 * degree + 1),
+                 f"nodes of the line of contact, degree {degree}")
+        p.close(rows[-1]["arc"], 1., 1e-12, "length of the line of contact")
+        picture = p.folder / "out/bodies.svg"
+        p.expect(not shutil.which("gnuplot") or picture.exists(), "no picture")
+
+
+def check_motion():
+    """A bar against a wall: momentum is turned round, energy kept."""
+    p.write("bar.msh", box((16, 2), (0.5, 0), (10.5, 1), 0.2).gmsh())
+    p.write("bar.prm", solid(
+        2, level(0),
+        section("Body 1", section("Mesh", "File = bar.msh"), "Density = 1",
+                "Young modulus = 900", "Poisson ratio = 0",
+                "Initial velocity = -1, 0"),
+        section("Obstacle 1", "Kind = plane", "Normal = 1, 0"),
+        section("Pair 1", "Secondary = 1: 0", "Obstacle = 1"),
+        section("Time", "Step = 0.02", "End = 1.4"), bodies=1, obstacles=1))
+    for degree, scheme, loss in (
+            (2, "hht", 0.05), (1, "hht", 0.02), (2, "contact stabilised", 0.03),
+            (1, "central difference with projection", 0.06)):
+        summary = run("bar.prm", {
+            "Solid/Degree": degree, "Time/Scheme": scheme,
+            "Time/Step": 0.01 if scheme[0] == "c" else 0.02})
+        what = f"{scheme}, degree {degree}"
+        p.close(summary["mass"][0], 10., 1e-12, f"{what}: mass")
+        below(summary["energy_gain"], 1e-10, f"{what}: energy")
+        below(summary["energy_loss"], loss, f"{what}: lost energy")
+        p.close(summary["pair_1_impulse"][0], 20., 0.05, f"{what}: impulse")
+    refused("bar.prm", {"Time/Scheme": "central difference with projection"},
+            "Solid/Degree", "no lumped mass")
+
+
+def one_cell(name, kind, n_nodes, faces=()):
+    """A file with one cell of a kind of gmsh."""
+    corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1),
+                                                      (0, 1))]
+    points = [corners[k] if k < 8 else (0.5, 0.1 * k, 0.)
+              for k in range(n_nodes)]
+    elements = [*faces, (kind, range(n_nodes))]
+    return p.write(name, "\n".join(
+        ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(n_nodes)]
+        + [" ".join(map(str, (k + 1,) + x)) for k, x in enumerate(points)]
+        + ["$EndNodes", "$Elements", str(len(elements))]
+        + [" ".join(map(str, [k + 1, kind, 2, 1, 1] + [v + 1 for v in nodes]))
+           for k, (kind, nodes) in enumerate(elements)]
+        + ["$EndElements", ""]))
+
+
+def check_refusals():
+    p.write("slider.prm", slider(3))
+    file = "Body 1/Mesh/File"
+    for settings, *texts in (
+            ({"Refinement/Adaptive cycles": 1}, "Refinement/Adaptive cycles",
+             "in all cells only"),
+            ({"Refinement/Target error": 0.1}, "Refinement/Target error",
+             "in all cells only"),
+            ({"Body 2/Element": "mean dilatation", "Solid/Degree": 1},
+             "Body 2/Element", "one strain in each cell"),
+            ({"Method/Discretisation": "dual mortar"},
+             "Method/Discretisation", "no weight at the corners"),
+            ({file: one_cell("hex.msh", 5, 8)}, "tetrahedra", "hexahedra",
+             "one kind of cells"),
+            ({file: one_cell("wedge.msh", 6, 6)}, file, "wedge")):
+        refused("slider.prm", settings, *texts)
+    p.write("slider.prm", slider(2))
+    mixed = one_cell("mixed.msh", 3, 4, faces=[(2, (0, 1, 2))])
+    refused("slider.prm", {file: mixed}, file, "one kind")
+    refused("slider.prm", {file: "", "Body 1/Mesh/Generator": "hyper_cube"},
+            "triangles", "quadrilaterals")
+    p.write("membrane.prm", "set Scene = obstacle\nset Dimension = 2\n"
+            + section("Mesh", "File = box-2-1.msh")
+            + section("Contact", "Obstacle = -1"))
+    refused("membrane.prm", {}, "Mesh/File", "the cells are triangles")
+    # All ranks agree.
+    result = p.call("run", "membrane.prm", "--output", "out", "--quiet",
+                    ranks=2)
+    p.expect(result.returncode == 2 and result.stderr.count("abut: error") == 1,
+             f"two ranks: {result.stderr}")
+
+
+def check_surfaces():
+    """Boundaries of such meshes as surfaces of a search, and as an obstacle."""
+    p.write("search.prm", "set Scene = search\nset Dimension = 3\n"
+            + section("Secondary", "File = box-3-2.msh", "Surface ids = 4")
+            + section("Primary", "File = box-3-1.msh", "Surface ids = 5"))
+    result = p.call("search", "search.prm", "--output", "out", "--quiet")
+    summary = p.expect_run(result, 0)
+    for key in ("secondary_area", "primary_area", "common_area"):
+        p.close(summary[key], 1., 1e-12, key)
+    p.expect_error(p.call("search", "search.prm", "--output", "out", "--quiet",
+                          "--set", "Primary/Refinements=1"),
+                   "Primary/File", "tetrahedra")
+
+
+check_patch()
+check_large_strain()
+check_levels()
+check_curved_sides()
+check_tied_beams()
+check_stiffness()
+check_restart()
+check_files()
+check_motion()
+check_refusals()
+check_surfaces()
+p.finish()
