@@ -110,6 +110,8 @@ namespace abut::app
         if (!meshes.are_simplices)
           return;
         parameters.begin_simplices(dim);
+        if (parameters.degree == 1)
+          meshes.straighten("Solid/Degree = 1");
         const bool tri6 = dim == 3 && parameters.degree == 2;
         const char *why = nullptr;
         if (tri6 && this->method.discretisation
