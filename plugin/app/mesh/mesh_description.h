@@ -2,7 +2,7 @@
 #ifndef ABUT_APP_MESH_DESCRIPTION_H
 #define ABUT_APP_MESH_DESCRIPTION_H
 
-#include "middle_nodes.h"
+#include "app/physics/middle_nodes.h"
 
 #include <deal.II/grid/tria.h>
 

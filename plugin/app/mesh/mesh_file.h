@@ -8,8 +8,8 @@
  */
 
 #include "app/input/boundary_names.h"
+#include "app/physics/middle_nodes.h"
 #include "mesh_record.h"
-#include "middle_nodes.h"
 
 #include <deal.II/grid/tria.h>
 

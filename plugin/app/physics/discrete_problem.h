@@ -2,7 +2,7 @@
 #ifndef ABUT_APP_DISCRETE_PROBLEM_H
 #define ABUT_APP_DISCRETE_PROBLEM_H
 
-#include "app/mesh/middle_nodes.h"
+#include "middle_nodes.h"
 
 #include <abut/dealii/linear_algebra.h>
 

@@ -6,8 +6,8 @@
  * Stiffness matrices of cells, computed once for cells of the same shape.
  */
 
-#include "app/mesh/middle_nodes.h"
 #include "material.h"
+#include "middle_nodes.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_values.h>
