@@ -460,8 +460,7 @@ def check_refusals():
              "Method/Discretisation", "no weight at the corners"),
             ({file: one_cell("hex.msh", 5, 8)}, "tetrahedra", "hexahedra",
              "one kind of cells"),
-            ({file: one_cell("wedge.msh", 6, 6)}, file, "wedge"),
-            ({file: one_cell("tet10.msh", 11, 10)}, file, "second order")):
+            ({file: one_cell("wedge.msh", 6, 6)}, file, "wedge")):
         refused("slider.prm", settings, *texts)
     p.write("slider.prm", slider(2))
     mixed = one_cell("mixed.msh", 3, 4, faces=[(2, (0, 1, 2))])

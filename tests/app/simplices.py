@@ -6,6 +6,15 @@ import math
 import random
 
 
+# Types of degree 2 by number of corners, and the edges in their order.
+KINDS = {2: 8, 3: 9, 4: 11}
+EDGES = ((0, 1), (1, 2), (2, 0), (3, 0), (3, 2), (3, 1))
+
+
+def mean(a, b):
+    return tuple((x + y) / 2 for x, y in zip(a, b))
+
+
 class Mesh:
     """Vertices, cells and boundary faces with ids."""
 
@@ -24,6 +33,36 @@ class Mesh:
     def mapped(self, change):
         self.vertices = [tuple(change(*vertex)) for vertex in self.vertices]
         return self
+
+    def curved(self, change, bend=True):
+        """Gmsh's format 2.2 with cells of degree 2 after a map, with middle
+        nodes where the map puts them, or in the middle of straight edges."""
+        places = [tuple(change(*vertex)) for vertex in self.vertices]
+        number = {}
+
+        def middle(a, b):
+            edge = tuple(sorted((a, b)))
+            if edge not in number:
+                number[edge] = len(places)
+                places.append(
+                    tuple(change(*mean(self.vertices[a], self.vertices[b])))
+                    if bend else mean(places[a], places[b]))
+            return number[edge]
+        elements = [(KINDS[len(nodes)], id_, list(nodes)
+                     + [middle(nodes[i], nodes[j])
+                        for i, j in EDGES[:3 * len(nodes) - 6 or 1]])
+                    for id_, nodes in [*self.faces,
+                                       *((1, cell) for cell in self.cells)]]
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes",
+                 str(len(places))]
+        lines += ["%d %.17g %.17g %.17g" % ((v + 1,) + x
+                                            + (0.,) * (3 - self.dim))
+                  for v, x in enumerate(places)]
+        lines += ["$EndNodes", "$Elements", str(len(elements))]
+        lines += [" ".join(map(str, (k, kind, 2, id_, id_,
+                                     *(v + 1 for v in nodes))))
+                  for k, (kind, id_, nodes) in enumerate(elements, 1)]
+        return "\n".join(lines + ["$EndElements", ""])
 
     def right_handed(self):
         """Order the vertices of cells so that volumes are positive."""

@@ -4,8 +4,10 @@
 #include "app/input/boundary_expressions.h"
 #include "app/input/input_error.h"
 #include "app/input/parameters.h"
+#include "app/input/short_number.h"
 #include "memory_check.h"
 #include "mesh_checks.h"
+#include "mesh_description.h"
 #include "simplex_refinement.h"
 
 #include <deal.II/base/utilities.h>
@@ -41,6 +43,27 @@ namespace abut::app
     }
   } // namespace
 
+  template <int dim> void BodyMeshes<dim>::straighten(const std::string &reason)
+  {
+    middles.reset();
+    for (std::size_t body = 0; body < meshes.size(); ++body)
+    {
+      const auto &vertices = meshes[body].get_vertices();
+      double largest = 0.;
+      for (const auto &[edge, x] : extras[body].middles)
+        largest = std::max(
+            largest,
+            x.distance(vertices[edge.first]
+                       + 0.5 * (vertices[edge.second] - vertices[edge.first])));
+      if (largest > 0.)
+        extras[body].warnings.push_back(
+            "with " + reason
+            + " edges are straight: the middle nodes of curved edges, up to "
+            + short_number(largest) + " away, are left out.");
+      extras[body].middles.clear();
+    }
+  }
+
   template <int dim>
   BodyMeshes<dim>
   create_body_meshes(const std::vector<BodyParameters> &parameters,
@@ -61,6 +84,9 @@ namespace abut::app
                 + parameters[0].mesh.source() + " are "
                 + cell_name(result.meshes[0])
                 + ": all bodies of a scene have one kind of cells.");
+    for (const MeshFileExtras<dim> &extras : result.extras)
+      if (!extras.middles.empty())
+        result.middles = std::make_shared<EdgeMiddles<dim>>();
     return result;
   }
 
@@ -97,6 +123,8 @@ namespace abut::app
           renamed[id] = next_manifold++;
         }
       MeshDescription<dim> part = describe(mesh);
+      if (coarse.middles)
+        part.middles = coarse.extras[body].middles;
       if (coarse.are_simplices)
         for (unsigned int i = 0;
              i < parameters[body].refinements + further_levels; ++i)
@@ -122,6 +150,9 @@ namespace abut::app
              whole.faces.boundary_lines);
       append(part.faces.boundary_quads, first, face,
              whole.faces.boundary_quads);
+      for (const auto &[edge, x] : part.middles)
+        coarse.middles->emplace(
+            std::make_pair(first + edge.first, first + edge.second), x);
     }
     all.create_triangulation(whole.vertices, whole.cells, whole.faces);
     if (coarse.are_simplices)
@@ -163,6 +194,8 @@ namespace abut::app
       for (const std::string &name : extras.body_names)
         if (parameters[body].name.empty())
           body_names.emplace_back(name, body);
+      if (!extras.middles.empty())
+        curved.insert(body);
       for (const std::string &warning : extras.warnings)
         of_files.push_back(parameters[body].mesh.section + "/File: " + warning);
       if constexpr (dim == 2)
@@ -280,6 +313,8 @@ namespace abut::app
     return result;
   }
 
+  template struct BodyMeshes<2>;
+  template struct BodyMeshes<3>;
   template BodyMeshes<2> create_body_meshes(const std::vector<BodyParameters> &,
                                             const RunOptions &);
   template BodyMeshes<3> create_body_meshes(const std::vector<BodyParameters> &,

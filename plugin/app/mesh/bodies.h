@@ -12,6 +12,7 @@
 #include <deal.II/distributed/tria.h>
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,9 +27,16 @@ namespace abut::app
     {
     }
 
+    /** Leave out the middles of edges, with warnings that it is because of
+     * @p reason. */
+    void straighten(const std::string &reason);
+
     std::vector<dealii::Triangulation<dim>> meshes;
     std::vector<MeshFileExtras<dim>> extras;
     bool are_simplices = false; /**< triangles or tetrahedra */
+    /** Where Bodies::create() puts those of all bodies; null: all edges are
+     * straight. */
+    std::shared_ptr<EdgeMiddles<dim>> middles;
   };
 
   /** Throws InputError as create_mesh() does, and where bodies have different
@@ -97,6 +105,12 @@ namespace abut::app
       return of_files;
     }
 
+    /** Whether the file of a body's mesh has curved edges, which it keeps. */
+    bool is_curved(const unsigned int body) const
+    {
+      return curved.count(body) > 0;
+    }
+
     /** Number in the triangulation of a body's boundary id. */
     BoundaryId number(unsigned int body, BoundaryId id) const;
 
@@ -139,6 +153,7 @@ namespace abut::app
     std::vector<BoundaryNames> all_names; ///< by body
     std::vector<std::pair<std::string, unsigned int>> body_names;
     std::vector<std::string> of_files;
+    std::set<unsigned int> curved;                           ///< bodies
     std::vector<std::pair<unsigned int, BoundaryId>> origin; ///< by number
     std::map<std::pair<unsigned int, BoundaryId>, BoundaryId> numbers;
   };

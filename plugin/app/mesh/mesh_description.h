@@ -2,6 +2,8 @@
 #ifndef ABUT_APP_MESH_DESCRIPTION_H
 #define ABUT_APP_MESH_DESCRIPTION_H
 
+#include "app/physics/middle_nodes.h"
+
 #include <deal.II/grid/tria.h>
 
 #include <vector>
@@ -15,6 +17,7 @@ namespace abut::app
     std::vector<dealii::Point<dim>> vertices;
     std::vector<dealii::CellData<dim>> cells;
     dealii::SubCellData faces;
+    EdgeMiddles<dim> middles; ///< of triangles and tetrahedra
   };
 
   /** The description of a mesh of one level, with all boundary faces, and in 3D

@@ -275,9 +275,14 @@ namespace abut::app
       extras.degree = record.degree;
       extras.other_names = record.other_sets;
       extras.body_names = record.body_names;
-      for (const auto &[edge, x] : record.middles)
+      for (const auto &[edge, place] : record.middles)
+      {
+        dealii::Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
-          extras.middles[edge][d] = x[d];
+          x[d] = place[d];
+        add_middle(edge.first, arrays.vertices[edge.first], edge.second,
+                   arrays.vertices[edge.second], x, extras.middles);
+      }
       extras.warnings = record.warnings;
       return extras;
     }

@@ -8,6 +8,7 @@
  */
 
 #include "app/input/boundary_names.h"
+#include "app/physics/middle_nodes.h"
 #include "mesh_record.h"
 
 #include <deal.II/grid/tria.h>
@@ -37,9 +38,7 @@ namespace abut::app
     std::map<std::string, std::string> other_names; /**< see BoundaryNames */
     std::vector<std::string> body_names; /**< of sets with all its cells */
     unsigned int degree = 1;             /**< of the cells in the file */
-    /** Middles of curved edges, by the vertices at the ends, the smaller one
-     * first. */
-    std::map<std::pair<unsigned int, unsigned int>, dealii::Point<dim>> middles;
+    EdgeMiddles<dim> middles;            /**< none: all edges are straight */
     std::vector<std::string> warnings;
   };
 

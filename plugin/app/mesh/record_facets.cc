@@ -13,11 +13,11 @@ namespace abut::app
 {
   namespace
   {
-    using Corners = std::array<unsigned int, 4>;
+    using FacetCorners = std::array<unsigned int, 4>;
 
     struct Face
     {
-      Corners key; ///< sorted
+      FacetCorners key; ///< sorted
       unsigned int cell, side;
     };
 
@@ -107,9 +107,9 @@ namespace abut::app
         return source.file.elements[source.cells[cell]];
       }
 
-      Corners key_of(const std::vector<unsigned int> &corners) const
+      FacetCorners key_of(const std::vector<unsigned int> &corners) const
       {
-        Corners key;
+        FacetCorners key;
         key.fill(no_vertex);
         std::copy(corners.begin(), corners.end(), key.begin());
         std::sort(key.begin(), key.end());
@@ -446,7 +446,7 @@ namespace abut::app
         vertices.erase(std::unique(vertices.begin(), vertices.end()),
                        vertices.end());
         const auto first = first_at_place(record.vertices, vertices);
-        std::map<Corners, std::size_t> seen;
+        std::map<FacetCorners, std::size_t> seen;
         std::size_t n_found = 0;
         const Face *a = nullptr, *b = nullptr;
         for (const std::size_t i : boundary)

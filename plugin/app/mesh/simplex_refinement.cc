@@ -43,6 +43,7 @@ namespace abut::app
       void refine_red()
       {
         find_curved_edges(sides());
+        curved_parents.swap(description.middles);
         refine(description.cells);
         refine(sides());
         if constexpr (dim == 3)
@@ -108,8 +109,10 @@ namespace abut::app
           return found->second;
         const dealii::Point<dim> x = vertices[edge.first],
                                  y = vertices[edge.second];
+        const auto parabola = curved_parents.find(edge);
         const auto on = curved.find(edge);
-        vertices.push_back(on == curved.end()
+        vertices.push_back(parabola != curved_parents.end() ? parabola->second
+                           : on == curved.end()
                                ? 0.5 * (x + dealii::Tensor<1, dim>(y))
                                : mesh.get_manifold(on->second)
                                      .get_intermediate_point(x, y, 0.5));
@@ -132,7 +135,10 @@ namespace abut::app
             dealii::CellData<structdim> child(parent);
             child.vertices.assign(part.begin(), part.end());
             if constexpr (structdim == dim)
+            {
               orient(child.vertices);
+              add_middles(corners, child.vertices);
+            }
             children.push_back(child);
           }
         }
@@ -272,6 +278,52 @@ namespace abut::app
         list.swap(result);
       }
 
+      /** Add the middles of the curved edges of a child: the map of degree 2 of
+       * the parent at the middle between its ends. */
+      void add_middles(const VertexNumbers<dim + 1> &parent,
+                       const std::vector<unsigned int> &child)
+      {
+        if (curved_parents.empty())
+          return;
+        for (std::size_t i = 0; i < child.size(); ++i)
+          for (std::size_t j = 0; j < i; ++j)
+          {
+            const dealii::Point<dim> a = vertices[child[i]],
+                                     b = vertices[child[j]];
+            add_middle(child[i], a, child[j], b,
+                       middle_in(parent, child[i], child[j]),
+                       description.middles);
+          }
+      }
+
+      /** The place in a parent between two of its corners and edges' middles.
+       */
+      dealii::Point<dim> middle_in(const VertexNumbers<dim + 1> &parent,
+                                   const unsigned int v, const unsigned int w)
+      {
+        // Barycentric coordinates.
+        std::array<double, dim + 1> at{};
+        for (const unsigned int end : {v, w})
+          for (std::size_t k = 0; k <= dim; ++k)
+            for (std::size_t l = 0; l <= k; ++l)
+              if ((k == l ? parent[k] : middle(parent[k], parent[l])) == end)
+              {
+                at[k] += 0.25;
+                at[l] += 0.25;
+              }
+        dealii::Point<dim> result;
+        for (std::size_t k = 0; k <= dim; ++k)
+        {
+          result += at[k] * (2. * at[k] - 1.)
+                    * dealii::Tensor<1, dim>(vertices[parent[k]]);
+          for (std::size_t l = 0; l < k; ++l)
+            result += 4. * at[k] * at[l]
+                      * dealii::Tensor<1, dim>(
+                          vertices[middle(parent[k], parent[l])]);
+        }
+        return result;
+      }
+
       /** Give a cell a positive volume. */
       void orient(std::vector<unsigned int> &corners) const
       {
@@ -310,6 +362,7 @@ namespace abut::app
       std::map<Edge, unsigned int> middles;
       std::set<Edge> cuts;
       std::map<Edge, dealii::types::manifold_id> curved;
+      EdgeMiddles<dim> curved_parents;
     };
   } // namespace
 

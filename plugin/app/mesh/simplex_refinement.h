@@ -19,7 +19,9 @@ namespace abut::app
    * Boundary ids, material ids and manifolds are those of the parents. New
    * vertices are the middles of edges, on curved sides the points that the
    * manifolds of @p mesh, from which @p description is, have between their
-   * ends. Deterministic. Not collective. */
+   * ends. Curved edges are cut at their middles; the edges of their children
+   * have middles on the same parabolas. Deterministic. Not
+   * collective. */
   template <int dim>
   void refine_red(const dealii::Triangulation<dim> &mesh,
                   MeshDescription<dim> &description);

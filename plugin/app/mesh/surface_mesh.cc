@@ -19,6 +19,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 
 namespace abut::app
@@ -67,18 +68,22 @@ namespace abut::app
       }
     }
 
-    /** Positions of all vertices of cells, mapped. */
+    /** Positions of all vertices of cells, then of the @p middles of edges,
+     * mapped. */
     template <int dim>
     std::vector<dealii::Point<dim>>
-    mapped_vertices(const SurfaceParameters &parameters,
-                    const dealii::Triangulation<dim> &triangulation)
+    mapped_nodes(const SurfaceParameters &parameters,
+                 const dealii::Triangulation<dim> &triangulation,
+                 const std::vector<dealii::Point<dim>> &middles)
     {
       std::vector<dealii::Point<dim>> points = triangulation.get_vertices();
+      points.insert(points.end(), middles.begin(), middles.end());
       if (parameters.map.empty())
         return points;
       const Expression<dim> map(parameters.map,
                                 parameters.mesh.section + "/Map", dim);
-      const std::vector<bool> &used = triangulation.get_used_vertices();
+      std::vector<bool> used = triangulation.get_used_vertices();
+      used.resize(points.size(), true);
       std::vector<dealii::Point<dim>> chosen;
       for (std::size_t i = 0; i < points.size(); ++i)
         if (used[i])
@@ -131,21 +136,85 @@ namespace abut::app
       return vertices;
     }
 
+    /** The middles of the edges of faces, curved or not, of a mesh with curved
+     * ones. */
+    template <int dim> class FaceMiddles
+    {
+    public:
+      FaceMiddles(const dealii::Triangulation<dim> &triangulation,
+                  const EdgeMiddles<dim> &curved)
+      {
+        if (curved.empty())
+          return;
+        for (const auto &cell : triangulation.active_cell_iterators())
+          for (unsigned int l = 0; cell->at_boundary() && l < cell->n_lines();
+               ++l)
+          {
+            const auto line = cell->line(l);
+            const std::pair<unsigned int, unsigned int> edge =
+                std::minmax(line->vertex_index(0), line->vertex_index(1));
+            if (!number_of.emplace(edge, places.size()).second)
+              continue;
+            const auto middle = curved.find(edge);
+            places.push_back(middle != curved.end() ? middle->second
+                                                    : line->center());
+          }
+      }
+
+      bool empty() const
+      {
+        return places.empty();
+      }
+
+      /** By number. */
+      const std::vector<dealii::Point<dim>> &all() const
+      {
+        return places;
+      }
+
+      /** Append to the vertices of a face the middles of its edges in the order
+       * of abut/facet.h; they are numbered from @p first. */
+      void append_to(std::vector<unsigned int> &nodes,
+                     const unsigned int first) const
+      {
+        const std::size_t n = nodes.size();
+        for (std::size_t i = 0; i < (dim == 2 ? 1 : n); ++i)
+          nodes.push_back(
+              first + number_of.at(std::minmax(nodes[i], nodes[(i + 1) % n])));
+      }
+
+    private:
+      std::map<std::pair<unsigned int, unsigned int>, unsigned int> number_of;
+      std::vector<dealii::Point<dim>> places;
+    };
+
+    abut_facet_kind facet_kind(const int dim, const bool are_simplices,
+                               const bool are_curved)
+    {
+      if (dim == 2)
+        return are_curved ? ABUT_FACET_LINE3 : ABUT_FACET_LINE2;
+      if (are_simplices)
+        return are_curved ? ABUT_FACET_TRI6 : ABUT_FACET_TRI3;
+      return ABUT_FACET_QUAD4;
+    }
+
     template <int dim>
     void extract(const SurfaceParameters &parameters, const Ids &ids,
                  const dealii::Triangulation<dim> &triangulation,
-                 SurfaceArrays &surface)
+                 const EdgeMiddles<dim> &curved, SurfaceArrays &surface)
     {
+      const FaceMiddles<dim> middles(triangulation, curved);
+      const auto first_middle =
+          static_cast<unsigned int>(triangulation.get_vertices().size());
       const std::vector<dealii::Point<dim>> vertices =
-          mapped_vertices(parameters, triangulation);
+          mapped_nodes(parameters, triangulation, middles.all());
       const bool are_simplices =
           triangulation.all_reference_cells_are_simplex();
       const shim::ReferenceFaces<dim> faces =
           are_simplices ? shim::ReferenceFaces<dim>(dealii::FE_SimplexP<dim>(1))
                         : shim::ReferenceFaces<dim>(dealii::FE_Q<dim>(1));
-      surface.kind = dim == 2        ? ABUT_FACET_LINE2
-                     : are_simplices ? ABUT_FACET_TRI3
-                                     : ABUT_FACET_QUAD4;
+      const abut_facet_kind straight = facet_kind(dim, are_simplices, false);
+      surface.kind = facet_kind(dim, are_simplices, !middles.empty());
       std::vector<std::int32_t> node(vertices.size(), -1);
       std::int32_t n_nodes = 0;
       for (const auto &cell : triangulation.active_cell_iterators())
@@ -161,8 +230,11 @@ namespace abut::app
             continue;
           surface.group.push_back(
               static_cast<std::int32_t>(face->boundary_id()));
-          for (const unsigned int v :
-               outward_face(faces, surface.kind, cell, f))
+          std::vector<unsigned int> nodes =
+              outward_face(faces, straight, cell, f);
+          if (!middles.empty())
+            middles.append_to(nodes, first_middle);
+          for (const unsigned int v : nodes)
           {
             if (node[v] < 0)
             {
@@ -197,7 +269,7 @@ namespace abut::app
                            : "file " + options.input_file(mesh.file).string();
       surface.parameter =
           mesh.section + (mesh.file.empty() ? "/Arguments" : "/File");
-      extract<dim>(parameters, ids, triangulation, surface);
+      extract<dim>(parameters, ids, triangulation, extras.middles, surface);
       return surface;
     }
 

@@ -20,11 +20,13 @@ namespace abut::app
 {
   namespace
   {
-    /** Edges of simplices are straight. */
     template <int dim>
     std::unique_ptr<const dealii::Mapping<dim>>
-    make_mapping(const dealii::FiniteElement<dim> &fe)
+    make_mapping(const dealii::FiniteElement<dim> &fe,
+                 const std::shared_ptr<const EdgeMiddles<dim>> &middles)
     {
+      if (middles)
+        return std::make_unique<MiddleNodes<dim>>(middles);
       if (shim::is_simplex(fe))
         return std::make_unique<dealii::MappingFE<dim>>(
             dealii::FE_SimplexP<dim>(1));
@@ -35,10 +37,11 @@ namespace abut::app
   template <int dim>
   DiscreteProblem<dim>::DiscreteProblem(
       dealii::Triangulation<dim> &triangulation,
-      std::unique_ptr<dealii::FiniteElement<dim>> element)
+      std::unique_ptr<dealii::FiniteElement<dim>> element,
+      std::shared_ptr<const EdgeMiddles<dim>> middles)
       : element(std::move(element)),
         fe(*this->element),
-        own_mapping(make_mapping(fe)),
+        own_mapping(make_mapping(fe, middles)),
         mapping(*own_mapping),
         dof_handler(triangulation),
         communicator(versions::communicator(triangulation))

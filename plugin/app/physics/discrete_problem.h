@@ -2,6 +2,8 @@
 #ifndef ABUT_APP_DISCRETE_PROBLEM_H
 #define ABUT_APP_DISCRETE_PROBLEM_H
 
+#include "middle_nodes.h"
+
 #include <abut/dealii/linear_algebra.h>
 
 #include <deal.II/distributed/tria.h>
@@ -39,8 +41,11 @@ namespace abut::app
     /** Adds prescribed values to constraints that hold hanging nodes. */
     using Prescribe = std::function<void(dealii::AffineConstraints<double> &)>;
 
+    /** @param middles of triangles and tetrahedra with curved edges; null: all
+     * are straight */
     DiscreteProblem(dealii::Triangulation<dim> &triangulation,
-                    std::unique_ptr<dealii::FiniteElement<dim>> element);
+                    std::unique_ptr<dealii::FiniteElement<dim>> element,
+                    std::shared_ptr<const EdgeMiddles<dim>> middles = nullptr);
 
     virtual ~DiscreteProblem() = default;
 

@@ -90,9 +90,10 @@ namespace abut::app
 
   template <int dim>
   Elasticity<dim>::Elasticity(dealii::Triangulation<dim> &triangulation,
-                              const unsigned int degree, const bool simplices)
+                              const unsigned int degree, const bool simplices,
+                              std::shared_ptr<const EdgeMiddles<dim>> middles)
       : DiscreteProblem<dim>(triangulation,
-                             make_element<dim>(degree, simplices)),
+                             make_element<dim>(degree, simplices), middles),
         materials(std::make_unique<Materials<dim>>())
   {
   }

@@ -39,9 +39,11 @@ namespace abut::app
   template <int dim> class Elasticity : public DiscreteProblem<dim>
   {
   public:
-    /** @param simplices whether cells are triangles or tetrahedra */
+    /** @param simplices whether cells are triangles or tetrahedra
+     * @param middles of their curved edges; null: all are straight */
     Elasticity(dealii::Triangulation<dim> &triangulation, unsigned int degree,
-               bool simplices = false);
+               bool simplices = false,
+               std::shared_ptr<const EdgeMiddles<dim>> middles = nullptr);
     ~Elasticity() override;
 
     /** Number unknowns, build constraints and the matrix's pattern for the

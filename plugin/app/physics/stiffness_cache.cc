@@ -23,6 +23,7 @@ namespace abut::app
                                       const Materials<dim> &materials)
       : materials(materials),
         fe(fe),
+        bent(dynamic_cast<const MiddleNodes<dim> *>(&mapping)),
         values(mapping, fe.base_element(0), shim::gauss(fe, fe.degree + 1),
                dealii::update_values | dealii::update_gradients
                    | dealii::update_JxW_values
@@ -37,6 +38,8 @@ namespace abut::app
       return false;
     if (fe.degree == 1)
       return true;
+    if (bent != nullptr)
+      return !bent->is_curved(cell);
     // Mappings of higher degree bend whatever has a manifold.
     constexpr auto flat = dealii::numbers::flat_manifold_id;
     if (cell->manifold_id() != flat)

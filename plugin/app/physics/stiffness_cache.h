@@ -7,6 +7,7 @@
  */
 
 #include "material.h"
+#include "middle_nodes.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_values.h>
@@ -52,7 +53,8 @@ namespace abut::app
 
     const Materials<dim> &materials;
     const dealii::FiniteElement<dim> &fe;
-    dealii::FEValues<dim> values; ///< of one component
+    const MiddleNodes<dim> *const bent; ///< null: straight, or by manifolds
+    dealii::FEValues<dim> values;       ///< of one component
     std::map<Key, std::pair<double, dealii::FullMatrix<double>>> known;
     dealii::FullMatrix<double> result;
     const dealii::FullMatrix<double> *last = nullptr;

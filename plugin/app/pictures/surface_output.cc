@@ -15,20 +15,23 @@ namespace abut::app
     template <int dim>
     using FacetPatch = dealii::DataOutBase::Patch<dim - 1, dim>;
 
+    /** Facets of degree 2 are drawn straight, by their corners. */
     template <int dim>
     FacetPatch<dim> make_patch(const SurfaceArrays &surface,
                                const SurfaceFields &fields,
                                const std::size_t facet, const std::size_t n)
     {
+      const auto n_corners =
+          static_cast<std::size_t>(abut_facet_n_corners(surface.kind));
       FacetPatch<dim> patch;
       patch.patch_index = static_cast<unsigned int>(facet);
       patch.n_subdivisions = 1;
       patch.reference_cell = dealii::ReferenceCells::get_hypercube<dim - 1>();
       if constexpr (dim == 3)
-        if (surface.kind == ABUT_FACET_TRI3)
+        if (n_corners == 3)
           patch.reference_cell = dealii::ReferenceCells::Triangle;
-      patch.data.reinit(fields.nodal.size() + fields.facets.size(), n);
-      for (std::size_t a = 0; a < n; ++a)
+      patch.data.reinit(fields.nodal.size() + fields.facets.size(), n_corners);
+      for (std::size_t a = 0; a < n_corners; ++a)
       {
         const auto node =
             static_cast<std::size_t>(surface.connectivity[n * facet + a]);

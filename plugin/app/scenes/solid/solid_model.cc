@@ -42,8 +42,8 @@ namespace abut::app
       : MovingModel<dim>(run, coarse.are_simplices),
         parameters(parameters),
         bodies(parameters.bodies, is_of_revolution<dim>(parameters)),
-        elasticity(this->triangulation, parameters.degree,
-                   coarse.are_simplices),
+        elasticity(this->triangulation, parameters.degree, coarse.are_simplices,
+                   coarse.middles),
         driven(parameters),
         search(search),
         coarse(std::move(coarse)),
@@ -195,7 +195,7 @@ namespace abut::app
   {
     std::set<dealii::types::material_id> from_files;
     for (unsigned int body = 0; body < bodies.size(); ++body)
-      if (!bodies[body].mesh.file.empty()
+      if (!bodies[body].mesh.file.empty() && !bodies.is_curved(body)
           && bodies[body].refinements + parameters.refinement.last_mesh() > 0)
         from_files.insert(body);
     if (from_files.empty())

@@ -110,6 +110,18 @@ namespace abut::app
         if (!meshes.are_simplices)
           return;
         parameters.begin_simplices(dim);
+        if (parameters.degree == 1)
+          meshes.straighten("Solid/Degree = 1");
+        const RefinementParameters &refinement = parameters.refinement;
+        if (meshes.middles
+            && (refinement.has_target() || refinement.adaptive_cycles > 0))
+          throw InputError(refinement.has_target()
+                               ? "Refinement/Target error"
+                               : "Refinement/Adaptive cycles",
+                           "meshes with curved edges are refined in all cells "
+                           "only: set it to 0, and refine by Refinement/Level "
+                           "or Body N/Refinements, or write the file with "
+                           "straight edges.");
         const bool tri6 = dim == 3 && parameters.degree == 2;
         const char *why = nullptr;
         if (tri6 && this->method.discretisation
