@@ -18,6 +18,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
+#include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
@@ -306,6 +307,11 @@ namespace abut::app
         middle.second = placement.place(middle.second);
     };
     collective(options.communicator, prepare);
+    // Its copy of other cells would crash.
+    if (dynamic_cast<dealii::parallel::distributed::Triangulation<dim> *>(
+            &triangulation)
+        != nullptr)
+      require_cubes(placed, parameters, "meshes of p4est");
     triangulation.copy_triangulation(placed);
     return extras;
   }
