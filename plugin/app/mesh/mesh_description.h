@@ -5,6 +5,7 @@
 #include "app/physics/middle_nodes.h"
 
 #include <deal.II/grid/tria.h>
+#include <deal.II/grid/tria_description.h>
 
 #include <vector>
 

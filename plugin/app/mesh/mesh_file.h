@@ -12,6 +12,7 @@
 #include "mesh_record.h"
 
 #include <deal.II/grid/tria.h>
+#include <deal.II/grid/tria_description.h>
 
 #include <filesystem>
 #include <string>

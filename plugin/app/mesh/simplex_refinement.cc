@@ -8,6 +8,8 @@
 // to, from longest edge to longest edge. So there are never hanging nodes.
 #include "simplex_refinement.h"
 
+#include <deal.II/grid/manifold.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -196,16 +198,15 @@ namespace abut::app
       }
 
       /** Call @p action with each edge of a cell or face. */
-      template <class Action>
-      static void for_each_edge(const std::vector<unsigned int> &corners,
-                                const Action &action)
+      template <class Corners, class Action>
+      static void for_each_edge(const Corners &corners, const Action &action)
       {
         for (std::size_t i = 0; i < corners.size(); ++i)
           for (std::size_t j = 0; j < i; ++j)
             action(edge_between(corners[i], corners[j]));
       }
 
-      Edge longest(const std::vector<unsigned int> &corners) const
+      template <class Corners> Edge longest(const Corners &corners) const
       {
         Edge result = edge_between(corners[0], corners[1]);
         for_each_edge(corners,
@@ -280,8 +281,9 @@ namespace abut::app
 
       /** Add the middles of the curved edges of a child: the map of degree 2 of
        * the parent at the middle between its ends. */
+      template <class Corners>
       void add_middles(const VertexNumbers<dim + 1> &parent,
-                       const std::vector<unsigned int> &child)
+                       const Corners &child)
       {
         if (curved_parents.empty())
           return;
@@ -325,7 +327,7 @@ namespace abut::app
       }
 
       /** Give a cell a positive volume. */
-      void orient(std::vector<unsigned int> &corners) const
+      template <class Corners> void orient(Corners &corners) const
       {
         dealii::Tensor<2, dim> edges;
         for (unsigned int d = 0; d < dim; ++d)

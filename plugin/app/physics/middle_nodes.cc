@@ -52,10 +52,10 @@ namespace abut::app
   }
 
   template <int dim>
-  std::vector<dealii::Point<dim>>
+  typename MiddleNodes<dim>::SupportPoints
   MiddleNodes<dim>::compute_mapping_support_points(const Cell &cell) const
   {
-    std::vector<dealii::Point<dim>> points;
+    SupportPoints points;
     for (const unsigned int v : cell->vertex_indices())
       points.push_back(cell->vertex(v));
     for (unsigned int l = 0; l < cell->n_lines(); ++l)

@@ -56,7 +56,13 @@ namespace abut::app
     }
 
   protected:
-    std::vector<dealii::Point<dim>>
+#if DEAL_II_VERSION_GTE(9, 8, 0)
+    using SupportPoints =
+        boost::container::small_vector<dealii::Point<dim>, 200>;
+#else
+    using SupportPoints = std::vector<dealii::Point<dim>>;
+#endif
+    SupportPoints
     compute_mapping_support_points(const Cell &cell) const override;
 
   private:
