@@ -49,11 +49,12 @@ namespace abut::shim
                                     const std::string &what,
                                     const global_dof_index size) const
   {
-    AssertThrow(size == n_unknowns_,
-                ExcMessage("The " + what + " given to " + call + " is of "
-                           + std::to_string(size) + " unknowns, but there are "
-                           + std::to_string(n_unknowns_)
-                           + ". Make it anew after each change of the mesh."));
+    AssertThrow(
+        size == n_unknowns_,
+        ExcMessage("The " + what + " given to " + call + " is of "
+                   + std::to_string(size) + " unknowns, but there are "
+                   + std::to_string(n_unknowns_)
+                   + ". Create it again after each change of the mesh."));
   }
 
   template <int dim>

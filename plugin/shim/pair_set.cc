@@ -194,18 +194,19 @@ namespace abut::shim
                     "quadratic penalty and augmented lagrangian only, not with "
                     "Method/Enforcement = "
                     + std::string(law.name)
-                    + ". Use one of these, or give its two sides boundary ids "
-                      "of their own.";
+                    + ". Use one of these, or give its two sides different "
+                      "boundary ids.";
     if (!no_friction.empty())
       throw ContactError(
           about_pair(data.name, no_friction, PairField::friction));
     for (const SurfacePair<dim> &other : pairs_)
       if (are_the_same(data, other.data))
-        refuse(pair, "some of its surface touches what it touches in pair '"
-                         + other.data.name
-                         + "', too, and would be held there twice. Leave one "
-                           "of the pairs out, or name each boundary id in one "
-                           "of them only.");
+        refuse(pair,
+               "some of its surface touches what it touches in pair '"
+                   + other.data.name
+                   + "', too, and would be held there twice. Remove one of "
+                     "the pairs, or assign each boundary id to one of "
+                     "them.");
       else if (are_both_sides(data, other.data)
                && (data.tied || !abut_law_has_penalty(&law)))
         refuse(pair,

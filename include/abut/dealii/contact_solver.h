@@ -149,7 +149,7 @@ namespace abut
         {
           if (!contact_.limit_raises(u))
             throw;
-          has_answer = iterate(u);
+          has_answer = resume(u);
         }
       return has_answer;
     }

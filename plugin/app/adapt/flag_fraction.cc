@@ -4,10 +4,7 @@
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <functional>
-#include <numeric>
+#include <deal.II/grid/grid_refinement.h>
 
 namespace abut::app
 {
@@ -31,22 +28,11 @@ namespace abut::app
   void flag_fraction(const dealii::Vector<float> &values, const double fraction,
                      dealii::Triangulation<dim> &mesh)
   {
-    std::vector<double> sorted =
+    const std::vector<double> all =
         gather_values(mesh, [&](const auto &cell)
                       { return double(values(cell->active_cell_index())); });
-    std::sort(sorted.begin(), sorted.end(), std::greater<>());
-    const double enough =
-        fraction * std::accumulate(sorted.begin(), sorted.end(), 0.);
-    double sum = 0., least = 0.;
-    for (std::size_t i = 0; i < sorted.size() && sum < enough; ++i)
-    {
-      least = sorted[i];
-      sum += least;
-    }
-    for (const auto &cell : mesh.active_cell_iterators())
-      if (cell->is_locally_owned() && least > 0.
-          && double(values(cell->active_cell_index())) >= least)
-        cell->set_refine_flag();
+    dealii::GridRefinement::refine_and_coarsen_fixed_fraction(
+        mesh, dealii::Vector<float>(all.begin(), all.end()), fraction, 0.);
   }
 
   template <int dim>

@@ -11,8 +11,8 @@
 
 namespace abut::app
 {
-  /** Nodal fields from a mesh of triangles or tetrahedra to one whose cells are
-   * parts of its cells, made anew. All ranks have all cells of both. */
+  /** Nodal fields from a mesh of triangles or tetrahedra to another one, whose
+   * cells are parts of its cells. All ranks have all cells of both. */
   template <int dim> class SimplexTransfer
   {
   public:

@@ -2,32 +2,14 @@
 #include "boundary_names.h"
 
 #include "input_error.h"
+#include "number_text.h"
 #include "parameters.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 
 namespace abut::app
 {
-  namespace
-  {
-    bool are_digits(const std::string &word)
-    {
-      return !word.empty()
-             && std::all_of(word.begin(), word.end(),
-                            [](const unsigned char c)
-                            { return std::isdigit(c) != 0; });
-    }
-
-    std::string lower(std::string text)
-    {
-      for (char &c : text)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      return text;
-    }
-  } // namespace
-
   BoundaryNames::BoundaryNames(const std::vector<Id> &ids,
                                const std::vector<Set> &sets,
                                const std::map<std::string, std::string> &other)
@@ -73,7 +55,7 @@ namespace abut::app
     {
       if (is_id ? set.id == std::stoul(word) : set.name == word)
         return &set;
-      if (is_id || set.name.empty() || lower(set.name) != lower(word))
+      if (is_id || set.name.empty() || lower_case(set.name) != lower_case(word))
         continue;
       if (found != nullptr)
         throw InputError(parameter, "'" + word + "' may be '" + found->name
@@ -141,5 +123,12 @@ namespace abut::app
       if (!set.name.empty() && set.ids.count(id) > 0)
         text += (text.empty() ? "'" : ", '") + set.name + "'";
     return text;
+  }
+
+  std::string BoundaryNames::describe(const Id id) const
+  {
+    const std::string names = names_of(id);
+    return "boundary " + std::to_string(id)
+           + (names.empty() ? "" : " (" + names + ")");
   }
 } // namespace abut::app

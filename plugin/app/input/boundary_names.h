@@ -52,6 +52,9 @@ namespace abut::app
     /** "'top'", or "'top', 'all'": the sets that an id belongs to; or empty. */
     std::string names_of(Id id) const;
 
+    /** "boundary 3 ('top', 'all')": an id with these. */
+    std::string describe(Id id) const;
+
     /** Throw InputError if a word can be no number of an id and no name. */
     static void check_word(const std::string &word,
                            const std::string &parameter);

@@ -129,4 +129,16 @@ namespace abut::app
                              "number or formula is required."
                            + decimal_comma_hint(text));
   }
+
+  std::string lower_case(std::string word)
+  {
+    for (char &c : word)
+      c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return word;
+  }
+
+  bool are_digits(const std::string &word)
+  {
+    return !word.empty() && std::all_of(word.begin(), word.end(), is_digit);
+  }
 } // namespace abut::app

@@ -4,7 +4,8 @@
 
 /** @file
  * Numbers in a scene file that are easily misread: decimal commas, typographic
- * minus signs, hexadecimal digits, exponents beyond the range of numbers.
+ * minus signs, hexadecimal digits, exponents beyond the range of numbers; and
+ * letters and digits of words.
  */
 
 #include <string>
@@ -23,6 +24,12 @@ namespace abut::app
 
   /** "'part' in 'whole'", or "'part'" where it is the whole. */
   std::string quoted_in(const std::string &part, const std::string &whole);
+
+  /** A word without capital letters, of ASCII. */
+  std::string lower_case(std::string word);
+
+  /** Whether a word has digits only, and one at least. */
+  bool are_digits(const std::string &word);
 
   /** Asks for a decimal comma where more numbers are given than needed. */
   inline std::string count_hint(const std::size_t given,

@@ -37,13 +37,6 @@ namespace abut::app
     /** How the origin of values from the command line begins. */
     const std::string set_option = "--set ";
 
-    std::string lower_case(std::string word)
-    {
-      for (char &c : word)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      return word;
-    }
-
     std::string join(const std::vector<std::string> &sections,
                      const std::string &name)
     {

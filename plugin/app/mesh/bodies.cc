@@ -32,10 +32,7 @@ namespace abut::app
         to.push_back(cell);
       }
     }
-  } // namespace
 
-  namespace
-  {
     /** Whether a word is meant as a number, and gets the messages of one. */
     bool could_be_number(const std::string &word)
     {
@@ -246,9 +243,8 @@ namespace abut::app
   std::string Bodies<dim>::name(const BoundaryId number) const
   {
     const auto [body, id] = origin[number];
-    const std::string words = all_names[body].names_of(id);
-    return "body " + std::to_string(body + 1) + ", boundary "
-           + std::to_string(id) + (words.empty() ? "" : " (" + words + ")");
+    return "body " + std::to_string(body + 1) + ", "
+           + all_names[body].describe(id);
   }
 
   template <int dim> std::string Bodies<dim>::names_in_words() const

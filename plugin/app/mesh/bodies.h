@@ -52,7 +52,7 @@ namespace abut::app
    * as material id.
    *
    * Boundary ids are the user's own, body by body; in the triangulation they
-   * are numbered anew so that each belongs to one body. */
+   * have other numbers so that each belongs to one body. */
   template <int dim> class Bodies
   {
   public:
@@ -73,7 +73,7 @@ namespace abut::app
 
     /** Bisect marked cells of the mesh that create() has made of triangles or
      * tetrahedra, see bisect(); returns the old cell of each new one. Unknowns
-     * must be distributed anew. Collective. */
+     * must be distributed again. Collective. */
     std::vector<unsigned int> refine(const std::vector<bool> &marked,
                                      dealii::Triangulation<dim> &triangulation);
 

@@ -154,10 +154,7 @@ namespace abut::app
   {
     constexpr std::size_t most_digits = 18;
     const std::size_t sign = !word.empty() && word[0] == '-' ? 1 : 0;
-    if (word.size() == sign
-        || !std::all_of(
-            word.begin() + static_cast<std::ptrdiff_t>(sign), word.end(),
-            [](const unsigned char c) { return std::isdigit(c) != 0; }))
+    if (!are_digits(word.substr(sign)))
       complain("'" + word + "' is not a whole number.");
     if (word.size() > most_digits)
       complain("the number " + word + " is too large.");

@@ -311,7 +311,7 @@ namespace abut::app
     if (dynamic_cast<dealii::parallel::distributed::Triangulation<dim> *>(
             &triangulation)
         != nullptr)
-      require_cubes(placed, parameters, "meshes of p4est");
+      require_cubes(placed, parameters, "this kind of scene");
     triangulation.copy_triangulation(placed);
     return extras;
   }

@@ -97,24 +97,6 @@ namespace abut::app
       return text.find(words) != std::string::npos;
     }
 
-    /** About a kind of cells of gmsh that a message of deal.II names as one
-     * that it does not read; its own list of others leaves out half of them. */
-    std::string unread_kind(const std::string &message)
-    {
-      const std::string before = "Element Identifier <";
-      const std::size_t found = message.find(before);
-      if (found == std::string::npos)
-        return "";
-      const int kind = std::atoi(message.c_str() + found + before.size());
-      return kind == 6   ? "it has wedges (prisms)"
-             : kind == 7 ? "it has pyramids"
-             : kind == 8 || kind == 9 || kind == 11
-                 ? "its cells are of second order (gmsh: Mesh.ElementOrder); "
-                   "write those of first order: Solid/Degree = 2 makes nodes "
-                   "in the middles of edges"
-                 : "it has cells of gmsh's type " + std::to_string(kind);
-    }
-
     /** Why deal.II cannot read the file. */
     template <int dim>
     std::string reason(const std::filesystem::path &path,
@@ -130,11 +112,6 @@ namespace abut::app
         return std::string("it has no cells, which are ")
                + (dim == 2 ? "quadrilaterals or triangles."
                            : "hexahedra or tetrahedra.");
-      const std::string kind = unread_kind(message);
-      if (!kind.empty())
-        return kind
-               + (dim == 2 ? ". Cells are quadrilaterals or triangles."
-                           : ". Cells are hexahedra or tetrahedra.");
       if (contains(message, "negative"))
         return "some of its cells are folded, or have their corners in an "
                "order opposite to that of others."
@@ -211,10 +188,7 @@ namespace abut::app
                                           "xda.");
       }
     }
-  } // namespace
 
-  namespace
-  {
     /** Place of a corner of a quadrilateral or hexahedron in deal.II's order,
      * the same as deal.II's readers make: the order that they take hexahedra to
      * be in has left-handed cells, of which they then exchange two faces. */
@@ -224,11 +198,11 @@ namespace abut::app
     }
   } // namespace
 
-  template <int dim> MeshArrays<dim> mesh_arrays(const MeshRecord &record)
+  template <int dim> MeshDescription<dim> describe(const MeshRecord &record)
   {
     const ShapeInfo &info = shape_info(record.shape);
     const bool is_cube = info.n_corners == (1u << dim);
-    MeshArrays<dim> result;
+    MeshDescription<dim> result;
     for (const std::array<double, 3> &x : record.vertices)
     {
       result.vertices.emplace_back();
@@ -250,12 +224,20 @@ namespace abut::app
       data.vertices.assign(facet.corners.begin(), facet.corners.end());
       data.boundary_id = facet.boundary_id;
       if constexpr (dim == 2)
-        result.facets.boundary_lines.push_back(std::move(data));
+        result.faces.boundary_lines.push_back(std::move(data));
       else
-        result.facets.boundary_quads.push_back(std::move(data));
+        result.faces.boundary_quads.push_back(std::move(data));
     }
     if (is_cube)
       dealii::GridTools::consistently_order_cells(result.cells);
+    for (const auto &[edge, place] : record.middles)
+    {
+      dealii::Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = place[d];
+      add_middle(edge.first, result.vertices[edge.first], edge.second,
+                 result.vertices[edge.second], x, result.middles);
+    }
     return result;
   }
 
@@ -265,9 +247,8 @@ namespace abut::app
     MeshFileExtras<dim> use_record(const MeshRecord &record,
                                    dealii::Triangulation<dim> &triangulation)
     {
-      const MeshArrays<dim> arrays = mesh_arrays<dim>(record);
-      triangulation.create_triangulation(arrays.vertices, arrays.cells,
-                                         arrays.facets);
+      MeshDescription<dim> mesh = describe<dim>(record);
+      triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
       MeshFileExtras<dim> extras;
       for (const RecordSet &set : record.boundary_sets)
         extras.sets.push_back(
@@ -275,14 +256,7 @@ namespace abut::app
       extras.degree = record.degree;
       extras.other_names = record.other_sets;
       extras.body_names = record.body_names;
-      for (const auto &[edge, place] : record.middles)
-      {
-        dealii::Point<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = place[d];
-        add_middle(edge.first, arrays.vertices[edge.first], edge.second,
-                   arrays.vertices[edge.second], x, extras.middles);
-      }
+      extras.middles = std::move(mesh.middles);
       extras.warnings = record.warnings;
       return extras;
     }
@@ -372,7 +346,7 @@ namespace abut::app
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template MeshArrays<dim> mesh_arrays<dim>(const MeshRecord &);               \
+  template MeshDescription<dim> describe<dim>(const MeshRecord &);             \
   template MeshFileExtras<dim> read_mesh_file<dim>(                            \
       const std::filesystem::path &, const std::string &, const std::string &, \
       dealii::Triangulation<dim> &);

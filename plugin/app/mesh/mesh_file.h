@@ -8,29 +8,18 @@
  */
 
 #include "app/input/boundary_names.h"
-#include "app/physics/middle_nodes.h"
+#include "mesh_description.h"
 #include "mesh_record.h"
-
-#include <deal.II/grid/tria.h>
-#include <deal.II/grid/tria_description.h>
 
 #include <filesystem>
 #include <string>
 
 namespace abut::app
 {
-  /** Vertices, cells and facets as deal.II makes meshes of them. */
-  template <int dim> struct MeshArrays
-  {
-    std::vector<dealii::Point<dim>> vertices;
-    std::vector<dealii::CellData<dim>> cells;
-    dealii::SubCellData facets;
-  };
-
   /** The mesh of a record in deal.II's order of corners: vertices and cells in
    * the order of the file, simplices positively oriented, quadrilaterals and
    * hexahedra with edges in the same direction in all cells where possible. */
-  template <int dim> MeshArrays<dim> mesh_arrays(const MeshRecord &record);
+  template <int dim> MeshDescription<dim> describe(const MeshRecord &record);
 
   /** Contents of a mesh file beside the mesh. */
   template <int dim> struct MeshFileExtras

@@ -4,12 +4,12 @@
  * record_facets.cc. */
 #include "mesh_record.h"
 
+#include "app/input/number_text.h"
 #include "app/input/short_number.h"
 #include "cell_geometry.h"
 #include "record_facets.h"
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <unordered_map>
 #include <unordered_set>
@@ -42,9 +42,7 @@ namespace abut::app
     /** The same words, whatever their case. */
     bool is_like(const std::string &a, const std::string &b)
     {
-      return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                        [](const unsigned char c, const unsigned char d)
-                        { return std::tolower(c) == std::tolower(d); });
+      return lower_case(a) == lower_case(b);
     }
 
     class RecordMaker

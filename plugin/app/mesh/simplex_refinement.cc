@@ -252,8 +252,8 @@ namespace abut::app
         }
       }
 
-      /** Replace the elements of a list by their parts; @p note is told the
-       * number of each element and how many parts it has. */
+      /** Replace the elements of a list by their parts. Calls @p note with the
+       * number of each element and of its parts. */
       template <int structdim, class Note>
       void cut(std::vector<dealii::CellData<structdim>> &list, const Note &note)
       {

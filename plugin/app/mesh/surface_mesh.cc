@@ -6,6 +6,7 @@
 #include "app/input/expression.h"
 #include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
+#include "app/input/number_text.h"
 #include "memory_check.h"
 #include "shim/reference_faces.h"
 #include "stl.h"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -30,10 +30,8 @@ namespace abut::app
 
     bool is_stl(const std::string &file)
     {
-      std::string ending = std::filesystem::path(file).extension().string();
-      for (char &c : ending)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      return ending == ".stl";
+      return lower_case(std::filesystem::path(file).extension().string())
+             == ".stl";
     }
 
     template <int dim, typename Cell>

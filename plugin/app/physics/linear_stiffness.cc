@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "linear_stiffness.h"
 
+#include "nodal_means.h"
 #include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -36,29 +36,39 @@ namespace abut::app
             gradient(points.n_quadrature_points)
       {
         scalar.distribute_dofs(dealii::FE_SimplexP<dim>(1));
-        dofs.resize(scalar.get_fe().n_dofs_per_cell());
-        recover();
       }
 
-      /** Energies of this rank: of the difference, and of the solution. */
+      /** Energies of this rank: of the difference, and of the solution.
+       * Collective. */
       std::array<double, 2> energies()
       {
+        NodalMeans<dim> means(scalar, dim * dim);
+        for_each_cell(
+            [&](const auto &cell)
+            {
+              for (const auto node : means.nodes(cell))
+                for (unsigned int q = 0; q < gradient.size(); ++q)
+                  means.add(node, points.JxW(q), components(gradient[q]));
+            });
+        std::vector<la::Vector> recovered;
+        for (const la::Vector &mean : means.means())
+          recovered.push_back(means.ghosted(mean));
         const auto &fe = scalar.get_fe();
-        const std::vector<dealii::Point<dim>> &unit =
-            points.get_quadrature().get_points();
         std::array<double, 2> result = {{0., 0.}};
         for_each_cell(
-            [&](const Material<dim> &material)
+            [&](const auto &cell)
             {
-              for (unsigned int q = 0; q < unit.size(); ++q)
+              const Material<dim> &material =
+                  *materials.at(cell->material_id());
+              const auto &nodes = means.nodes(cell);
+              for (unsigned int q = 0; q < gradient.size(); ++q)
               {
                 dealii::Tensor<2, dim> difference(-gradient[q]);
-                for (unsigned int v = 0; v < dofs.size(); ++v)
-                  for (unsigned int i = 0; i < dim; ++i)
-                    for (unsigned int j = 0; j < dim; ++j)
-                      difference[i][j] += fe.shape_value(v, unit[q])
-                                          * sums[dim * i + j](dofs[v])
-                                          / sums.back()(dofs[v]);
+                for (unsigned int v = 0; v < nodes.size(); ++v)
+                  for (unsigned int c = 0; c < recovered.size(); ++c)
+                    difference[c / dim][c % dim] +=
+                        fe.shape_value(v, points.get_quadrature().point(q))
+                        * recovered[c](nodes[v]);
                 const dealii::Point<dim> &x = points.quadrature_point(q);
                 const double weight = points.JxW(q) * material.measure(x);
                 result[0] += weight * material.energy(difference, {}, x);
@@ -69,8 +79,17 @@ namespace abut::app
       }
 
     private:
-      /** Call @p action with the material of each cell of this rank, with the
-       * other members those of the cell. */
+      static std::vector<double>
+      components(const dealii::Tensor<2, dim> &gradient)
+      {
+        std::vector<double> result;
+        for (unsigned int c = 0; c < dim * dim; ++c)
+          result.push_back(gradient[c / dim][c % dim]);
+        return result;
+      }
+
+      /** Call @p action with each cell of this rank, with points, u and
+       * gradient those of the cell. */
       template <class Action> void for_each_cell(const Action &action)
       {
         const dealii::FEValuesExtractors::Vector field(0);
@@ -81,44 +100,7 @@ namespace abut::app
           points.reinit(cell);
           points[field].get_function_values(displacement, u);
           points[field].get_function_gradients(displacement, gradient);
-          typename dealii::DoFHandler<dim>::active_cell_iterator(
-              &scalar.get_triangulation(), cell->level(), cell->index(),
-              &scalar)
-              ->get_dof_indices(dofs);
-          action(*materials.at(cell->material_id()));
-        }
-      }
-
-      /** Sums over cells at vertices: volume times gradient, volume last. */
-      void recover()
-      {
-        const dealii::IndexSet relevant =
-            dealii::DoFTools::extract_locally_relevant_dofs(scalar);
-        const MPI_Comm communicator = versions::communicator(scalar);
-        std::vector<la::Vector> open(dim * dim + 1);
-        for (la::Vector &sum : open)
-          sum.reinit(scalar.locally_owned_dofs(), relevant, communicator, true);
-        for_each_cell(
-            [&](const Material<dim> &)
-            {
-              for (unsigned int q = 0; q < gradient.size(); ++q)
-                for (const auto dof : dofs)
-                {
-                  for (unsigned int i = 0; i < dim; ++i)
-                    for (unsigned int j = 0; j < dim; ++j)
-                      open[dim * i + j](dof) +=
-                          points.JxW(q) * gradient[q][i][j];
-                  open.back()(dof) += points.JxW(q);
-                }
-            });
-        for (la::Vector &sum : open)
-        {
-          sum.compress(dealii::VectorOperation::add);
-          la::Vector owned(scalar.locally_owned_dofs(), communicator);
-          owned = sum;
-          sums.emplace_back(scalar.locally_owned_dofs(), relevant,
-                            communicator);
-          sums.back() = owned;
+          action(cell);
         }
       }
 
@@ -129,8 +111,6 @@ namespace abut::app
       dealii::DoFHandler<dim> scalar;
       std::vector<dealii::Tensor<1, dim>> u;
       std::vector<dealii::Tensor<2, dim>> gradient;
-      std::vector<dealii::types::global_dof_index> dofs;
-      std::vector<la::Vector> sums;
     };
   } // namespace
 

@@ -74,17 +74,13 @@ namespace abut::app
   dealii::BoundingBox<dim>
   MiddleNodes<dim>::get_bounding_box(const Cell &cell) const
   {
-    std::vector<dealii::Point<dim>> points;
-    for (const unsigned int v : cell->vertex_indices())
-      points.push_back(cell->vertex(v));
+    const SupportPoints nodes = compute_mapping_support_points(cell);
+    std::vector<dealii::Point<dim>> points(nodes.begin(), nodes.end());
     for (unsigned int l = 0; l < cell->n_lines(); ++l)
     {
       const auto line = cell->line(l);
-      const dealii::Point<dim> *const middle =
-          middle_of(line->vertex_index(0), line->vertex_index(1));
-      if (middle != nullptr)
-        points.push_back(
-            *middle + (*middle - between(line->vertex(0), line->vertex(1))));
+      dealii::Point<dim> &middle = points[cell->n_vertices() + l];
+      middle += middle - between(line->vertex(0), line->vertex(1));
     }
     return dealii::BoundingBox<dim>(points);
   }

@@ -2,6 +2,8 @@
 
 #include "stress_output.h"
 
+#include "nodal_means.h"
+
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/quadrature.h>
@@ -111,16 +113,14 @@ namespace abut::app
 
   namespace
   {
-    /** Sums over cells: volume times stress, and volume last. */
     template <int dim>
-    std::vector<la::Vector>
-    stress_sums(const dealii::Mapping<dim> &mapping,
-                const dealii::DoFHandler<dim> &dof_handler,
-                const la::Vector &displacement, const Materials<dim> &materials,
-                const dealii::DoFHandler<dim> &scalar,
-                const dealii::IndexSet &relevant)
+    void add_stresses(const dealii::Mapping<dim> &mapping,
+                      const dealii::DoFHandler<dim> &dof_handler,
+                      const la::Vector &displacement,
+                      const Materials<dim> &materials,
+                      const dealii::FiniteElement<dim> &nodes,
+                      NodalMeans<dim> &means)
     {
-      const auto &nodes = scalar.get_fe();
       dealii::FEValues<dim> points(
           mapping, dof_handler.get_fe(),
           dealii::Quadrature<dim>(nodes.get_unit_support_points()),
@@ -131,12 +131,6 @@ namespace abut::app
       const dealii::FEValuesExtractors::Vector field(0);
       std::vector<dealii::Tensor<1, dim>> u(nodes.n_dofs_per_cell());
       std::vector<dealii::Tensor<2, dim>> du(nodes.n_dofs_per_cell());
-      std::vector<dealii::types::global_dof_index> dofs(
-          nodes.n_dofs_per_cell());
-      std::vector<la::Vector> sums(n_stresses<dim>() + 1);
-      for (la::Vector &sum : sums)
-        sum.reinit(scalar.locally_owned_dofs(), relevant,
-                   versions::communicator(scalar), true);
       for (const auto &cell : dof_handler.active_cell_iterators())
       {
         if (!cell->is_locally_owned())
@@ -144,21 +138,14 @@ namespace abut::app
         points.reinit(cell);
         points[field].get_function_values(displacement, u);
         points[field].get_function_gradients(displacement, du);
-        typename dealii::DoFHandler<dim>::active_cell_iterator(
-            &scalar.get_triangulation(), cell->level(), cell->index(), &scalar)
-            ->get_dof_indices(dofs);
+        const auto &dofs = means.nodes(cell);
         const Material<dim> &material = of_cells.at(cell);
         const double volume = cell->measure();
         for (unsigned int i = 0; i < dofs.size(); ++i)
-        {
-          const auto values = components(
-              material.stress(du[i], u[i], points.quadrature_point(i)));
-          for (unsigned int c = 0; c < values.size(); ++c)
-            sums[c](dofs[i]) += volume * values[c];
-          sums.back()(dofs[i]) += volume;
-        }
+          means.add(dofs[i], volume,
+                    components(material.stress(du[i], u[i],
+                                               points.quadrature_point(i))));
       }
-      return sums;
     }
   } // namespace
 
@@ -169,39 +156,31 @@ namespace abut::app
                const la::Vector &displacement, const Materials<dim> &materials,
                const dealii::DoFHandler<dim> &scalar)
   {
-    const dealii::IndexSet relevant =
-        dealii::DoFTools::extract_locally_relevant_dofs(scalar);
     dealii::AffineConstraints<double> hanging;
-    versions::reinit(hanging, scalar.locally_owned_dofs(), relevant);
+    versions::reinit(hanging, scalar.locally_owned_dofs(),
+                     dealii::DoFTools::extract_locally_relevant_dofs(scalar));
     dealii::DoFTools::make_hanging_node_constraints(scalar, hanging);
     hanging.close();
-    std::vector<la::Vector> open = stress_sums(
-        mapping, dof_handler, displacement, materials, scalar, relevant);
     const unsigned int n = n_stresses<dim>();
-    std::vector<la::Vector> fields(n + 1);
-    for (unsigned int c = 0; c <= n; ++c)
-    {
-      open[c].compress(dealii::VectorOperation::add);
-      fields[c].reinit(scalar.locally_owned_dofs(),
-                       versions::communicator(scalar));
-      fields[c] = open[c];
-    }
+    NodalMeans<dim> means(scalar, n);
+    add_stresses(mapping, dof_handler, displacement, materials, scalar.get_fe(),
+                 means);
+    std::vector<la::Vector> fields = means.means();
+    fields.emplace_back(scalar.locally_owned_dofs(),
+                        versions::communicator(scalar));
     std::vector<double> values(n);
     for (int i = 0; i < la::n_owned(fields[n]); ++i)
     {
-      const double volume = la::data(fields[n])[i];
       for (unsigned int c = 0; c < n; ++c)
-        values[c] = la::data(fields[c])[i] /= volume;
+        values[c] = la::data(fields[c])[i];
       la::data(fields[n])[i] = from_components<dim>(values.data()).von_mises();
     }
-    std::vector<la::Vector> result(n + 1);
-    for (unsigned int c = 0; c <= n; ++c)
+    std::vector<la::Vector> result;
+    for (la::Vector &field : fields)
     {
-      fields[c].compress(dealii::VectorOperation::insert);
-      hanging.distribute(fields[c]);
-      result[c].reinit(scalar.locally_owned_dofs(), relevant,
-                       versions::communicator(scalar));
-      result[c] = fields[c];
+      field.compress(dealii::VectorOperation::insert);
+      hanging.distribute(field);
+      result.push_back(means.ghosted(field));
     }
     return result;
   }

@@ -2,8 +2,6 @@
 
 #include "raster.h"
 
-#include "shim/cell_quadrature.h"
-
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -163,16 +161,7 @@ namespace abut::app
           {
             return false;
           }
-        constexpr double tolerance = 1e-8;
-        if (!shim::is_simplex(fe))
-          return dealii::GeometryInfo<dim>::is_inside_unit_cell(unit,
-                                                                tolerance);
-        double least = 1.;
-        for (unsigned int d = 0; d < dim; ++d)
-          least -= unit[d];
-        for (unsigned int d = 0; d < dim; ++d)
-          least = std::min(least, unit[d]);
-        return least >= -tolerance;
+        return fe.reference_cell().contains_point(unit, 1e-8);
       }
 
       double interpolated(const dealii::Vector<double> &nodal,

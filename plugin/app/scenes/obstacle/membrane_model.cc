@@ -36,11 +36,8 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::create_mesh()
   {
-    dealii::Triangulation<dim> coarse;
     const MeshFileExtras<dim> extras =
-        app::create_mesh(parameters.mesh, run.options, coarse);
-    require_cubes(coarse, parameters.mesh, "scenes of kind 'obstacle'");
-    this->triangulation.copy_triangulation(coarse);
+        app::create_mesh(parameters.mesh, run.options, this->triangulation);
     names = names_of(extras, this->triangulation);
     for (const std::string &warning : extras.warnings)
       run.report.warn("Membrane/Mesh/File: " + warning);
@@ -350,12 +347,7 @@ namespace abut::app
     run.report.set("constraints", run.contact.n_rows());
     for (const BoundaryPart<dim> &part :
          boundary_parts(this->triangulation, run.communicator))
-    {
-      const std::string words = names.names_of(part.id);
-      run.report.progress("boundary " + std::to_string(part.id)
-                          + (words.empty() ? "" : " (" + words + ")") + ": "
-                          + in_words(part));
-    }
+      run.report.progress(names.describe(part.id) + ": " + in_words(part));
   }
 
   template <int dim>

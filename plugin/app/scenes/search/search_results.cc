@@ -2,10 +2,10 @@
 /* What the scene `search` tells: sizes, detection, statistics, warnings. */
 #include "search_run.h"
 
+#include "app/input/number_text.h"
 #include "app/input/short_number.h"
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 
 namespace abut::app
@@ -23,10 +23,7 @@ namespace abut::app
           ABUT_REJECTION_LIST(ABUT_APP_NAME)
 #undef ABUT_APP_NAME
       };
-      std::string key = "rejected_";
-      for (const char *c = names[reason]; *c != 0; ++c)
-        key += static_cast<char>(std::tolower(static_cast<unsigned char>(*c)));
-      return key;
+      return "rejected_" + lower_case(names[reason]);
     }
 
     std::string short_text(const double value)
