@@ -337,24 +337,27 @@ namespace abut
       }
       const bool missed = pair.missed_depth > missed_part * size
                           && scale.is_more(pair.missed_depth, useless);
-      const bool hidden = scale.is_more(std::min(peak, between), useless);
+      // Means over facets may be open where a node of them is inside.
+      const bool presses = pair.secondary_force.norm() > 0.;
+      const double unknown = presses ? std::min(peak, between) : between;
+      const bool hidden = scale.is_more(unknown, useless);
       if (missed || scale.is_more(between, useless))
         findings.add(ABUT_FAILURE_UNSEEN, missed || hidden,
                      pair.name
                          + ": the obstacle is in the body between nodes, "
                            "by up to "
                          + scale.compared(pair.between_rows)
-                         + (hidden ? ", of which no node knows "
-                                         + number(std::min(peak, between))
-                                   : std::string())
+                         + (!hidden ? std::string()
+                            : presses
+                                ? ", of which no node knows " + number(unknown)
+                                : ", and no constraint presses")
                          + (missed ? ", and facets that it is in by up to "
                                          + number(pair.missed_depth)
                                          + " have no contact at all"
                                    : std::string())
                          + ": refine the surface there. Smaller load steps "
                            "do not help.",
-                     if_flat(hidden ? std::min(peak, between) : between),
-                     place);
+                     if_flat(hidden ? unknown : between), place);
     }
 
     void judge_separated_rows(const std::string &pair,

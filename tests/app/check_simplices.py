@@ -193,8 +193,10 @@ def check_estimate():
     settings = {"Body 1/Mesh/File": p.folder / "signorini.msh",
                 "Refinement/Level": 0, "Refinement/Adaptive cycles": 5}
     errors = {}
+    text = (p.source / "prm/elastic-signorini.prm").read_text()
+    p.write("signorini.prm", text.replace("  set Coarsest level = 2\n", ""))
     for degree in (1, 2):
-        summary, rows = p.solve_with("elastic-signorini.prm",
+        summary, rows = p.solve_with(p.folder / "signorini.prm",
                                      {**settings, "Solid/Degree": degree})
         first, last = rows[0], rows[-1]
         order = -2. * (math.log(last["energy_norm_error"]
@@ -458,6 +460,13 @@ def check_refusals():
              "Body 2/Element", "one strain in each cell"),
             ({"Method/Discretisation": "dual mortar"},
              "Method/Discretisation", "no weight at the corners"),
+            ({"Refinement/Coarsest level": 1, "Refinement/Level": 2},
+             "Refinement/Coarsest level", "has no effect"),
+            ({"Refinement/Nested iteration": "true"},
+             "Refinement/Nested iteration", "has no effect"),
+            ({"Refinement/Coarsen fraction": 0.1,
+              "Refinement/Adaptive cycles": 1},
+             "Refinement/Coarsen fraction", "has no effect"),
             ({file: one_cell("hex.msh", 5, 8)}, "tetrahedra", "hexahedra",
              "one kind of cells"),
             ({file: one_cell("wedge.msh", 6, 6)}, file, "wedge")):
@@ -476,6 +485,18 @@ def check_refusals():
                     ranks=2)
     p.expect(result.returncode == 2 and result.stderr.count("abut: error") == 1,
              f"two ranks: {result.stderr}")
+
+
+def check_unseen():
+    """A ball that is inside of a corner only, by less than means over the
+    facets around can show: no answer, as no constraint presses."""
+    for name in ("tetrahedra.prm", "cube-of-tetrahedra.msh"):
+        shutil.copy(p.source / "prm" / name, p.folder / name)
+    result = p.call("run", "tetrahedra.prm", "--output", "out", "--quiet",
+                    "--set", "Refinement/Adaptive cycles=0")
+    p.expect(result.returncode == 3 and "ABUT-F37" in result.stderr
+             and "no constraint presses" in result.stderr,
+             f"unseen ball: {result.returncode} {result.stderr}")
 
 
 def check_surfaces():
@@ -504,5 +525,6 @@ check_restart()
 check_files()
 check_motion()
 check_refusals()
+check_unseen()
 check_surfaces()
 p.finish()

@@ -16,6 +16,18 @@ namespace abut::app
 {
   namespace
   {
+    struct CubeParameter
+    {
+      const char *path, *reason;
+    };
+
+    /** Parameters that have no effect on triangles and tetrahedra. */
+    constexpr CubeParameter of_cubes[] = {
+        {"Refinement/Nested iteration", "all their levels are made at once."},
+        {"Refinement/Coarsest level",
+         "there is no nested iteration, all their levels are made at once."},
+        {"Refinement/Coarsen fraction", "they are bisected, and stay so."}};
+
     /** Whether points can move in this way in all pairs that may slide.
      * @param tri6 whether facets are quadratic triangles */
     bool can_move(const abut_kinematics kinematics,
@@ -65,6 +77,9 @@ namespace abut::app
       void count(const ParameterFile &file) override
       {
         counts = SolidCounts::read(file);
+        for (const CubeParameter &each : of_cubes)
+          if (!file.get(each.path, "").empty())
+            given_of_cubes.push_back(each);
       }
 
     private:
@@ -109,6 +124,12 @@ namespace abut::app
         meshes = create_body_meshes<dim>(parameters.bodies, options);
         if (!meshes.are_simplices)
           return;
+        for (const CubeParameter &each : given_of_cubes)
+          if (!parameters.refinement.has_target()
+              || std::string(each.path) != "Refinement/Coarsest level")
+            throw InputError(each.path,
+                             "has no effect on triangles and tetrahedra: "
+                                 + std::string(each.reason));
         parameters.begin_simplices(dim);
         if (parameters.degree == 1)
           meshes.straighten("Solid/Degree = 1");
@@ -160,6 +181,7 @@ namespace abut::app
       SolidParameters parameters;
       SearchParameters search;
       std::optional<abut_kinematics> given_kinematics;
+      std::vector<CubeParameter> given_of_cubes;
       BodyMeshes<dim> meshes;
     };
   } // namespace
