@@ -338,7 +338,7 @@ namespace abut
       const bool missed = pair.missed_depth > missed_part * size
                           && scale.is_more(pair.missed_depth, useless);
       // Means over facets may be open where a node of them is inside.
-      const bool presses = pair.secondary_force.norm() > 0.;
+      const bool presses = pair.n_rows == 0 || pair.secondary_force.norm() > 0.;
       const double unknown = presses ? std::min(peak, between) : between;
       const bool hidden = scale.is_more(unknown, useless);
       if (missed || scale.is_more(between, useless))

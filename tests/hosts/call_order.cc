@@ -105,7 +105,8 @@ namespace
 
     // Or what is given is still that of the mesh before.
     blocks.reinit_contact();
-    refuses("detect", "anew", [&] { contact.detect(u); });
+    refuses("detect", "after each change of the mesh",
+            [&] { contact.detect(u); });
     contact.detect(new_u);
     refuses("solve", "matrix", [&] { contact.solve(matrix, new_r, new_u); });
     refuses("solve", "residual", [&] { contact.solve(new_matrix, r, new_u); });
