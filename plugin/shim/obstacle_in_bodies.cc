@@ -67,8 +67,15 @@ namespace abut::shim
             fe_(dof_handler.get_fe()),
             faces_(fe_.base_element(0)),
             pair_(pair),
-            corners_(mapping, fe_, of(grid_about(middle(), 0.5, 1)), flags())
+            corners_(mapping, fe_, of(grid_about(middle(), 0.5, 1)), flags()),
+            is_surface_vertex_(dof_handler.get_triangulation().n_vertices())
       {
+        for (const auto &face :
+             dof_handler.get_triangulation().active_face_iterators())
+          if (face->at_boundary()
+              && pair.secondary.count(face->boundary_id()) > 0)
+            for (const unsigned int v : face->vertex_indices())
+              is_surface_vertex_[face->vertex_index(v)] = true;
         // No closer than this pays: the deepest point is followed from there.
         constexpr unsigned int most = 16;
         n_ = std::min(
@@ -93,11 +100,15 @@ namespace abut::shim
         grid_->reinit(cell);
         DeepestPoint<dim> deepest = examine_points(cell, *grid_, found);
         // A part thinner than the grid may be just behind the surface.
-        if (is_on_surface(cell, deepest.unit)
-            && pair_.obstacle->depth() > extent() / n_)
+        const double size = extent();
+        if (touches_surface(cell, deepest.unit)
+            && pair_.obstacle->depth() > size / n_)
           return;
         for (double width = 1. / n_; width > least_width; width /= 2.)
         {
+          // Points that can still be reached are outside and not near then.
+          if (deepest.depth < -4. * dim * size * width)
+            return;
           dealii::FEValues<dim> closer(
               mapping_, fe_, of(grid_about(deepest.unit, width, 4)), flags());
           closer.reinit(cell);
@@ -170,6 +181,20 @@ namespace abut::shim
         return false;
       }
 
+      /** Whether a point is in a vertex, edge or face between vertices of the
+       * surface. */
+      bool touches_surface(const Cell &cell,
+                           const dealii::Point<dim> &unit) const
+      {
+        constexpr double in_it = 1e-10;
+        const dealii::ReferenceCell reference = cell->reference_cell();
+        for (const unsigned int v : cell->vertex_indices())
+          if (reference.d_linear_shape_function(unit, v) > in_it
+              && !is_surface_vertex_[cell->vertex_index(v)])
+            return false;
+        return true;
+      }
+
       /** Note what the points of a cell show. Returns the deepest. */
       DeepestPoint<dim> examine_points(const Cell &cell,
                                        const dealii::FEValues<dim> &points,
@@ -199,6 +224,7 @@ namespace abut::shim
       const ReferenceFaces<dim> faces_;
       const ContactPair<dim> &pair_;
       dealii::FEValues<dim> corners_;
+      std::vector<bool> is_surface_vertex_;
       unsigned int n_ = 1;
       std::unique_ptr<dealii::FEValues<dim>> grid_;
       la::Vector u_;

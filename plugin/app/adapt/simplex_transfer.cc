@@ -39,6 +39,7 @@ namespace abut::app
     for (la::Vector &field : result)
       field.reinit(owned, versions::communicator(dof_handler));
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    std::vector<double> shape(scalar.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned())
@@ -50,24 +51,27 @@ namespace abut::app
         for (unsigned int d = 0; d < dim; ++d)
           edges[i][d] = old.corners[d + 1][i] - old.corners[0][i];
       const dealii::Tensor<2, dim> inverse = invert(edges);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
+      for (unsigned int node = 0; node < scalar.n_dofs_per_cell(); ++node)
       {
-        if (!owned.is_element(dofs[i]))
+        const auto first = dofs[fe.component_to_system_index(0, node)];
+        if (!owned.is_element(first))
           continue;
-        const auto [component, node] = fe.system_to_component_index(i);
         const dealii::Point<dim> &at = scalar.unit_support_point(node);
         dealii::Point<dim> x = cell->vertex(0);
         for (unsigned int d = 0; d < dim; ++d)
           x += at[d] * (cell->vertex(d + 1) - cell->vertex(0));
         const dealii::Point<dim> unit(inverse * (x - old.corners[0]));
-        for (std::size_t f = 0; f < values.size(); ++f)
-        {
-          double sum = 0.;
-          for (unsigned int k = 0; k < old.nodes.size(); ++k)
-            sum += scalar.shape_value(k, unit)
-                   * values[f][old.nodes[k] * fe.n_components() + component];
-          la::data(result[f])[owned.index_within_set(dofs[i])] = sum;
-        }
+        for (unsigned int k = 0; k < old.nodes.size(); ++k)
+          shape[k] = scalar.shape_value(k, unit);
+        for (unsigned int c = 0; c < fe.n_components(); ++c)
+          for (std::size_t f = 0; f < values.size(); ++f)
+          {
+            double sum = 0.;
+            for (unsigned int k = 0; k < old.nodes.size(); ++k)
+              sum += shape[k] * values[f][old.nodes[k] * fe.n_components() + c];
+            const auto dof = dofs[fe.component_to_system_index(c, node)];
+            la::data(result[f])[owned.index_within_set(dof)] = sum;
+          }
       }
     }
     return result;
