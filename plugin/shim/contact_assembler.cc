@@ -128,6 +128,13 @@ namespace abut
   }
 
   template <int dim>
+  void
+  ContactAssembler<dim>::set_vertex_origins(std::vector<VertexOrigin> origins)
+  {
+    implementation->host.set_vertex_origins(std::move(origins));
+  }
+
+  template <int dim>
   void ContactAssembler<dim>::set_surface_traction(
       std::shared_ptr<const SurfaceTraction<dim>> traction)
   {

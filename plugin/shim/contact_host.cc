@@ -9,12 +9,40 @@ namespace abut::shim
   using dealii::ExcMessage;
   using dealii::types::global_dof_index;
 
+  namespace
+  {
+    /** Throw unless all ends are vertices of the mesh and of no higher level.
+     */
+    void check_origins(const std::vector<VertexOrigin> &origins,
+                       const std::size_t n_vertices)
+    {
+      AssertThrow(origins.empty() || origins.size() == n_vertices,
+                  ExcMessage("set_vertex_origins() was given "
+                             + std::to_string(origins.size())
+                             + " vertices of a mesh of "
+                             + std::to_string(n_vertices) + "."));
+      for (std::size_t v = 0; v < origins.size(); ++v)
+        for (const unsigned int end : origins[v].ends)
+          AssertThrow(origins[v].level == 0
+                          || (end < n_vertices && end != v
+                              && origins[end].level <= origins[v].level),
+                      ExcMessage("Vertex " + std::to_string(v)
+                                 + " was not made between vertices of the "
+                                   "same or lower levels, as "
+                                   "set_vertex_origins() was told."));
+    }
+  } // namespace
+
   template <int dim>
   void
   ContactHost<dim>::reinit(const dealii::Mapping<dim> &mapping,
                            const dealii::DoFHandler<dim> &dof_handler,
                            const dealii::AffineConstraints<double> &constraints)
   {
+    vertex_origins_ = std::move(next_origins_);
+    next_origins_.clear();
+    check_origins(vertex_origins_,
+                  dof_handler.get_triangulation().n_vertices());
     mapping_ = &mapping;
     dof_handler_ = &dof_handler;
     constraints_ = &constraints;

@@ -6,6 +6,7 @@
 #include "solve/stiffness.h"
 
 #include <abut/dealii/host_operator.h>
+#include <abut/dealii/vertex_origin.h>
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
@@ -13,6 +14,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace abut::shim
 {
@@ -30,6 +33,17 @@ namespace abut::shim
     void reinit(const dealii::Mapping<dim> &mapping,
                 const dealii::DoFHandler<dim> &dof_handler,
                 const dealii::AffineConstraints<double> &constraints);
+
+    /** Of the mesh of the next reinit(). */
+    void set_vertex_origins(std::vector<VertexOrigin> origins)
+    {
+      next_origins_ = std::move(origins);
+    }
+
+    const std::vector<VertexOrigin> &vertex_origins() const
+    {
+      return vertex_origins_;
+    }
 
     const dealii::Mapping<dim> &mapping() const
     {
@@ -104,6 +118,7 @@ namespace abut::shim
     const dealii::Mapping<dim> *mapping_ = nullptr;
     const dealii::DoFHandler<dim> *dof_handler_ = nullptr;
     const dealii::AffineConstraints<double> *constraints_ = nullptr;
+    std::vector<VertexOrigin> vertex_origins_, next_origins_;
     dealii::types::global_dof_index n_unknowns_ = 0; ///< in reinit()
     std::optional<solve::Stiffness> reference_;      ///< none: the present one
     /** Copies of matrices of other types: the present one, and reference. */

@@ -598,7 +598,7 @@ namespace abut
         parameters.linear = SolverParameters::Linear::iterative;
       bodies = shim::make_solver_space(host.mapping(), host.dof_handler(),
                                        host.constraints(), surfaces != nullptr,
-                                       parameters);
+                                       parameters, host.vertex_origins());
     }
     return *bodies;
   }

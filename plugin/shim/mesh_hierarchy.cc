@@ -3,7 +3,8 @@
 // when cells are refined. Mesh l of the hierarchy has the cells of level l and
 // those of lower levels that are not refined. The place of a vertex on mesh l -
 // 1 follows from the tree of cells: itself, or the middle of an edge, face or
-// cell there.
+// cell there. Of triangles and tetrahedra that were refined without a tree the
+// same is told vertex by vertex: all are middles of edges.
 //
 // Quadratic elements have one mesh more: their own nodes follow from the
 // vertices of the same cells, of which linear functions are quadratic ones,
@@ -16,6 +17,7 @@
 #include "mesh_hierarchy.h"
 
 #include "agree.h"
+#include "cell_quadrature.h"
 #include "quadratic_nodes.h"
 #include "shared_vertices.h"
 
@@ -25,6 +27,7 @@
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
@@ -39,6 +42,8 @@ namespace abut::shim
 
     /** A mesh with at most so many unknowns is coarse enough. */
     constexpr std::size_t coarse_enough = 600;
+    /** With which part of the vertices a mesh is worth a level. */
+    constexpr double fewer = 0.7;
     /** Unknowns that can be factorised in each cycle. */
     constexpr std::size_t most_on_coarsest = 4000;
 
@@ -48,12 +53,15 @@ namespace abut::shim
     {
     public:
       HierarchyMaker(const dealii::DoFHandler<dim> &dof_handler,
-                     const dealii::AffineConstraints<double> &constraints)
+                     const dealii::AffineConstraints<double> &constraints,
+                     const std::vector<VertexOrigin> &origins)
           : dof_handler_(dof_handler),
             triangulation_(dof_handler.get_triangulation()),
             constraints_(constraints),
+            origins_(origins),
             communicator_(versions::communicator(dof_handler)),
             n_components_(dof_handler.get_fe().n_components()),
+            is_simplex_(is_simplex(dof_handler.get_fe())),
             first_own_(dof_handler.n_locally_owned_dofs() == 0
                            ? 0
                            : *dof_handler.locally_owned_dofs().begin()),
@@ -88,6 +96,7 @@ namespace abut::shim
       void find_constrained();
       template <typename Object>
       void record_middle(const Object &object, unsigned int level);
+      void take_origins();
       bool find_middles();
       void record_coarsest_cells();
       bool is_uniform() const;
@@ -113,8 +122,10 @@ namespace abut::shim
       const dealii::DoFHandler<dim> &dof_handler_;
       const dealii::Triangulation<dim> &triangulation_;
       const dealii::AffineConstraints<double> &constraints_;
+      const std::vector<VertexOrigin> &origins_;
       const MPI_Comm communicator_;
       const unsigned int n_components_;
+      const bool is_simplex_; ///< cells are triangles or tetrahedra
       const dealii::types::global_dof_index first_own_, end_own_;
       /** [vertices * components] */
       std::vector<dealii::types::global_dof_index> unknown_;
@@ -160,11 +171,19 @@ namespace abut::shim
       if (dealii::Utilities::MPI::n_mpi_processes(communicator_) > 1
           && !knows_coarse_mesh(triangulation_))
         return "the ranks do not all know the coarsest mesh";
-      if (fe.n_base_elements() != 1
-          || dynamic_cast<const dealii::FE_Q<dim> *>(&fe.base_element(0))
-                 == nullptr
-          || n_components_ > 3 || !has_known_nodes(fe.base_element(0)))
-        return "it works with FE_Q of degree 1 and 2";
+      const auto is_known = [](const dealii::FiniteElement<dim> &base)
+      {
+        return (dynamic_cast<const dealii::FE_Q<dim> *>(&base) != nullptr
+                || dynamic_cast<const dealii::FE_SimplexP<dim> *>(&base)
+                       != nullptr)
+               && has_known_nodes(base);
+      };
+      if (fe.n_base_elements() != 1 || n_components_ > 3
+          || !is_known(fe.base_element(0)))
+        return "it works with FE_Q and FE_SimplexP of degree 1 and 2";
+      for (const VertexOrigin &origin : origins_)
+        if (origin.level >= no_level)
+          return "the mesh was refined too often";
       return "";
     }
 
@@ -221,9 +240,27 @@ namespace abut::shim
         parents.vertex[v] = object->vertex_index(v);
     }
 
+    template <int dim> void HierarchyMaker<dim>::take_origins()
+    {
+      for (unsigned int v = 0; v < origins_.size(); ++v)
+      {
+        level_[v] = static_cast<std::uint8_t>(origins_[v].level);
+        if (origins_[v].level == 0)
+          continue;
+        middle_[v].n = 2;
+        std::copy(origins_[v].ends.begin(), origins_[v].ends.end(),
+                  middle_[v].vertex);
+      }
+    }
+
     /** Returns whether all cells are cut in all directions. */
     template <int dim> bool HierarchyMaker<dim>::find_middles()
     {
+      if (!origins_.empty())
+      {
+        take_origins();
+        return true;
+      }
       const auto isotropic = dealii::RefinementCase<dim>::isotropic_refinement;
       for (const auto &cell : triangulation_.cell_iterators_on_level(0))
         for (const unsigned int v : cell->vertex_indices())
@@ -238,6 +275,8 @@ namespace abut::shim
             return false;
           for (const unsigned int line : cell->line_indices())
             record_middle(cell->line(line), l);
+          if (is_simplex_)
+            continue;
           if constexpr (dim == 3)
             for (const unsigned int face : cell->face_indices())
               record_middle(cell->face(face), l);
@@ -251,7 +290,7 @@ namespace abut::shim
     {
       for (const auto &cell : triangulation_.cell_iterators())
       {
-        if (!cell->has_children())
+        if (is_simplex_ || !cell->has_children())
           continue;
         typename dealii::Triangulation<dim>::cell_iterator coarsest = cell;
         while (coarsest->level() > 0)
@@ -285,8 +324,9 @@ namespace abut::shim
         for (const unsigned int line : cell->line_indices())
           mark(cell->line(line));
         if constexpr (dim == 3)
-          for (const unsigned int face : cell->face_indices())
-            mark(cell->face(face));
+          if (!is_simplex_)
+            for (const unsigned int face : cell->face_indices())
+              mark(cell->face(face));
       }
     }
 
@@ -360,11 +400,19 @@ namespace abut::shim
     {
       std::vector<Draft> result;
       unsigned int level = triangulation_.n_global_levels() - 1;
+      for (const VertexOrigin &origin : origins_)
+        level = std::max(level, origin.level);
       result.push_back(draft(level, own_vertices()));
       while (level > 0
              && static_cast<std::size_t>(result.back().n_all) * n_components_
                     > coarse_enough)
-        result.push_back(draft(--level, result.back().vertex));
+      {
+        Draft coarser = draft(--level, result.back().vertex);
+        // Refinements of a part of the cells may add little each.
+        if (origins_.empty() || level == 0
+            || coarser.n_all < fewer * result.back().n_all)
+          result.push_back(std::move(coarser));
+      }
       return result;
     }
 
@@ -394,6 +442,32 @@ namespace abut::shim
       return result;
     }
 
+    /** Vertices of own cells, and those that they were made between. */
+    template <int dim>
+    std::vector<bool>
+    ends_above(const dealii::Triangulation<dim> &triangulation,
+               const std::vector<VertexOrigin> &origins)
+    {
+      std::vector<bool> result(triangulation.n_vertices(), false);
+      std::vector<unsigned int> next;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int v : cell->vertex_indices())
+            next.push_back(cell->vertex_index(v));
+      while (!next.empty())
+      {
+        const unsigned int v = next.back();
+        next.pop_back();
+        if (result[v])
+          continue;
+        result[v] = true;
+        if (origins[v].level > 0)
+          next.insert(next.end(), origins[v].ends.begin(),
+                      origins[v].ends.end());
+      }
+      return result;
+    }
+
     /** Learn the numbers of vertices of others on mesh @p first, which is the
      * finest with nodes that others follow from, and on coarser ones. */
     template <int dim>
@@ -412,7 +486,9 @@ namespace abut::shim
         for (std::size_t l = first; l < meshes.size(); ++l)
           words.push_back(meshes[l].node[v] + 1);
       }
-      const std::vector<bool> corners = corners_above(triangulation_);
+      const std::vector<bool> corners =
+          origins_.empty() ? corners_above(triangulation_)
+                           : ends_above(triangulation_, origins_);
       for (unsigned int v = 0; v < corners.size(); ++v)
         if (corners[v] && level_[v] <= meshes[first].level && !is_own(v))
         {
@@ -640,15 +716,18 @@ namespace abut::shim
   template <int dim>
   solve::MeshHierarchy
   make_mesh_hierarchy(const dealii::DoFHandler<dim> &dof_handler,
-                      const dealii::AffineConstraints<double> &constraints)
+                      const dealii::AffineConstraints<double> &constraints,
+                      const std::vector<VertexOrigin> &origins)
   {
-    return HierarchyMaker<dim>(dof_handler, constraints).make();
+    return HierarchyMaker<dim>(dof_handler, constraints, origins).make();
   }
 
   template solve::MeshHierarchy
   make_mesh_hierarchy(const dealii::DoFHandler<2> &,
-                      const dealii::AffineConstraints<double> &);
+                      const dealii::AffineConstraints<double> &,
+                      const std::vector<VertexOrigin> &);
   template solve::MeshHierarchy
   make_mesh_hierarchy(const dealii::DoFHandler<3> &,
-                      const dealii::AffineConstraints<double> &);
+                      const dealii::AffineConstraints<double> &,
+                      const std::vector<VertexOrigin> &);
 } // namespace abut::shim

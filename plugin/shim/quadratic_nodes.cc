@@ -2,9 +2,8 @@
 #include "quadratic_nodes.h"
 
 #include <deal.II/fe/fe.h>
+#include <deal.II/grid/reference_cell.h>
 #include <deal.II/grid/tria.h>
-
-#include <cmath>
 
 namespace abut::shim
 {
@@ -25,26 +24,20 @@ namespace abut::shim
     std::vector<NodePlace>
     node_places(const dealii::FiniteElement<dim> &element)
     {
-      using Geometry = dealii::GeometryInfo<dim>;
+      const dealii::ReferenceCell cell = element.reference_cell();
+      const unsigned int n_vertices = cell.n_vertices();
       std::vector<NodePlace> result;
       for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
       {
         const dealii::Point<dim> point = element.unit_support_point(i);
         NodePlace place;
-        for (unsigned int v = 0; v < Geometry::vertices_per_cell; ++v)
-        {
-          const dealii::Point<dim> corner = Geometry::unit_cell_vertex(v);
-          bool is_near = true;
-          for (unsigned int d = 0; d < dim; ++d)
-            is_near = is_near && std::abs(corner[d] - point[d]) < 0.75;
-          if (is_near)
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          if (cell.d_linear_shape_function(point, v) > 0.1)
             place.vertices.push_back(v);
-        }
         if (place.vertices.size() == 2)
-          place.line = i - Geometry::vertices_per_cell;
+          place.line = i - n_vertices;
         if (dim == 3 && place.vertices.size() == 4)
-          place.face =
-              i - Geometry::vertices_per_cell - Geometry::lines_per_cell;
+          place.face = i - n_vertices - cell.n_lines();
         result.push_back(std::move(place));
       }
       return result;

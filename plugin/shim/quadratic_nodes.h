@@ -24,7 +24,8 @@ namespace abut::shim
 
   /** The nodes whose unknowns this rank owns, in the order of these; @p hangs
    * [vertices] is true for vertices that hang. The element is FE_Q of degree 2
-   * with nodes in the middle, or a system of up to three of it. */
+   * with nodes in the middle, FE_SimplexP(2), or a system of up to three of
+   * one. */
   template <int dim>
   std::vector<QuadraticNode>
   own_quadratic_nodes(const dealii::DoFHandler<dim> &dof_handler,

@@ -13,7 +13,8 @@ namespace abut::shim
                     const dealii::DoFHandler<dim> &dof_handler,
                     const dealii::AffineConstraints<double> &constraints,
                     const bool is_displacement,
-                    const SolverParameters &parameters)
+                    const SolverParameters &parameters,
+                    const std::vector<VertexOrigin> &origins)
   {
     solve::NearNullSpace space;
     if (is_displacement)
@@ -27,16 +28,18 @@ namespace abut::shim
     if (solve::wants_meshes(parameters, dof_handler.n_dofs(),
                             space.n_components))
       space.meshes = std::make_shared<const solve::MeshHierarchy>(
-          make_mesh_hierarchy(dof_handler, constraints));
+          make_mesh_hierarchy(dof_handler, constraints, origins));
     return space;
   }
 
   template solve::NearNullSpace
   make_solver_space(const dealii::Mapping<2> &, const dealii::DoFHandler<2> &,
                     const dealii::AffineConstraints<double> &, bool,
-                    const SolverParameters &);
+                    const SolverParameters &,
+                    const std::vector<VertexOrigin> &);
   template solve::NearNullSpace
   make_solver_space(const dealii::Mapping<3> &, const dealii::DoFHandler<3> &,
                     const dealii::AffineConstraints<double> &, bool,
-                    const SolverParameters &);
+                    const SolverParameters &,
+                    const std::vector<VertexOrigin> &);
 } // namespace abut::shim

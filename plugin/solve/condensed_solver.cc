@@ -357,8 +357,12 @@ namespace abut::solve
   {
     if (is_direct())
       return DirectSolver::name();
-    return krylov_method() + ", " + choice_.name()
-           + (filter_ ? " with contact filter" : "");
+    return krylov_method() + ", " + preconditioner();
+  }
+
+  std::string CondensedSolver::preconditioner() const
+  {
+    return choice_.name() + (filter_ ? " with contact filter" : "");
   }
 
   void CondensedSolver::find_friction()

@@ -49,6 +49,9 @@ namespace abut::solve
 
     void precondition(la::Vector &dst, const la::Vector &src) const override;
 
+    /** Its name, of systems that are not factorised. */
+    std::string preconditioner() const;
+
     /** Whether systems are factorised. */
     bool is_direct() const;
 

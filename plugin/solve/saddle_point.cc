@@ -450,7 +450,7 @@ namespace abut::solve
         request.linear_tolerance * leading_.load(force), smallest_residual);
     if (system.n_constraints > 0)
     {
-      report.method = "saddle point, FGMRES, algebraic multigrid";
+      report.method = "saddle point, FGMRES, " + leading_.preconditioner();
       report.n_iterations =
           solve_iteratively(system, force, tolerance, increment, multiplier);
       report.n_matvecs = report.n_iterations;

@@ -104,6 +104,8 @@ namespace
       refuses(call.name, "reinit()", call.make);
 
     // Or what is given is still that of the mesh before.
+    contact.set_vertex_origins(std::vector<VertexOrigin>(3));
+    refuses("set_vertex_origins", "vertices", [&] { blocks.reinit_contact(); });
     blocks.reinit_contact();
     refuses("detect", "after each change of the mesh",
             [&] { contact.detect(u); });

@@ -25,7 +25,8 @@ using namespace dealii;
 template <int dim> class Blocks
 {
 public:
-  explicit Blocks(const unsigned int degree)
+  /** @param n_refinements of tetrahedra, by deal.II */
+  Blocks(const unsigned int degree, const unsigned int n_refinements)
       : contact(MPI_COMM_WORLD),
         fe(FE_SimplexP<dim>(degree), dim),
         dof_handler(triangulation)
@@ -46,6 +47,7 @@ public:
       for (const auto &face : cell->face_iterators())
         if (face->at_boundary())
           face->set_boundary_id(side(face->center(), cell->material_id()));
+    triangulation.refine_global(n_refinements);
     dof_handler.distribute_dofs(fe);
     for (unsigned int d = 0; d < dim; ++d)
       prescribe(1 + d, d, 0.);
@@ -53,8 +55,10 @@ public:
     constraints.close();
   }
 
-  double run()
+  /** Returns the contact force. */
+  double run(const abut::SolverParameters &parameters = {})
   {
+    contact.set_parameters({}, parameters);
     DynamicSparsityPattern pattern(dof_handler.n_dofs());
     DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, false);
     sparsity.copy_from(pattern);
@@ -80,6 +84,11 @@ public:
     const abut::NewtonResult result = solver.solve(solution);
     AssertThrow(result.converged(), ExcMessage(result.explanation));
     return contact.pair_results()[0].secondary_force.norm();
+  }
+
+  std::string linear_solver() const
+  {
+    return contact.linear_report().method;
   }
 
 private:
@@ -158,9 +167,18 @@ main(int argc, char **argv)
   bool good = true;
   for (const unsigned int degree : {1, 2})
   {
-    const double force = Blocks<3>(degree).run();
+    const double force = Blocks<3>(degree, 0).run();
     std::cout << "degree " << degree << ": force " << force << std::endl;
     good = good && std::abs(force - 50.) < 1e-5;
+    Blocks<3> refined(degree, 1);
+    abut::SolverParameters parameters;
+    parameters.linear = abut::SolverParameters::Linear::geometric;
+    const double refined_force = refined.run(parameters);
+    std::cout << "refined: force " << refined_force << ", "
+              << refined.linear_solver() << std::endl;
+    good = good && std::abs(refined_force - 50.) < 1e-5
+           && refined.linear_solver().find(", geometric multigrid")
+                  != std::string::npos;
   }
   return good ? 0 : 1;
 }

@@ -49,6 +49,7 @@
 #include <abut/dealii/search_parameters.h>
 #include <abut/dealii/solver_parameters.h>
 #include <abut/dealii/surface_traction.h>
+#include <abut/dealii/vertex_origin.h>
 #include <abut/strategy.h>
 
 #include <deal.II/base/function.h>
@@ -161,6 +162,13 @@ namespace abut
     virtual void reinit(const dealii::Mapping<dim> &mapping,
                         const dealii::DoFHandler<dim> &dof_handler,
                         const dealii::AffineConstraints<double> &constraints);
+
+    /** Tell geometric multigrid what meshes a mesh of one level, of triangles
+     * or tetrahedra, was refined from: [vertices of the triangulation], the
+     * same on all ranks, which all have the whole mesh. Empty: the levels of
+     * the triangulation. Takes effect at the next reinit(), for that mesh only.
+     * Not collective. */
+    virtual void set_vertex_origins(std::vector<VertexOrigin> origins);
 
     /** A mapping that does not live on. */
     void reinit(const dealii::Mapping<dim> &&, const dealii::DoFHandler<dim> &,

@@ -129,6 +129,13 @@ namespace abut::app
       const auto first = static_cast<unsigned int>(whole.vertices.size());
       whole.vertices.insert(whole.vertices.end(), part.vertices.begin(),
                             part.vertices.end());
+      part.origins.resize(part.vertices.size());
+      for (VertexOrigin vertex : part.origins)
+      {
+        for (unsigned int &end : vertex.ends)
+          end += first;
+        whole.origins.push_back(vertex);
+      }
       append(
           part.cells, first,
           [&](dealii::CellData<dim> &cell)

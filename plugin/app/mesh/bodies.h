@@ -105,6 +105,13 @@ namespace abut::app
       return of_files;
     }
 
+    /** How the vertices came into a mesh of triangles or tetrahedra; empty for
+     * other cells. */
+    const std::vector<VertexOrigin> &vertex_origins() const
+    {
+      return description.origins;
+    }
+
     /** Whether the file of a body's mesh has curved edges, which it keeps. */
     bool is_curved(const unsigned int body) const
     {

@@ -4,6 +4,8 @@
 
 #include "app/physics/middle_nodes.h"
 
+#include <abut/dealii/vertex_origin.h>
+
 #include <deal.II/grid/tria.h>
 #include <deal.II/grid/tria_description.h>
 
@@ -19,6 +21,9 @@ namespace abut::app
     std::vector<dealii::CellData<dim>> cells;
     dealii::SubCellData faces;
     EdgeMiddles<dim> middles; ///< of triangles and tetrahedra
+    /** Of the vertices, as far as it is known: the others are of the coarsest
+     * mesh. */
+    std::vector<VertexOrigin> origins;
   };
 
   /** The description of a mesh of one level, with all boundary faces, and in 3D

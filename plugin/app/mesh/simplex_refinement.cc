@@ -36,10 +36,16 @@ namespace abut::app
     template <int dim> class SimplexRefinement
     {
     public:
+      /** @param level of new vertices */
       SimplexRefinement(const dealii::Triangulation<dim> &mesh,
-                        MeshDescription<dim> &description)
-          : mesh(mesh), description(description), vertices(description.vertices)
+                        MeshDescription<dim> &description,
+                        const unsigned int level)
+          : mesh(mesh),
+            description(description),
+            level(level),
+            vertices(description.vertices)
       {
+        description.origins.resize(vertices.size());
       }
 
       void refine_red()
@@ -118,6 +124,7 @@ namespace abut::app
                                ? 0.5 * (x + dealii::Tensor<1, dim>(y))
                                : mesh.get_manifold(on->second)
                                      .get_intermediate_point(x, y, 0.5));
+        description.origins.push_back({level, {{edge.first, edge.second}}});
         return found->second;
       }
 
@@ -360,19 +367,30 @@ namespace abut::app
 
       const dealii::Triangulation<dim> &mesh;
       MeshDescription<dim> &description;
+      const unsigned int level;
       std::vector<dealii::Point<dim>> &vertices;
       std::map<Edge, unsigned int> middles;
       std::set<Edge> cuts;
       std::map<Edge, dealii::types::manifold_id> curved;
       EdgeMiddles<dim> curved_parents;
     };
+
+    template <int dim>
+    unsigned int next_level(const MeshDescription<dim> &description)
+    {
+      unsigned int result = 1;
+      for (const VertexOrigin &origin : description.origins)
+        result = std::max(result, origin.level + 1);
+      return result;
+    }
   } // namespace
 
   template <int dim>
   void refine_red(const dealii::Triangulation<dim> &mesh,
                   MeshDescription<dim> &description)
   {
-    SimplexRefinement<dim>(mesh, description).refine_red();
+    SimplexRefinement<dim>(mesh, description, next_level(description))
+        .refine_red();
   }
 
   template <int dim>
@@ -384,7 +402,9 @@ namespace abut::app
     std::iota(origin.begin(), origin.end(), 0u);
     for (const bool is_marked : marked)
       wanted.push_back(is_marked ? dim : 0);
-    while (SimplexRefinement<dim>(mesh, description).bisect(wanted, origin))
+    const unsigned int level = next_level(description);
+    while (
+        SimplexRefinement<dim>(mesh, description, level).bisect(wanted, origin))
     {
     }
     return origin;

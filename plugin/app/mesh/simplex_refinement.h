@@ -20,7 +20,8 @@ namespace abut::app
    * vertices are the middles of edges, on curved sides the points that the
    * manifolds of @p mesh, from which @p description is, have between their
    * ends. Curved edges are cut at their middles; the edges of their children
-   * have middles on the same parabolas. Deterministic. Not
+   * have middles on the same parabolas. The new
+   * vertices have the next level as their origin. Deterministic. Not
    * collective. */
   template <int dim>
   void refine_red(const dealii::Triangulation<dim> &mesh,

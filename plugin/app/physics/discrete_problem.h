@@ -5,6 +5,7 @@
 #include "middle_nodes.h"
 
 #include <abut/dealii/linear_algebra.h>
+#include <abut/dealii/vertex_origin.h>
 
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -119,6 +120,9 @@ namespace abut::app
     /** Those at all unknowns but hanging ones, of what moves or may be
      * nonlinear. */
     la::Vector external;
+
+    /** See ContactAssembler::set_vertex_origins(). */
+    std::vector<VertexOrigin> vertex_origins;
 
     /** Number the unknowns of each rank by Cuthill and McKee's method. Takes
      * effect with the next mesh. */

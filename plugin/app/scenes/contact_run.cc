@@ -85,8 +85,8 @@ namespace abut::app
         std::make_unique<solve::MaskedSolver>(state.settings.solver);
     linear_solver->set_near_null_space(shim::make_solver_space(
         problem.mapping, problem.dof_handler, problem.constraints,
-        problem.dof_handler.get_fe().n_components() > 1,
-        state.settings.solver));
+        problem.dof_handler.get_fe().n_components() > 1, state.settings.solver,
+        problem.vertex_origins));
     linear_solver->reinit(problem.stiffness);
   }
 
@@ -166,6 +166,7 @@ namespace abut::app
     {
       set_parameters();
       const DiscreteProblem<dim> &problem = model.problem();
+      state.contact.set_vertex_origins(problem.vertex_origins);
       state.contact.reinit(problem.mapping, problem.dof_handler,
                            problem.constraints);
       if (pressure != nullptr)

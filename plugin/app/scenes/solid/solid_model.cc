@@ -220,6 +220,7 @@ namespace abut::app
       SectionTimes::Scope scope(run.report.times, "unknowns and pattern");
       elasticity.renumber = parameters.refinement.renumber;
       elasticity.setup(data);
+      elasticity.vertex_origins = bodies.vertex_origins();
     }
     SectionTimes::Scope scope(run.report.times, "assembly");
     elasticity.assemble_stiffness();
