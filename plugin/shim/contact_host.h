@@ -34,7 +34,7 @@ namespace abut::shim
                 const dealii::DoFHandler<dim> &dof_handler,
                 const dealii::AffineConstraints<double> &constraints);
 
-    /** Of the mesh of the next reinit(). */
+    /** For the mesh of the next reinit(). */
     void set_vertex_origins(std::vector<VertexOrigin> origins)
     {
       next_origins_ = std::move(origins);

@@ -3,8 +3,8 @@
 // when cells are refined. Mesh l of the hierarchy has the cells of level l and
 // those of lower levels that are not refined. The place of a vertex on mesh l -
 // 1 follows from the tree of cells: itself, or the middle of an edge, face or
-// cell there. Of triangles and tetrahedra that were refined without a tree the
-// same is told vertex by vertex: all are middles of edges.
+// cell there. With triangles and tetrahedra that were refined without a tree,
+// each vertex has the ends of the edge that it is the middle of.
 //
 // Quadratic elements have one mesh more: their own nodes follow from the
 // vertices of the same cells, of which linear functions are quadratic ones,

@@ -15,8 +15,8 @@ namespace abut::shim
    * degree 1 and 2, whose own nodes are then a mesh above that of their
    * vertices;
    * @p constraints are hanging nodes and prescribed values. Hanging nodes are
-   * welcome on all meshes. @p origins [vertices] tell what meshes a mesh of one
-   * level was refined from; empty: its own levels do. Collective. */
+   * welcome on all meshes. @p origins [vertices] give the meshes that a mesh of
+   * one level was refined from; empty: its own levels do. Collective. */
   template <int dim>
   solve::MeshHierarchy
   make_mesh_hierarchy(const dealii::DoFHandler<dim> &dof_handler,

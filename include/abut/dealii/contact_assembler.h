@@ -163,11 +163,11 @@ namespace abut
                         const dealii::DoFHandler<dim> &dof_handler,
                         const dealii::AffineConstraints<double> &constraints);
 
-    /** Tell geometric multigrid what meshes a mesh of one level, of triangles
-     * or tetrahedra, was refined from: [vertices of the triangulation], the
-     * same on all ranks, which all have the whole mesh. Empty: the levels of
-     * the triangulation. Takes effect at the next reinit(), for that mesh only.
-     * Not collective. */
+    /** Set for geometric multigrid what meshes a mesh of one level, of
+     * triangles or tetrahedra, was refined from: [vertices of the
+     * triangulation], the same on all ranks, which all have the whole mesh.
+     * Empty: the levels of the triangulation. Takes effect at the next
+     * reinit(), for that mesh only. Not collective. */
     virtual void set_vertex_origins(std::vector<VertexOrigin> origins);
 
     /** A mapping that does not live on. */

@@ -8,7 +8,7 @@ namespace abut
 {
   /** How a vertex came into a mesh whose triangulation does not record it:
    * triangles and tetrahedra that were refined by a program's own rules and
-   * made anew as a mesh of one level. */
+   * created again as a mesh of one level. */
   struct VertexOrigin
   {
     /** Number of the refinement that made it; 0: it is of the coarsest mesh. */
